@@ -35,8 +35,8 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
 swivel_status check_limbs(const swivel_crowd& crowd, std::uint32_t group, const char* call)
 {
     if (!(crowd.groups[group].features & kNoLimb)) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is SWIVEL_FIT, a shift and no limb; name a group of limbs", call,
-                group);
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is SWIVEL_%s, which is no limb; name a group of limbs", call,
+                group, feature_name(crowd.groups[group].features & kNoLimb));
 }
 // What bodies' poses gave is known if it is kept.
 swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const char* call)

@@ -50,6 +50,32 @@ swivel_status check_groups(const swivel_crowd& crowd, const swivel_job& job)
                     job.group_word_count, crowd.group_count, needed);
     return SWIVEL_OK;
 }
+// What limbs are linked to is solved with them.
+swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
+{
+    for (std::uint32_t g = 0; job.groups && g < crowd.group_count; ++g) {
+        if (!(crowd.groups[g].features & SWIVEL_WITH_LINK)) continue;
+        const BodyLimb& limb = crowd.groups[g].limb;
+        if (const bool is_named_here = is_named(job.groups, g);
+            is_named_here != is_named(job.groups, limb.linked_group) && (is_named_here || limb.holds_prop))
+            return fail(SWIVEL_INVALID_ARGUMENT, "the job names group %u, but not group %u; they are linked, name both",
+                        is_named_here ? g : limb.linked_group, is_named_here ? limb.linked_group : g);
+    }
+    return SWIVEL_OK;
+}
+
+swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
+{
+    if (!job.sample && !job.probes_only) return SWIVEL_OK;
+    if (job.sample && job.probes_only)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "the job has a sample function, but probes_only does not call it; give one "
+                    "of them");
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g)
+        if (crowd.groups[g].features & SWIVEL_WITH_GROUND && is_named(job.groups, g)) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "the job %s, but names no group that is SWIVEL_WITH_GROUND; leave it out",
+                job.sample ? "has a sample function" : "is for probes_only");
+}
 
 swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, swivel_frame frame, const swivel_pose* pose)
 {
@@ -189,6 +215,8 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status == SWIVEL_OK) status = check_groups(*crowd, job);
     if (status == SWIVEL_OK) status = check_choice(*crowd, job);
     if (status == SWIVEL_OK) status = check_pose(*crowd, job.groups, job.pose);
+    if (status == SWIVEL_OK) status = check_links(*crowd, job);
+    if (status == SWIVEL_OK) status = check_sampling(*crowd, job);
     if (status == SWIVEL_OK && job.frames) status = check_frames(*crowd, job, blocks);
     if (status != SWIVEL_OK) return status;
     const Isa* const isa = usable_isa(status);
@@ -207,7 +235,10 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
                     job.frames,
                     is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks)),
                     workspace.strip,
-                    job.pose};
+                    job.pose,
+                    job.probes_only != 0,
+                    job.sample,
+                    job.sample_user};
     if (job.on_this_thread)
         solve_here(work);
     else

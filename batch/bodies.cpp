@@ -3,6 +3,7 @@
 // Bodies, run after run. A run is some blocks of bodies. Their poses are copied into a workspace, forward kinematics
 // finds their limbs, every group's limbs are solved, and the joints go back, while all of it is in a near cache.
 #include <algorithm>
+#include <bit>
 
 #include "batch/pose.h"
 #include "batch/share.h"
@@ -15,6 +16,7 @@ namespace {
 // One job's way through runs.
 struct Runs {
     const Work& work;
+    FloatEnv& env;
     const swivel_pose pose = full_pose(work.pose);
     const StripMemory strip{work.strip.rows, work.strip.block_count, work.strip.bodies, &pose};
     const std::size_t block_floats = std::size_t{work.crowd.body_row_count} * kLanes;
@@ -42,10 +44,10 @@ struct Runs {
             for_each_named(run, [&](const Group& group, std::uint32_t n) {
                 share(group, run, n, [&](const Share& of) { of.copy_in(work.mask, run); });
             });
-        for (const swivel_features kind : {swivel_features{0}, kNoLimb})  // what limbs ask for, before it is given
-            for_each_named(run, [&](const Group& group, std::uint32_t) {
-                if ((group.features & kNoLimb) == kind) prepare_group(work.kernels, group, run, strip, work.mask);
-            });
+        if (work.probes_only || work.sample) prepare(run, Pass::probe);
+        if (work.probes_only) return give_probes(run);
+        if (work.sample) for_each_named(run, [&](const Group& group, std::uint32_t) { sample(group, run); });
+        for (const Pass pass : {Pass::ask, Pass::shift, Pass::grasp, Pass::hold}) prepare(run, pass);
         for_each_named(run, [&](const Group& group, std::uint32_t n) {
             solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
             if (work.frames) share(group, run, n, [&](const Share& of) { of.copy_out(work.mask, run); });
@@ -56,6 +58,63 @@ struct Runs {
     }
 
 private:
+    void prepare(GroupBlocks run, Pass pass) const
+    {
+        for_each_named(run, [&](const Group& group, std::uint32_t) {
+            prepare_group(work.kernels, group, pass, run, strip, work.mask);
+        });
+    }
+    // Of the results only the probes go out.
+    void give_probes(GroupBlocks run) const
+    {
+        if (!work.frames) return;
+        for_each_named(run, [&](const Group& group, std::uint32_t n) {
+            swivel_frame frame = frame_at(work.frames, n);
+            for (const swivel_frame_field& each : fields_of(frame))
+                if (each.field == SWIVEL_PROBE && each.data) {
+                    frame.fields = &each, frame.field_count = 1;
+                    share(group, run, frame, [&](const Share& of) { of.copy_out(work.mask, run); });
+                    return;
+                }
+        });
+    }
+    // Asks the caller for the ground below a group's feet.
+    void sample(const Group& group, GroupBlocks run) const
+    {
+        if (!(group.features & SWIVEL_WITH_GROUND)) return;
+        constexpr swivel_field fields[] = {SWIVEL_PROBE, SWIVEL_GROUND, SWIVEL_GROUND_NORMAL};
+        constexpr std::size_t kMost = kStripBlocks * SWIVEL_LANES;
+        std::uint32_t bodies[kMost];
+        float values[3][kMost][3];
+        std::uint32_t count = 0;
+        // Calls take(row, n, c) for each number of a field, of the nth probe.
+        const auto for_each_number = [&](swivel_field field, const auto& take) {
+            for (std::uint32_t n = 0; n < count; ++n)
+                for (std::uint32_t c = 0; c < 3; ++c) {
+                    const std::uint32_t row = group.first_row[index_of(field)] + c;
+                    float* const rows = is_input(field) ? group.input : group.results;
+                    const std::uint32_t row_count = is_input(field) ? group.input_row_count : group.result_row_count;
+                    take(rows[row_offset(bodies[n], row_count, row)], n, c);
+                }
+        };
+        for_each_block(run, [&](const BodyBlock& block) {
+            for (LaneMask lanes = block.lanes; lanes != 0; lanes &= lanes - 1)
+                bodies[count++] = block.first + static_cast<std::uint32_t>(std::countr_zero(lanes));
+        });
+        if (count == 0) return;
+        for (std::size_t f = 0; f < 3; ++f)
+            for_each_number(fields[f],
+                            [&](float& number, std::uint32_t n, std::uint32_t c) { values[f][n][c] = number; });
+        const auto g = static_cast<std::uint32_t>(&group - work.crowd.groups);
+        const swivel_probes probes{g, count, bodies, values[0], values[1], values[2]};
+        {
+            const FloatEnv::Outside outside(env);
+            work.sample(&probes, work.sample_user);
+        }
+        for (std::size_t f = 1; f < 3; ++f)
+            for_each_number(fields[f],
+                            [&](float& number, std::uint32_t n, std::uint32_t c) { number = values[f][n][c]; });
+    }
     void give_joints(const BodyPlan& plan, const BodyBlock& block) const
     {
         for (std::uint32_t g = 0; g < work.crowd.group_count; ++g)
@@ -73,7 +132,11 @@ private:
     template <class Copy>
     void share(const Group& group, GroupBlocks run, std::uint32_t n, const Copy& copy) const
     {
-        swivel_frame frame = frame_at(work.frames, n);
+        share(group, run, frame_at(work.frames, n), copy);
+    }
+    template <class Copy>
+    void share(const Group& group, GroupBlocks run, swivel_frame frame, const Copy& copy) const
+    {
         frame.origin = origin_of(pose);
         Stream streams[kMostStreams];
         Share of;
@@ -91,8 +154,8 @@ std::uint32_t run_count(const Work& work)
 
 void solve_runs(const Work& work, std::uint32_t first, std::uint32_t end)
 {
-    const FloatEnv env;
-    const Runs runs{work};
+    FloatEnv env;
+    const Runs runs{work, env};
     const std::uint32_t blocks = work.crowd.strip_blocks;
     for (std::uint32_t run = first; run < end; ++run)
         runs.solve({work.blocks.first + run * blocks, std::min(blocks, work.blocks.count - run * blocks)});

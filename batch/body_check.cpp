@@ -107,18 +107,88 @@ swivel_status check_fits(const swivel_crowd_def& def)
     return SWIVEL_OK;
 }
 
+swivel_status check_ground(std::uint32_t g, const swivel_ground& ground)
+{
+    const double length2 = double(ground.heel[0]) * ground.heel[0] + double(ground.heel[1]) * ground.heel[1] +
+                           double(ground.heel[2]) * ground.heel[2];
+    if (!(length2 <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, ground.heel is %g, %g, %g; give a place in the wrist's frame",
+                    g, double(ground.heel[0]), double(ground.heel[1]), double(ground.heel[2]));
+    return check_constants(g, "ground",
+                           {{"toe_clearance", ground.toe_clearance, kHuge},
+                            {"heel_clearance", ground.heel_clearance, kHuge},
+                            {"cos_most", ground.cos_most, 1},
+                            {"half", ground.half, 1000}});
+}
+
+// What a limb is linked to, and how many hold each prop.
+swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
+{
+    const swivel_group_def group = group_at(def, g);
+    if (group.link >= def.group_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is linked to group %u, which does not exist; there are %u", g,
+                    group.link, def.group_count);
+    const swivel_features to = element(def.groups, group.link, swivel_default_group_def(0)).features;
+    if (to & SWIVEL_PROP) return SWIVEL_OK;
+    if (to & kNoLimb)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is linked to group %u, which is SWIVEL_%s and has no hand; link it to a limb or a prop",
+                    g, group.link, feature_name(to & kNoLimb));
+    if (group.link >= g)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is linked to group %u, which is solved later; let a limb come after the one it holds", g,
+                    group.link);
+    if (!(to & SWIVEL_WITH_HAND))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is linked to group %u, which has no hand; add SWIVEL_WITH_HAND to that", g, group.link);
+    return SWIVEL_OK;
+}
+swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
+{
+    const swivel_prop prop = group_at(def, g).prop;
+    std::uint32_t holders = 0;
+    for (std::uint32_t other = 0; other < def.group_count; ++other) {
+        const swivel_group_def group = group_at(def, other);
+        holders += group.features & SWIVEL_WITH_LINK && group.link == g;
+        if (prop.joint < 0 || static_cast<std::uint32_t>(prop.joint) >= skeleton.joint_count) continue;
+        for (const std::uint32_t joint : TurnedJoints(skeleton, group))
+            if (is_above(skeleton, joint, static_cast<std::uint32_t>(prop.joint)))
+                return fail(SWIVEL_INVALID_ARGUMENT,
+                            "group %u, prop.joint is %d, which group %u moves; link the limbs to that group instead", g,
+                            prop.joint, other);
+    }
+    if (holders == 0 || holders > kMostHolders)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_PROP, and %u limbs are linked to it; link one or %u",
+                    g, holders, kMostHolders);
+    if (prop.joint < -1 || (prop.joint >= 0 && static_cast<std::uint32_t>(prop.joint) >= skeleton.joint_count))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
+                    g, prop.joint, skeleton.joint_count);
+    return check_constants(g, "prop", {{"most_move", prop.most_move, 1000}});
+}
+swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
+{
+    swivel_status status = SWIVEL_OK;
+    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) {
+        const swivel_features features = group_at(def, g).features;
+        if (features & SWIVEL_WITH_LINK) status = check_link(def, g);
+        if (status == SWIVEL_OK && features & SWIVEL_PROP) status = check_prop(def, skeleton, g);
+    }
+    return status;
+}
+
 swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
     const swivel_group_def group = group_at(def, g);
     if (!(group.features & kNoLimb) == !group.joints)
         return group.joints
                    ? fail(SWIVEL_INVALID_ARGUMENT,
-                          "group %u is SWIVEL_FIT, which is no limb, but names joints; leave them out", g)
+                          "group %u is SWIVEL_%s, which is no limb, but names joints; leave them out", g,
+                          feature_name(group.features & kNoLimb))
                    : fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; in a crowd of bodies each limb does", g);
     if (element(def.groups, g, swivel_default_group_def(0)).limb_count != 0 && group.limb_count != def.body_count)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u has %u limbs, but there are %u bodies; leave the count 0", g,
                     group.limb_count, def.body_count);
-    if (!group.joints) return check_fit(g, group.fit);
+    if (!group.joints) return group.features & SWIVEL_FIT ? check_fit(g, group.fit) : SWIVEL_OK;
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
     swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
@@ -126,7 +196,11 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     if (status == SWIVEL_OK) status = rest_limb(skeleton, joints_of(group), limb);
     if (status == SWIVEL_OK) status = bind("swivel_bind_joints", limb, binding);
     if (status == SWIVEL_OK) status = check_turned(skeleton, group);
-    if (status == SWIVEL_OK) return group.features & SWIVEL_WITH_PLANT ? check_plant(g, group.plant) : status;
+    if (status == SWIVEL_OK) {
+        if (group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group.plant);
+        if (status == SWIVEL_OK && group.features & SWIVEL_WITH_GROUND) status = check_ground(g, group.ground);
+        return status;
+    }
     char name[24];
     std::snprintf(name, sizeof name, "group %u", g);
     return fail_in(name, status);
@@ -174,6 +248,7 @@ swivel_status check_bodies(const swivel_crowd_def& def)
         status = check_group_joints(def, skeleton, g);
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) status = check_apart(def, skeleton, g);
     if (status == SWIVEL_OK) status = check_fits(def);
+    if (status == SWIVEL_OK) status = check_held(def, skeleton);
     return status == SWIVEL_OK ? check_skeleton(def, skeleton) : status;
 }
 

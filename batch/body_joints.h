@@ -59,6 +59,9 @@ void for_each_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleto
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
             const swivel_group_def group = group_at(def, g);
             if (group.joints && is_above(skeleton, joint, joints_of(group).wrist)) return true;
+            if (group.features & SWIVEL_PROP && group.prop.joint >= 0 &&
+                is_above(skeleton, joint, static_cast<std::uint32_t>(group.prop.joint)))
+                return true;
             for (const std::uint32_t turned : TurnedJoints(skeleton, group))
                 if (is_above(skeleton, joint, turned)) return true;
         }

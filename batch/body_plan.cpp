@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "batch/body_joints.h"
 #include "core/joint_frame.h"
@@ -85,9 +86,10 @@ BodySize body_size(const swivel_crowd_def& def)
     });
     for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
         size.moved_count += mover_of(def, skeleton, joint) >= 0;
-    size.first_goal = size.row_count;
+    size.first_own_row = size.row_count;
+    BodyLimb ignored{};
     for (std::uint32_t g = 0; g < def.group_count; ++g)
-        if (group_at(def, g).features & SWIVEL_WITH_PLANT) size.row_count += kGoalRows;
+        size.row_count = plan_own_rows(group_at(def, g).features, size.row_count, ignored);
     return size;
 }
 
@@ -175,6 +177,17 @@ constexpr PlantRules plant_rules(const swivel_plant& of)
         of.height[1]};
 }
 
+GroundRules ground_rules(const swivel_ground& of)
+{
+    const double cos = of.cos_most;  // of the whole angle
+    return {{of.heel[0], of.heel[1], of.heel[2]},
+            of.toe_clearance,
+            of.heel_clearance,
+            static_cast<float>(sqrt(0.5 + 0.5 * cos)),
+            static_cast<float>(sqrt(0.5 - 0.5 * cos)),
+            spring_rule(of.half)};
+}
+
 // The first group with a feature; there is one.
 swivel_group_def first_with(const swivel_crowd_def& def, swivel_features feature)
 {
@@ -182,10 +195,15 @@ swivel_group_def first_with(const swivel_crowd_def& def, swivel_features feature
     while (!(group_at(def, g).features & feature)) ++g;
     return group_at(def, g);
 }
+float rest_length(const swivel_crowd_def& def, const swivel_group_def& group)
+{
+    const swivel_binding of = body_binding(def, group);
+    return of.lengths[0] + of.lengths[1];
+}
 
 }  // namespace
 
-void plan_plant(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb)
+void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb)
 {
     constexpr double kLongest = 1e15;
     const Vector<double> up = normalise(vector<double>(def.up[0], def.up[1], def.up[2]));
@@ -197,10 +215,37 @@ void plan_plant(const swivel_crowd_def& def, const swivel_group_def& group, Body
         const float ahead = first_with(def, SWIVEL_FIT).fit.ahead;
         limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
     }
-    if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_FIT)) {
-        const swivel_binding of =
-            body_binding(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_FIT) : group);
-        limb.rest_length = of.lengths[0] + of.lengths[1];
+    if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_FIT))
+        limb.rest_length = rest_length(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_FIT) : group);
+    if (group.features & SWIVEL_WITH_GROUND) limb.ground = ground_rules(group.ground);
+    limb.most_move = group.prop.most_move;
+}
+
+std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyLimb& limb)
+{
+    const auto take = [&](std::uint32_t rows) { return std::exchange(first, first + rows); };
+    if (features & SWIVEL_SENT) limb.goal = take(kGoalRows);
+    if (features & SWIVEL_WITH_HAND_FRAME) limb.frame = take(kHeldRows);
+    if (features & SWIVEL_PROP) limb.frame = take(kPropRows);
+    return first;
+}
+
+void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd)
+{
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+        const swivel_group_def group = group_at(def, g);
+        BodyLimb& limb = crowd.groups[g].limb;
+        if (group.features & SWIVEL_PROP && group.prop.joint >= 0)
+            limb.joint = row_of({crowd.joints, crowd.joint_count}, group.prop.joint);
+        if (!(group.features & SWIVEL_WITH_LINK)) continue;
+        BodyLimb& to = crowd.groups[group.link].limb;
+        limb.link = to.frame;
+        limb.linked_group = group.link;
+        limb.holds_prop = group_at(def, group.link).features & SWIVEL_PROP;
+        if (!limb.holds_prop) continue;
+        if (to.holder_number == 0) to.rest_length = rest_length(def, group);
+        limb.holder_number = to.holder_number++;
+        limb.holder = to.frame + kHoldersRow + limb.holder_number * kHolderRows;
     }
 }
 

@@ -14,7 +14,7 @@ swivel_status check_bodies(const swivel_crowd_def& def);
 // These take a def that is right.
 struct BodySize {
     std::uint32_t joint_count, row_count, moved_count;  // needed joints, the root among them; rows of a block
-    std::uint32_t first_goal;                           // the first row of the goals that are planted
+    std::uint32_t first_own_row;                        // the first row behind those of joints
 };
 BodySize body_size(const swivel_crowd_def& def);
 // Stores the needed joints of all groups, depth after depth. So those that follow each other seldom wait for each
@@ -27,8 +27,12 @@ struct PlannedJoints {
 };
 BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
                    PlannedJoints joints, MovedJoint* moved);
-// Adds what plants and shifts take of a group, but for the row of its goal.
-void plan_plant(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb);
+// Adds the constants of plants, shifts, grounds and props.
+void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb);
+// Gives a group with these features its rows behind those of joints, from `first` on. Returns the first one after them.
+std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyLimb& limb);
+// Joins the limbs of a crowd to what they are linked to. All else of their groups is planned.
+void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd);
 // How a group's limb lies to the arm frame at rest.
 swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group);
 

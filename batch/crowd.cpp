@@ -91,7 +91,7 @@ void unknown_inputs(const Group& group)
     for (const FieldRow& row : kFields) {
         const bool is_unknown = row.starts == Start::unknown ||
                                 (row.field == SWIVEL_POLE && (group.features & SWIVEL_BODY)) ||
-                                (row.field == SWIVEL_HAND && (group.features & SWIVEL_WITH_PLANT));
+                                (row.field == SWIVEL_HAND && (group.features & SWIVEL_SENT));
         if (!is_unknown || field_row_count(group.features, row.field) == 0) continue;
         const bool is_bound = row.field == SWIVEL_LENGTHS && (group.features & SWIVEL_JOINTS);
         copy_in(rows_of(group, row.field), 0, group.limb_count, {is_bound ? group.binding.lengths : unknown, 0});
@@ -148,8 +148,8 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
     group.limb_count = def.limb_count;
     group.features = def.features;
     group.keeps = def.on_bad_input == SWIVEL_KEEP_POSE;
-    group.prepare = StageList(def.features, Pass::prepare);
-    group.stages = StageList(def.features, Pass::solve);
+    for (std::size_t pass = 0; pass < kPassCount; ++pass)
+        group.stages[pass] = StageList(def.features, static_cast<Pass>(pass));
     group.shoulder_order = def.shoulder_order;
     group.wrist_order = def.wrist_order;
     group.input_row_count = input_row_count(def.features);
@@ -175,6 +175,19 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
 
 }  // namespace
 
+namespace {
+
+bool is_linked_to(const swivel_crowd_def& def, std::uint32_t g)
+{
+    for (std::uint32_t other = 0; other < def.group_count; ++other) {
+        const swivel_group_def group = element(def.groups, other, swivel_default_group_def(0));
+        if (group.features & SWIVEL_WITH_LINK && group.link == g) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
 {
     swivel_group_def group = element(def.groups, g, swivel_default_group_def(0));
@@ -183,6 +196,9 @@ swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
         if (group.joints && !(group.features & kTwistBones))
             group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MOST_TWIST_BONES) *
                               SWIVEL_WITH_TWIST_BONES;
+        group.features &= ~SWIVEL_SENT;
+        if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK)) group.features |= SWIVEL_SENT;
+        if (is_linked_to(def, g) && !(group.features & kNoLimb)) group.features |= SWIVEL_WITH_HAND_FRAME;
         if (group.limb_count == 0) group.limb_count = def.body_count;
     }
     return group;
@@ -219,17 +235,18 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     }
     char* rows = base + layout.rows;
     auto* moved = reinterpret_cast<MovedJoint*>(base + layout.moved);
-    std::uint32_t first_block = 0, goal = layout.bodies.first_goal;
+    std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def of = group_at(def, g);
         Group& group = *new (crowd->groups + g) Group{};
         place_group(def, of, *crowd, first_block, rows, moved, group);
         moved += group.limb.moved_count;
-        if (def.skeleton) plan_plant(def, of, group.limb);
-        if (of.features & SWIVEL_WITH_PLANT) group.limb.goal = goal, goal += kGoalRows;
+        if (def.skeleton) plan_group(def, of, group.limb);
+        own_rows = plan_own_rows(of.features, own_rows, group.limb);
         if (!def.skeleton) first_block += blocks_in(of);
         rows += row_bytes(of);
     }
+    if (def.skeleton) plan_links(def, *crowd);
     return crowd;
 }
 

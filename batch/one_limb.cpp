@@ -19,7 +19,8 @@ constexpr swivel_features free_features(swivel_features features)
     const swivel_features hand = features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0;
     constexpr swivel_features of_bodies = SWIVEL_BODY | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
                                           SWIVEL_WITH_PLANT_TURN | SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_FIT |
-                                          SWIVEL_WITH_COMING;
+                                          SWIVEL_WITH_COMING | SWIVEL_WITH_HAND_FRAME | SWIVEL_WITH_LINK |
+                                          SWIVEL_WITH_GROUND | SWIVEL_SENT;
     return (features & ~(of_bodies | SWIVEL_WITH_CLAVICLE | kTwistBones)) | hand;
 }
 
@@ -90,11 +91,11 @@ void OneLimb::take_record(std::uint32_t limb)
         if (!(features & SWIVEL_WITH_HAND)) set(SWIVEL_WRIST, rotor_at(kRecordIncoming + 8));
         set(SWIVEL_AIM, sandwich(hand, vector_of(SWIVEL_AIM)));
     } else if (features & SWIVEL_WITH_HAND) {
-        const float* const q = features & SWIVEL_WITH_PLANT ? value_of(of_, limb, SWIVEL_GOAL) + 3 * kLanes
-                                                            : value_of(of_, limb, SWIVEL_HAND);
+        const float* const q =
+            features & SWIVEL_SENT ? value_of(of_, limb, SWIVEL_GOAL) + 3 * kLanes : value_of(of_, limb, SWIVEL_HAND);
         set(SWIVEL_HAND, rotor<double>(q[0], q[kLanes], q[2 * kLanes], q[3 * kLanes]) * ~hand);
     }
-    if (features & SWIVEL_WITH_PLANT) set(SWIVEL_TARGET, vector_of(SWIVEL_GOAL));
+    if (features & SWIVEL_SENT) set(SWIVEL_TARGET, vector_of(SWIVEL_GOAL));
     if (features & SWIVEL_WITH_EFFECTOR) set(SWIVEL_EFFECTOR, sandwich(hand, vector_of(SWIVEL_EFFECTOR)));
 }
 

@@ -36,7 +36,7 @@ SolveRun run_of(const Group& group, GroupBlocks blocks, StripMemory strip, bool 
             mask,
             std::size_t{group.first_block} * SWIVEL_LANES + limb,
             group.limb_count - limb,
-            &group.stages,
+            &group.stages[static_cast<std::size_t>(Pass::solve)],
             strip,
             &group.limb,
             group.body_block_floats};
@@ -54,12 +54,13 @@ void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks,
         kernels.arms.solve[run.features & kFormulaFeatures](run);
 }
 
-void prepare_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
+void prepare_group(const Kernels& kernels, const Group& group, Pass pass, GroupBlocks blocks, StripMemory strip,
                    const std::uint32_t* mask)
 {
-    if (group.prepare.count == 0) return;
+    const StageList& stages = group.stages[static_cast<std::size_t>(pass)];
+    if (stages.count == 0) return;
     SolveRun run = run_of(group, blocks, strip, false, mask);
-    run.stages = &group.prepare;
+    run.stages = &stages;
     kernels.limbs.solve(run);
 }
 

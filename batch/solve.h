@@ -21,8 +21,8 @@ struct GroupBlocks {
 // not fit the caches.
 void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
                  bool from_memory = false, const std::uint32_t* mask = nullptr);
-// What a group of bodies does before any of their limbs is solved.
-void prepare_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
+// What a group of bodies does in a pass before any of their limbs is solved.
+void prepare_group(const Kernels& kernels, const Group& group, Pass pass, GroupBlocks blocks, StripMemory strip,
                    const std::uint32_t* mask);
 // The limbs of a mask. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is faster.
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
@@ -44,6 +44,9 @@ struct Work {
     bool from_memory;             // the job's rows do not fit the caches
     StripMemory strip;            // of a workspace
     const swivel_pose* pose;      // of bodies; null: free limbs
+    bool probes_only = false;
+    swivel_sample* sample = nullptr;
+    void* sample_user = nullptr;
 };
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "core/arm.h"
-#include "core/plant_rules.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -63,27 +62,6 @@ SWIVEL_INLINE constexpr FittedShift<T> fitted_shift(const ShiftSpan<T>& span, co
     const T shift = lo(hi(free, -drop), rise);
     const Mask<T> all_reach = agree & span.reaches & (shift >= span.low) & (shift <= span.high);
     return {shift, all_reach};
-}
-
-// A critically damped spring.
-template <class T>
-struct Spring {
-    T at, rate;
-};
-// exp(-x) for x from 0 to kSettled: (1 + y + y^2/2 + y^3/6 + y^4/24)^-4 with y = x/4.
-template <class T>
-SWIVEL_INLINE constexpr T falling(const T& x)
-{
-    const T y = T(0.25) * x;
-    const T e = T(1) / (T(1) + y * (T(1) + y * (T(0.5) + y * (T(1.0 / 6) + y * T(1.0 / 24)))));
-    return (e * e) * (e * e);
-}
-template <class T>
-SWIVEL_INLINE constexpr Spring<T> sprung(const Spring<T>& s, const T& goal, const T& time, const SpringRule& rule)
-{
-    const T stiffness = T(rule.stiffness), t = lo(time, T(rule.longest));
-    const T share = falling(stiffness * t), way = s.at - goal, push = s.rate + stiffness * way;
-    return {goal + (way + push * t) * share, (s.rate - stiffness * push * t) * share};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -29,4 +29,12 @@ constexpr SpringRule spring_rule(float half)
     return {static_cast<float>(stiffness), static_cast<float>(kSettled / stiffness)};
 }
 
+// How the feet of a group stand on ground. Lengths are in the bones' unit.
+struct GroundRules {
+    float heel[3];  // in the wrist joint's frame
+    float toe_clearance, heel_clearance;
+    float cos_half_most, sin_half_most;  // of the angle that a foot turns at most
+    SpringRule lift;
+};
+
 }  // namespace swivel

@@ -78,6 +78,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_root(const BodyPlan& plan, const Body
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         at(kRootJoint, lane).set_frame({one<T>(), none, T(1)});
         at(0, lane).set_vector(kRootRow, none);
+        at(0, lane).set_vector(kShiftedRow, none);
     }
     if (pose.root_rotation.data) {
         const Bodies bodies(block, pose.root_rotation);
@@ -133,7 +134,6 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan
         read_root_from_support(block, pose);
     else
         take_root_from_support(block, pose);
-    const Vector<T> none = vector(T(0), T(0), T(0));
     const Bodies rotations = pose.support_rotation.data ? Bodies(block, pose.support_rotation) : Bodies();
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const JointRows at = rows_of(block, 0, lane);
@@ -142,7 +142,6 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan
         at.set(kSpanRow, T(-kAnyShift));
         at.set(kSpanRow + 1, T(kAnyShift));
         at.set(kSpanRow + 2, T(1));
-        at.set_vector(kShiftedRow, none);
     }
 }
 

@@ -42,14 +42,36 @@ enum PosedRow : std::uint32_t {
     kShiftedRow = kSpanRow + 3,             // by what the root is shifted, in the world
     kPosedRows = kShiftedRow + 3
 };
-// What a planted limb's first stage hands on to the others. They lie behind the rows of all joints.
+// Behind the rows of all joints lies what stages hand on from group to group, or from pass to pass. Of a limb that is
+// sent (SWIVEL_SENT):
 enum GoalRow : std::uint32_t {
     kGoalPlaceRow,  // from the root's place before it is shifted
     kGoalHandRow = kGoalPlaceRow + 3,
-    kGoalFlagsRow = kGoalHandRow + 4,     // bits
-    kGoalResultsRow = kGoalFlagsRow + 1,  // the results that stand only if no later stage finds bad input
-    kGoalRows = kGoalResultsRow + 32
+    kGoalFlagsRow = kGoalHandRow + 4,   // bits
+    kGoalOwnRow = kGoalFlagsRow + 1,    // 1 where it is the pose's own
+    kGoalResultsRow = kGoalOwnRow + 1,  // the results that stand only if no later stage finds bad input
+    kGoalRows = kGoalResultsRow + 38
 };
+// A frame that limbs are linked to, from the root's place as shifted: of a hand, or of a prop.
+enum HeldRow : std::uint32_t {
+    kHeldTurnRow,
+    kHeldPlaceRow = kHeldTurnRow + 4,
+    kHeldScaleRow = kHeldPlaceRow + 3,  // of places in it
+    kHeldRows = kHeldScaleRow + 1
+};
+// Behind a prop's frame: which holder alone says where it is, -1 for none; and of each holder where it has the prop,
+// and how far its arm gets.
+inline constexpr std::uint32_t kMostHolders = 2;
+enum HolderRow : std::uint32_t {
+    kHolderTurnRow,
+    kHolderPlaceRow = kHolderTurnRow + 4,
+    kHolderWristRow = kHolderPlaceRow + 3,  // in the prop's frame
+    kHolderShoulderRow = kHolderWristRow + 3,
+    kHolderReachRow = kHolderShoulderRow + 3,
+    kHolderRows = kHolderReachRow + 1
+};
+inline constexpr std::uint32_t kSayerRow = kHeldRows, kHoldersRow = kSayerRow + 1,
+                               kPropRows = kHoldersRow + kMostHolders * kHolderRows;
 // A block has the rows of the group that is being solved, then those of all joints: first the root's.
 inline constexpr std::uint32_t kRootJoint = kPosedRows;
 constexpr std::uint32_t joint_row_count(bool is_turned) { return is_turned ? kJointRows : std::uint32_t{kLocalRow}; }
@@ -86,13 +108,22 @@ struct BodyLimb {
     std::uint32_t turned_count;
     const MovedJoint* moved;  // these joints and all below them
     std::uint32_t moved_count;
-    std::uint32_t goal;  // the first row of its goal, where it is planted
-    float up[3];         // the crowd's, of unit length
-    float rest_length;   // of both bones at rest, where rules have shares of it; of a shift of the first limb's
-    float per_ahead;     // 1/s, of the crowd's fit
-    PlantRules rules;    // where it is planted
-    float drop, rise;    // where it is a shift: in limb lengths
-    SpringRule spring;   // the same
+    std::uint32_t goal;           // the first row of its goal, where it is sent
+    std::uint32_t frame;          // the first row of its frame, where others are linked to it
+    std::uint32_t link;           // the first row of the frame that it is linked to
+    std::uint32_t linked_group;   // the group of that
+    bool holds_prop;              // it is a prop
+    std::uint32_t holder;         // the first row of what it asks of that
+    std::uint32_t holder_number;  // its place among the prop's holders; of a prop how many it has
+    std::uint32_t joint;          // of a prop: the first row of its joint; 0: none
+    float most_move;              // of a prop: in limb lengths of its first holder
+    GroundRules ground;           // where it stands on ground
+    float up[3];                  // the crowd's, of unit length
+    float rest_length;  // of both bones at rest, where rules have shares of it; of no limb that of the first it serves
+    float per_ahead;    // 1/s, of the crowd's fit
+    PlantRules rules;   // where it is planted
+    float drop, rise;   // where it is a shift: in limb lengths
+    SpringRule spring;  // the same
 
     // The rows of what carries the arm frame to the parents of elbow and wrist.
     std::uint32_t elbow_parent_row() const

@@ -6,6 +6,8 @@
 
 #include "core/forearm_twist.h"
 #include "core/posed_limb.h"
+#include "simd/fit_stages.h"
+#include "simd/hold_stages.h"
 #include "simd/plant_stages.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -70,10 +72,10 @@ private:
                                        const Vector<typename S::T>& shoulder, const typename S::T& per_scale)
     {
         using T = typename S::T;
-        const bool is_planted = s.has(SWIVEL_WITH_PLANT);
+        const bool is_sent = s.has(SWIVEL_SENT);
         const std::uint32_t goal = s.strip.run.limb->goal;
-        const Vector<T> root = s.body_vector(is_planted ? kShiftedRow : kRootRow),
-                        target = is_planted ? s.body_vector(goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET);
+        const Vector<T> root = s.body_vector(is_sent ? kShiftedRow : kRootRow),
+                        target = is_sent ? s.body_vector(goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET);
         s.require(len2(target) <= T(kHuge2));
         s.set_vector(kWristRow, per_scale * seen.back(target - root - shoulder));
         if constexpr (!S::is(SWIVEL_POLE_INCOMING)) {
@@ -83,7 +85,7 @@ private:
                          per_scale * seen.back(pole_is_point(s) ? pole - s.body_vector(kRootRow) - shoulder : pole));
         }
         if constexpr (S::is(SWIVEL_WITH_HAND)) {
-            const Rotor<T> hand = is_planted ? s.body_rotor(goal + kGoalHandRow) : s.io.load_rotor(SWIVEL_HAND);
+            const Rotor<T> hand = is_sent ? s.body_rotor(goal + kGoalHandRow) : s.io.load_rotor(SWIVEL_HAND);
             s.require(is_orientation(hand));
             s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~seen.arm * hand);
         }
@@ -98,25 +100,18 @@ struct StageBody<Stage::record> {
     {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
-        const ParentFrame<T> parent = posed_parent(s);
-        Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
-        Vector<T> shoulder = parent.position;
-        if (s.has(SWIVEL_WITH_CLAVICLE)) {
-            const Vector<T> clavicle = s.body_vector(limb.parent + kPlaceRow);
-            const Rotor<T> is = arm * s.get_rotor(kClavicleRow);
-            shoulder = clavicle + sandwich(is * ~arm, shoulder - clavicle);
-            arm = is;
-        }
+        const ArmFrame<T> arm = arm_frame(s);
+        const T scale = s.body_row(limb.parent + kScaleRow);
         Rotor<T> hand = s.get_rotor(kIncomingRow + 8);
         if (s.has(SWIVEL_WITH_AIM) && s.has(SWIVEL_WITH_HAND))
             hand = ~s.body_rotor(limb.wrist_parent_row()) * s.io.load_rotor(SWIVEL_HAND) *
                    ~broadcast<T>(s.strip.bind.hand_from_arm);
         Rows<T, kTold> out = s.io;
         out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        out.store_vector(SWIVEL_RECORD, with_one_nan(shoulder + s.body_vector(kRootRow)), kRecordShoulder);
-        out.store_rotor(SWIVEL_RECORD, with_one_nan(arm), kRecordArm);
+        out.store_vector(SWIVEL_RECORD, with_one_nan(arm.shoulder + s.body_vector(kRootRow)), kRecordShoulder);
+        out.store_rotor(SWIVEL_RECORD, with_one_nan(arm.rotation), kRecordArm);
         // What else is bad in the pose shows in the scale.
-        out.store(SWIVEL_RECORD, kRecordScale, with_one_nan(select(is_posed(s), parent.scale, T(__builtin_nan("")))));
+        out.store(SWIVEL_RECORD, kRecordScale, with_one_nan(select(is_posed(s), scale, T(__builtin_nan("")))));
         out.store(SWIVEL_RECORD, kRecordLengths, with_one_nan(s.body_row(kLengthsRow)));
         out.store(SWIVEL_RECORD, kRecordLengths + 1, with_one_nan(s.body_row(kLengthsRow + 1)));
         out.store_rotor(SWIVEL_RECORD, with_one_nan(s.get_rotor(kIncomingRow)), kRecordIncoming);
@@ -215,6 +210,8 @@ private:
             kept = kept | (valid & (s.io.load(SWIVEL_WEIGHTS, 0) == none) & (s.io.load(SWIVEL_WEIGHTS, 1) == none) &
                            (s.io.load(SWIVEL_WEIGHTS, 2) == none));
         }
+        if (s.has(SWIVEL_WITH_LINK) && s.has(SWIVEL_POLE_INCOMING) && !(s.strip.run.features & kBoundingFeatures))
+            kept = kept | (valid & (s.body_row(s.strip.run.limb->goal + kGoalOwnRow) > T(0.5)));
         return kept;
     }
 };

@@ -18,7 +18,8 @@ inline constexpr swivel_features kTwistBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_
                                  kHandLimits = SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                                SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 // What every group of bodies has, and what makes one no limb.
-inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING, kNoLimb = SWIVEL_FIT;
+inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
+                                 kNoLimb = SWIVEL_FIT | SWIVEL_PROP;
 struct FeatureRow {
     swivel_features feature;
     const char* name;
@@ -57,6 +58,12 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_COMING, "WITH_COMING", SWIVEL_WITH_FIT},
     {SWIVEL_FIT, "FIT", kOfBodies, ~(kOfBodies | SWIVEL_FIT)},
     {SWIVEL_HAND_YIELDS, "HAND_YIELDS", SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_AIM},
+    {SWIVEL_WITH_HAND_FRAME, "WITH_HAND_FRAME", SWIVEL_BODY | SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_LINK, "WITH_LINK", SWIVEL_BODY | SWIVEL_WITH_HAND,
+     SWIVEL_WITH_AIM | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT},
+    {SWIVEL_PROP, "PROP", kOfBodies, ~(kOfBodies | SWIVEL_PROP)},
+    {SWIVEL_WITH_GROUND, "WITH_GROUND", SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR},
+    {SWIVEL_SENT, "SENT", SWIVEL_BODY},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
@@ -178,6 +185,14 @@ constexpr FieldRow kFields[] = {
     place(SWIVEL_COMING, "coming", SWIVEL_WITH_COMING, 0, {0, 0, 0}, Start::neutral),
     input(SWIVEL_COMING_TIME, "coming_time", SWIVEL_WITH_COMING, "0 to 1e15", {1e15f}),
     input(SWIVEL_SHIFT_WISH, "shift_wish", SWIVEL_FIT, "no further than 1e15 from 0", {0}),
+    place(SWIVEL_GROUND, "ground", SWIVEL_WITH_GROUND, 0, {0, 0, 0}, Start::unknown),
+    input(SWIVEL_GROUND_NORMAL, "ground_normal", SWIVEL_WITH_GROUND, "of length 1e-9 to 1e9", {0, 1, 0}),
+    input(SWIVEL_GROUND_WEIGHT, "ground_weight", SWIVEL_WITH_GROUND, "0 to 1", {1}),
+    input(SWIVEL_GRIP, "grip", SWIVEL_WITH_LINK, "a place no further than 1e15 and a quaternion of length 1e-9 to 1e9",
+          {0, 0, 0, 0, 0, 0, 1}),
+    place(SWIVEL_PROP_PLACE, "prop_place", SWIVEL_PROP, 0, {0, 0, 0}, Start::unknown),
+    input(SWIVEL_PROP_TURN, "prop_turn", SWIVEL_PROP, kQuaternion, kIdentity, {}, Start::unknown),
+    input(SWIVEL_PROP_SHARE, "prop_share", SWIVEL_PROP, "0 to 1", {0}),
     {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, "", {0, 0, 0, 1}},
     {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, "", {1, 0}},
     {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, "", {0, 0, 0, 1}},
@@ -191,8 +206,12 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_PLANT, "plant", 11, kCarried, SWIVEL_WITH_PLANT},
     {SWIVEL_PLANT_TURN, "plant_turn", 10, kCarried, SWIVEL_WITH_PLANT_TURN},
     {SWIVEL_MOTION, "motion", 4, kCarried, SWIVEL_PLANT_BY_MOTION},
-    {SWIVEL_GOAL, "goal", 7, kResult, SWIVEL_WITH_PLANT | SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_GOAL, "goal", 7, kResult, SWIVEL_SENT | SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_SHIFT, "shift", 3, kCarried, SWIVEL_FIT},
+    {SWIVEL_PROBE, "probe", 3, kResult, SWIVEL_WITH_GROUND},
+    {SWIVEL_LIFT, "lift", 3, kCarried, SWIVEL_WITH_GROUND},
+    {SWIVEL_HAND_FRAME, "hand_frame", 7, kResult, SWIVEL_WITH_HAND_FRAME, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_PROP_FRAME, "prop_frame", 7, kResult, SWIVEL_PROP, 0, "", {0, 0, 0, 0, 0, 0, 1}},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 

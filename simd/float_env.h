@@ -38,6 +38,26 @@ public:
     FloatEnv(const FloatEnv&) = delete;
     FloatEnv& operator=(const FloatEnv&) = delete;
 
+    // While this lives, the environment is the caller's.
+    class Outside {
+    public:
+        explicit Outside(FloatEnv& env) : env_(env)
+        {
+            asm volatile("" : : : "memory");
+            env_.leave();
+        }
+        ~Outside()
+        {
+            env_.enter();
+            asm volatile("" : : : "memory");
+        }
+        Outside(const Outside&) = delete;
+        Outside& operator=(const Outside&) = delete;
+
+    private:
+        FloatEnv& env_;
+    };
+
 private:
     template <class Number>
     static void pin(Number& number)

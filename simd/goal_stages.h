@@ -51,6 +51,23 @@ SWIVEL_INLINE ParentFrame<typename S::T> posed_parent(const S& s)
     return {s.body_vector(limb.shoulder + kPlaceRow), s.body_rotor(limb.parent + kTurnRow),
             s.body_row(limb.parent + kScaleRow)};
 }
+// The arm frame of a body's limb, with the clavicle as turned, from the root's place.
+template <class T>
+struct ArmFrame {
+    Rotor<T> rotation;
+    Vector<T> shoulder;
+};
+template <class S>
+SWIVEL_INLINE ArmFrame<typename S::T> arm_frame(const S& s)
+{
+    using T = typename S::T;
+    const ParentFrame<T> parent = posed_parent(s);
+    const Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+    if (!s.has(SWIVEL_WITH_CLAVICLE)) return {arm, parent.position};
+    const Vector<T> clavicle = s.body_vector(s.strip.run.limb->parent + kPlaceRow);
+    const Rotor<T> is = arm * s.get_rotor(kClavicleRow);
+    return {is, clavicle + sandwich(is * ~arm, parent.position - clavicle)};
+}
 // Whether the pose is good in all that a limb takes of it. What is bad in a joint shows in all below it.
 template <class S>
 SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)

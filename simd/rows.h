@@ -53,11 +53,17 @@ constexpr std::uint32_t result_row_count(swivel_features features)
     return rows_before(features, kInputCount, kFieldCount);
 }
 
+// Whether a field's numbers are places and rotations in one.
+constexpr bool is_frame(swivel_field field)
+{
+    return field == SWIVEL_RECORD || field == SWIVEL_GOAL || field == SWIVEL_PROBE || field == SWIVEL_HAND_FRAME ||
+           field == SWIVEL_PROP_FRAME;
+}
 // Rows of words that a field is packed into (swivel_pack). Values of four floats are rotations.
 constexpr std::uint32_t packed_row_count(swivel_features features, swivel_field field)
 {
     const std::uint32_t rows = field_row_count(features, field);
-    if (row_of(field).kind != kResult || field == SWIVEL_RECORD || field == SWIVEL_GOAL) return 0;
+    if (row_of(field).kind != kResult || is_frame(field)) return 0;
     if (field == SWIVEL_FLAGS) return 2;
     return rows % 4 == 0 ? rows / 4 * 3 : rows;
 }

@@ -63,13 +63,13 @@ struct Rows {
         return load_lanes<T>([&](std::size_t lane)
                                  SWIVEL_INLINE_LAMBDA { return rows + row_offset(lane, row_count, row); });
     }
-    SWIVEL_INLINE Vector<T> load_vector(swivel_field field) const
+    SWIVEL_INLINE Vector<T> load_vector(swivel_field field, int first = 0) const
     {
-        return vector(load(field, 0), load(field, 1), load(field, 2));
+        return vector(load(field, first), load(field, first + 1), load(field, first + 2));
     }
-    SWIVEL_INLINE Rotor<T> load_rotor(swivel_field field) const
+    SWIVEL_INLINE Rotor<T> load_rotor(swivel_field field, int first = 0) const
     {
-        return rotor(load(field, 0), load(field, 1), load(field, 2), load(field, 3));
+        return rotor(load(field, first), load(field, first + 1), load(field, first + 2), load(field, first + 3));
     }
     SWIVEL_INLINE Turned<T> load_turned(swivel_field field, int first = 0) const
     {

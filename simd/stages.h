@@ -16,9 +16,14 @@ namespace swivel {
 
 // In the order in which they run. place is bones and wish in one, for limbs that ask nothing special of either.
 enum class Stage : std::uint8_t {
+    probe,     // where a foot is about to be, whatever the ground there is
     plant,     // where a body's planted point goes
+    ground,    // the same on ground as it lies
     span,      // how a body's limb asks it to shift
     fit,       // the shift
+    grasp,     // where a hand has the prop that it holds
+    prop,      // where the prop goes
+    link,      // the goal on a prop or on another limb's hand
     see,       // the goal, as the parent sees it
     posed,     // the same of a body's limb, with the incoming pose, its bones and how its joints lie to them
     clavicle,  // turned by its share, and the goal turned back
@@ -41,8 +46,9 @@ enum class Stage : std::uint8_t {
     choose_in_box,  // the same, with boxes
     store,          // lifts the arm, and stores the results
     twist_bones,
-    correct,  // a body's joints
-    stand,    // how a planted limb stands
+    correct,     // a body's joints
+    hand_frame,  // where the hand is then
+    stand,       // how a planted limb stands
     count
 };
 
@@ -56,8 +62,17 @@ inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVE
 inline constexpr swivel_features kBoundingFeatures = kLineFeatures | kBoxFeatures | SWIVEL_WITH_FLEXION_LIMIT |
                                                      SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MOST_SWIVEL;
 
-// All groups of a body prepare before the first is solved.
-enum class Pass : std::uint8_t { prepare, solve };
+// All groups of a body go through a pass before the first goes through the next one.
+enum class Pass : std::uint8_t {
+    probe,  // of jobs that sample the ground
+    ask,    // what limbs ask of the body
+    shift,  // the body's answer
+    grasp,  // what hands ask of props
+    hold,   // where these go
+    solve,
+    count
+};
+inline constexpr std::size_t kPassCount = static_cast<std::size_t>(Pass::count);
 
 struct StageRow {
     Stage stage;
@@ -70,9 +85,14 @@ inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWI
                                  kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL,
                                  kSpecial = kSpecialBones | kSpecialWish;
 inline constexpr StageRow kStages[] = {
-    {Stage::plant, 0, SWIVEL_WITH_PLANT, 0, Pass::prepare},
-    {Stage::span, 0, SWIVEL_WITH_FIT, 0, Pass::prepare},
-    {Stage::fit, 0, SWIVEL_FIT, 0, Pass::prepare},
+    {Stage::probe, 0, SWIVEL_WITH_GROUND, 0, Pass::probe},
+    {Stage::plant, 0, SWIVEL_WITH_PLANT, 0, Pass::ask},
+    {Stage::ground, 0, SWIVEL_WITH_GROUND, 0, Pass::ask},
+    {Stage::span, 0, SWIVEL_WITH_FIT, 0, Pass::ask},
+    {Stage::fit, 0, SWIVEL_FIT, 0, Pass::shift},
+    {Stage::grasp, 0, SWIVEL_WITH_LINK, 0, Pass::grasp},
+    {Stage::prop, 0, SWIVEL_PROP, 0, Pass::hold},
+    {Stage::link, 0, SWIVEL_WITH_LINK, 0},
     {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_WORLD, SWIVEL_BODY},
     {Stage::posed, SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_BODY, 0},
     {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
@@ -96,6 +116,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::store, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM, 0, 0},
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},
+    {Stage::hand_frame, 0, SWIVEL_WITH_HAND_FRAME, 0},
     {Stage::stand, 0, SWIVEL_WITH_PLANT, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
@@ -150,7 +171,7 @@ struct StageList {
     constexpr StageList(swivel_features features, Pass pass)
     {
         for (const StageRow& row : kStages)
-            if (row.pass == pass && needs(features, row) && (pass == Pass::prepare || !(features & kNoLimb)))
+            if (row.pass == pass && needs(features, row) && (row.needed_by & kNoLimb || !(features & kNoLimb)))
                 function[count++] =
                     static_cast<std::uint8_t>(first_function(row.stage) + function_of(row.stage, features));
     }

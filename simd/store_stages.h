@@ -53,7 +53,7 @@ struct StageBody<Stage::store> {
         const Vector<T> line = s.get_vector(kLineRow);
         Vector<T> normal = s.get_vector(kNormalRow);
         Bits<T> flags = s.get_flags();
-        if (s.has(SWIVEL_WITH_PLANT)) flags = flags | s.body_flags(s.strip.run.limb->goal + kGoalFlagsRow);
+        if (s.has(SWIVEL_SENT)) flags = flags | s.body_flags(s.strip.run.limb->goal + kGoalFlagsRow);
         Continuity<T> continuity;
         if (s.has(SWIVEL_WITH_MOST_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & (kLineFeatures | kBoxFeatures)) {

@@ -102,7 +102,7 @@ may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h
 may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|slice|strip_rows)[.]h\"")
 may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(body|choose|store)_stages[.]h\"")
 may_include(simd "simd/body_(kernels[.]cpp|motion[.]h|values[.]h)$" "${standard}|\"core/(fit|(joint|matrix)_frame)[.]h\"|\"simd/(body_motion|body_values|kernels|lanes|values)[.]h\"")
-may_include(simd "simd/[a-z]+_stages[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|goal|limit|plant)_stages|strip)[.]h\"")
+may_include(simd "simd/([a-z]+_stages|sent_rows)[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|fit|goal|hold|limit|plant)_stages|sent_rows|strip)[.]h\"")
 may_include(simd "simd/strip[.]h$" "${standard}|\"simd/(slice|stages|strip_rows)[.]h\"")
 may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"core/plant_rules[.]h\"|\"simd/(fields|rows)[.]h\"")
 may_include(simd "simd/values[.]h$" "${standard}|\"simd/lanes[.]h\"")

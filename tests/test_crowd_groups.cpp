@@ -34,8 +34,11 @@ constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_I
                           kBodies[] = {
                               kOfBodies | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING,
                               kOfBodies | SWIVEL_WITH_HAND | SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN |
-                                  SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_RECORD,
+                                  SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_RECORD | SWIVEL_SENT | SWIVEL_WITH_GROUND |
+                                  SWIVEL_WITH_EFFECTOR,
+                              kOfBodies | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK | SWIVEL_SENT | SWIVEL_WITH_HAND_FRAME,
                               kOfBodies | SWIVEL_FIT,
+                              kOfBodies | SWIVEL_PROP,
 };
 
 bool is_of(const swivel_field_info& field, swivel_features features)
@@ -164,7 +167,8 @@ TEST_CASE("the library describes the fields, features and flags that the header 
         got.push_back(field.name);
         const bool is_input = field.field < SWIVEL_INPUT_END;
         CHECK((field.kind == SWIVEL_FIELD_INPUT) == is_input);
-        constexpr std::array carried = {SWIVEL_NORMAL, SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION, SWIVEL_SHIFT};
+        constexpr std::array carried = {SWIVEL_NORMAL, SWIVEL_PLANT, SWIVEL_PLANT_TURN,
+                                        SWIVEL_MOTION, SWIVEL_SHIFT, SWIVEL_LIFT};
         CHECK((field.kind == SWIVEL_FIELD_CARRIED) == (std::ranges::find(carried, field.field) != carried.end()));
         CHECK((*field.range != 0) == is_input);
         // A group has the field just if it has what the field needs and lacks what it excludes.

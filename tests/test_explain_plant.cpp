@@ -347,7 +347,7 @@ TEST_CASE("what needs a limb refuses a shift in one line")
     std::uint32_t count = 7;
     const swivel_out out = {room.data(), sizeof room}, none = {nullptr, 0};
     const auto is_named = [](const char* call) {
-        return has(swivel_last_error(), std::string(call) + ": group 1 is SWIVEL_FIT, a shift and no limb");
+        return has(swivel_last_error(), std::string(call) + ": group 1 is SWIVEL_FIT, which is no limb");
     };
     CHECK_REFUSED(swivel_residuals(leg.crowd.get(), 1, 0, 1, out), SWIVEL_INVALID_ARGUMENT);
     CHECK(is_named("swivel_residuals"));

@@ -130,9 +130,11 @@ typedef enum swivel_flag {
 //   WITH_FIT. WITH_CAP excludes WITH_REACH.
 // - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION
 //   need WITH_PLANT. WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
-// - HAND_YIELDS needs WITH_EFFECTOR and excludes WITH_AIM.
-// - A group that is FIT is no limb: it has none of the other features and names no joints. Calls that need a limb
-//   refuse it.
+// - HAND_YIELDS needs WITH_EFFECTOR and excludes WITH_AIM. WITH_GROUND needs WITH_PLANT and WITH_EFFECTOR.
+// - WITH_HAND_FRAME and WITH_LINK are of bodies and need WITH_HAND. WITH_LINK excludes WITH_AIM, WITH_PLANT and
+//   WITH_FIT.
+// - A group that is FIT or PROP is no limb: it has none of the other features and names no joints. Calls that need a
+//   limb refuse it.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
 typedef uint64_t swivel_features;
 #define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
@@ -169,6 +171,12 @@ typedef uint64_t swivel_features;
 // Where the wrist misses its place, the hand turns about it, no further than it must, to bring the effector nearest to
 // its target. So a heel lifts where the leg is too short for the toe.
 #define SWIVEL_HAND_YIELDS (UINT64_C(1) << 32)
+// Where the hand or foot is after a solve. A group that others are linked to has it by itself.
+#define SWIVEL_WITH_HAND_FRAME (UINT64_C(1) << 33)
+#define SWIVEL_WITH_LINK (UINT64_C(1) << 34)    // the goal is a grip on another limb's hand, or on a PROP: link
+#define SWIVEL_PROP (UINT64_C(1) << 35)         // the group is a thing that hands hold, not a limb: swivel_prop
+#define SWIVEL_WITH_GROUND (UINT64_C(1) << 36)  // the foot that is planted stands on ground as it lies: swivel_ground
+#define SWIVEL_SENT (UINT64_C(1) << 37)  // its goal is made by the library: WITH_PLANT and WITH_LINK have it themselves
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
@@ -298,6 +306,25 @@ typedef enum swivel_field {
     SWIVEL_COMING_TIME,
     // 1, FIT: the shift that is wished for, at most 1e15 either way; 0 at the start.
     SWIVEL_SHIFT_WISH,
+    // 3, WITH_GROUND: a point of the ground below the foot, in the space of the target. Sample it at SWIVEL_PROBE. NaN,
+    // as at the start: no ground is known there.
+    SWIVEL_GROUND,
+    // 3, WITH_GROUND: its normal there, of length 1e-9..1e9. Ground steeper than 87 degrees counts as none.
+    SWIVEL_GROUND_NORMAL,
+    // 1, WITH_GROUND: how far the foot turns with the ground, 0..1. 1 at the start.
+    SWIVEL_GROUND_WEIGHT,
+    // 7, WITH_LINK: the place of this limb's wrist or effector, 3, and its hand's rotation, 4. They are in the frame of
+    // what it is linked to. Of a limb that is the wrist joint's, and places are in the bones' unit. Of a PROP they are
+    // in the world's unit.
+    SWIVEL_GRIP,
+    // 3, PROP: where it is, in the space of the targets; with a joint, in that joint's frame, in the world's unit.
+    // NaN, as at the start: as swivel_prop says.
+    SWIVEL_PROP_PLACE,
+    // 4, PROP: its rotation, in the world or the joint's frame. NaN, as at the start: as swivel_prop says.
+    SWIVEL_PROP_TURN,
+    // 1, PROP: which hand says where it is, 0..1. At 0, as at the start, the first that is linked to it, at 1 the
+    // other; in between both.
+    SWIVEL_PROP_SHARE,
     SWIVEL_INPUT_END,  // one past the last input of this release
 
     // 4: the shoulder's rotation. In the arm frame, or with JOINTS the joint's local one.
@@ -343,12 +370,22 @@ typedef enum swivel_field {
     SWIVEL_PLANT_TURN,
     // 4, PLANT_BY_MOTION: the point's last animated place in the support's frame, 3, and 1 if it was in contact.
     SWIVEL_MOTION,
-    // 7, WITH_PLANT and WITH_RECORD: where the point was sent, 3, in the space of the target, and the hand's rotation
-    // in the world, 4.
+    // 7, SENT and WITH_RECORD: where the wrist or effector was sent, 3, in the space of the target, and the hand's
+    // rotation in the world, 4.
     SWIVEL_GOAL,
     // 3, FIT: the shift of the body along the crowd's axis `up`, in the world's unit; its rate a second; and 1 once it
     // has begun.
     SWIVEL_SHIFT,
+    // 3, WITH_GROUND: where to sample the ground for the foot, in the space of the target: above or below this point.
+    SWIVEL_PROBE,
+    // 3, WITH_GROUND: how far the ground lifts the animated foot along `up`, in the world's unit; its rate a second;
+    // and 1 once it has begun.
+    SWIVEL_LIFT,
+    // 7, WITH_HAND_FRAME: where the wrist joint is after the solve, 3, in the space of the target, and its rotation in
+    // the world, 4. The bones are stretched, where they are. It is NaN after bad input, unless the limb keeps its pose.
+    SWIVEL_HAND_FRAME,
+    // 7, PROP: where it is, 3, in the space of the targets, and its rotation in the world, 4.
+    SWIVEL_PROP_FRAME,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
@@ -557,6 +594,53 @@ static inline swivel_fit swivel_default_fit(void)
     return fit;
 }
 
+// How feet of a group with SWIVEL_WITH_GROUND stand on ground that is not flat. The effector is the toe, or the ball of
+// the foot. The caller gives a plane for each foot: SWIVEL_GROUND and its normal, sampled at SWIVEL_PROBE. Where no
+// ground is known, the foot goes as it is animated.
+//
+// - The animated foot is lifted or sunk by how far the ground is from the root's level: from the plane through the
+//   root's place, across `up`. A spring eases that.
+// - A point that locks does so at toe_clearance over the plane, where it stays.
+// - No toe is below toe_clearance, no heel below heel_clearance, whatever the animation wants. For its heel the foot
+//   turns about the toe. With SWIVEL_HAND_YIELDS it also does where the leg is too short.
+// - The foot turns by what carries `up` to the ground's normal, times SWIVEL_GROUND_WEIGHT, up to an angle.
+//
+// Clearances are heights over the plane, in the bones' unit. Source: our own.
+typedef struct swivel_ground {
+    float heel[3];  // a point of the sole, in the wrist joint's frame, in the bones' unit; at 0 it is the wrist itself
+    float toe_clearance, heel_clearance;  // of effector and heel where they stand: 0 if both are on the sole
+    float cos_most;                       // cosine of the angle that the foot turns at most, 0..1
+    float half;                           // s: the time in which about half of a lift is made up
+} swivel_ground;
+
+static inline swivel_ground swivel_default_ground(void)
+{
+    const swivel_ground ground = {{0, 0, 0}, 0, 0, 0.8f, 0.05f};
+    return ground;
+}
+
+// How a group with SWIVEL_PROP lies: a thing that one hand or two hold, such as a rifle, a steering wheel or a ladder.
+// Limbs are linked to it, and their grips are on it. Its place, and apart from that its rotation, are
+// - SWIVEL_PROP_PLACE and SWIVEL_PROP_TURN, where they are given;
+// - or else, with a joint, that joint's, as the pose has it and the body is shifted. No limb may turn it;
+// - or else as the hands have it in the incoming pose, each by its grip: SWIVEL_PROP_SHARE says which hand. Targets and
+//   hands that are written for these limbs count instead of the pose's. A hand that says alone where it is keeps its
+//   goal to the bit.
+//
+// Then it moves as little as it must so that all hands on it reach their grips, up to most_move. What counts is the
+// reach of bones, flexion limit and cap. Its flags are REACHED where both reach, and CLAMPED_FAR where not. Source: our
+// own.
+typedef struct swivel_prop {
+    int32_t joint;    // of the skeleton; -1: none
+    float most_move;  // in limb lengths of the first limb that is linked to it; 0: it stays, as a ladder does
+} swivel_prop;
+
+static inline swivel_prop swivel_default_prop(void)
+{
+    const swivel_prop prop = {-1, 1};
+    return prop;
+}
+
 // Limbs that share features and a binding, such as the left arms of one skeleton.
 typedef struct swivel_group_def {
     size_t size;               // sizeof(swivel_group_def), set by swivel_default_group_def()
@@ -568,6 +652,13 @@ typedef struct swivel_group_def {
     const swivel_limb_joints* joints;  // of bodies: which joints the limb has. Null in crowds of free limbs; copied
     swivel_plant plant;                // WITH_PLANT
     swivel_fit fit;                    // FIT
+    swivel_ground ground;              // WITH_GROUND
+    swivel_prop prop;                  // PROP
+    // WITH_LINK: the group that this one holds. Its wrist or effector goes to SWIVEL_GRIP on it. It is a PROP; or an
+    // earlier group, which is another limb's hand or foot, as the same solve leaves it, after its clamps and limits.
+    // Then this group's target and hand are not read. Solve both in one job.
+    uint32_t link;
+    uint32_t reserved;  // 0
 } swivel_group_def;
 
 // Plain limbs in the arm frame.
@@ -580,6 +671,8 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
     group.binding = swivel_default_binding();
     group.plant = swivel_default_plant();
     group.fit = swivel_default_fit();
+    group.ground = swivel_default_ground();
+    group.prop = swivel_default_prop();
     return group;
 }
 
@@ -598,6 +691,14 @@ static inline swivel_group_def swivel_default_fit_group_def(void)
 {
     swivel_group_def group = swivel_default_body_group_def(NULL);
     group.features = SWIVEL_FIT;
+    return group;
+}
+
+// A thing that hands of each body hold.
+static inline swivel_group_def swivel_default_prop_group_def(void)
+{
+    swivel_group_def group = swivel_default_body_group_def(NULL);
+    group.features = SWIVEL_PROP;
     return group;
 }
 
@@ -855,6 +956,18 @@ typedef struct swivel_limbs {
     uint32_t count;
 } swivel_limbs;
 
+// Feet of one group that want to know the ground: bodies that one thread solves together. For each there is a body, the
+// place to sample at, as SWIVEL_PROBE, and room for a point of the ground and its normal, as SWIVEL_GROUND and
+// SWIVEL_GROUND_NORMAL. These hold the present values; NaN in a ground says that there is none.
+typedef struct swivel_probes {
+    uint32_t group, count;
+    const uint32_t* bodies;
+    const float (*places)[3];
+    float (*grounds)[3];
+    float (*normals)[3];
+} swivel_probes;
+typedef void swivel_sample(const swivel_probes* probes, void* user);
+
 // What a call of swivel_solve() does. A null choice means all limbs, a null output is not written. A job of null
 // pointers solves every limb.
 typedef struct swivel_job {
@@ -908,6 +1021,17 @@ typedef struct swivel_job {
 
     // Of bodies: where their poses are. Null in crowds of free limbs. oneTBB's threads then allocate workspaces.
     const swivel_pose* pose;
+
+    // For groups WITH_GROUND there are three ways to sample the ground. Equal ground gives equal bits.
+    // - One call: give the ground below the last solve's SWIVEL_PROBE.
+    // - Two calls, without that frame of latency. Not 0: the job finds SWIVEL_PROBE for these bodies and changes
+    //   nothing else. Then sample, and solve as usual. It may be repeated.
+    int probes_only;
+    // - One call that asks. Unless null, it is called on the threads that solve, by several at a time, with some feet
+    //   of one group: up to 128. It runs in the floating-point environment of its thread, must not throw, and must not
+    //   call this crowd. What it stores are inputs, in rows, too.
+    swivel_sample* sample;
+    void* sample_user;
 } swivel_job;
 
 // Every limb, from and to rows.

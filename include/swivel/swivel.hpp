@@ -194,6 +194,13 @@ inline bool is_position(swivel_field field)
     return false;
 }
 
+// The numbers in a value of a field, in whichever kind of group has it.
+inline std::uint32_t component_count(swivel_field field)
+{
+    return std::max({swivel_component_count(field, ~(SWIVEL_FIT | SWIVEL_PROP)),
+                     swivel_component_count(field, SWIVEL_FIT), swivel_component_count(field, SWIVEL_PROP)});
+}
+
 // Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
 // are stepped over by their size.
 template <class Value>
@@ -201,7 +208,7 @@ void check_value(swivel_field field)
 {
     constexpr bool is_list = std::is_array_v<Value> || requires { typename Value::value_type; };
     if constexpr (is_list && sizeof(Value) > 4 * sizeof(float) && FieldValue<Value>)
-        if (swivel_component_count(field, ~SWIVEL_FIT) <= 4)  // the fields of a FIT group have at most three
+        if (component_count(field) <= 4)
             fail(SWIVEL_INVALID_ARGUMENT, "an array of " + std::to_string(sizeof(Value) / sizeof(float)) +
                                               " floats is no value of field " + std::to_string(field));
 }

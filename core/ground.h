@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// A foot on ground that is not flat. Heights are along the body's axis up, distances from the ground along its normal.
+// A foot turns about its toe, so no length changes. Our own formulas.
+#pragma once
+
+#include "core/clavicle.h"
+#include "core/joint_frame.h"
+#include "core/plant.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// The cosine of the steepest slope that feet stand on: 87 degrees.
+inline constexpr double kSteepest = 0.05;
+
+// The plane of the ground below a foot, from the root's place.
+template <class T>
+struct GroundPlane {
+    Vector<T> place, normal;  // the normal is of unit length
+    T rise;                   // its share along up
+    Mask<T> is;               // whether there is ground to stand on
+
+    SWIVEL_INLINE constexpr T distance(const Vector<T>& point) const { return scalar_product(normal, point - place); }
+    // How far up a point must go to be at a distance from the plane; without ground not at all.
+    SWIVEL_INLINE constexpr T way_up(const Vector<T>& point, const T& clearance) const
+    {
+        return select(is, (clearance - distance(point)) / select(is, rise, T(1)), T(0));
+    }
+};
+// place: NaN where no ground is known. up: unit.
+template <class T>
+SWIVEL_INLINE constexpr GroundPlane<T> ground_plane(const Vector<T>& place, const Vector<T>& normal,
+                                                    const Vector<T>& up)
+{
+    const Vector<T> unit = normalise(normal);
+    const T rise = scalar_product(unit, up);
+    const Mask<T> is = (len2(place) <= T(kHuge2)) & (rise > T(kSteepest));
+    return {place, unit, rise, is};
+}
+
+// A point that locks in this step does so at its clearance over the ground. Its target stays, and its offset grows by
+// as much. up: in the support's frame. way: from the anchor up.
+template <class T>
+SWIVEL_INLINE constexpr void lock_on_ground(PlantState<T>& state, const Mask<T>& locks, const Vector<T>& up,
+                                            const T& way)
+{
+    const Vector<T> lift = select(locks, way, T(0)) * up;
+    state.mark = select(locks, state.mark + lift, state.mark);
+    state.offset = select(locks, state.offset - lift, state.offset);
+}
+
+template <class T>
+struct Foot {
+    Vector<T> toe;
+    Rotor<T> rotation;  // of unit length
+};
+// The least turn of unit length with the same axis, no larger than an angle of which the half has this cosine and sine.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> no_further(const Rotor<T>& turn, const T& cos_half, const T& sin_half)
+{
+    const T w = turn.template at<kScalar>();
+    const Mask<T> is_further = w < cos_half;
+    if (!any(is_further)) return turn;
+    const Vector<T> axis = vector(turn.template at<kI>(), turn.template at<kJ>(), turn.template at<kK>());
+    const Vector<T> v = (sin_half / sqrt(select(is_further, len2(axis), T(1)))) * axis;
+    return select(is_further, rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), cos_half), turn);
+}
+
+// The foot, turned with the ground by a share of 0 to 1, with toe and heel no nearer to it than their clearances.
+// heel_from_toe: in the foot's frame, in the world's unit. clearances: in the same unit.
+template <class T>
+SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, const Vector<T>& up, const Foot<T>& foot,
+                                               const Vector<T>& heel_from_toe, const T& scale, const T& share,
+                                               const GroundRules& rules)
+{
+    const Vector<T> toe = foot.toe + hi(ground.way_up(foot.toe, T(rules.toe_clearance) * scale), T(0)) * up;
+    const Rotor<T> with_ground =
+        no_further(clavicle_turn(up, ground.normal, share), T(rules.cos_half_most), T(rules.sin_half_most)) *
+        foot.rotation;
+    const Rotor<T> on_slope = select(ground.is, unit_rotation(with_ground), foot.rotation);
+
+    // The heel goes up a circle about the toe, in the plane that it and the normal span.
+    const Vector<T> heel = turned(on_slope, heel_from_toe);
+    const T length2 = len2(heel), length = sqrt(length2), height = scalar_product(ground.normal, heel);
+    const T wanted = lo(hi(T(rules.heel_clearance) * scale - ground.distance(toe), -length), length);
+    const Mask<T> lifts = ground.is & (height < wanted);
+    if (!any(lifts)) return {toe, on_slope};
+    const Vector<T> flat = heel - height * ground.normal;
+    const T flat2 = len2(flat), across = sqrt(hi(length2 - wanted * wanted, T(0)) / hi(flat2, T(kTiny2)));
+    const Rotor<T> lift = clavicle_turn(heel, wanted * ground.normal + across * flat, T(1));
+    return {toe, select(lifts, unit_rotation(lift * on_slope), on_slope)};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+//
+// A thing that two hands hold: where it is between them, and the least move of it so that both arms reach it. Our own
+// formulas.
+#pragma once
+
+#include "core/joint_frame.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// Where something is held: a rotation of unit length and a place.
+template <class T>
+struct HeldFrame {
+    Rotor<T> rotation;
+    Vector<T> place;
+};
+// grip: a frame in another one. scale: of places in that.
+template <class T>
+SWIVEL_INLINE constexpr HeldFrame<T> gripped(const HeldFrame<T>& of, const HeldFrame<T>& grip, const T& scale)
+{
+    return {unit_rotation(of.rotation * grip.rotation), of.place + turned(of.rotation, scale * grip.place)};
+}
+// The frame on which that grip is.
+template <class T>
+SWIVEL_INLINE constexpr HeldFrame<T> held_by(const HeldFrame<T>& hand, const HeldFrame<T>& grip)
+{
+    const Rotor<T> rotation = unit_rotation(hand.rotation * ~grip.rotation);
+    return {rotation, hand.place - turned(rotation, grip.place)};
+}
+// From one frame to another by a share of 0 to 1: places along their line, rotations by a normalised blend the short
+// way round. At 0 and 1 it is one of them, to the bit.
+template <class T>
+SWIVEL_INLINE constexpr HeldFrame<T> between(const HeldFrame<T>& a, const HeldFrame<T>& b, const T& share)
+{
+    const Mask<T> is_a = share == T(0), is_b = share == T(1);
+    if (all(is_a)) return a;
+    const T rest = T(1) - share, other = flip_sign(share, scalar_product(~a.rotation, b.rotation));
+    const HeldFrame<T> mixed{normalise(rest * a.rotation + other * b.rotation), rest * a.place + share * b.place};
+    return {select(is_a, a.rotation, select(is_b, b.rotation, mixed.rotation)),
+            select(is_a, a.place, select(is_b, b.place, mixed.place))};
+}
+
+// The moves of a thing by which an arm reaches its grip: those no further from `middle` than `reach`.
+template <class T>
+struct ReachingMoves {
+    Vector<T> middle;
+    T reach;
+
+    SWIVEL_INLINE constexpr Mask<T> has(const Vector<T>& move, double slack = 1) const
+    {
+        return len2(move - middle) <= (T(slack) * reach) * reach;
+    }
+    // The shortest of them.
+    SWIVEL_INLINE constexpr Vector<T> least() const
+    {
+        const T length2 = len2(middle);
+        const Mask<T> is_far = length2 > reach * reach;
+        const T way = select(is_far, T(1) - reach / sqrt(select(is_far, length2, T(1))), T(0));
+        return way * middle;
+    }
+};
+// A vector of unit length across one of unit length.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> any_across(const Vector<T>& v)
+{
+    const T x = v.template at<kE1>(), y = v.template at<kE2>(), z = v.template at<kE3>();
+    return normalise(select(abs(x) > T(0.5), vector(-y, x, T(0)), vector(T(0), -z, y)));
+}
+
+// The shortest move that is both arms'. Where there is none, the one from which the worse of both misses least.
+//
+// It is one arm's shortest if that is the other's, too. Else it is the point nearest to 0 on the circle in which their
+// spheres meet.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> least_move(const ReachingMoves<T>& a, const ReachingMoves<T>& b)
+{
+    const Vector<T> least_a = a.least(), least_b = b.least();
+    const Mask<T> is_a = b.has(least_a), is_b = a.has(least_b), meets = !(is_a | is_b);
+    const Vector<T> one = select(is_a, least_a, least_b);
+    if (!any(meets)) return one;
+    const Vector<T> between = b.middle - a.middle;
+    const T distance2 = len2(between), distance = sqrt(hi(distance2, T(kTiny2)));
+    const Vector<T> line = (T(1) / distance) * between;
+    const T apart = hi(distance - a.reach - b.reach, T(0));
+    const T along = select(apart > T(0), a.reach + T(0.5) * apart,
+                           T(0.5) * (distance + (a.reach - b.reach) * ((a.reach + b.reach) / distance)));
+    const Vector<T> centre = a.middle + along * line;
+    const T radius = sqrt(hi(a.reach * a.reach - along * along, T(0)));
+    const Vector<T> to_origin = -centre + scalar_product(line, centre) * line;
+    const T length2 = len2(to_origin);
+    const Mask<T> is_known = length2 > T(1e-12) * len2(centre);
+    const Vector<T> way =
+        select(is_known, (T(1) / sqrt(select(is_known, length2, T(1)))) * to_origin, any_across(line));
+    return select(meets, centre + radius * way, one);
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages of limbs that hold something: where each hand has a prop, where the prop goes, the goal of a hand on it or
+// on another limb's hand, and where a hand is once its limb is solved.
+#pragma once
+
+#include "core/plant.h"
+#include "core/prop.h"
+#include "simd/sent_rows.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// A limb's grip, with a rotation of unit length.
+template <class S>
+SWIVEL_INLINE HeldFrame<typename S::T> grip_of(const S& s)
+{
+    using T = typename S::T;
+    const Vector<T> place = s.io.load_vector(SWIVEL_GRIP);
+    const Rotor<T> rotation = s.io.load_rotor(SWIVEL_GRIP, 3);
+    s.require((len2(place) <= T(kHuge2)) & is_orientation(rotation));
+    return {normalise(rotation), place};
+}
+
+// Frames in the rows of a body.
+template <class S>
+SWIVEL_INLINE HeldFrame<typename S::T> get_held(const S& s, std::uint32_t row)
+{
+    return {s.body_rotor(row + kHeldTurnRow), s.body_vector(row + kHeldPlaceRow)};
+}
+template <class S>
+SWIVEL_INLINE void set_held(const S& s, std::uint32_t row, const HeldFrame<typename S::T>& frame)
+{
+    s.set_body_rotor(row + kHeldTurnRow, frame.rotation);
+    s.set_body_vector(row + kHeldPlaceRow, frame.place);
+}
+static_assert(std::uint32_t{kHolderTurnRow} == kHeldTurnRow && std::uint32_t{kHolderPlaceRow} == kHeldPlaceRow);
+
+template <>
+struct StageBody<Stage::grasp> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        if (!limb.holds_prop) return;
+        const AnimatedHand<T> animated = animated_hand(s);
+        const HeldFrame<T> grip = grip_of(s);
+        const LimbReach<T> reach = limb_reach(s);
+        Vector<T> wrist = grip.place;
+        if (s.has(SWIVEL_WITH_EFFECTOR))
+            wrist =
+                wrist - s.body_row(limb.parent + kScaleRow) * turned(grip.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
+        const HeldFrame<T> prop = held_by({animated.rotation, animated.point}, grip);
+        s.require(is_posed(s) & (len2(prop.place) <= T(kHuge2)) & (len2(wrist) <= T(kHuge2)));
+        const T nan = T(__builtin_nan(""));
+        const Vector<T> place = select(lanes_where<T>(s.good()), prop.place, vector(nan, nan, nan));
+        set_held(s, limb.holder, {prop.rotation, place});
+        s.set_body_vector(limb.holder + kHolderWristRow, wrist);
+        s.set_body_vector(limb.holder + kHolderShoulderRow, s.body_vector(limb.shoulder + kPlaceRow));
+        s.set_body(limb.holder + kHolderReachRow, reach.exact);
+        send(s, animated.point + s.body_vector(kShiftedRow), animated.rotation);
+        s.set_body(limb.goal + kGoalOwnRow, select(animated.is_posed, T(1), T(0)));
+    }
+};
+
+// A prop, as its holders and the caller have it.
+template <class S>
+struct PropAtHand {
+    using T = typename S::T;
+    const S& s;
+    const BodyLimb& prop = *s.strip.run.limb;
+    HeldFrame<T> frame;
+    Mask<T> is_of_hands;  // the caller says nothing of it
+    T share;
+
+    SWIVEL_INLINE explicit PropAtHand(const S& of)
+        : s(of),
+          is_of_hands(T(prop.joint) == T(0)),
+          share(prop.holder_number > 1 ? s.io.load(SWIVEL_PROP_SHARE, 0) : T(0))
+    {
+        s.require(is_share(share));
+        const HeldFrame<T> hands = between(get_held(s, holder(0)), get_held(s, holder(prop.holder_number - 1)), share);
+        const Rotor<T> turn = s.io.load_rotor(SWIVEL_PROP_TURN);
+        const Vector<T> at = s.io.load_vector(SWIVEL_PROP_PLACE);
+        const T turn2 = len2(turn), at2 = len2(at);
+        const Mask<T> has_turn = turn2 == turn2, has_place = at2 == at2;
+        s.require((is_orientation(turn) | !has_turn) & ((at2 <= T(kHuge2)) | !has_place));
+        const Rotor<T> unit = normalise(select(has_turn, turn, one<T>()));
+        if (prop.joint != 0) {
+            const Rotor<T> rotation = s.body_rotor(prop.joint + kTurnRow);
+            const Vector<T> given = select(has_place, at, vector(T(0), T(0), T(0)));
+            frame = {unit_rotation(rotation * unit), s.body_vector(prop.joint + kPlaceRow) + turned(rotation, given)};
+            return;
+        }
+        frame = {select(has_turn, unit, hands.rotation), select(has_place, at - s.body_vector(kRootRow), hands.place)};
+        is_of_hands = !(has_turn | has_place);
+    }
+    SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return prop.frame + kHoldersRow + n * kHolderRows; }
+    // The moves by which a holder's arm reaches; all of them where that is bad input.
+    SWIVEL_INLINE ReachingMoves<T> reaching(std::uint32_t n) const
+    {
+        const std::uint32_t at = holder(n);
+        const Vector<T> wrist = frame.place + turned(frame.rotation, s.body_vector(at + kHolderWristRow)),
+                        middle = s.body_vector(at + kHolderShoulderRow) - wrist,
+                        place = s.body_vector(at + kHolderPlaceRow);
+        const Mask<T> is_good = len2(place) <= T(kHuge2);
+        return {select(is_good, middle, vector(T(0), T(0), T(0))),
+                select(is_good, s.body_row(at + kHolderReachRow), T(kHuge))};
+    }
+};
+
+template <>
+struct StageBody<Stage::prop> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& prop = *s.strip.run.limb;
+        PropAtHand<S> is(s);
+        // So much less that what rounds still reaches.
+        const ReachingMoves<T> a = is.reaching(0), b = is.reaching(prop.holder_number - 1);
+        const auto within = [](const ReachingMoves<T>& of) SWIVEL_INLINE_LAMBDA {
+            return ReachingMoves<T>{of.middle, T(1 - 1e-6) * of.reach};
+        };
+        const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
+        Mask<T> is_longer = T(1) < T(0);
+        const Vector<T> none = vector(T(0), T(0), T(0));
+        const Mask<T> rests = a.has(none) & b.has(none);
+        const Vector<T> move =
+            all(rests) ? none : select(rests, none, at_most(least_move(within(a), within(b)), most, !rests, is_longer));
+        is.frame.place = is.frame.place + move;
+        const Mask<T> reaches = rests | (a.has(move, 1 + 1e-6) & b.has(move, 1 + 1e-6));
+        s.require((len2(is.frame.place) <= T(kHuge2)) & is_within(len2(is.frame.rotation), 0.99, 1.01) &
+                  (len2(s.body_vector(kRootRow)) <= T(kHuge2)));
+        const T nan = T(__builtin_nan(""));
+        const Mask<T> valid = lanes_where<T>(s.good());
+        set_held(s, prop.frame, {is.frame.rotation, select(valid, is.frame.place, vector(nan, nan, nan))});
+        s.set_body(prop.frame + kHeldScaleRow, T(1));
+        const Mask<T> says = is.is_of_hands & rests;
+        s.set_body(prop.frame + kSayerRow,
+                   select(says & (is.share == T(0)), T(0), select(says & (is.share == T(1)), T(1), T(-1))));
+
+        const Rows<T, kTold> out = good_rows(s);
+        out.store_vector(SWIVEL_PROP_FRAME, is.frame.place + s.body_vector(kRootRow));
+        out.store_rotor(SWIVEL_PROP_FRAME, hemisphere(is.frame.rotation), 3);
+        Rows<T, kTold> all_rows = s.io;
+        all_rows.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
+        all_rows.store(SWIVEL_FLAGS, 0,
+                       select(valid, bits_where(reaches, SWIVEL_REACHED) | bits_where(!reaches, SWIVEL_CLAMPED_FAR),
+                              bits<T>(SWIVEL_BAD_INPUT)));
+    }
+};
+
+template <>
+struct StageBody<Stage::link> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        HeldFrame<T> goal = gripped(get_held(s, limb.link), grip_of(s), s.body_row(limb.link + kHeldScaleRow));
+        goal.place = goal.place + s.body_vector(kShiftedRow);
+        T own = T(0);
+        if (limb.holds_prop) {
+            const Mask<T> says = s.body_row(limb.link + kSayerRow) == T(limb.holder_number);
+            goal = {select(says, s.body_rotor(limb.goal + kGoalHandRow), goal.rotation),
+                    select(says, s.body_vector(limb.goal + kGoalPlaceRow), goal.place)};
+            own = select(says, s.body_row(limb.goal + kGoalOwnRow), T(0));
+        }
+        s.set_body(limb.goal + kGoalOwnRow, own);
+        s.set_body(limb.goal + kGoalFlagsRow, bits<T>(0));
+        send(s, goal.place, goal.rotation);
+        if (s.has(SWIVEL_WITH_RECORD)) {
+            const Rows<T, kTold> out = good_rows(s);
+            out.store_vector(SWIVEL_GOAL, goal.place - s.body_vector(kShiftedRow) + s.body_vector(kRootRow));
+            out.store_rotor(SWIVEL_GOAL, goal.rotation, 3);
+        }
+    }
+};
+
+// By the arm's own forward kinematics. A limb that keeps its pose has its hand where it came.
+template <>
+struct StageBody<Stage::hand_frame> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        const ArmFrame<T> arm = arm_frame(s);
+        const T scale = s.body_row(limb.parent + kScaleRow),
+                stretch = s.has(SWIVEL_WITH_REACH) ? s.io.load_result(SWIVEL_STRETCH, 0) : T(1);
+        const Rotor<T> upper = arm.rotation * s.io.load_result_rotor(SWIVEL_SHOULDER, 0),
+                       fore = upper * hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
+        const auto bone = [&](const Rotor<T>& frame, std::uint32_t n) SWIVEL_INLINE_LAMBDA {
+            return turned(frame, vector(T(0), T(0), s.body_row(kLengthsRow + n)));
+        };
+        const HeldFrame<T> solved{
+            unit_rotation(fore * s.get_rotor(kTwistRow) * broadcast<T>(s.strip.bind.hand_from_arm)),
+            arm.shoulder + (scale * stretch) * (bone(upper, 0) + bone(fore, 1))};
+        const Mask<T> kept = s.body_row(kKeptRow) > T(0.5), valid = lanes_where<T>(s.good()) | kept;
+        const T nan = T(__builtin_nan(""));
+        const Vector<T> place = select(kept, s.body_vector(limb.wrist + kPlaceRow), solved.place);
+        const HeldFrame<T> is{select(kept, s.body_rotor(limb.wrist + kTurnRow), solved.rotation),
+                              select(valid, place, vector(nan, nan, nan))};
+        set_held(s, limb.frame, is);
+        s.set_body(limb.frame + kHeldScaleRow, scale);
+        Rows<T, kTold> out = s.io;
+        out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
+        out.store_vector(SWIVEL_HAND_FRAME, with_one_nan(is.place + s.body_vector(kRootRow)));
+        const Rotor<T> rotation = hemisphere(is.rotation);
+        const Mask<T> is_known = len2(place) <= T(kHuge2);
+        out.store_rotor(SWIVEL_HAND_FRAME, with_one_nan(select(valid & is_known, rotation, rotor(nan, nan, nan, nan))),
+                        3);
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA
