@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "batch/check.h"
+#include "batch/compare.h"
 #include "batch/explain.h"
 #include "batch/forward.h"
 #include "batch/joint_angles.h"
 #include "batch/one_limb.h"
+#include "batch/pose.h"
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/streams.h"
@@ -44,6 +46,14 @@ swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const c
     if (const swivel_status status = check_limbs(crowd, group, call); status != SWIVEL_OK) return status;
     if (crowd.joint_count == 0 || crowd.groups[group].features & SWIVEL_WITH_RECORD) return SWIVEL_OK;
     return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is of bodies; create it with SWIVEL_WITH_RECORD", call, group);
+}
+
+swivel_status take_place(const double* from, const char* name, Vector<double>& to)
+{
+    if (!from) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: %s is null", name);
+    std::memcpy(to.c, from, sizeof to.c);
+    if (len2(to) <= kHuge2) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: %s is not finite or further than 1e15 from the origin", name);
 }
 
 // Calls take(group, limb, n) for the nth limb from `first` on; a body's as a free limb.
@@ -95,6 +105,31 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
             return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
     explain(crowd->groups[group], limb, {text, size});
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body, const swivel_pose* pose,
+                             const double shoulder[3], const double elbow[3], const double wrist[3], char* text,
+                             size_t size, int* agrees)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, body, 1); status != SWIVEL_OK) return status;
+    if (crowd->joint_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_compare: this crowd has no bodies, so it has no pose; create it "
+                    "with a skeleton");
+    if (const swivel_status status = check_limbs(*crowd, group, "swivel_compare"); status != SWIVEL_OK) return status;
+    if (!pose) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: pose is null");
+    if (const swivel_status status = check_pose(*crowd, pose); status != SWIVEL_OK) return status;
+    LimbPlaces places{};
+    for (const auto& [from, name, to] : {std::tuple{shoulder, "shoulder", &places.at[0]},
+                                         {elbow, "elbow", &places.at[1]},
+                                         {wrist, "wrist", &places.at[2]}})
+        if (const swivel_status status = take_place(from, name, *to); status != SWIVEL_OK) return status;
+    if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: text is null or of no size");
+    const bool agree = compare(*crowd, group, body, full_pose(pose), places, {text, size});
+    if (agrees) *agrees = agree;
     return SWIVEL_OK;
 }
 

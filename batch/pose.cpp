@@ -99,7 +99,7 @@ swivel_status check_outputs(const swivel_crowd& crowd, const swivel_pose& pose)
 
 swivel_pose full_pose(const swivel_pose* given) { return element(given, 0, swivel_default_pose()); }
 
-swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given)
+swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
 {
     if (crowd.joint_count == 0)
         return given ? fail(SWIVEL_INVALID_ARGUMENT,
@@ -133,13 +133,17 @@ swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups,
     if (status == SWIVEL_OK) status = check_root("time", pose.time, sizeof(float));
     if (status == SWIVEL_OK) status = check_root("support_position", pose.support_position, position);
     if (status == SWIVEL_OK) status = check_root("support_rotation", pose.support_rotation, 4 * sizeof(float));
-    if (status == SWIVEL_OK && !pose.time.data && needs_time(crowd, groups))
-        status = fail(SWIVEL_INVALID_ARGUMENT,
-                      "the pose has no time, which plants and shifts need; give the seconds since each body's last "
-                      "solve");
     if (status == SWIVEL_OK && pose.root_is_double && !pose.root_position.data)
         status = fail(SWIVEL_INVALID_ARGUMENT, "the pose's root is in doubles, but has no position; give it");
     return status;
+}
+
+swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given)
+{
+    const swivel_status status = check_pose(crowd, given);
+    if (status != SWIVEL_OK || full_pose(given).time.data || !needs_time(crowd, groups)) return status;
+    return fail(SWIVEL_INVALID_ARGUMENT,
+                "the pose has no time, which plants and shifts need; give the seconds since each body's last solve");
 }
 
 namespace {

@@ -8,8 +8,10 @@
 
 namespace swivel {
 
-// What swivel_solve() promises of a pose, which may be null, for the groups that a job names.
+// What swivel_solve() promises of a pose, which may be null, for the groups that a job names; and what does not depend
+// on groups.
 swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given);
+swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given);
 // A pose that is right, and all of its members.
 swivel_pose full_pose(const swivel_pose* given);
 

@@ -1119,7 +1119,7 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 //         printf("limb %u of group %u has bad input\n", limb, group);
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
-enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_explain()
+enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_explain() and swivel_compare()
 
 // Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, or how far out
 // of reach the target is. It names the limit that turned the elbow from its wish, and by how much. Where no elbow keeps
@@ -1132,6 +1132,30 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // that is FIT it needs none, and says how the body is shifted. Takes up to a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
+
+// Compares a pose with where your engine has a limb, and says in words which input disagrees. Call it once for each
+// limb when you bind a skeleton, before the first solve. shoulder, elbow, wrist: places of these joints of one body, 3
+// doubles each, in the world. They are those of the pose as it goes in, also where the root is in doubles. body is
+// counted within the group. The pose is as a job has it; its time and results do not matter.
+//
+// They agree if each place is within 1e-3 of the limb's length of the pose's. With a root in floats the rounding of
+// floats is added, 2e-7 of the distance from the origin. If they do not, it tries the usual mistakes, one at a time:
+// - quaternions stored as w, x, y, z, or conjugates; matrices of another form, or transposed; the other space;
+// - the joints of another group's limb, such as left for right, or joints too high or too low, such as a clavicle;
+// - other units; a root's place, rotation or scale that is missing or counts twice; scales or translations that do not
+//   count; left-handed axes, or another axis up.
+// The text names the one with which they agree, or each of several. If there is none, it names the first joint that is
+// off, and what to look at. Where a joint's place does not depend on a rotation, it cannot tell: the wrist's own, and in
+// SWIVEL_IN_BODY with translations those of bones that are not as long as at rest. Matrices 64 bytes apart without
+// translations are read as 4 x 4 floats, whatever their form.
+//
+// *agrees, unless null, becomes 1 or 0. text gets at most size bytes, the 0 at its end among them. A text that was cut
+// ends in three dots. For people and logs: the words may change. Takes some microseconds, and with thousands of needed
+// joints milliseconds; no allocation. Fails for free limbs and groups that are FIT, for a pose that a job would refuse,
+// and for places that are not finite or beyond 1e15.
+SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body,
+                                        const swivel_pose* pose, const double shoulder[3], const double elbow[3],
+                                        const double wrist[3], char* text, size_t size, int* agrees);
 
 // An arc of swivels, as cos and sin of its ends. It turns from one to the other by the right hand about the line from
 // shoulder to wrist. Angle 0 is the wish, as far as SWIVEL_MOST_SWIVEL allows it. The whole circle is one arc with

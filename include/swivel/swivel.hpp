@@ -503,6 +503,23 @@ public:
         return text;
     }
 
+    // swivel_compare(): which input of a body's pose disagrees with where the caller has its limb, in words.
+    struct Comparison {
+        bool agrees;
+        std::string text;
+    };
+    Comparison compare(std::uint32_t group, std::uint32_t body, const swivel_pose& pose,
+                       std::span<const double, 3> shoulder, std::span<const double, 3> elbow,
+                       std::span<const double, 3> wrist) const
+    {
+        std::string text(SWIVEL_EXPLANATION_BYTES, '\0');
+        int agrees = 0;
+        check(swivel_compare(crowd_, group, body, &pose, shoulder.data(), elbow.data(), wrist.data(), text.data(),
+                             text.size(), &agrees));
+        text.resize(text.find('\0'));
+        return {agrees != 0, text};
+    }
+
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
     // swivel_change_support(), of some bodies from `first` on: {.position = {&place, 0}} is one support for all.
     void change_support(std::uint32_t group, std::uint32_t first, std::uint32_t body_count, const swivel_supports& from,

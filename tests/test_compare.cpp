@@ -1,0 +1,588 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: swivel_compare() names the mistake for which a pose and the caller's places disagree, and no mistake
+// where they agree. The places are of Eigen's forward kinematics.
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <functional>
+
+#include "tests/allocation_count.h"
+#include "tests/body_crowd.h"
+#include "tests/test_crowd.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+constexpr int kRigs = 1000;
+
+using Places = std::array<std::array<double, 3>, 3>;
+
+// Gives every limb a clavicle of its own.
+void add_clavicles(Random& random, BodySkeleton& skeleton)
+{
+    for (const BodyLimbJoints& limb : skeleton.limbs) {
+        skeleton.parents.push_back(skeleton.parents[limb.shoulder]);
+        skeleton.rotations.push_back(floats(random.rotation()));
+        skeleton.translations.push_back(floats(Vector3d(random.between(0.05, 0.3) * random.direction())));
+        skeleton.parents[limb.shoulder] = static_cast<std::int32_t>(skeleton.size() - 1);
+    }
+}
+BodySkeleton clavicle_skeleton(Random& random)
+{
+    BodySkeleton skeleton =
+        random_body_skeleton(random, {1 + random.below(5), 2 + random.below(2), random.below(3), random.below(2) == 0});
+    add_clavicles(random, skeleton);
+    return skeleton;
+}
+
+// What a rig is like; the rest is random.
+struct RigWish {
+    swivel_pose_form form = SWIVEL_ROTATIONS;
+    bool in_body = false;
+    // Translations and scales are in the pose, and those of bones as at rest or not.
+    bool translates = false, stretches = false, scales = false;
+};
+
+// Bodies of a crowd, and the pose of one limb that is looked at.
+struct Rig {
+    BodySkeleton skeleton;
+    std::vector<Body> bodies;
+    PoseLayout layout;
+    PoseBuffer poses;
+    Crowd crowd;
+    std::uint32_t group, body;
+    swivel_pose pose;
+    std::vector<std::array<double, 3>> far_roots;  // if they are doubles
+
+    Rig(Random& random, const RigWish& wish)
+        : skeleton(clavicle_skeleton(random)),
+          bodies(random_bodies(random, wish)),
+          layout{wish.form, wish.translates, wish.scales, true, random.below(60), wish.in_body ? &skeleton : nullptr},
+          poses(layout, bodies),
+          crowd(body_crowd(skeleton, SWIVEL_POLE_INCOMING, static_cast<std::uint32_t>(bodies.size()))),
+          group(random.below(static_cast<std::uint32_t>(skeleton.limbs.size()))),
+          body(random.below(static_cast<std::uint32_t>(bodies.size()))),
+          pose(poses.view())
+    {
+        if (random.below(3) != 0) return;
+        for (const Body& each : bodies) {
+            const Vector3d far = vec(each.root_position) + 1e6 * random.direction();
+            far_roots.push_back({far.x(), far.y(), far.z()});
+        }
+        pose.root_is_double = 1;
+        pose.root_position = {far_roots.data(), sizeof far_roots[0]};
+    }
+
+    const BodyLimbJoints& limb() const { return skeleton.limbs[group]; }
+    std::uint32_t clavicle() const { return static_cast<std::uint32_t>(skeleton.parents[limb().shoulder]); }
+    Vector3d root() const
+    {
+        return far_roots.empty() ? Vector3d(vec(bodies[body].root_position)) : Vector3d(far_roots[body].data());
+    }
+    // In the world.
+    Vector3d place(std::uint32_t joint) const { return root() + joints_at(skeleton, bodies[body])[joint].place; }
+    Places places(const BodyLimbJoints& of) const { return places(of.shoulder, of.elbow, of.wrist); }
+    Places places(std::uint32_t shoulder, std::uint32_t elbow, std::uint32_t wrist) const
+    {
+        return {numbers(place(shoulder)), numbers(place(elbow)), numbers(place(wrist))};
+    }
+    static std::array<double, 3> numbers(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+    double length() const
+    {
+        return (place(limb().elbow) - place(limb().shoulder)).norm() +
+               (place(limb().wrist) - place(limb().elbow)).norm();
+    }
+    Crowd::Comparison compare(const Places& of) const { return crowd.compare(group, body, pose, of[0], of[1], of[2]); }
+    Crowd::Comparison compare() const { return compare(places(limb())); }
+
+    // Calls change(floats) for each joint's rotation or matrix of all bodies.
+    void change_joints(const std::function<void(float*)>& change)
+    {
+        for (std::size_t n = 0; n < bodies.size(); ++n)
+            for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint)
+                change_at(static_cast<char*>(pose.rotations.data) + n * pose.rotations.body_stride +
+                              joint * pose.rotations.joint_stride,
+                          pose.form == SWIVEL_ROTATIONS        ? 4
+                          : pose.form == SWIVEL_MATRIX_COLUMNS ? 16
+                                                               : 12,
+                          change);
+    }
+    void change_roots(const std::function<void(float*)>& change)
+    {
+        for (std::size_t n = 0; n < bodies.size(); ++n)
+            change_at(static_cast<char*>(const_cast<void*>(pose.root_rotation.data)) + n * pose.root_rotation.stride, 4,
+                      change);
+    }
+
+private:
+    static void change_at(char* at, std::size_t count, const std::function<void(float*)>& change)
+    {
+        float values[16];
+        std::memcpy(values, at, count * sizeof(float));
+        change(values);
+        std::memcpy(at, values, count * sizeof(float));
+    }
+    std::vector<Body> random_bodies(Random& random, const RigWish& wish) const
+    {
+        std::vector<Body> made;
+        for (int n = 0; n < 3; ++n)
+            made.push_back(random_body(random, skeleton, {wish.translates && wish.stretches, wish.scales, true, 2.5}));
+        return made;
+    }
+};
+
+Places moved(const Places& places, const std::function<Vector3d(const Vector3d&)>& move)
+{
+    Places to;
+    for (std::size_t n = 0; n < 3; ++n) to[n] = Rig::numbers(move(Vector3d(places[n].data())));
+    return to;
+}
+
+void w_first(float* q) { std::rotate(q, q + 3, q + 4); }
+void conjugate(float* q)
+{
+    for (int n = 0; n < 3; ++n) q[n] = -q[n];
+}
+void nothing(float*) {}
+
+// One cause, which is this.
+void check_cause(const Crowd::Comparison& said, const std::string& start)
+{
+    INFO(said.text);
+    REQUIRE(!said.agrees);
+    REQUIRE(said.text.starts_with(start));
+    REQUIRE(said.text.find(" Or: ") == std::string::npos);
+    REQUIRE(said.text.find("With that the three places agree") != std::string::npos);
+}
+
+// Poses of quaternions whose rotations show in places.
+RigWish quaternion_wish(Random& random)
+{
+    RigWish wish;
+    wish.in_body = random.below(2) == 0;
+    wish.translates = !wish.in_body && random.below(2) == 0, wish.stretches = true;
+    wish.scales = random.below(2) == 0;
+    return wish;
+}
+RigWish matrix_wish(Random& random, swivel_pose_form form)
+{
+    return {form, random.below(2) == 0, true, true, random.below(2) == 0};
+}
+RigWish any_wish(Random& random)
+{
+    if (random.below(2) == 0) return matrix_wish(random, static_cast<swivel_pose_form>(1 + random.below(3)));
+    RigWish wish = quaternion_wish(random);
+    if (wish.in_body) wish.translates = random.below(2) == 0, wish.stretches = false;
+    return wish;
+}
+// Tries many rigs.
+template <class Try>
+void for_each_rig(int count, const Try& attempt)
+{
+    for (int seed = 0; seed < count; ++seed) {
+        INFO("rig " << seed);
+        Random random{static_cast<std::uint64_t>(seed)};
+        attempt(random);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a right pose agrees, and no mistake is named")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        const Rig rig(random, any_wish(random));
+        const auto said = rig.compare();
+        INFO(said.text);
+        REQUIRE(said.agrees);
+        REQUIRE(said.text.starts_with("The pose agrees"));
+    });
+}
+
+TEST_CASE("quaternions in another order are named")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        Rig rig(random, quaternion_wish(random));
+        const std::uint32_t which = 1 + random.below(3);
+        rig.change_joints(which & 1 ? w_first : nothing);
+        rig.change_roots(which & 2 ? w_first : nothing);
+        check_cause(rig.compare(), which == 1   ? "The pose's joint rotations are stored as w, x, y, z"
+                                   : which == 2 ? "The pose's root_rotation is stored as w, x, y, z"
+                                                : "The pose's rotations, root_rotation among them, are stored as w");
+    });
+}
+
+TEST_CASE("conjugate quaternions are named")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        Rig rig(random, quaternion_wish(random));
+        const std::uint32_t which = 1 + random.below(3);
+        rig.change_joints(which & 1 ? conjugate : nothing);
+        rig.change_roots(which & 2 ? conjugate : nothing);
+        check_cause(rig.compare(), which == 1   ? "The pose's joint rotations are the inverse ones"
+                                   : which == 2 ? "The pose's root_rotation is the inverse one"
+                                                : "The pose's rotations, root_rotation among them, are the inverse");
+    });
+}
+
+TEST_CASE("in the body's space rotations that do not fit their bones are named")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        const bool is_matrix = random.below(2) == 0;
+        Rig rig(random, {is_matrix ? SWIVEL_MATRIX_ROWS : SWIVEL_ROTATIONS, true, true, false, random.below(2) == 0});
+        const bool is_inverse = is_matrix || random.below(2) == 0;
+        rig.change_joints([&](float* values) {
+            if (!is_matrix) return is_inverse ? conjugate(values) : w_first(values);
+            std::swap(values[1], values[4]), std::swap(values[2], values[8]), std::swap(values[6], values[9]);
+        });
+        const auto said = rig.compare();
+        INFO(said.text);
+        REQUIRE(!said.agrees);
+        REQUIRE(said.text.starts_with("The places agree, but the bones do not lie along them"));
+        REQUIRE(said.text.find(is_matrix    ? "matrices is transposed"
+                               : is_inverse ? "are the inverse ones"
+                                            : "stored as w, x, y, z") != std::string::npos);
+    });
+}
+
+TEST_CASE("another group's limb is named, with its joints")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        const Rig rig(random, any_wish(random));
+        const auto other = static_cast<std::uint32_t>((rig.group + 1) % rig.skeleton.limbs.size());
+        const BodyLimbJoints& limb = rig.skeleton.limbs[other];
+        check_cause(rig.compare(rig.places(limb)),
+                    "Your places are those of group " + std::to_string(other) + "'s limb, joints " +
+                        std::to_string(limb.shoulder) + ", " + std::to_string(limb.elbow) + " and " +
+                        std::to_string(limb.wrist) + ", but group " + std::to_string(rig.group) + " has joints " +
+                        std::to_string(rig.limb().shoulder));
+    });
+}
+
+TEST_CASE("matrices of rows for columns are named")
+{
+    const auto transpose = [](float* values, int size) {
+        for (int row = 0; row < size; ++row)
+            for (int column = 0; column < row; ++column) std::swap(values[4 * row + column], values[4 * column + row]);
+    };
+    const auto end_matrix = [](float* values) { values[3] = values[7] = values[11] = 0, values[15] = 1; };
+    const auto stored = [](const char* as, const char* not_as) {
+        return std::string("The pose's matrices are stored as ") + as + ", but its form is " + not_as + ".";
+    };
+    for_each_rig(kRigs, [&](Random& random) {
+        const std::uint32_t which = random.below(6);
+        const swivel_pose_form form = which == 1   ? SWIVEL_MATRIX_ROWS
+                                      : which == 2 ? SWIVEL_MATRIX_COLUMNS3
+                                      : which == 5 ? SWIVEL_MATRIX_ROWS
+                                                   : SWIVEL_MATRIX_COLUMNS;
+        Rig rig(random, matrix_wish(random, form));
+        switch (which) {
+            case 0:  // 4 x 4 columns as rows
+            case 3:  // and as 3 x 4
+                rig.change_joints(end_matrix);
+                rig.pose.form = which == 0 ? SWIVEL_MATRIX_ROWS : SWIVEL_MATRIX_COLUMNS3;
+                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_COLUMNS",
+                                                         which == 0 ? "SWIVEL_MATRIX_ROWS" : "SWIVEL_MATRIX_COLUMNS3"));
+            case 1:
+                rig.pose.form = SWIVEL_MATRIX_COLUMNS3;
+                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_ROWS", "SWIVEL_MATRIX_COLUMNS3"));
+            case 2:
+                rig.pose.form = SWIVEL_MATRIX_ROWS;
+                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_COLUMNS3", "SWIVEL_MATRIX_ROWS"));
+            case 4:  // 4 x 4 rows as columns
+                rig.change_joints([&](float* values) { end_matrix(values), transpose(values, 4); });
+                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_ROWS", "SWIVEL_MATRIX_COLUMNS"));
+            default:
+                if (rig.layout.in_body) return;  // where places do not depend on it
+                rig.change_joints([&](float* values) { transpose(values, 3); });
+                return check_cause(rig.compare(), "The 3 x 3 part of the pose's matrices is transposed");
+        }
+    });
+}
+
+TEST_CASE("another unit is named, with its factor")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        Rig rig(random, any_wish(random));
+        struct Factor {
+            double value;
+            const char *name, *factor;
+        };
+        constexpr Factor factors[] = {{100, "centimetres instead of metres", "100."},
+                                      {0.01, "metres instead of centimetres", "1 / 100."},
+                                      {1000, "millimetres instead of metres", "1000."},
+                                      {2.54, "centimetres instead of inches", "2.54."},
+                                      {0.0254, "metres instead of inches", "1 / 39.3701."}};
+        const auto& [factor, name, number] = factors[random.below(5)];
+        const Vector3d root = rig.root();
+        const std::uint32_t what = random.below(3);  // all; translations; the root
+        const Places places = moved(rig.places(rig.limb()), [&](const Vector3d& v) {
+            if (what == 0) return Vector3d(factor * v);
+            return what == 1 ? Vector3d(root + factor * (v - root)) : Vector3d(factor * root + (v - root));
+        });
+        check_cause(rig.compare(places),
+                    std::string(what == 0   ? "Your places are in another unit than the pose, such as "
+                                : what == 1 ? "Your places are in another unit than the pose's translations, such as "
+                                            : "Your places and the pose's joints are in another unit than "
+                                              "root_position, such as ") +
+                        (what < 2 ? std::string(name) + ": the factor is " + number : std::string()));
+    });
+}
+
+TEST_CASE("a joint that is too high is named")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        const Rig rig(random, any_wish(random));
+        const BodyLimbJoints& limb = rig.limb();
+        check_cause(rig.compare(rig.places(rig.clavicle(), limb.elbow, limb.wrist)),
+                    "Your place of the shoulder is joint " + std::to_string(rig.clavicle()) +
+                        "'s, 1 too high; the group has joint " + std::to_string(limb.shoulder) + ".");
+        // The crowd's own joint is too high where the caller's is below it.
+        const auto between = static_cast<std::uint32_t>(rig.skeleton.parents[limb.elbow]);
+        if (between == limb.shoulder) return;
+        const auto said = rig.compare(rig.places(between, limb.elbow, limb.wrist));
+        INFO(said.text);
+        REQUIRE(said.text.starts_with("Your place of the shoulder is joint " + std::to_string(between) + "'s, "));
+        REQUIRE(said.text.find("too low; the group has") != std::string::npos);
+    });
+}
+
+TEST_CASE("what counts twice or not at all is named")
+{
+    const auto number = [](const float& x) { return static_cast<double>(x); };
+    for_each_rig(kRigs, [&](Random& random) {
+        RigWish wish = any_wish(random);
+        const std::uint32_t which = random.below(9);
+        if (which == 7) wish = {SWIVEL_ROTATIONS, false, true, true, random.below(2) == 0};
+        if (which == 8) wish = {SWIVEL_ROTATIONS, false, true, true, true};
+        Rig rig(random, wish);
+        const Body& body = rig.bodies[rig.body];
+        const Vector3d root = rig.root();
+        const Quaterniond turn = quat(body.root_rotation).normalized();
+        const double scale = number(body.root_scale);
+        const auto said = [&](const std::function<Vector3d(const Vector3d&)>& move) {  // of places from the root
+            return rig.compare(moved(rig.places(rig.limb()), [&](const Vector3d& v) { return move(v - root); }));
+        };
+        const auto with = [&](const std::function<void(Body&)>& change) {
+            change(rig.bodies[rig.body]);
+            return rig.compare();
+        };
+        switch (which) {
+            case 0:
+                return check_cause(said([&](const Vector3d& v) { return v; }), "Your places are without root_position");
+            case 1:
+                return check_cause(said([&](const Vector3d& v) { return Vector3d(2 * root + v); }),
+                                   "Your places have root_position twice");
+            case 2:
+                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + turn.conjugate() * v); }),
+                                   "Your places are without root_rotation");
+            case 3:
+                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + turn * v); }),
+                                   "Your places have root_rotation twice");
+            case 4:
+                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + v / scale); }),
+                                   "Your places are without root_scale");
+            case 5:
+                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + scale * v); }),
+                                   "Your places have root_scale twice");
+            case 6:
+                return check_cause(said([&](const Vector3d& v) { return Vector3d(turn.conjugate() * v / scale); }),
+                                   "Your places are in the root's frame");
+            case 7:
+                return check_cause(with([&](Body& of) { of.translations = rig.skeleton.translations; }),
+                                   "Your places are those of bones as the skeleton rests");
+            default: {
+                bool is_any = false;  // scaled, above a joint of the limb
+                for (std::uint32_t joint = 0; joint < rig.skeleton.size(); ++joint)
+                    is_any |= std::fabs(number(body.scales[joint][0]) - 1) > 0.02 && joint != rig.limb().wrist &&
+                              rig.skeleton.is_above(joint, rig.limb().wrist);
+                if (is_any)
+                    check_cause(with([&](Body& of) {
+                                    of.scales.assign(of.scales.size(), Float3{1, 1, 1});
+                                }),
+                                "Your places are those of joints without the pose's scales");
+            }
+        }
+    });
+}
+
+TEST_CASE("the other space is named")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        RigWish wish = any_wish(random);
+        wish.form = random.below(2) == 0 ? SWIVEL_ROTATIONS : SWIVEL_MATRIX_COLUMNS3, wish.translates = true;
+        Rig rig(random, wish);
+        rig.pose.space = wish.in_body ? SWIVEL_LOCAL : SWIVEL_IN_BODY;
+        check_cause(rig.compare(), wish.in_body ? "The pose's joints are relative to the root"
+                                                : "The pose's joints are relative to their parents");
+    });
+}
+
+TEST_CASE("other axes are named")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        const Rig rig(random, any_wish(random));
+        const int mirrored = static_cast<int>(random.below(3));
+        const bool is_up = random.below(2) == 0;
+        const Places places = moved(rig.places(rig.limb()), [&](Vector3d v) {
+            if (is_up) return Vector3d(v.x(), -v.z(), v.y());
+            v[mirrored] = -v[mirrored];
+            return v;
+        });
+        check_cause(rig.compare(places),
+                    is_up ? "The places have y and z exchanged" : "The places are mirrored: one side");
+    });
+}
+
+namespace {
+
+double number_after(const std::string& text, const std::string& words)
+{
+    const std::size_t at = text.find(words);
+    INFO(text);
+    REQUIRE(at != std::string::npos);
+    return std::stod(text.substr(at + words.size()));
+}
+
+}  // namespace
+
+TEST_CASE("a joint that no mistake explains is named, with its way")
+{
+    for_each_rig(kRigs, [](Random& random) {
+        Rig rig(random, any_wish(random));
+        Places places = rig.places(rig.limb());
+        const std::size_t first = random.below(3);
+        constexpr const char* names[] = {"shoulder", "elbow", "wrist"};
+        Vector3d way = Vector3d::Zero();
+        for (std::size_t n = first; n < 3; ++n) {
+            const Vector3d off = random.between(0.05, 0.5) * rig.length() * random.direction();
+            if (n == first) way = off;
+            places[n] = Rig::numbers(Vector3d(places[n].data()) + off);
+        }
+        const auto said = rig.compare(places);
+        INFO(said.text);
+        REQUIRE(!said.agrees);
+        REQUIRE(said.text.starts_with("No usual mistake explains it. The first joint that is off is the " +
+                                      std::string(names[first]) + ", joint "));
+        REQUIRE(number_after(said.text, "your place is ") == Approx(way.norm()).epsilon(2e-3));
+        REQUIRE(number_after(said.text, "in the direction ") == Approx(way.normalized().x()).margin(1e-2));
+    });
+}
+
+TEST_CASE("places agree up to a thousandth of the limb's length")
+{
+    for_each_rig(100, [](Random& random) {
+        const Rig rig(random, any_wish(random));
+        for (const double share : {0.9, 1.1}) {
+            Places places = rig.places(rig.limb());
+            const Vector3d off = share * 1e-3 * rig.length() * random.direction();
+            places[1] = Rig::numbers(Vector3d(places[1].data()) + off);
+            const auto said = rig.compare(places);
+            INFO(said.text);
+            REQUIRE(said.agrees == (share < 1));
+        }
+    });
+}
+
+TEST_CASE("what is known of an unknown mistake is said")
+{
+    Random random{7};
+    Rig rig(random, {});
+    const Places places = rig.places(rig.limb());
+    const auto text = [&](const std::function<Vector3d(const Vector3d&)>& move) {
+        return rig.compare(moved(places, move)).text;
+    };
+    const auto has = [](const std::string& all, const char* words) { return all.find(words) != std::string::npos; };
+    CHECK(has(text([](const Vector3d& v) { return Vector3d(v + Vector3d(1, 2, 3)); }), "Look at root_position"));
+    const Vector3d root = rig.root();
+    CHECK(number_after(text([&](const Vector3d& v) { return Vector3d(root + 1.5 * (v - root)); }), "The places are ") ==
+          Approx(1.5));
+    const Quaterniond turn = random.rotation();
+    CHECK(has(text([&](const Vector3d& v) { return Vector3d(turn * v); }), "The limb's own shape is right"));
+    Places longer = places;
+    longer[2] =
+        Rig::numbers(Vector3d(places[1].data()) + 1.7 * (Vector3d(places[2].data()) - Vector3d(places[1].data())));
+    const std::string says = rig.compare(longer).text;
+    CHECK(number_after(says, "Your forearm is ") == Approx(1.7 * number_after(says, "the pose's ")).epsilon(1e-3));
+    rig.change_joints([](float* q) { q[0] = q[1] = q[2] = q[3] = 0; });
+    CHECK(has(rig.compare(places).text, "The pose has no place of the shoulder"));
+}
+
+TEST_CASE("two mistakes that fit alike are both named")
+{
+    BodySkeleton skeleton;  // bones along x, turned about z: the inverse turns mirror it in y
+    skeleton.parents = {-1, 0, 1};
+    skeleton.rotations.assign(3, Float4{0, 0, 0, 1});
+    skeleton.translations = {{0, 0, 0}, {0.3f, 0, 0}, {0.25f, 0, 0}};
+    skeleton.limbs = {{0, 1, 2, {0, 1, 0}, {}}};
+    const Crowd crowd = body_crowd(skeleton, SWIVEL_POLE_INCOMING, 1);
+    Body body;
+    body.rotations = {{0, 0, 0.6f, 0.8f}, {0, 0, 0.28f, 0.96f}, {0, 0, 0, 1}};
+    body.translations = skeleton.translations;
+    body.scales.assign(3, Float3{1, 1, 1});
+    PoseBuffer poses({}, {body});
+    const swivel_pose pose = poses.view();
+    const auto at = joints_at(skeleton, body);
+    Places places;
+    for (std::size_t n = 0; n < 3; ++n) places[n] = {at[n].place.x(), -at[n].place.y(), at[n].place.z()};
+    const auto said = crowd.compare(0, 0, pose, places[0], places[1], places[2]);
+    INFO(said.text);
+    CHECK(!said.agrees);
+    CHECK(said.text.starts_with("The pose's joint rotations are the inverse ones"));
+    CHECK(said.text.find(" Or: The places are mirrored") != std::string::npos);
+    CHECK(said.text.find("With each of these the three places agree") != std::string::npos);
+}
+
+TEST_CASE("comparing a pose needs no memory, keeps to the room for its text, and refuses what a job would")
+{
+    Random random{5};
+    Rig rig(random, quaternion_wish(random));
+    rig.pose.time = {}, rig.change_joints(w_first);
+    const Places places = rig.places(rig.limb());
+    const std::string whole = rig.compare(places).text;
+    std::vector<char> room(whole.size() + 1);
+    const auto call = [&](const swivel_crowd* crowd, std::uint32_t group, std::uint32_t body, const swivel_pose* pose,
+                          const double* elbow, char* text, std::size_t size) {
+        int agrees = -1;
+        const swivel_status status =
+            swivel_compare(crowd, group, body, pose, places[0].data(), elbow, places[2].data(), text, size, &agrees);
+        CHECK((agrees == -1) == (status != SWIVEL_OK));
+        return status;
+    };
+    const swivel_crowd* const crowd = rig.crowd.get();
+    const double* const elbow = places[1].data();
+    for (std::size_t size = 1; size <= room.size(); ++size) {
+        const auto before = allocation_count();
+        REQUIRE(swivel_compare(crowd, rig.group, rig.body, &rig.pose, places[0].data(), elbow, places[2].data(),
+                               room.data(), size, nullptr) == SWIVEL_OK);
+        REQUIRE(allocation_count() == before);
+        std::string wanted = whole.substr(0, size - 1);
+        if (size < room.size()) wanted.replace(wanted.size() - std::min<std::size_t>(3, wanted.size()), 3, "...");
+        if (size < 4) wanted = std::string(size - 1, '.');
+        REQUIRE(std::string(room.data()) == wanted);
+    }
+    char* const text = room.data();
+    CHECK_REFUSED(call(nullptr, 0, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(call(crowd, 9, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(call(crowd, 0, 3, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(call(crowd, 0, 0, nullptr, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, nullptr, text, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, elbow, nullptr, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, elbow, text, 0), SWIVEL_INVALID_ARGUMENT);
+    const double bad[3] = {0, NAN, 0}, far[3] = {0, 2e15, 0};
+    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, bad, text, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, far, text, 8), SWIVEL_INVALID_ARGUMENT);
+    swivel_pose pose = rig.pose;
+    pose.rotations.data = nullptr;
+    CHECK_REFUSED(call(crowd, 0, 0, &pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
+    const Crowd free({group(1)});
+    CHECK_REFUSED(call(free.get(), 0, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
+    const swivel_limb_joints joints = rig.skeleton.joints(0);
+    const std::array groups = {body_group(joints, SWIVEL_WITH_FIT), fit_group()};
+    const Crowd fitted(rig.skeleton.view(), 3, groups);
+    CHECK_REFUSED(call(fitted.get(), 1, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
+    CHECK(call(fitted.get(), 0, 0, &rig.pose, elbow, text, 8) == SWIVEL_OK);  // without a time
+}
