@@ -487,6 +487,22 @@ TEST_CASE("places agree up to a thousandth of the limb's length")
     });
 }
 
+TEST_CASE("far from the origin, places agree up to the rounding of floats")
+{
+    for_each_rig(100, [](Random& random) {
+        Rig rig(random, {});
+        rig.far_roots.clear(), rig.pose = rig.poses.view();
+        Body& body = rig.bodies[rig.body];
+        body.root_position = floats(Vector3d(1e6 * random.direction())), body.root_scale = 1;
+        rig.poses.write(rig.body, body);
+        const Places rounded =
+            moved(rig.places(rig.limb()), [](const Vector3d& v) { return Vector3d(v.cast<float>().cast<double>()); });
+        const auto said = rig.compare(rounded);
+        INFO(said.text);
+        REQUIRE(said.agrees);
+    });
+}
+
 TEST_CASE("what is known of an unknown mistake is said")
 {
     Random random{7};
