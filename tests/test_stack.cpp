@@ -146,6 +146,16 @@ void run_questions(const Crowd& crowd, const std::string& name, Most& most)
     }
 }
 
+// A limb that is nowhere, so that every mistake is tried.
+void run_comparisons(const Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& most)
+{
+    if (!pose) return;
+    const double shoulder[3] = {0.3, 1.2, 0.1}, elbow[3] = {0.5, 1, 0.3}, wrist[3] = {0.7, 1.1, 0.5};
+    char text[4096];
+    most.take(name + ", compare",
+              [&] { swivel_compare(crowd.get(), 0, 0, pose, shoulder, elbow, wrist, text, sizeof text, nullptr); });
+}
+
 }  // namespace
 
 TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of stack")
@@ -160,6 +170,8 @@ TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of st
                 corpus::Poses poses = corpus::poses_of(crowd, recipe, 0);
                 corpus::with_job(poses, [&](const Job& job) { run_jobs(crowd, job.pose, full_name(recipe), jobs); });
                 run_questions(crowd, full_name(recipe), questions);
+                corpus::with_job(
+                    poses, [&](const Job& job) { run_comparisons(crowd, job.pose, full_name(recipe), questions); });
             }
         INFO(isa << ": " << jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
         CHECK(jobs.bytes <= kPromised);

@@ -5,10 +5,12 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <cstring>
 #include <string>
 
 #include "tools/python/crowd.h"
 #include "tools/python/names.h"
+#include "tools/python/poses.h"
 
 namespace py = pybind11;
 
@@ -54,6 +56,24 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> find(HeldCrowd& held, std
     const auto place = run(held, Way::kReading, [&] { return held.crowd.find(flags, from); });
     if (!place) return std::nullopt;
     return std::pair(place->group, place->limb);
+}
+
+std::pair<bool, std::string> compare(HeldCrowd& held, const py::object& pose, std::int64_t body,
+                                     const py::object& shoulder, const py::object& elbow, const py::object& wrist,
+                                     std::int64_t group)
+{
+    const Limbs one = limbs_of(held, group, body, 1);
+    const PoseArrays poses = pose_of(held, pose);
+    const auto place = [](const char* name, const py::object& given) {
+        const Input in = input({name, 1, 3}, given, py::dtype::of<double>(), true);
+        std::array<double, 3> numbers;
+        std::memcpy(numbers.data(), in.values.data, sizeof numbers);
+        return numbers;
+    };
+    const auto from = place("shoulder", shoulder), over = place("elbow", elbow), to = place("wrist", wrist);
+    const auto said =
+        run(held, Way::kReading, [&] { return held.crowd.compare(one.group, one.first, poses.view, from, over, to); });
+    return {said.agrees, said.text};
 }
 
 }  // namespace
@@ -119,6 +139,11 @@ void add_answers(CrowdClass& crowd)
         "Why a limb is as it is, from its present inputs, in a sentence or two.\n\n"
         "By keywords, as find() gives the group first: group, limb = crowd.find(Flag.BAD_INPUT);\n"
         "crowd.explain(limb=limb, group=group).");
+    crowd.def("compare", &compare, py::arg("pose"), py::kw_only(), py::arg("body"), py::arg("shoulder"),
+              py::arg("elbow"), py::arg("wrist"), py::arg("group") = 0,
+              "Compares a Pose with where your engine has a limb of a body: (agrees, text). The text names the input\n"
+              "that disagrees, such as quaternions in another order, and what to do.\n\n"
+              "shoulder, elbow and wrist (3,): places of these joints in the world, in the pose as it goes in.");
     crowd.def(
         "digest", [](HeldCrowd& held) { return run(held, Way::kReading, [&] { return held.crowd.digest(); }); },
         "A number for all results, to compare crowds across machines. Equal results give equal digests on every\n"

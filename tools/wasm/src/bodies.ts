@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Crowds of bodies. Their poses lie in swivel's own memory, where solves read and write them.
-import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown } from "./arguments.js";
+import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
 import { Crowd } from "./crowd.js";
 import { BodyGroup, bodyGroups, FitGroup, SharedSkeleton } from "./groups.js";
-import { carried, layout, PoseForm, PoseSpace } from "./layout.js";
+import { carried, EXPLANATION_BYTES, layout, PoseForm, PoseSpace } from "./layout.js";
 import { Borrowed, Memory, Structure } from "./memory.js";
 import { copyOf, inBody, Rest, rotationOf, valueOf } from "./rest.js";
 import { isPosition, Limbs } from "./rows.js";
@@ -20,6 +20,19 @@ export interface BodiesOptions extends SharedSkeleton {
     space?: number;
     /** Whether root positions, and the positions of goals, are doubles. */
     rootIsDouble?: boolean;
+}
+
+/** Where an engine has the joints of a limb, in the world: three numbers each. */
+export interface LimbPlaces {
+    shoulder: Numbers;
+    elbow: Numbers;
+    wrist: Numbers;
+}
+
+/** What compare() says. */
+export interface Comparison {
+    agrees: boolean;
+    text: string;
 }
 
 interface Part {
@@ -137,6 +150,22 @@ export class Bodies<Positions extends Float32Array | Float64Array = Float32Array
         this.list(group, [field, values.byteOffset, 24]);
         this.doubles[group].set(field, values);
         return values as Positions;
+    }
+
+    /**
+     * Compares the poses' parts with where your engine has a limb of a body, for the pose as it goes in. The text names the input that
+     * disagrees, such as quaternions in another order, and what to do.
+     */
+    compare(body: number, places: LimbPlaces, group = 0): Comparison {
+        const { memory } = this, { first } = this.place({ group, first: whole("body", body, this.limbCount(group) - 1), count: 1 });
+        const of = options("compare()", places, "shoulder", "elbow", "wrist");
+        return memory.borrow((borrowed) => {
+            const [shoulder, elbow, wrist] =
+                (["shoulder", "elbow", "wrist"] as const).map((name) => borrowed.doubles(numbers(name, of[name], 3)));
+            const text = borrowed.bytes(EXPLANATION_BYTES), agrees = borrowed.bytes(4);
+            memory.check(memory.calls.swivel_compare(this.crowd, group, first, this.posed, shoulder, elbow, wrist, text, EXPLANATION_BYTES, agrees));
+            return { agrees: memory.words(agrees, 1)[0] !== 0, text: memory.text(text) };
+        });
     }
 
     /**

@@ -7,7 +7,7 @@ import { Swivel } from "./swivel.js";
 export { SwivelError } from "./arguments.js";
 export type { FieldNumber, Numbers } from "./arguments.js";
 export type { Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
-export type { Bodies, BodiesOptions, PosePart, Support } from "./bodies.js";
+export type { Bodies, BodiesOptions, Comparison, LimbPlaces, PosePart, Support } from "./bodies.js";
 export type { Arc, BodyGroup, Crowd, Fit, FitGroup, Group, GroupOptions, JointAngles, Job, Limbs, Place, Plant } from "./crowd.js";
 export {
     defaultFit, defaultPlant, Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION,
