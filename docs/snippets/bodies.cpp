@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <string>
+
 #include "check.h"
 
 namespace {
@@ -92,6 +94,32 @@ TEST_CASE("docs: bodies")
           2e-6);
     CHECK(characters[4].pose == still[4].pose);
     CHECK((place_of(characters[7], kFoot) - vec(before.foot_target)).norm() < 2e-6);
+
+    const auto engine_place = [&](int joint) {
+        const Eigen::Vector3d at = place_of(characters[3], joint);
+        return Double3{at.x(), at.y(), at.z()};
+    };
+    std::vector<std::string> log;
+    const auto compare = [&] {
+        // [compare]
+        const Double3 shoulder = engine_place(kUpperArm),
+                      elbow = engine_place(kForearm),
+                      wrist = engine_place(kHand);  // in the world, of character 3
+        const auto said = crowd.compare(0, 3, pose, shoulder, elbow, wrist);  // group 0
+        if (!said.agrees) log.push_back(said.text);
+        // [end]
+    };
+    compare();
+    CHECK(log.empty());
+    std::vector<Character> w_first = characters;
+    for (Float4& q : w_first[3].pose) q = {q[3], q[0], q[1], q[2]};
+    pose.rotations.data = w_first[0].pose.data();
+    compare();
+    REQUIRE(log.size() == 1);
+    CHECK(
+        log[0].starts_with("The pose's joint rotations are stored as w, x, y, z, but "
+                           "swivel takes x, y, z, w. "
+                           "Reorder them. With that the three places agree, within "));
 }
 
 TEST_CASE("docs: bodies in the body's space")

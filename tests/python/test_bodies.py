@@ -166,6 +166,37 @@ class Solved(unittest.TestCase):
             self.assertEqual(np.array_equal(rotations, self.bodies.rotations), on_bad_input is None)
 
 
+class Compared(unittest.TestCase):
+    def setUp(self):
+        self.bodies, self.crowd = Bodies(N), crowd_of(N, Feature.POLE_INCOMING)
+
+    def compared(self, rotations, group, body, scale=1):
+        joints = dict(zip(("shoulder", "elbow", "wrist"), LIMBS[group]))
+        places = {name: scale * self.bodies.at(self.bodies.rotations)[0][body, joint] for name, joint in joints.items()}
+        return self.crowd.compare(Pose(rotations, **self.bodies.members()), body=body, group=group, **places)
+
+    def test_what_disagrees_is_named(self):
+        right = self.bodies.rotations
+        for group, body in ((0, 3), (1, 49)):
+            agrees, text = self.compared(right, group, body)
+            self.assertTrue(agrees, text)
+            self.assertRegex(text, "^The pose agrees")
+            for rotations, scale, cause in ((np.roll(right, 1, axis=-1), 1, "joint rotations are stored as w, x, y, z"),
+                                            (right * np.float32([-1, -1, -1, 1]), 1, "joint rotations are the inverse ones"),
+                                            (right, 100, "centimetres instead of metres")):
+                agrees, text = self.compared(rotations, group, body, scale)
+                self.assertFalse(agrees)
+                self.assertIn(cause, text)
+
+    def test_mistakes(self):
+        places = dict(shoulder=(0, 0, 0), elbow=(0, 0, 1), wrist=(0, 1, 1))
+        pose = Pose(self.bodies.rotations)
+        for given, error in ((dict(body=N), ValueError), (dict(group=2), ValueError), (dict(wrist=(1, 2)), ValueError),
+                             (dict(elbow=(0, np.nan, 0)), ValueError), (dict(pose=None), TypeError)):
+            with self.assertRaises(error):
+                self.crowd.compare(**{"pose": pose, "body": 0, **places, **given})
+
+
 class Made(unittest.TestCase):
     def test_a_bent_rest_pose_says_where_limbs_bend(self):
         rest = np.tile(np.float32((0, 0, 0, 1)), (8, 1))

@@ -170,3 +170,18 @@ test('what is wrong with bodies is refused in one line', () => {
   const chain = Array.from({ length: 1024 }, (_, n) => n - 1);
   refuses(() => bodies({ skeleton: { parents: chain, translations: chain.flatMap(() => [1, 0, 0]) }, bodyCount: 2 ** 18, groups: [groups[0]] }), 'give load() more megabytes');
 });
+
+test('a pose is compared with where an engine has a limb', () => {
+  const crowd = swivel.bodies({ skeleton, bodyCount, groups });
+  give(crowd);
+  const places = (factor = 1) => Object.fromEntries(['shoulder', 'elbow', 'wrist'].map((name) => [name, wrist(asPosed, 4, leg[name]).map((x) => factor * x)]));
+  const right = crowd.compare(4, places(), 1);
+  assert.ok(right.agrees, right.text), assert.match(right.text, /^The pose agrees/);
+  const far = crowd.compare(4, places(100), 1);
+  assert.ok(!far.agrees), assert.match(far.text, /centimetres instead of metres/);
+  const rotations = crowd.pose('rotations');
+  for (let n = 0; n < rotations.length; n += 4) rotations.set([rotations[n + 3], ...rotations.slice(n, n + 3)], n);
+  assert.match(crowd.compare(4, places(), 1).text, /^The pose's joint rotations are stored as w, x, y, z/);
+  refuses(() => crowd.compare(bodyCount, places()), `body is ${bodyCount}; give a whole number from 0 to ${bodyCount - 1}`);
+  refuses(() => crowd.compare(0, { shoulder: [0, 0, 0], elbow: [0, 0, 0], wrist: [0, 0] }), 'wrist');
+});
