@@ -50,6 +50,8 @@ double ComparedLimb::factor_about(const Vector<double>& centre) const
 
 namespace {
 
+double hundredths(double x) { return std::round(100 * x) / 100 + 0.0; }  // without -0
+
 bool has_same_shape(const ComparedLimb& limb)
 {
     for (int n = 0; n < 3; ++n) {
@@ -65,7 +67,8 @@ void describe_shoulder(const ComparedLimb& limb, Text& text)
 {
     const Vector<double> way = limb.theirs.at[0] - limb.posed.at[0];
     if (limb.agrees(moved(limb.posed, [&](const Vector<double>& v) { return v + way; })))
-        return text.add("So are the others. Look at root_position, and at the translations above the shoulder.");
+        return text.add(
+            "The others are off in the same way. Look at root_position, and at the translations above the shoulder.");
     const Vector<double> root = limb.body.root_place();
     if (const double factor = limb.factor_about(root); limb.agrees(scaled_about(root, factor, limb.posed)))
         return text.add(
@@ -110,8 +113,9 @@ void describe_difference(const ComparedLimb& limb, Text& text)
             names[part], limb.named(part));
     text.add(
         "No usual mistake explains it. The first joint that is off is the %s, joint %u: your place is %.4g from the "
-        "pose's, in the direction %.3g, %.3g, %.3g of the world. ",
-        names[part], limb.named(part), off, way.c[0] / off, way.c[1] / off, way.c[2] / off);
+        "pose's, in the direction (%g, %g, %g) of the world. ",
+        names[part], limb.named(part), off, hundredths(way.c[0] / off), hundredths(way.c[1] / off),
+        hundredths(way.c[2] / off));
     if (part == 0)
         describe_shoulder(limb, text);
     else

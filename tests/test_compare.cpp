@@ -468,7 +468,7 @@ TEST_CASE("a joint that no mistake explains is named, with its way")
         REQUIRE(said.text.starts_with("No usual mistake explains it. The first joint that is off is the " +
                                       std::string(names[first]) + ", joint "));
         REQUIRE(number_after(said.text, "your place is ") == Approx(way.norm()).epsilon(2e-3));
-        REQUIRE(number_after(said.text, "in the direction ") == Approx(way.normalized().x()).margin(1e-2));
+        REQUIRE(number_after(said.text, "in the direction (") == Approx(way.normalized().x()).margin(1e-2));
     });
 }
 

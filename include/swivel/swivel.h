@@ -1134,25 +1134,29 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
                                         size_t size);
 
 // Compares a pose with where your engine has a limb, and says in words which input disagrees. Call it once for each
-// limb when you bind a skeleton, before the first solve. shoulder, elbow, wrist: places of these joints of one body, 3
-// doubles each, in the world. They are those of the pose as it goes in, also where the root is in doubles. body is
-// counted within the group. The pose is as a job has it; its time and results do not matter.
+// limb when you bind a skeleton, before the first solve.
+// pose: as a job has it. Its time and results do not matter.
+// shoulder, elbow, wrist: places of these joints of one body, 3 doubles each. They are in the world, also where the
+// root is in doubles, and those of the pose as it goes in. body is counted within the group.
+// agrees: unless null, becomes 1 or 0.
+// text: gets at most size bytes, the 0 at its end among them. A text that was cut ends in three dots. The words may
+// change.
 //
-// They agree if each place is within 1e-3 of the limb's length of the pose's. With a root in floats the rounding of
-// floats is added, 2e-7 of the distance from the origin. If they do not, it tries the usual mistakes, one at a time:
-// - quaternions stored as w, x, y, z, or conjugates; matrices of another form, or transposed; the other space;
-// - the joints of another group's limb, such as left for right, or joints too high or too low, such as a clavicle;
+// The three agree if each place is within 1e-3 of the limb's length of the pose's. If the root is not in doubles, 2e-7
+// of the distance from the origin is added, for the rounding of floats. If they do not agree, the call tries the usual
+// mistakes, one at a time:
+// - quaternions stored as w, x, y, z, and conjugates; matrices of another form, and transposed; the other space;
+// - the joints of another group's limb, such as left for right; joints too high or too low, such as a clavicle;
 // - other units; a root's place, rotation or scale that is missing or counts twice; scales or translations that do not
-//   count; left-handed axes, or another axis up.
-// The text names the one with which they agree, or each of several. If there is none, it names the first joint that is
-// off, and what to look at. Where a joint's place does not depend on a rotation, it cannot tell: the wrist's own, and in
-// SWIVEL_IN_BODY with translations those of bones that are not as long as at rest. Matrices 64 bytes apart without
-// translations are read as 4 x 4 floats, whatever their form.
+//   count; left-handed axes, and another axis up.
+// The text names the mistake that explains the places, or each of several. If none does, it names the first joint that
+// is off, and what to look at.
 //
-// *agrees, unless null, becomes 1 or 0. text gets at most size bytes, the 0 at its end among them. A text that was cut
-// ends in three dots. For people and logs: the words may change. Takes some microseconds, and with thousands of needed
-// joints milliseconds; no allocation. Fails for free limbs and groups that are FIT, for a pose that a job would refuse,
-// and for places that are not finite or beyond 1e15.
+// What no place depends on cannot be seen, such as the wrist's own rotation. In SWIVEL_IN_BODY with translations the
+// call looks whether rotations lead along the bones, where these are as long as at rest. Matrices that lie 64 bytes
+// apart or more and have no translations are read as 4 x 4 floats, whatever their form. Takes up to a tenth of a
+// millisecond, longer where thousands of joints are needed; no allocation. Fails for free limbs, groups that are FIT,
+// poses that a job would refuse, and places that are not finite or beyond 1e15.
 SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body,
                                         const swivel_pose* pose, const double shoulder[3], const double elbow[3],
                                         const double wrist[3], char* text, size_t size, int* agrees);
