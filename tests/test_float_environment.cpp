@@ -242,6 +242,11 @@ void stand(const CallInputs& in, Record& to)
         to.add(swivel_change_support(crowd, 0, 0, 1, {{}, {support, 0}},
                                      {{in.far.data(), 0}, {&in.values[40 + 4 * (frame % 4)], 0}}));
         to.add(swivel_digest(crowd));
+        const double places[3][3] = {{0.1, in.far[0], 0}, {0.1, -0.4, 0.1}, {0.1, -0.8, 1.0 / 3}};
+        char text[1024] = {};
+        int agrees = -1;
+        to.add(swivel_compare(crowd, 0, 0, &pose, places[0], places[1], places[2], text, sizeof text, &agrees));
+        to.add(text), to.add(agrees);
     }
     swivel_crowd_destroy(crowd);
 }
