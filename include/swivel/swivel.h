@@ -1155,7 +1155,7 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
 // What no place depends on cannot be seen, such as the wrist's own rotation. In SWIVEL_IN_BODY with translations the
 // call looks whether rotations lead along the bones, where these are as long as at rest. Matrices that lie 64 bytes
 // apart or more and have no translations are read as 4 x 4 floats, whatever their form. Takes up to a tenth of a
-// millisecond, longer where thousands of joints are needed; no allocation. Fails for free limbs, groups that are FIT,
+// millisecond, longer where thousands of joints are needed; no allocation. Fails for free limbs, groups of no limbs,
 // poses that a job would refuse, and places that are not finite or beyond 1e15.
 SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body,
                                         const swivel_pose* pose, const double shoulder[3], const double elbow[3],
