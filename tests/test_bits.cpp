@@ -84,6 +84,7 @@ TEST_CASE("the instruction set in use gives the golden digests")
         CHECK(corpus::wrong_crowds(part, digests) == std::vector<std::string>{});
         CHECK(corpus::fold(digests) == corpus::kGoldenDigests[static_cast<std::size_t>(part)]);
     }
+    CHECK(corpus::digest_of_start(solve) == corpus::kGoldenStart);
 }
 
 TEST_CASE("every number of limbs gives the scalar build's digest")

@@ -16,17 +16,22 @@ namespace {
 using namespace swivel;
 using namespace swivel::corpus;
 
-// All flags that a part's limbs get.
+// All flags that a part's limbs get; of those that stand, in the first frames.
 std::uint32_t flags_of(Part part)
 {
     std::uint32_t flags = 0;
-    for (const Recipe& recipe : recipes_of(part))
-        digest_of(recipe, [&](Crowd& crowd, const Job& job) {
+    for (const Recipe& recipe : recipes_of(part)) {
+        const auto look = [&](Crowd& crowd, const Job& job) {
             crowd.solve(job);
             for (std::uint32_t group = 0; group < kGroupCount; ++group) {
                 for (const std::uint32_t word : read_field(crowd, recipe, Field::flags, group)) flags |= word;
             }
-        });
+        };
+        if (part == Part::standing)
+            standing_digest(recipe, look, own_limb_count(part), kStandingStart);
+        else
+            digest_of(recipe, look);
+    }
     return flags;
 }
 

@@ -33,6 +33,8 @@ Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count);
 // stand do nothing else, and at their own size they do it for longer.
 std::uint32_t frame_count(Part part);
 inline constexpr std::uint32_t kStandingFrames = 10000;
+// The first of these frames, for emulators. Every body swings to and fro in them, and every flag is there.
+inline constexpr std::uint32_t kStandingStart = 1000;
 // Their rows are digested in every frame. Poses, in which nothing is carried, are in one of so many: that takes longer
 // than a solve.
 inline constexpr std::uint32_t kStandingPoses = 16;
@@ -49,23 +51,32 @@ std::uint64_t digest_poses(const Poses& poses, std::uint64_t hash);
 // The same of digests.
 std::uint64_t fold(std::uint64_t hash, std::uint64_t digest);
 
+// The digest of bodies that stand, in the first frames.
+template <class Solve>
+std::uint64_t standing_digest(const Recipe& recipe, Solve&& solve, std::uint32_t body_count, std::uint32_t frame_count)
+{
+    Crowd crowd = make_crowd(recipe, body_count);
+    Standing standing(recipe, body_count);
+    std::uint64_t hash = kDigestStart;
+    for (std::uint32_t frame = 0; frame < frame_count; ++frame) {
+        standing.go_to(frame, crowd);
+        with_job(standing.poses(), [&](const Job& job) { solve(crowd, job); });
+        hash = fold(hash, crowd.digest());
+        if (frame % kStandingPoses == 0) hash = digest_poses(standing.poses(), hash);
+    }
+    return hash;
+}
+
 // The digest of one crowd, each frame solved by solve(crowd, job), with a job that solves all. limb_count 0: the
 // crowd's own.
 template <class Solve>
 std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_count = 0)
 {
-    Crowd crowd = make_crowd(recipe, limb_count == 0 ? own_limb_count(recipe.part) : limb_count);
+    const std::uint32_t count = limb_count == 0 ? own_limb_count(recipe.part) : limb_count;
+    if (recipe.part == Part::standing)
+        return standing_digest(recipe, solve, count, limb_count == 0 ? kStandingFrames : frame_count(recipe.part));
+    Crowd crowd = make_crowd(recipe, count);
     std::uint64_t hash = kDigestStart;
-    if (recipe.part == Part::standing) {
-        Standing standing(recipe, limb_counts(crowd)[0]);
-        for (std::uint32_t frame = 0; frame < (limb_count == 0 ? kStandingFrames : frame_count(recipe.part)); ++frame) {
-            standing.go_to(frame, crowd);
-            with_job(standing.poses(), [&](const Job& job) { solve(crowd, job); });
-            hash = fold(hash, crowd.digest());
-            if (frame % kStandingPoses == 0) hash = digest_poses(standing.poses(), hash);
-        }
-        return hash;
-    }
     for (std::uint32_t frame = 0; frame < frame_count(recipe.part); ++frame) {
         if (frame > 0) write_goals(crowd, recipe, frame);
         Poses poses = poses_of(crowd, recipe, frame);
@@ -90,6 +101,15 @@ template <class Solve>
 std::uint64_t digest_of(Part part, Solve&& solve, std::uint32_t limb_count = 0)
 {
     return fold(digests_of(part, solve, limb_count));
+}
+// The same of the standing part's start.
+template <class Solve>
+std::uint64_t digest_of_start(Solve&& solve)
+{
+    std::vector<std::uint64_t> digests;
+    for (const Recipe& recipe : recipes_of(Part::standing))
+        digests.push_back(standing_digest(recipe, solve, own_limb_count(Part::standing), kStandingStart));
+    return fold(digests);
 }
 
 // What golden.h says of a crowd at its own size; 0 where it says nothing.

@@ -2,8 +2,8 @@
 //
 // Prints the digests of the corpus's parts, with the instruction set in use. On another platform or under an emulator,
 // it shows the promise of equal bits. With `each`, prints a line for each instruction set that runs here, and `end`.
-// With `stacks`, does the same, and the bits must stay wherever the stack is. With `golden`, prints the tables of
-// tools/corpus/golden.h instead.
+// With `start`, does the same with the standing part's start. With `stacks`, the bits must stay wherever the stack is.
+// With `golden`, prints the numbers of tools/corpus/golden.h instead.
 #include <cstdio>
 #include <cstring>
 #include <initializer_list>
@@ -23,18 +23,22 @@ void print_golden()
 {
     for (const Part part : kParts)
         std::printf("    0x%016llxu,  // %s\n", static_cast<unsigned long long>(digest_of(part, solve)), name_of(part));
+    std::printf("    0x%016llxu, the start\n", static_cast<unsigned long long>(digest_of_start(solve)));
     for (const Part part : kParts)
         for (const Recipe& recipe : recipes_of(part))
             std::printf("    {Part::%s, \"%s\", 0x%016llxu},\n", name_of(part), recipe.name,
                         static_cast<unsigned long long>(digest_of(recipe, solve)));
 }
 
-std::string digests()
+enum class Frames { all, start };
+std::string digests(Frames frames)
 {
     std::string text;
     char number[18];
     for (const Part part : kParts) {
-        std::snprintf(number, sizeof number, " %016llx", static_cast<unsigned long long>(digest_of(part, solve)));
+        const bool is_start = part == Part::standing && frames == Frames::start;
+        const std::uint64_t digest = is_start ? digest_of_start(solve) : digest_of(part, solve);
+        std::snprintf(number, sizeof number, " %016llx", static_cast<unsigned long long>(digest));
         text += number;
     }
     return text;
@@ -42,21 +46,21 @@ std::string digests()
 
 // The same with the stack further down. Windows aligns it to 16 bytes, and kernels for larger registers must see to
 // their own alignment.
-[[gnu::noinline]] std::string digests_below(std::size_t bytes)
+[[gnu::noinline]] std::string digests_below(std::size_t bytes, Frames frames)
 {
     volatile char* const room = static_cast<char*>(__builtin_alloca(bytes));
     room[0] = 0;
-    return digests();
+    return digests(frames);
 }
 
-void print_each(std::initializer_list<std::size_t> places)
+void print_each(std::initializer_list<std::size_t> places, Frames frames = Frames::all)
 {
     for (std::uint32_t n = 0; const char* isa = swivel_isa_at(n); ++n) {
         if (!swivel_isa_runs(isa)) continue;
         check(swivel_use_isa(isa));
         std::string text;
         for (const std::size_t bytes : places) {
-            const std::string here = digests_below(bytes);
+            const std::string here = digests_below(bytes, frames);
             if (!text.empty() && here != text)
                 throw std::runtime_error(std::string(isa) + ": the bits depend on where the stack is");
             text = here;
@@ -77,10 +81,12 @@ int main(int argc, char** argv)
             print_golden();
         else if (std::strcmp(what, "each") == 0)
             print_each({16});
+        else if (std::strcmp(what, "start") == 0)
+            print_each({16}, Frames::start);
         else if (std::strcmp(what, "stacks") == 0)
             print_each({16, 32, 48, 64});
         else
-            std::printf("%s%s\n", swivel_isa_name(), digests().c_str());
+            std::printf("%s%s\n", swivel_isa_name(), digests(Frames::all).c_str());
     } catch (const std::exception& error) {
         std::fprintf(stderr, "print_digest: %s\n", error.what());
         return 1;
