@@ -13,6 +13,7 @@
 #include "core/posed_limb.h"
 #include "core/solve_arm.h"
 #include "core/space.h"
+#include "core/spring.h"
 
 namespace bench {
 

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+namespace {
+
+enum Joint {
+    kHips,
+    kLeftThigh,
+    kLeftShin,
+    kLeftFoot,
+    kRightThigh,
+    kRightShin,
+    kRightFoot,
+    kJoints
+};
+const std::array<std::int32_t, kJoints> kParents = {-1, 0, 1, 2, 0, 4, 5};
+const std::array<Float3, kJoints> kOffsets = {{{0, 0.9f, 0},
+                                               {0.1f, 0, 0},
+                                               {0, -0.45f, 0},
+                                               {0, -0.45f, 0},
+                                               {-0.1f, 0, 0},
+                                               {0, -0.45f, 0},
+                                               {0, -0.45f, 0}}};
+// The ball of the foot and the heel, both on the sole.
+constexpr Float3 kBall = {0, -0.08f, 0.14f}, kHeel = {0, -0.08f, -0.06f};
+
+struct Character {
+    Float3 place;
+    Float4 rotation;
+    std::array<Float4, kJoints> pose;
+    float time;
+    // Of the left foot and the right one:
+    std::array<float, 2> down;
+    std::array<Float3, 2> probe, ground, normal;
+    std::array<std::array<float, 7>, 2> ankle;
+};
+
+struct Terrain {
+    float height(float x, float z) const
+    {
+        return 0.15f * std::sin(0.9f * x) + 0.1f * std::sin(0.7f * z);
+    }
+    Float3 normal(float x, float z) const  // of any length
+    {
+        return {-0.135f * std::cos(0.9f * x), 1, -0.07f * std::cos(0.7f * z)};
+    }
+};
+const Terrain terrain;
+
+// Knees bent, both feet flat and down.
+Character standing(float x)
+{
+    Character made{};
+    made.place = {x, terrain.height(x, 2), 2};
+    made.rotation = {0, 0, 0, 1};
+    made.time = 1 / 60.0f;
+    made.down = {1, 1};
+    made.pose.fill({0, 0, 0, 1});
+    for (const Joint thigh : {kLeftThigh, kRightThigh}) {
+        made.pose[thigh] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
+        made.pose[thigh + 1] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
+        made.pose[thigh + 2] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
+    }
+    return made;
+}
+
+struct Scene {
+    std::array<swivel_limb_joints, 2> legs = {
+        swivel_default_limb_joints(kLeftThigh, kLeftShin, kLeftFoot),
+        swivel_default_limb_joints(kRightThigh, kRightShin, kRightFoot)};
+    std::vector<Character> characters;
+    swivel_pose pose = swivel_default_pose();
+
+    Scene()
+    {
+        for (swivel_limb_joints& leg : legs) leg.bend[2] = -1;
+        for (int n = 0; n < 40; ++n)
+            characters.push_back(standing(static_cast<float>(n)));
+        take_pose();
+    }
+    void take_pose()
+    {
+        pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
+                          nullptr};
+        pose.root_position = swivel::stream(characters, &Character::place);
+        pose.root_rotation = swivel::stream(characters, &Character::rotation);
+        pose.time = swivel::stream(characters, &Character::time);
+    }
+    // How far the worst ball of a foot is from the ground.
+    double worst() const
+    {
+        double most = 0;
+        for (const Character& each : characters)
+            for (const std::array<float, 7>& ankle : each.ankle) {
+                const Eigen::Quaterniond turn =
+                    quat(Float4{ankle[3], ankle[4], ankle[5], ankle[6]});
+                const Eigen::Vector3d ball = vec(ankle) + turn * vec(kBall);
+                const float height = terrain.height(static_cast<float>(ball[0]),
+                                                    static_cast<float>(ball[2]));
+                most = std::max(most, std::fabs(ball[1] - double{height}));
+            }
+        return most;
+    }
+};
+
+swivel_skeleton skeleton_of_legs()
+{
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = swivel::stream(kParents);
+    skeleton.translations = swivel::stream(kOffsets);
+    skeleton.joint_count = kJoints;
+    return skeleton;
+}
+
+}  // namespace
+
+TEST_CASE("docs: feet on hills")
+{
+    Scene scene;
+    std::vector<Character>& characters = scene.characters;
+    const swivel_skeleton skeleton = skeleton_of_legs();
+    const std::array<swivel_limb_joints, 2>& legs = scene.legs;
+    // [crowd]
+    const swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND |
+                                     SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT |
+                                     SWIVEL_WITH_GROUND |  // feet that stand, on ground
+                                     SWIVEL_WITH_FIT |     // the pelvis follows
+                                     SWIVEL_HAND_YIELDS | SWIVEL_WITH_HAND_FRAME;
+    std::vector<swivel_group_def> groups;
+    for (const swivel_limb_joints& leg : legs) {
+        groups.push_back(swivel::body_group(leg, features));
+        swivel_ground& ground = groups.back().ground;
+        std::copy(kHeel.begin(), kHeel.end(), ground.heel);
+    }
+    groups.push_back(swivel::fit_group());
+    swivel::Crowd crowd(skeleton, 40, groups);
+    for (std::uint32_t leg = 0; leg < 2; ++leg)
+        crowd.write_all(SWIVEL_EFFECTOR, leg, kBall);
+    // [end]
+    const swivel_pose& pose = scene.pose;
+    const std::vector<Character> animated = characters;
+    const auto frames = [&] {
+        // [frames]
+        std::array<swivel::Frame, 3> frames;  // two legs, and the pelvis
+        constexpr std::size_t step = sizeof(Character);
+        for (std::size_t leg = 0; leg < 2; ++leg) {
+            frames[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
+            frames[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
+            frames[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
+            frames[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
+            frames[leg].out(SWIVEL_HAND_FRAME, {&characters[0].ankle[leg], step});
+        }
+        // [end]
+        return frames;
+    }();
+    const auto animate = [&] {
+        for (std::size_t n = 0; n < characters.size(); ++n)
+            characters[n].pose = animated[n].pose;
+    };
+    for (int n = 0; n < 30; ++n) {
+        animate();
+        // [two]
+        crowd.solve({.frames = frames, .pose = &pose, .probes_only = true});
+        for (Character& each : characters)
+            for (std::size_t leg = 0; leg < 2; ++leg) {
+                const Float3& at = each.probe[leg];
+                each.ground[leg] = {at[0], terrain.height(at[0], at[2]), at[2]};
+                each.normal[leg] = terrain.normal(at[0], at[2]);
+            }
+        crowd.solve({.frames = frames, .pose = &pose});
+        // [end]
+    }
+    CHECK(scene.worst() < 1e-4);
+
+    swivel::Crowd asking(skeleton, 40, groups);
+    for (std::uint32_t leg = 0; leg < 2; ++leg)
+        asking.write_all(SWIVEL_EFFECTOR, leg, kBall);
+    const std::vector<Character> as_two_calls_have_it = characters;
+    std::array<swivel::Frame, 2> legs_in_contact;
+    for (std::size_t leg = 0; leg < 2; ++leg) {
+        legs_in_contact[leg].in(SWIVEL_CONTACT,
+                                {&characters[0].down[leg], sizeof(Character)});
+        legs_in_contact[leg].out(SWIVEL_HAND_FRAME,
+                                 {&characters[0].ankle[leg], sizeof(Character)});
+    }
+    for (int n = 0; n < 30; ++n) {
+        animate();
+        swivel::Crowd& crowd = asking;
+        const std::array<swivel::Frame, 3> frames = {
+            legs_in_contact[0], legs_in_contact[1], {}};
+        // [sample]
+        const auto sample = [](const swivel::Probes& probes) {
+            for (std::size_t n = 0; n < probes.places.size(); ++n) {
+                const auto& at = probes.places[n];
+                probes.grounds[n][0] = at[0];
+                probes.grounds[n][1] = terrain.height(at[0], at[2]);
+                probes.grounds[n][2] = at[2];
+                const Float3 normal = terrain.normal(at[0], at[2]);
+                std::copy(normal.begin(), normal.end(), probes.normals[n]);
+            }
+        };
+        crowd.solve({.frames = frames, .pose = &pose, .sample = sample});
+        // [end]
+    }
+    for (std::size_t n = 0; n < characters.size(); ++n) {
+        CHECK(characters[n].pose == as_two_calls_have_it[n].pose);
+        CHECK(characters[n].ankle == as_two_calls_have_it[n].ankle);
+    }
+}
