@@ -3,12 +3,14 @@
 // The C entry points about single poses: the swivels that limits allow, and the solved pose as angles, positions and
 // errors.
 #include <cstring>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "batch/check.h"
 #include "batch/compare.h"
 #include "batch/explain.h"
+#include "batch/explain_text.h"
 #include "batch/forward.h"
 #include "batch/joint_angles.h"
 #include "batch/one_limb.h"
@@ -95,16 +97,42 @@ int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint
     return 0;
 }
 
+namespace {
+
+// Explains each of a body's groups in a line of its own.
+void explain_body(const swivel_crowd& crowd, uint32_t body, std::span<char> room)
+{
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+        const Group& group = crowd.groups[g];
+        Text(room).add("%sgroup %u: ", g > 0 ? "\n" : "", g);
+        room = room.subspan(std::strlen(room.data()));
+        if (group.features & (kNoLimb | SWIVEL_WITH_RECORD))
+            explain(group, body, room);
+        else
+            Text(room).add("it has no SWIVEL_WITH_RECORD, so nothing is known of it.");
+        room = room.subspan(std::strlen(room.data()));
+    }
+}
+
+}  // namespace
+
 swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text, size_t size)
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
-    if (!(crowd->groups[group].features & kNoLimb))
+    const bool is_body = group == SWIVEL_EVERY_GROUP;
+    if (const swivel_status status = use.of(is_body ? 0 : group, limb, 1); status != SWIVEL_OK) return status;
+    if (is_body && crowd->joint_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: this crowd has no bodies; name one of its %u groups",
+                    crowd->group_count);
+    if (!is_body && !(crowd->groups[group].features & kNoLimb))
         if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK)
             return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
-    explain(crowd->groups[group], limb, {text, size});
+    if (is_body)
+        explain_body(*crowd, limb, {text, size});
+    else
+        explain(crowd->groups[group], limb, {text, size});
     return SWIVEL_OK;
 }
 

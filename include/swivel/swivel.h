@@ -1120,6 +1120,7 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
 enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_explain() and swivel_compare()
+#define SWIVEL_EVERY_GROUP UINT32_MAX  // of swivel_explain(): all that a body has
 
 // Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, or how far out
 // of reach the target is. It names the limit that turned the elbow from its wish, and by how much. Where no elbow keeps
@@ -1129,7 +1130,8 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // from the blended one. limb is counted within the group. text gets at most size bytes, the 0 at its end among them.
 // For people and logs: the words may change, and the last digits differ between C libraries. A text that was cut ends
 // in three dots. Of bodies it needs WITH_RECORD. Then it also says why a planted point stands or slides. Of a group
-// that is FIT it needs none, and says how the body is shifted. Takes up to a millisecond; no allocation.
+// that is FIT it needs none, and says how the body is shifted. With SWIVEL_EVERY_GROUP it says so of all groups of body
+// `limb`, with a line for each that begins "group 0: ". Takes up to a millisecond for a limb; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
