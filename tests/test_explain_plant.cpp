@@ -361,3 +361,33 @@ TEST_CASE("what needs a limb refuses a shift in one line")
     CHECK(count == 7);
     CHECK(room == std::array<double, 8>{});
 }
+
+TEST_CASE("a body is explained group after group, in a line each, as far as there is room")
+{
+    GlidingLeg leg(kPlants | SWIVEL_WITH_FIT);
+    leg.glide(1, 0, 3);
+    const std::string first = "group 0: " + leg.text(0), all = first + "\ngroup 1: " + leg.text(1);
+    std::array<char, 2 * SWIVEL_EXPLANATION_BYTES> room{};
+    CHECK(swivel_explain(leg.crowd.get(), SWIVEL_EVERY_GROUP, 0, room.data(), room.size()) == SWIVEL_OK);
+    CHECK(room.data() == all);
+    for (std::size_t size = 1; size < all.size(); size += 7) {
+        room.fill('x');
+        CHECK(swivel_explain(leg.crowd.get(), SWIVEL_EVERY_GROUP, 0, room.data(), size) == SWIVEL_OK);
+        const std::string cut = room.data();
+        CHECK(cut.size() < size);
+        CHECK(room[size] == 'x');
+        CHECK(cut.substr(0, cut.size() - std::min<std::size_t>(3, cut.size())) ==
+              all.substr(0, cut.size() - std::min<std::size_t>(3, cut.size())));
+    }
+    CHECK_REFUSED(swivel_explain(leg.crowd.get(), SWIVEL_EVERY_GROUP, 1, room.data(), room.size()),
+                  SWIVEL_INVALID_ARGUMENT);
+
+    const Crowd free_limbs({group(3)});
+    CHECK_REFUSED(swivel_explain(free_limbs.get(), SWIVEL_EVERY_GROUP, 0, room.data(), room.size()),
+                  SWIVEL_INVALID_ARGUMENT);
+    CHECK(has(swivel_last_error(), "this crowd has no bodies; name one of its 1 groups"));
+
+    GlidingLeg unknown(kPlants & ~SWIVEL_WITH_RECORD);
+    CHECK(swivel_explain(unknown.crowd.get(), SWIVEL_EVERY_GROUP, 0, room.data(), room.size()) == SWIVEL_OK);
+    CHECK(room.data() == std::string("group 0: it has no SWIVEL_WITH_RECORD, so nothing is known of it."));
+}
