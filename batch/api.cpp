@@ -210,11 +210,12 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     const Group& of = crowd->groups[group];
     if (!is_position(field))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, %s: not a position; doubles are for target, pole, shoulder_position and coming", group,
-                    name_of(field));
-    if (origins.data && !has_origin(of.features, field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is a direction here, which has no origin; give null",
+                    "group %u, %s: not a position; doubles are for target, pole, shoulder_position, coming, "
+                    "ground and prop_place",
                     group, name_of(field));
+    if (origins.data && !has_origin(of, field))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is %s here, which has no origin; give null", group,
+                    name_of(field), field == SWIVEL_POLE ? "a direction" : "in a joint's frame");
     status = check_values(*crowd, group, field, limb_count, values.data, values.stride, true, sizeof(double));
     if (status == SWIVEL_OK && origins.data)
         status = check_stride(group, "origin", limb_count, origins.data, origins.stride, 3 * sizeof(double), true);

@@ -30,6 +30,12 @@ struct Group {
     std::size_t body_block_floats;  // the same: of a block of bodies in a workspace
 };
 
+// Whether a group counts a position from an origin. A prop on a joint has its place in the joint's frame.
+inline bool has_origin(const Group& group, swivel_field field)
+{
+    return has_origin(group.features, field) && !(field == SWIVEL_PROP_PLACE && group.limb.joint != 0);
+}
+
 }  // namespace swivel
 
 struct swivel_crowd {

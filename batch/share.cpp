@@ -67,7 +67,7 @@ Stream* add_input(const Group& group, const swivel_frame& frame, const swivel_fr
     const FieldRows rows = rows_of(group, each.field);
     const swivel_in values{each.data, each.stride};
     if (!frame.origin.data || !is_position(each.field)) return streams_in(rows, 0, values, to);
-    const swivel_in origin = has_origin(group.features, each.field) ? frame.origin : swivel_in{};
+    const swivel_in origin = has_origin(group, each.field) ? frame.origin : swivel_in{};
     return streams_of_doubles(rows, 0, values, origin, to);
 }
 void copy_chosen(const Group& group, const Stream* from, const Stream* end, const std::uint32_t* mask, GroupBlocks some)

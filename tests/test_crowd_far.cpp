@@ -91,7 +91,8 @@ TEST_CASE("wrong doubles are refused with one line and change nothing")
     CHECK(std::string(swivel_last_error()) == "group 0, origin: stride 23 is smaller than a value, 24 bytes");
     CHECK_REFUSED(swivel_write_doubles(c, SWIVEL_LENGTHS, 0, 0, 1, good, none), bad);
     CHECK(std::string(swivel_last_error()) ==
-          "group 0, lengths: not a position; doubles are for target, pole, shoulder_position and coming");
+          "group 0, lengths: not a position; doubles are for target, pole, shoulder_position, coming, ground and "
+          "prop_place");
     CHECK_REFUSED(swivel_write_doubles(directions.get(), SWIVEL_POLE, 0, 0, 1, good, good), bad);
     CHECK(std::string(swivel_last_error()) == "group 0, pole: it is a direction here, which has no origin; give null");
     CHECK(all_words(directions) == before_directions);
