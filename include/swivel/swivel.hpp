@@ -15,12 +15,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <ranges>
@@ -91,6 +94,13 @@ inline swivel_group_def fit_group(const swivel_fit& fit = swivel_default_fit())
 {
     swivel_group_def made = swivel_default_fit_group_def();
     made.fit = fit;
+    return made;
+}
+// A thing that hands of each body hold: limbs WITH_LINK, whose `link` is this group's number.
+inline swivel_group_def prop_group(const swivel_prop& prop = swivel_default_prop())
+{
+    swivel_group_def made = swivel_default_prop_group_def();
+    made.prop = prop;
     return made;
 }
 
@@ -351,6 +361,76 @@ private:
     std::variant<Everything, std::span<const Each>, std::vector<Each>> values_;
 };
 
+// Feet of one group that want to know the ground, as swivel_probes: one entry of each range for a foot. Where there is
+// no ground, a number of `grounds` becomes NaN.
+struct Probes {
+    std::uint32_t group;
+    std::span<const std::uint32_t> bodies;
+    std::span<const float[3]> places;
+    std::span<float[3]> grounds, normals;
+};
+
+// A view of what samples the ground: anything that may be called with Probes, by several threads at a time. It must
+// live until the solve that it is given to is over. So a lambda may stand in solve()'s braces; for a Job with a name it
+// needs a name, too.
+class Sample {
+public:
+    Sample() = default;
+    template <std::invocable<const Probes&> Ask>
+    requires(!std::same_as<std::remove_cvref_t<Ask>, Sample>) Sample(Ask&& ask)
+        : ask_(const_cast<void*>(reinterpret_cast<const volatile void*>(&ask))),
+          call_([](void* of, const Probes& probes) {
+              std::invoke(*reinterpret_cast<std::add_pointer_t<Ask>>(of), probes);
+          })
+    {
+    }
+    explicit operator bool() const { return call_ != nullptr; }
+    void operator()(const Probes& probes) const { call_(ask_, probes); }
+
+private:
+    void* ask_ = nullptr;
+    void (*call_)(void* of, const Probes& probes) = nullptr;
+};
+
+// Samples for one solve. An exception waits here until the solve is over, because none may cross C.
+class Sampling {
+public:
+    explicit Sampling(const Sample& sample) : sample_(sample) {}
+
+    static void answer(const swivel_probes* asked, void* user)
+    {
+        auto& self = *static_cast<Sampling*>(user);
+        const Probes probes{asked->group,
+                            {asked->bodies, asked->count},
+                            {asked->places, asked->count},
+                            {asked->grounds, asked->count},
+                            {asked->normals, asked->count}};
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+        if (self.has_failed_.load(std::memory_order_relaxed)) return;
+        try {
+            self.sample_(probes);
+        } catch (...) {
+            if (!self.has_failed_.exchange(true)) self.exception_ = std::current_exception();
+        }
+#else
+        self.sample_(probes);
+#endif
+    }
+    void finish() const
+    {
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+        if (exception_) std::rethrow_exception(exception_);
+#endif
+    }
+
+private:
+    const Sample& sample_;
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+    std::atomic<bool> has_failed_ = false;
+    std::exception_ptr exception_;
+#endif
+};
+
 // What a solve does, as swivel_job. By default it solves every limb, from and to rows, on oneTBB. Of mask, limbs and
 // priorities at most one is given.
 struct Job {
@@ -365,6 +445,10 @@ struct Job {
     bool on_this_thread = false;
     void* workspace = nullptr;          // memory for this call alone; null: one of the crowd's workspaces
     const swivel_pose* pose = nullptr;  // of bodies; null in a crowd of free limbs
+    bool probes_only = false;           // finds SWIVEL_PROBE and changes nothing else
+    // For groups WITH_GROUND. If it throws, no more feet ask, and they stand on the ground that they had. The solve
+    // goes on to its end; then solve() throws the first of its exceptions.
+    Sample sample = {};
 };
 
 // Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb of the group; or, with
@@ -386,7 +470,8 @@ public:
     Crowd(std::initializer_list<const swivel_group_def*> groups) = delete;
     explicit Crowd(const swivel_group_def& group) : Crowd(std::span(&group, 1)) {}
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
-    // Bodies of one skeleton, with a group for each limb, and perhaps one for their shift. up: see swivel_crowd_def.
+    // Bodies of one skeleton, with a group for each limb, and perhaps for their shift and props. up: see
+    // swivel_crowd_def.
     Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const swivel_group_def> groups,
           const std::array<float, 3>& up = {0, 1, 0})
     {
@@ -469,9 +554,13 @@ public:
         job.on_this_thread = wanted.on_this_thread;
         job.workspace = wanted.workspace;
         job.pose = wanted.pose;
+        job.probes_only = wanted.probes_only;
+        Sampling sampling(wanted.sample);
+        if (wanted.sample) job.sample = &Sampling::answer, job.sample_user = &sampling;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
         check(swivel_solve(crowd_, &job));
+        sampling.finish();
         return solved;
     }
     // swivel_choose(): marks limbs in a mask and returns how many.
