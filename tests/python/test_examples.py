@@ -10,7 +10,7 @@ import numpy as np
 
 import swivel
 from arms import joints_at, rotate, times
-from bodies import forward
+from bodies import angles, forward
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -19,7 +19,7 @@ class Documentation(unittest.TestCase):
     def test_programs_run(self):
         text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
         programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertEqual(len(programs), 10)
+        self.assertEqual(len(programs), 12)
         names, printed = {}, io.StringIO()
         with contextlib.redirect_stdout(printed):
             for program in programs:
@@ -50,6 +50,18 @@ class Documentation(unittest.TestCase):
         at, _ = forward(names["walk"], names["skeleton"].translations, root=names["drawn_at"], parents=names["skeleton"].parents)
         locked = names["saved"][0][:, :3]
         np.testing.assert_allclose(at[:, names["FOOT"]], locked, atol=2e-4)  # floats a kilometre off
+
+        self.assertEqual(names["climbers"].find(swivel.Flag.BAD_INPUT), None)
+        foot = forward(names["climb"].rotations, names["raised"].translations, root=names["stand"], parents=names["raised"].parents)
+        for point in ((0, -0.06, 0.12), (0, -0.06, -0.06)):  # toe and heel are not below the ground
+            at = foot[0][:, names["FOOT"]] + rotate(foot[1][:, names["FOOT"]], np.array(point))
+            self.assertGreater(np.min(at[:, 1] - 0.2 * at[:, 2]), -1e-4)
+        self.assertTrue(np.all(names["held"]))
+        hands, turned = forward(names["aiming"], names["arms_alone"].translations, root=names["stand"], parents=names["arms_alone"].parents)
+        for hand, x in ((names["LEFT_HAND"], 0.15), (names["RIGHT_HAND"], -0.1)):
+            np.testing.assert_allclose(hands[:, hand], names["stand"] + (x, 1.2, 0.35), atol=1e-4)
+            self.assertLess(angles(turned[:, hand], np.array((0, 0, 0, 1.0))).max(), 1e-4)
+        np.testing.assert_allclose(names["rifles"][:, :3], names["stand"] + (0, 1.2, 0.35), atol=1e-4)
 
     def test_the_program_of_bodies_runs(self):
         text = (ROOT / "docs" / "howto" / "bodies.md").read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import swivel
-from bodies import crowd_of
+from bodies import LIMBS, PARENTS, PLACES, crowd_of
 from swivel import Feature, Field
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -46,6 +46,11 @@ def crowd_with(features):
     """Of one limb, or of one body for what bodies alone have; and the number of the group with these features."""
     if features & Feature.FIT:
         return crowd_of(1, Feature.WITH_FIT), 2
+    if features & (Feature.PROP | Feature.WITH_LINK):
+        hand = swivel.BodyGroup(*LIMBS[0], bend=(0, 0, 1), features=features & ~Feature.PROP | Feature.WITH_HAND | Feature.WITH_LINK, link=1)
+        return swivel.Crowd([hand, swivel.PropGroup()], skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=1), int(bool(features & Feature.PROP))
+    if features & Feature.SENT:  # which a group gets by itself
+        features |= Feature.WITH_PLANT
     return (crowd_of(1, features) if features & Feature.BODY else swivel.Crowd(1, features)), 0
 
 
@@ -102,13 +107,15 @@ class Names(unittest.TestCase):
         for name, has, others in (("swivel_skeleton", swivel.Skeleton, {"joint_count"}),
                                   ("swivel_limb_joints", swivel.BodyGroup, {"twist_bone_count"}),
                                   ("swivel_plant", swivel.Plant, set()), ("swivel_fit", swivel.FitGroup, set()),
+                                  ("swivel_ground", swivel.Ground, set()), ("swivel_prop", swivel.PropGroup, set()),
                                   ("swivel_supports", swivel.Support, set()),
                                   ("swivel_pose", swivel.Pose, {"form", "root_is_double", "results", "translation_results"})):
             members = set(re.findall(r"(\w+)(?:\[\d+\])?[,;]", body_of("struct", name))) - {"size", "reserved"}
             self.assertEqual(members - set(has._fields), others, f"swivel.{has.__name__} beside {name}")
 
     def test_constants_start_as_in_the_header(self):
-        for name, has in (("swivel_plant", swivel.Plant()), ("swivel_fit", swivel.FitGroup()[:4])):
+        for name, has in (("swivel_plant", swivel.Plant()), ("swivel_fit", swivel.FitGroup()[:4]), ("swivel_ground", swivel.Ground()),
+                          ("swivel_prop", swivel.PropGroup()[:2])):
             [numbers] = re.findall(rf"const {name} \w+ = (\{{.*?\}});", HEADER, re.DOTALL)
             wanted = eval(re.sub(r"(?<=\d)f", "", numbers).replace("{", "(").replace("}", ")"))
             self.assertEqual(tuple(has), wanted, name)
@@ -138,7 +145,7 @@ class Stub(unittest.TestCase):
         core = sys.modules["swivel._core"]
         names = {node.name for node in STUB.body if public(node)} | {"LANES"}
         self.assertEqual(names, {name for name in vars(core) if name[0] != "_"})
-        self.assertEqual(names | {"BodyGroup", "FitGroup", "Group", "Plant", "Pose", "Skeleton", "Support", "solve"}, set(swivel.__all__))
+        self.assertEqual(names | {"BodyGroup", "FitGroup", "Ground", "Group", "Plant", "Pose", "PropGroup", "Skeleton", "Support", "solve"}, set(swivel.__all__))
         for node in STUB.body:
             if isinstance(node, ast.ClassDef) and not issubclass(getattr(swivel, node.name), (int, tuple)):
                 wanted = {name for name in vars(getattr(swivel, node.name)) if name[0] != "_"}

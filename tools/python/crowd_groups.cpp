@@ -28,7 +28,8 @@ constexpr const char* kCrowdText =
     "binding). Feature.JOINTS needs the binding that bind() gave. features, on_bad_input and the orders are\n"
     "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
     "With a skeleton it is a crowd of body_count bodies, whose groups are BodyGroups: limb i of each is body i's.\n"
-    "A FitGroup among them shifts the bodies. solve() then takes their pose, and on_bad_input None is\n"
+    "A FitGroup among them shifts the bodies, a PropGroup is a thing that hands hold. solve() then takes their pose, "
+    "and on_bad_input None is\n"
     "OnBadInput.KEEP_POSE instead of REST_POSE. up, of any length but 0, is the axis of heights and shifts in\n"
     "the root's frame.\n\n"
     "Targets and shoulder positions start as NaN, lengths as the binding's, or NaN: a limb that never gets them has\n"
@@ -97,12 +98,14 @@ swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, 
     try {
         joints = joints_of(number("shoulder"), number("elbow"), number("wrist"),
                            entry.attr("twist_bones").cast<std::vector<std::int64_t>>(), entry.attr("bend"));
+        def.link = count_of("link", number("link"));
         set_options(def, entry.attr("features"), entry.attr("on_bad_input"), entry.attr("shoulder_order"),
                     entry.attr("wrist_order"));
     } catch (const py::cast_error&) {
         refuse("whole numbers in a BodyGroup", entry);
     }
     def.plant = plant_of(entry.attr("plant"));
+    def.ground = ground_of(entry.attr("ground"));
     // Who names twist bones wants them to turn. Too many are for the library to refuse.
     constexpr swivel_features kAnyBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
     if (!(def.features & kAnyBones))
@@ -110,18 +113,25 @@ swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, 
     return def;
 }
 
-// A swivel.FitGroup, which has no features but its own.
-swivel_group_def fit_group_of(py::handle entry, const swivel_group_def& usual)
+// A group that is no limb. It has no features but its own.
+swivel_group_def limbless(swivel_group_def def, const char* type, py::handle entry, const swivel_group_def& usual)
 {
-    swivel_group_def def = swivel_default_fit_group_def();
     def.on_bad_input = usual.on_bad_input;
-    def.fit = fit_of(entry);
     try {
         set_options(def, py::none(), entry.attr("on_bad_input"), py::none(), py::none());
     } catch (const py::cast_error&) {
-        refuse("a member of OnBadInput in a FitGroup", entry);
+        refuse(("a member of OnBadInput in a " + std::string(type)).c_str(), entry);
     }
     return def;
+}
+// A swivel.FitGroup and a swivel.PropGroup.
+swivel_group_def fit_group_of(py::handle entry, const swivel_group_def& usual)
+{
+    return limbless(fit_group(fit_of(entry)), "FitGroup", entry, usual);
+}
+swivel_group_def prop_group_of(py::handle entry, const swivel_group_def& usual)
+{
+    return limbless(prop_group(prop_of(entry)), "PropGroup", entry, usual);
 }
 
 // From the lowest to the highest byte of any group's rows. A crowd's memory is one piece, so no array lies in between.
@@ -146,7 +156,8 @@ Memory memory_of(swivel_crowd* crowd)
 
 std::vector<py::object> entries_of(const py::object& groups)
 {
-    const bool is_one = is_a("Group", groups) || is_a("BodyGroup", groups) || is_a("FitGroup", groups);
+    const bool is_one =
+        is_a("Group", groups) || is_a("BodyGroup", groups) || is_a("FitGroup", groups) || is_a("PropGroup", groups);
     if (is_one || is_number(groups) || !py::isinstance<py::iterable>(groups)) return {groups};
     std::vector<py::object> entries;
     for (const py::handle entry : groups) entries.push_back(py::reinterpret_borrow<py::object>(entry));
@@ -168,6 +179,7 @@ HeldCrowd make(const py::object& groups, std::int64_t features, std::int64_t sho
     std::vector<swivel_group_def> groups_of_crowd;
     for (std::size_t n = 0; n < entries.size(); ++n)
         groups_of_crowd.push_back(is_a("FitGroup", entries[n])    ? fit_group_of(entries[n], usual)
+                                  : is_a("PropGroup", entries[n]) ? prop_group_of(entries[n], usual)
                                   : is_a("BodyGroup", entries[n]) ? body_group_of(entries[n], usual, joints[n])
                                                                   : group_of(entries[n], usual));
     swivel_crowd_def def = swivel_default_crowd_def();

@@ -135,13 +135,13 @@ void require_direct(const Frames& frames)
                 "frames: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
-// A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know. Planted limbs
-// need none.
+// A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know. What is planted
+// or linked needs none.
 void require_frames(const HeldCrowd& held, const std::vector<std::uint32_t>& groups, const PoseArrays& pose,
                     const py::object& frames)
 {
     const bool has_targets = std::any_of(groups.begin(), groups.end(), [&](std::uint32_t group) {
-        return !(swivel_group_features(held.crowd.get(), group) & (SWIVEL_WITH_PLANT | SWIVEL_FIT));
+        return !(swivel_group_features(held.crowd.get(), group) & (SWIVEL_SENT | SWIVEL_FIT | SWIVEL_PROP));
     });
     if (pose.view.root_is_double && has_targets && frames.is_none())
         throw py::value_error(
@@ -163,7 +163,8 @@ void* workspace_of(const HeldCrowd& held)
 
 std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups, const py::object& mask,
                     const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> most_blocks,
-                    const py::object& urgency, const py::object& frames, const py::object& pose, bool on_this_thread)
+                    const py::object& urgency, const py::object& frames, const py::object& pose, bool on_this_thread,
+                    bool probes_only)
 {
     Job job;
     if (blocks) job.blocks = {count_of("first block", blocks->first), count_of("block count", blocks->second)};
@@ -188,6 +189,7 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     const std::vector<swivel_frame> views(arrays.frames.begin(), arrays.frames.end());
     if (!frames.is_none()) job.frames = views;
     job.on_this_thread = on_this_thread;
+    job.probes_only = probes_only;
     job.workspace = workspace_of(held);
     const Way way = on_this_thread ? Way::kSolvingBlocks : Way::kAlone;
     const std::uint32_t solved = run(held, way, [&] { return held.crowd.solve(job); });
@@ -228,7 +230,7 @@ void add_solving(CrowdClass& crowd)
         "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("groups") = py::none(),
         py::arg("mask") = py::none(), py::arg("limbs") = py::none(), py::arg("priorities") = py::none(),
         py::arg("most_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("frames") = py::none(),
-        py::arg("pose") = py::none(), py::arg("on_this_thread") = false,
+        py::arg("pose") = py::none(), py::arg("on_this_thread") = false, py::arg("probes_only") = false,
         "Solves limbs, all of them if nothing is given, and gives how many. Equal inputs give equal bits on every "
         "CPU.\n\n"
         "blocks is (first, count), of LANES limbs each. groups: numbers of groups; others are neither read nor\n"
@@ -248,6 +250,9 @@ void add_solving(CrowdClass& crowd)
         "masks,\n"
         "lists and the one entry of priorities are of bodies then. Bodies that are not chosen are neither read nor\n"
         "written. Targets, poles and hands are in the world.\n\n"
+        "probes_only finds Field.PROBE of groups with Feature.WITH_GROUND, and changes nothing else. Sample the "
+        "ground\n"
+        "there, write Field.GROUND and Field.GROUND_NORMAL, and solve. No function of yours is called in a solve.\n\n"
         "On all cores if the library was built with oneTBB; on_this_thread on one, and then several threads may\n"
         "solve blocks that do not overlap at once, with the same mask and frames. Lists and priorities are for the\n"
         "whole crowd and exclude both, and priorities exclude groups. ValueError for limbs that do not exist or are\n"
@@ -260,8 +265,9 @@ void add_solving(CrowdClass& crowd)
               "every call. Each call adds a block's largest priority to its urgency, which is 0 again for those\n"
               "picked, so none starves. Only its magnitude counts. None: priorities alone decide. Gives a mask for\n"
               "solve(), which chooses and solves in one if it gets the priorities.");
-    crowd.def("reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
-              "Forgets what is carried from solve to solve: swivels, planted points and shifts. After a teleport.");
+    crowd.def(
+        "reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
+        "Forgets what is carried from solve to solve: swivels, planted points, shifts and lifts. After a teleport.");
     crowd.def("change_support", &change_support, py::arg("was"), py::arg("now"), py::arg("group") = 0,
               py::arg("first") = 0, py::arg("count") = py::none(),
               "Changes what planted points of `count` bodies from `first` on stand on, without a jump.\n\n"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tools/python/plants.h"
 
+#include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include "tools/python/names.h"
 
@@ -11,13 +13,16 @@ namespace swivel::python {
 
 namespace {
 
-float number_of(const char* of, const char* name, const py::handle& given)
+template <class Number = float>
+Number number_of(const char* of, const char* name, const py::handle& given)
 {
     const py::object value = given.attr(name);
     try {
-        return value.cast<float>();
+        return value.cast<Number>();
     } catch (const py::cast_error&) {
-        throw py::type_error(std::string(of) + "." + name + ": expected a number, got " + std::string(py::repr(value)));
+        throw py::type_error(std::string(of) + "." + name + ": expected a " +
+                             (std::is_integral_v<Number> ? "whole " : "") + "number, got " +
+                             std::string(py::repr(value)));
     }
 }
 
@@ -47,10 +52,24 @@ swivel_plant plant_of(const py::object& given)
     return made;
 }
 
+swivel_ground ground_of(const py::object& given)
+{
+    require("ground", "Ground", given);
+    const auto number = [&](const char* name) { return number_of("ground", name, given); };
+    swivel_ground made{{}, number("toe_clearance"), number("heel_clearance"), number("cos_most"), number("half")};
+    copy("ground.heel", given.attr("heel"), made.heel);
+    return made;
+}
+
 swivel_fit fit_of(const py::handle& group)
 {
     const auto number = [&](const char* name) { return number_of("fit", name, group); };
     return {number("drop"), number("rise"), number("half"), number("ahead")};
+}
+
+swivel_prop prop_of(const py::handle& group)
+{
+    return {number_of<std::int32_t>("prop", "joint", group), number_of("prop", "most_move", group)};
 }
 
 SupportArrays supports_of(const char* name, const py::object& given, std::size_t body_count)

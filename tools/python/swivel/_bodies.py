@@ -48,6 +48,25 @@ class Plant(NamedTuple):
     height: Sequence[float] = (0.08, 0.1)
 
 
+class Ground(NamedTuple):
+    """How the feet of a BodyGroup with Feature.WITH_GROUND stand on ground as it lies: their effectors are the toes.
+
+    Clearances are heights over the ground, in the bones' unit.
+
+    heel            (3,) a point of the sole in the wrist joint's frame, in the bones' unit; zeros: the wrist itself
+    toe_clearance   of the effector where it stands
+    heel_clearance  of the heel where it stands; 0 for both if both are on the sole
+    cos_most        cosine of the angle that the foot turns at most, 0 to 1
+    half            seconds in which about half of a lift is made up
+    """
+
+    heel: npt.ArrayLike = (0, 0, 0)
+    toe_clearance: float = 0
+    heel_clearance: float = 0
+    cos_most: float = 0.8
+    half: float = 0.05
+
+
 class BodyGroup(NamedTuple):
     """A limb of each body, for a Crowd with a skeleton. Features, on_bad_input and orders: None is as the crowd says for all groups.
 
@@ -61,6 +80,8 @@ class BodyGroup(NamedTuple):
     shoulder_order  of Field.SHOULDER_BOX
     wrist_order     of Field.WRIST_BOX
     plant           for Feature.WITH_PLANT
+    ground          for Feature.WITH_GROUND
+    link            for Feature.WITH_LINK: the number of the group that it holds, a PropGroup or an earlier BodyGroup
     """
 
     shoulder: int
@@ -73,6 +94,8 @@ class BodyGroup(NamedTuple):
     shoulder_order: Optional[EulerOrder] = None
     wrist_order: Optional[EulerOrder] = None
     plant: Plant = Plant()
+    ground: Ground = Ground()
+    link: int = 0
 
 
 class FitGroup(NamedTuple):
@@ -91,6 +114,22 @@ class FitGroup(NamedTuple):
     rise: float = 0.05
     half: float = 0.1
     ahead: float = 0.3
+    on_bad_input: Optional[OnBadInput] = None
+
+
+class PropGroup(NamedTuple):
+    """A thing that one hand or two of each body hold, such as a rifle or a ladder: BodyGroups with Feature.WITH_LINK. One of a Crowd's groups.
+
+    It names no limb, and its one feature is Feature.PROP. Field.PROP_PLACE and Field.PROP_TURN say where it is, or else its joint, or else the
+    hands of the incoming pose. It moves as little as it must so that all hands reach. Field.PROP_FRAME is where it then is.
+
+    joint         of the skeleton, which no limb turns; -1: none
+    most_move     the most that it moves, in lengths of the first limb that is linked to it; 0: it stays, as a ladder does
+    on_bad_input  what a body with bad input gets; None: as the crowd says
+    """
+
+    joint: int = -1
+    most_move: float = 1
     on_bad_input: Optional[OnBadInput] = None
 
 
@@ -133,7 +172,7 @@ class Pose(NamedTuple):
     and joint_places get the joints that some limb needs: its own, those in between, and all above. Others keep their numbers.
 
     A root_position that is an array of float64 makes support_position and all positions in frames float64. The root is subtracted in double, for
-    crowds kilometres from the origin. Positions that frames leave out are then counted from the root.
+    crowds kilometres from the origin. Positions that frames leave out, and places among results, are then counted from the root.
     """
 
     rotations: Optional[npt.ArrayLike] = None
