@@ -175,7 +175,7 @@ test('some limbs: blocks, masks, lists and budgets', () => {
   refuses(() => crowd.solve({ ...two, urgency, groups: [0] }), 'leave groups out');
   assert.deepEqual([...urgency], [0, 2, 1, 1, 0]);
   refuses(() => crowd.solve({ priorities: [[1], [1]] }), 'priorities and mostBlocks together');
-  refuses(() => crowd.solve({ limb: [0] }), 'solve() takes blocks, groups, mask, limbs, priorities, mostBlocks, urgency, not limb');
+  refuses(() => crowd.solve({ limb: [0] }), 'solve() takes blocks, groups, mask, limbs, priorities, mostBlocks, urgency, probesOnly, not limb');
   refuses(() => crowd.solve([0]), 'not 0');
   refuses(() => crowd.solve({ limbs: [0.5] }), 'limbs is 0.5');
   refuses(() => crowd.solve({ priorities: [[1]], mostBlocks: 1 }), '1 priorities for 2 groups');

@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { defaultFit, defaultPlant, Feature, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION } from 'swivel-wasm';
+import { defaultFit, defaultGround, defaultPlant, defaultProp, Feature, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION } from 'swivel-wasm';
 import { swivel } from './common.mjs';
 
 // The arms of tests/package/arm.c.
@@ -63,11 +63,11 @@ test('every name of swivel.h, with its number', () => {
   };
   for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [OnBadInput, 'on_bad_input'], [PoseForm, 'pose_form'], [PoseSpace, 'pose_space'], [Status, 'status']])
     assert.deepEqual({ ...names }, numbersOf(`swivel_${kind}`));
-  for (const [constants, name] of [[defaultPlant, 'plant'], [defaultFit, 'fit']]) {
+  for (const [constants, name] of [[defaultPlant, 'plant'], [defaultFit, 'fit'], [defaultGround, 'ground'], [defaultProp, 'prop']]) {
     const [, numbers] = header.match(new RegExp(`const swivel_${name} \\w+ = \\{(.*?)\\};`, 's'));
     assert.deepEqual(Object.values(constants).flat(), numbers.replace(/[{}f]/g, '').split(',').map(Number));
     const [, members] = header.match(new RegExp(`typedef struct swivel_${name} \\{(.*?)\\} swivel_${name};`, 's'));
-    assert.deepEqual(Object.keys(constants), members.match(/\w+(?=[,;[])/g));
+    assert.deepEqual(Object.keys(constants), members.match(/\w+(?=[,;[])/g).map((member) => member.replace(/_(.)/g, (_, letter) => letter.toUpperCase())));
   }
   assert.equal(LANES, 16);
   assert.equal(MOST_TWIST_BONES, 7);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The promise: the types of the package for the web allow what works, and refuse what does not. tsc reads this, nothing runs it.
-import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultPlant, Feature, Field, type Fit, type FitGroup, Flag, type Group, load, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Support, type Swivel, SwivelError } from 'swivel-wasm';
+import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultGround, defaultPlant, Feature, Field, type Fit, type FitGroup, Flag, type Ground, type Group, load, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Prop, type PropGroup, type Support, type Swivel, SwivelError } from 'swivel-wasm';
 
 const swivel: Swivel = await load({ megabytes: 4 });
 const binding: Binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: new Float32Array([0, 0, 1]), bend: [0, 1, 0] });
@@ -17,11 +17,14 @@ const skeleton = { parents: [-1, 0, 1, 2], translations: new Float32Array(12) };
 const bodies: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], form: PoseForm.MATRIX_ROWS, space: PoseSpace.IN_BODY });
 const plant: Plant = { ...defaultPlant, lock: 0.1, speed: [0.5, 0.7] }, fit: Fit = { drop: 0.2 }, shift: FitGroup = { fit, onBadInput: OnBadInput.KEEP_POSE };
 const standing: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, plant }, shift], up: [0, 0, 1] });
+const ground: Ground = { ...defaultGround, heel: [0, -0.06, -0.06] }, prop: Prop = { joint: 0, mostMove: 0.1 }, rifle: PropGroup = { prop };
+const holding: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, features: Feature.WITH_HAND | Feature.WITH_LINK, ground, link: 1 }, rifle] });
+const probed: number = holding.solve({ probesOnly: true });
 const support: Support = { position: new Float64Array(3), rotation: [0, 0, 0, 1] };
 standing.changeSupport(support, {}, { first: 1 });
 const near: Float32Array[] = [bodies.pose('rotations'), bodies.pose('rootPosition'), bodies.pose('supportPosition'), bodies.pose('time'), bodies.positions(Field.TARGET)];
 const far: Float64Array[] = [swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], rootIsDouble: true }).pose('supportPosition')];
-export { closing, far, near, digest, flags, place, shoulders, solved, SwivelError };
+export { closing, far, near, digest, flags, place, probed, shoulders, solved, SwivelError };
 
 // @ts-expect-error: features are BigInts
 swivel.crowd([3], 1);
@@ -45,4 +48,8 @@ bodies.pose('rotation');
 swivel.bodies({ skeleton, bodyCount: 3, groups: [{ limbCount: 3 }] });
 // @ts-expect-error: plants have no such constant
 swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, plant: { look: 1 } }] });
+// @ts-expect-error: a prop has no wrist
+swivel.bodies({ skeleton, bodyCount: 3, groups: [arm, { prop: { wrist: 1 } }] });
+// @ts-expect-error: no solve calls back
+holding.solve({ sample: () => undefined });
 export { floats };

@@ -42,7 +42,8 @@ function featureSets(isBodys) {
   const all = Object.entries(featureRules).map(([name, rule]) => ({ bit: Feature[name], ...rule }));
   const withAll = (features) => all.reduce((found, { bit, needs }) => (found & bit ? found | needs : found), features);
   const withNeeds = (features) => withAll(withAll(features));  // a need has needs of its own
-  const rules = all.filter(({ bit }) => bit !== Feature.FIT && (isBodys ? !(Feature.JOINTS & bit) : !(withNeeds(bit) & Feature.BODY)));
+  const ofNoLimb = Feature.FIT | Feature.PROP | Feature.SENT;  // the last is not given, but had
+  const rules = all.filter(({ bit }) => !(bit & ofNoLimb) && (isBodys ? !(Feature.JOINTS & bit) : !(withNeeds(bit) & Feature.BODY)));
   const fits = (features) => rules.every(({ bit, excludes }) => !(features & bit && features & excludes));
   const sets = [];
   for (const { bit } of rules)
@@ -56,7 +57,8 @@ test('every field has its own place in frames', () => {
   const skeleton = { parents: [-1, 0, 1, 2, 2, 2, 2], translations: new Array(7).fill([0, 0, 1]).flat() };
   const bodies = (features) => {
     const joints = { shoulder: 1, elbow: 2, wrist: 3, bend: [0, 1, 0], twistBones: features & Feature.WITH_TWIST_BONES ? [4, 5, 6] : [] };
-    const shifts = features & Feature.WITH_FIT ? [{ fit: {} }] : [], crowd = swivel.bodies({ skeleton, bodyCount: 20, groups: [{ joints, features, onBadInput: OnBadInput.REST_POSE }, ...shifts] });
+    const others = [...(features & Feature.WITH_FIT ? [{ fit: {} }] : []), ...(features & Feature.WITH_LINK ? [{ prop: {} }] : [])];
+    const crowd = swivel.bodies({ skeleton, bodyCount: 20, groups: [{ joints, features, onBadInput: OnBadInput.REST_POSE, link: others.length }, ...others] });
     crowd.pose('time');
     return crowd;
   };

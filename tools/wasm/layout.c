@@ -15,13 +15,18 @@
 #define BEGIN(structure) printf("    %s: { bytes: %zu,", #structure, sizeof(structure))
 #define END() printf(" },\n")
 #define CONSTANT(of, name) printf("    %s: %g,\n", #name, (double)of.name)
+#define RENAMED(of, name, shown) printf("    %s: %g,\n", shown, (double)of.name)
 #define PAIR(of, name) printf("    %s: [%g, %g],\n", #name, (double)of.name[0], (double)of.name[1])
+#define TRIPLE(of, name) \
+    printf("    %s: [%g, %g, %g],\n", #name, (double)of.name[0], (double)of.name[1], (double)of.name[2])
 
 _Static_assert(sizeof(swivel_frame_field) == 12, "rows.ts writes it as three words");
 _Static_assert(sizeof(swivel_joint_values) == 16, "bodies.ts writes it as four words");
 _Static_assert(sizeof(swivel_supports) == 16, "bodies.ts writes it as four words");
 _Static_assert(sizeof(swivel_plant) == 11 * sizeof(float), "groups.ts writes it as floats");
 _Static_assert(sizeof(swivel_fit) == 4 * sizeof(float), "groups.ts writes it as floats");
+_Static_assert(sizeof(swivel_ground) == 7 * sizeof(float), "groups.ts writes it as floats");
+_Static_assert(sizeof(swivel_prop) == 8, "groups.ts writes it as a joint and a float");
 
 static void print_features(void)
 {
@@ -88,11 +93,18 @@ static void print_constants(void)
 {
     const swivel_plant plant = swivel_default_plant();
     const swivel_fit fit = swivel_default_fit();
+    const swivel_ground ground = swivel_default_ground();
+    const swivel_prop prop = swivel_default_prop();
     printf("\nexport const defaultPlant = {\n");
     CONSTANT(plant, lock), CONSTANT(plant, unlock), CONSTANT(plant, stop), CONSTANT(plant, blend);
     CONSTANT(plant, again), CONSTANT(plant, run), CONSTANT(plant, longest), PAIR(plant, speed), PAIR(plant, height);
     printf("} as const;\n\nexport const defaultFit = {\n");
     CONSTANT(fit, drop), CONSTANT(fit, rise), CONSTANT(fit, half), CONSTANT(fit, ahead);
+    printf("} as const;\n\nexport const defaultGround = {\n");
+    TRIPLE(ground, heel), RENAMED(ground, toe_clearance, "toeClearance");
+    RENAMED(ground, heel_clearance, "heelClearance"), RENAMED(ground, cos_most, "cosMost"), CONSTANT(ground, half);
+    printf("} as const;\n\nexport const defaultProp = {\n");
+    CONSTANT(prop, joint), RENAMED(prop, most_move, "mostMove");
     printf("} as const;\n");
 }
 
@@ -121,7 +133,8 @@ static void print_structures(void)
     OFFSET(swivel_group_def, limb_count), OFFSET(swivel_group_def, on_bad_input);
     OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
     OFFSET(swivel_group_def, binding), OFFSET(swivel_group_def, joints), OFFSET(swivel_group_def, plant);
-    OFFSET(swivel_group_def, fit), END();
+    OFFSET(swivel_group_def, fit), OFFSET(swivel_group_def, ground), OFFSET(swivel_group_def, prop);
+    OFFSET(swivel_group_def, link), END();
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);
     OFFSET(swivel_crowd_def, workspace_count), OFFSET(swivel_crowd_def, groups);
     OFFSET(swivel_crowd_def, skeleton), OFFSET(swivel_crowd_def, body_count), OFFSET(swivel_crowd_def, up), END();
@@ -129,7 +142,7 @@ static void print_structures(void)
     OFFSET(swivel_job, group_word_count), OFFSET(swivel_job, mask), OFFSET(swivel_job, mask_word_count);
     OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities), OFFSET(swivel_job, urgency);
     OFFSET(swivel_job, most_blocks), OFFSET(swivel_job, frames), OFFSET(swivel_job, solved_count);
-    OFFSET(swivel_job, pose), END();
+    OFFSET(swivel_job, pose), OFFSET(swivel_job, probes_only), END();
     BEGIN(swivel_frame), OFFSET(swivel_frame, size), OFFSET(swivel_frame, fields);
     OFFSET(swivel_frame, field_count), END();
     BEGIN(swivel_pose), OFFSET(swivel_pose, size), OFFSET(swivel_pose, form), OFFSET(swivel_pose, root_is_double);

@@ -3,15 +3,15 @@
 // Crowds of bodies. Their poses lie in swivel's own memory, where solves read and write them.
 import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
 import { Crowd } from "./crowd.js";
-import { BodyGroup, bodyGroups, FitGroup, SharedSkeleton } from "./groups.js";
+import { BodiesGroup, bodyGroups, SharedSkeleton } from "./groups.js";
 import { carried, EXPLANATION_BYTES, layout, PoseForm, PoseSpace } from "./layout.js";
 import { Borrowed, Memory, Structure } from "./memory.js";
 import { copyOf, inBody, Rest, rotationOf, valueOf } from "./rest.js";
 import { isPosition, Limbs } from "./rows.js";
 
 export interface BodiesOptions extends SharedSkeleton {
-    /** Each is one limb of every body, or its shift. */
-    groups: readonly (BodyGroup | FitGroup)[];
+    /** Each is one limb of every body, its shift, or a thing that it holds. */
+    groups: readonly BodiesGroup[];
     /** Of groups of limbs that give none of their own. */
     features?: bigint;
     /** What the rotations of poses are, from PoseForm. Left out: ROTATIONS. */

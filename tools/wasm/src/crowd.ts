@@ -4,7 +4,7 @@ import { carried, EXPLANATION_BYTES } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
-export type { BodyGroup, Fit, FitGroup, Group, GroupOptions, Plant } from "./groups.js";
+export type { BodiesGroup, BodyGroup, Fit, FitGroup, Ground, Group, GroupOptions, Plant, Prop, PropGroup } from "./groups.js";
 export type { Limbs } from "./rows.js";
 
 /**
@@ -27,6 +27,11 @@ export interface Job {
      * blocks take turns. Left out: priorities alone decide.
      */
     urgency?: Float32Array;
+    /**
+     * Finds Field.PROBE of groups with Feature.WITH_GROUND, and changes nothing else. Sample the ground there, give Field.GROUND and
+     * Field.GROUND_NORMAL, and solve. A solve calls no function of yours.
+     */
+    probesOnly?: boolean;
 }
 
 /** A limb, counted within its group. */
@@ -58,10 +63,11 @@ export class Crowd extends CrowdRows {
         return memory.borrow((borrowed) => {
             const solved = borrowed.bytes(4);
             const to = borrowed.structure("swivel_job").words("solved_count", solved).words("pose", this.posed);
-            const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "mostBlocks", "urgency");
+            const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "mostBlocks", "urgency", "probesOnly");
             this.name(chosen.groups, to, borrowed);
             const urgency = this.wait(chosen.urgency, to, borrowed);
             this.choose(chosen, to, borrowed);
+            to.words("probes_only", Number(Boolean(chosen.probesOnly)));
             memory.check(memory.calls.swivel_solve(this.crowd, to.at));
             chosen.urgency?.set(urgency);
             return memory.words(solved, 1)[0];
@@ -110,7 +116,7 @@ export class Crowd extends CrowdRows {
         to.words("priorities", borrowed.words(streams.flat())).words("most_blocks", whole("mostBlocks", mostBlocks as number));
     }
 
-    /** Forgets what limbs carry from solve to solve: swivels, planted points and shifts. */
+    /** Forgets what limbs carry from solve to solve: swivels, planted points, shifts and lifts. */
     reset(limbs: Limbs = {}): void {
         const { group, first, count } = this.place(limbs);
         this.memory.check(this.memory.calls.swivel_reset(this.crowd, group, first, count));

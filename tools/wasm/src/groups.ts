@@ -3,7 +3,7 @@
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
 import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { defaultFit, defaultPlant, Feature, layout, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
+import { defaultFit, defaultGround, defaultPlant, defaultProp, Feature, layout, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
 
 /** What groups of free limbs and of bodies have. */
@@ -58,6 +58,28 @@ export interface Fit {
     /** Seconds from when on Field.COMING counts. At 0 seconds it counts whole. */
     ahead?: number;
 }
+/**
+ * How feet of a group with Feature.WITH_GROUND stand on ground as it lies, as swivel_ground. Their effectors are the toes. What is left out is
+ * as defaultGround has it.
+ */
+export interface Ground {
+    /** A point of the sole in the wrist joint's frame, in the bones' unit. Zeros: the wrist itself. */
+    heel?: Numbers;
+    /** Heights over the ground where effector and heel stand, in the bones' unit. */
+    toeClearance?: number;
+    heelClearance?: number;
+    /** The cosine of the angle that the foot turns at most, 0 to 1. */
+    cosMost?: number;
+    /** Seconds in which about half of a lift is made up. */
+    half?: number;
+}
+/** How a thing lies that hands hold, as swivel_prop. What is left out is as defaultProp has it. */
+export interface Prop {
+    /** Of the skeleton, which no limb turns. -1: none. */
+    joint?: number;
+    /** The most that it moves, in lengths of the first limb that is linked to it. 0: it stays, as a ladder does. */
+    mostMove?: number;
+}
 /** The limb of each body that has these joints. */
 export interface BodyGroup extends LimbOptions {
     /** Its features get the number of twistBones, unless they have one. */
@@ -66,10 +88,21 @@ export interface BodyGroup extends LimbOptions {
     onBadInput?: number;
     /** With Feature.WITH_PLANT. */
     plant?: Plant;
+    /** With Feature.WITH_GROUND. */
+    ground?: Ground;
+    /** With Feature.WITH_LINK: the number of the group that it holds, a prop or an earlier limb. Left out: 0. */
+    link?: number;
 }
 /** The shift of each body, so that its limbs with Feature.WITH_FIT reach. It has Feature.FIT and no other, and no joints. */
 export interface FitGroup {
     fit: Fit;
+    /** As BodyGroup's. */
+    onBadInput?: number;
+}
+
+/** A thing that one hand or two of each body hold: limbs with Feature.WITH_LINK. It has Feature.PROP and no other, and is no limb. */
+export interface PropGroup {
+    prop: Prop;
     /** As BodyGroup's. */
     onBadInput?: number;
 }
@@ -88,6 +121,9 @@ export interface CheckedGroup extends GroupOptions {
     joints?: LimbJoints;
     plant?: Plant;
     fit?: Fit;
+    ground?: Ground;
+    prop?: Prop;
+    link?: number;
 }
 
 function checkedFeatures(features: bigint): bigint {
@@ -114,17 +150,21 @@ function withTwistBones(group: CheckedGroup): CheckedGroup {
     if (group.features & (most * Feature.WITH_TWIST_BONES)) return group;
     return { ...group, features: group.features | (count < most ? count : most) * Feature.WITH_TWIST_BONES };
 }
-function isFit(group: BodyGroup | FitGroup): group is FitGroup { return typeof group === "object" && group !== null && "fit" in group; }
-export function bodyGroups(groups: readonly (BodyGroup | FitGroup)[], features: bigint, bodyCount: number): CheckedGroup[] {
+/** A group of bodies: a limb of each, their shift, or a thing that they hold. */
+export type BodiesGroup = BodyGroup | FitGroup | PropGroup;
+function isFit(group: BodiesGroup): group is FitGroup { return typeof group === "object" && group !== null && "fit" in group; }
+function isProp(group: BodiesGroup): group is PropGroup { return typeof group === "object" && group !== null && "prop" in group; }
+export function bodyGroups(groups: readonly BodiesGroup[], features: bigint, bodyCount: number): CheckedGroup[] {
     const limbCount = whole("bodyCount", bodyCount);
     return checkedList(groups, features, "[{ joints: { shoulder: 1, elbow: 2, wrist: 3 } }]", (group) => {
         const given = isFit(group) ? { ...options("a group of shifts", group, "fit", "onBadInput"), features: Feature.FIT } :
-            options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant");
+            isProp(group) ? { ...options("a prop's group", group, "prop", "onBadInput"), features: Feature.PROP } :
+            options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link");
         return { ...given, onBadInput: given.onBadInput ?? OnBadInput.KEEP_POSE, limbCount };
     }).map(withTwistBones);
 }
-/** The floats of a structure of constants. */
-function constants(of: string, given: Plant | Fit, start: Record<string, number | Numbers>): number[] {
+/** The numbers of a structure of constants. */
+function constants(of: string, given: Plant | Fit | Ground | Prop, start: Record<string, number | Numbers>): number[] {
     const all = { ...start, ...options(of, given as typeof start, ...Object.keys(start)) };
     return Object.entries(start).flatMap(([name, usual]) => {
         const value = all[name], member = `${of}.${name}`;
@@ -132,17 +172,28 @@ function constants(of: string, given: Plant | Fit, start: Record<string, number 
     });
 }
 
+/** A swivel_prop's bytes: a joint, and a float. */
+function propBytes(given: Prop): Uint8Array {
+    const [joint, mostMove] = constants("prop", given, defaultProp), bytes = new DataView(new ArrayBuffer(8));
+    if (!Number.isInteger(joint) || Math.abs(joint) > 0x7fffffff) refuse(`prop.joint is ${shown(joint)}; give the number of a joint, or -1`);
+    bytes.setInt32(0, joint, true), bytes.setFloat32(4, mostMove, true);
+    return new Uint8Array(bytes.buffer);
+}
+
 /** Makes the library's crowd. Without a skeleton its limbs are free. */
 export function create(memory: Memory, groups: readonly CheckedGroup[], bodies?: SharedSkeleton): number {
     return memory.borrow((borrowed) => {
         const size = layout.swivel_group_def.bytes, list = borrowed.bytes(size * groups.length), crowd = borrowed.bytes(4);
-        groups.forEach(({ limbCount, features, binding, joints, shoulderOrder = 0, wristOrder = 0, onBadInput = 0, plant = {}, fit = {} }, n) => {
+        groups.forEach((group, n) => {
+            const { limbCount, features, binding, joints, shoulderOrder = 0, wristOrder = 0, onBadInput = 0 } = group;
+            const { plant = {}, fit = {}, ground = {}, prop = {}, link = 0 } = group;
             const def = new Structure(memory, "swivel_group_def", list + n * size).wide("features", features);
             def.words("limb_count", limbCount).words("on_bad_input", whole("onBadInput", onBadInput));
             def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
             if (binding) def.copy("binding", binding.bytes);
             def.floats("plant", constants("plant", plant, defaultPlant)).floats("fit", constants("fit", fit, defaultFit));
-            if (bodies && !(features & Feature.FIT)) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
+            def.floats("ground", constants("ground", ground, defaultGround)).copy("prop", propBytes(prop)).words("link", whole("link", link));
+            if (bodies && !(features & (Feature.FIT | Feature.PROP))) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
         });
         const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("workspace_count", 1).words("groups", list);
         if (bodies) {

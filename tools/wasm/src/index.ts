@@ -8,9 +8,12 @@ export { SwivelError } from "./arguments.js";
 export type { FieldNumber, Numbers } from "./arguments.js";
 export type { Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
 export type { Bodies, BodiesOptions, Comparison, LimbPlaces, PosePart, Support } from "./bodies.js";
-export type { Arc, BodyGroup, Crowd, Fit, FitGroup, Group, GroupOptions, JointAngles, Job, Limbs, Place, Plant } from "./crowd.js";
+export type {
+    Arc, BodiesGroup, BodyGroup, Crowd, Fit, FitGroup, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Place, Plant, Prop, PropGroup,
+} from "./crowd.js";
 export {
-    defaultFit, defaultPlant, Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION,
+    defaultFit, defaultGround, defaultPlant, defaultProp, Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm,
+    PoseSpace, Status, VERSION,
 } from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";
 export type { Entity, Swivel } from "./swivel.js";
