@@ -70,20 +70,23 @@ SWIVEL_INLINE constexpr Vector<T> any_across(const Vector<T>& v)
 // The shortest move that is both arms'. Where there is none, the one from which the worse of both misses least.
 //
 // It is one arm's shortest if that is the other's, too. Else it is the point nearest to 0 on the circle in which their
-// spheres meet.
+// spheres meet. Spheres about one middle do not meet; rounding alone then keeps both from having either's.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> least_move(const ReachingMoves<T>& a, const ReachingMoves<T>& b)
 {
+    constexpr double kOneMiddle2 = 1e-12;
     const Vector<T> least_a = a.least(), least_b = b.least();
-    const Mask<T> is_a = b.has(least_a), is_b = a.has(least_b), meets = !(is_a | is_b);
+    const Vector<T> between = b.middle - a.middle;
+    const T both = a.reach + b.reach, distance2 = len2(between);
+    const Mask<T> is_a = b.has(least_a), is_b = a.has(least_b),
+                  meets = !(is_a | is_b) & (distance2 > T(kOneMiddle2) * (len2(a.middle) + both * both));
     const Vector<T> one = select(is_a, least_a, least_b);
     if (!any(meets)) return one;
-    const Vector<T> between = b.middle - a.middle;
-    const T distance2 = len2(between), distance = sqrt(hi(distance2, T(kTiny2)));
+    const T distance = sqrt(hi(distance2, T(kTiny2)));
     const Vector<T> line = (T(1) / distance) * between;
     const T apart = hi(distance - a.reach - b.reach, T(0));
-    const T along = select(apart > T(0), a.reach + T(0.5) * apart,
-                           T(0.5) * (distance + (a.reach - b.reach) * ((a.reach + b.reach) / distance)));
+    const T along =
+        select(apart > T(0), a.reach + T(0.5) * apart, T(0.5) * (distance + (a.reach - b.reach) * (both / distance)));
     const Vector<T> centre = a.middle + along * line;
     const T radius = sqrt(hi(a.reach * a.reach - along * along, T(0)));
     const Vector<T> to_origin = -centre + scalar_product(line, centre) * line;
