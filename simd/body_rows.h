@@ -45,7 +45,7 @@ enum PosedRow : std::uint32_t {
 // Behind the rows of all joints lies what stages hand on from group to group, or from pass to pass. Of a limb that is
 // sent (SWIVEL_SENT):
 enum GoalRow : std::uint32_t {
-    kGoalPlaceRow,  // from the root's place before it is shifted
+    kGoalPlaceRow,  // from the root's place before it is shifted; where it is linked, after that
     kGoalHandRow = kGoalPlaceRow + 3,
     kGoalFlagsRow = kGoalHandRow + 4,   // bits
     kGoalOwnRow = kGoalFlagsRow + 1,    // 1 where it is the pose's own

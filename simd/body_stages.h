@@ -74,7 +74,9 @@ private:
         using T = typename S::T;
         const bool is_sent = s.has(SWIVEL_SENT);
         const std::uint32_t goal = s.strip.run.limb->goal;
-        const Vector<T> root = s.body_vector(is_sent ? kShiftedRow : kRootRow),
+        // What is planted stays where it is while the root is shifted. What is held goes with the shifted body.
+        const Vector<T> root = s.has(SWIVEL_WITH_LINK) ? vector(T(0), T(0), T(0))
+                                                       : s.body_vector(is_sent ? kShiftedRow : kRootRow),
                         target = is_sent ? s.body_vector(goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET);
         s.require(len2(target) <= T(kHuge2));
         s.set_vector(kWristRow, per_scale * seen.back(target - root - shoulder));
@@ -210,7 +212,8 @@ private:
             kept = kept | (valid & (s.io.load(SWIVEL_WEIGHTS, 0) == none) & (s.io.load(SWIVEL_WEIGHTS, 1) == none) &
                            (s.io.load(SWIVEL_WEIGHTS, 2) == none));
         }
-        if (s.has(SWIVEL_WITH_LINK) && s.has(SWIVEL_POLE_INCOMING) && !(s.strip.run.features & kBoundingFeatures))
+        if (s.has(SWIVEL_WITH_LINK) && s.has(SWIVEL_POLE_INCOMING) &&
+            !(s.strip.run.features & (kBoundingFeatures | SWIVEL_WITH_ANGLE)))
             kept = kept | (valid & (s.body_row(s.strip.run.limb->goal + kGoalOwnRow) > T(0.5)));
         return kept;
     }

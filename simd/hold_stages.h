@@ -58,7 +58,7 @@ struct StageBody<Stage::grasp> {
         s.set_body_vector(limb.holder + kHolderWristRow, wrist);
         s.set_body_vector(limb.holder + kHolderShoulderRow, s.body_vector(limb.shoulder + kPlaceRow));
         s.set_body(limb.holder + kHolderReachRow, reach.exact);
-        send(s, animated.point + s.body_vector(kShiftedRow), animated.rotation);
+        send(s, animated.point, animated.rotation);
         s.set_body(limb.goal + kGoalOwnRow, select(animated.is_posed, T(1), T(0)));
     }
 };
@@ -125,18 +125,20 @@ struct StageBody<Stage::prop> {
         const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
         Mask<T> is_longer = T(1) < T(0);
         const Vector<T> none = vector(T(0), T(0), T(0));
-        const Mask<T> rests = a.has(none) & b.has(none);
+        const auto both_have = [&](const Vector<T>& move)
+                                   SWIVEL_INLINE_LAMBDA { return a.has(move, 1 + 1e-6) & b.has(move, 1 + 1e-6); };
+        const Mask<T> rests = both_have(none);
         const Vector<T> move =
             all(rests) ? none : select(rests, none, at_most(least_move(within(a), within(b)), most, !rests, is_longer));
         is.frame.place = is.frame.place + move;
-        const Mask<T> reaches = rests | (a.has(move, 1 + 1e-6) & b.has(move, 1 + 1e-6));
+        const Mask<T> reaches = rests | both_have(move), stays = !(len2(move) > T(0));
         s.require((len2(is.frame.place) <= T(kHuge2)) & is_within(len2(is.frame.rotation), 0.99, 1.01) &
                   (len2(s.body_vector(kRootRow)) <= T(kHuge2)));
         const T nan = T(__builtin_nan(""));
         const Mask<T> valid = lanes_where<T>(s.good());
         set_held(s, prop.frame, {is.frame.rotation, select(valid, is.frame.place, vector(nan, nan, nan))});
         s.set_body(prop.frame + kHeldScaleRow, T(1));
-        const Mask<T> says = is.is_of_hands & rests;
+        const Mask<T> says = is.is_of_hands & stays;
         s.set_body(prop.frame + kSayerRow,
                    select(says & (is.share == T(0)), T(0), select(says & (is.share == T(1)), T(1), T(-1))));
 
@@ -159,7 +161,6 @@ struct StageBody<Stage::link> {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
         HeldFrame<T> goal = gripped(get_held(s, limb.link), grip_of(s), s.body_row(limb.link + kHeldScaleRow));
-        goal.place = goal.place + s.body_vector(kShiftedRow);
         T own = T(0);
         if (limb.holds_prop) {
             const Mask<T> says = s.body_row(limb.link + kSayerRow) == T(limb.holder_number);
@@ -172,7 +173,7 @@ struct StageBody<Stage::link> {
         send(s, goal.place, goal.rotation);
         if (s.has(SWIVEL_WITH_RECORD)) {
             const Rows<T, kTold> out = good_rows(s);
-            out.store_vector(SWIVEL_GOAL, goal.place - s.body_vector(kShiftedRow) + s.body_vector(kRootRow));
+            out.store_vector(SWIVEL_GOAL, goal.place + s.body_vector(kRootRow));
             out.store_rotor(SWIVEL_GOAL, goal.rotation, 3);
         }
     }

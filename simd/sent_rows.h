@@ -108,7 +108,7 @@ SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
     return is;
 }
 
-// Sends a limb to a goal, from the root's place before it is shifted.
+// Sends a limb to a goal, from the root's place as kGoalPlaceRow has it.
 template <class S>
 SWIVEL_INLINE void send(const S& s, const Vector<typename S::T>& place, const Rotor<typename S::T>& hand)
 {
