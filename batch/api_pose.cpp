@@ -107,7 +107,7 @@ void explain_body(const swivel_crowd& crowd, uint32_t body, std::span<char> room
         Text(room).add("%sgroup %u: ", g > 0 ? "\n" : "", g);
         room = room.subspan(std::strlen(room.data()));
         if (group.features & (kNoLimb | SWIVEL_WITH_RECORD))
-            explain(group, body, room);
+            explain(crowd, g, body, room);
         else
             Text(room).add("it has no SWIVEL_WITH_RECORD, so nothing is known of it.");
         room = room.subspan(std::strlen(room.data()));
@@ -132,7 +132,7 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
     if (is_body)
         explain_body(*crowd, limb, {text, size});
     else
-        explain(crowd->groups[group], limb, {text, size});
+        explain(*crowd, group, limb, {text, size});
     return SWIVEL_OK;
 }
 

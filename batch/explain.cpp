@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "batch/explain_hold.h"
 #include "batch/explain_plant.h"
 #include "batch/forward.h"
 #include "batch/joint_angles.h"
@@ -151,7 +152,7 @@ void explain_bad_value(const Probe& probe, swivel_field field, Text& text)
 }
 
 // Inputs that are bad whatever the others are.
-void explain_bad_input(Probe& probe, const Group& group, std::uint32_t limb, Text& text)
+void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
     text.add("Bad input: ");
     bool is_found = false, is_pose_bad = false;
@@ -170,6 +171,10 @@ void explain_bad_input(Probe& probe, const Group& group, std::uint32_t limb, Tex
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
         is_pose_bad = is_pose_bad || probe.is_posed(field);
         if (!probe.is_posed(field)) found(field);
+    }
+    if (holds_bad(crowd, group, limb)) {
+        text.add("%sgroup %u, which it holds, has bad input", is_found ? "; " : "", group.limb.linked_group);
+        is_found = true;
     }
     const bool is_planted = group.features & SWIVEL_WITH_PLANT;
     if (is_pose_bad || (!is_found && probe.is_of_body() && !is_planted))
@@ -341,10 +346,10 @@ bool is_near(const LimbPose& a, const LimbPose& b)
 
 }  // namespace
 
-void explain(const Group& group, std::uint32_t limb, std::span<char> room)
+namespace {
+
+void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
-    Text text(room);
-    if (group.features & kNoLimb) return explain_shift(group, limb, text);
     Probe probe(group, limb);
     const std::uint32_t flags_were = probe.flags();
     if (probe.is_of_body() && flags_were == 0) return text.add("It was never solved, so no pose of it is known.");
@@ -355,11 +360,12 @@ void explain(const Group& group, std::uint32_t limb, std::span<char> room)
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
     if (!(group.features & kCarryingFeatures) && !is_kept && !is_same)
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
-    const bool is_planted = group.features & SWIVEL_WITH_PLANT;
-    // A planted limb's goal is that of its last good solve.
-    if (flags & SWIVEL_BAD_INPUT || (is_planted && flags_were & SWIVEL_BAD_INPUT) || is_bad_in_body(group, limb))
-        return explain_bad_input(probe, group, limb, text);
-    if (is_planted) explain_plant(group, limb, flags_were, text);
+    // The goal of a limb that is sent is that of its last good solve.
+    const bool was_bad = group.features & SWIVEL_SENT && flags_were & SWIVEL_BAD_INPUT;
+    if (flags & SWIVEL_BAD_INPUT || was_bad || is_bad_in_body(group, limb))
+        return explain_bad_input(probe, crowd, group, limb, text);
+    if (group.features & SWIVEL_WITH_PLANT) explain_plant(group, limb, flags_were, text);
+    if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
     explain_reach(probe, flags, text);
     explain_limits(probe, probe.pose(), flags, text);
     if (flags & SWIVEL_JUMPED)
@@ -368,6 +374,20 @@ void explain(const Group& group, std::uint32_t limb, std::span<char> room)
         text.add(
             " The wish is further than one step from where the elbow is: the next solve goes as far as step and limits "
             "allow.");
+}
+
+}  // namespace
+
+void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, std::span<char> room)
+{
+    Text text(room);
+    const Group& group = crowd.groups[g];
+    if (group.features & SWIVEL_FIT)
+        explain_shift(group, limb, text);
+    else if (group.features & SWIVEL_PROP)
+        explain_prop(crowd, group, limb, text);
+    else
+        explain_limb(crowd, group, limb, text);
 }
 
 }  // namespace swivel

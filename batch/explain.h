@@ -10,7 +10,7 @@
 
 namespace swivel {
 
-// What swivel_explain() promises. limb: counted within the group; text: a byte at least.
-void explain(const Group& group, std::uint32_t limb, std::span<char> text);
+// What swivel_explain() promises. group: one of the crowd's; limb: counted within it; text: a byte at least.
+void explain(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t limb, std::span<char> text);
 
 }  // namespace swivel

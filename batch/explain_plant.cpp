@@ -2,49 +2,31 @@
 #include "batch/explain_plant.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
+#include "batch/limb_value.h"
 #include "core/bit_cast.h"
 #include "core/plant_rules.h"
-#include "simd/rows.h"
 
 namespace swivel {
 
 namespace {
 
-// A value of a limb, in its group's rows.
-struct Value {
-    const float* first;
-
-    Value(const Group& group, std::uint32_t limb, swivel_field field)
-    {
-        const bool is_in = is_input(field);
-        first = (is_in ? group.input : group.results) +
-                row_offset(limb, is_in ? group.input_row_count : group.result_row_count,
-                           field_first_row(group.features, field));
-    }
-    float number(std::uint32_t c) const { return first[c * kLanes]; }
-    double operator[](std::uint32_t c) const { return double{number(c)}; }
-    double length(std::uint32_t from, std::uint32_t count) const
-    {
-        double sum = 0;
-        for (std::uint32_t c = from; c < from + count; ++c) sum += (*this)[c] * (*this)[c];
-        return std::sqrt(sum);
-    }
-};
-
 bool is_within(double x, double least, double most) { return x >= least && x <= most; }
 
-// Whether a value is bad. Targets and hands of planted limbs may be left out, as NaN.
-bool is_bad(const Value& value, swivel_field field)
+// Whether a value is bad. What NaN leaves out is none: targets and hands of limbs that are sent, and where props lie.
+bool is_bad(const LimbValue& value, swivel_field field)
 {
     constexpr double kMost = 1e15;
     switch (field) {
         case SWIVEL_TARGET:
+        case SWIVEL_PROP_PLACE:
             return value.length(0, 3) > kMost;
         case SWIVEL_HAND:
+        case SWIVEL_PROP_TURN:
             return value.length(0, 4) < 1e-9 || value.length(0, 4) > 1e9;
+        case SWIVEL_GRIP:
+            return !is_within(value.length(0, 3), 0, kMost) || !is_within(value.length(3, 4), 1e-9, 1e9);
         case SWIVEL_COMING:
             return !is_within(value.length(0, 3), 0, kMost);
         case SWIVEL_COMING_TIME:
@@ -56,19 +38,23 @@ bool is_bad(const Value& value, swivel_field field)
     }
 }
 // Whether only a stage of whole bodies reads a field.
-bool is_of_whole_bodies(swivel_features features, swivel_field field)
+bool is_of_whole_bodies(const Group& group, swivel_field field)
 {
     switch (field) {
         case SWIVEL_TARGET:
         case SWIVEL_HAND:
-            return features & SWIVEL_WITH_PLANT;
+            return group.features & SWIVEL_WITH_PLANT || group.limb.holds_prop;
         case SWIVEL_CLAVICLE:
-            return features & SWIVEL_BODY;
+            return group.features & SWIVEL_BODY;
         case SWIVEL_CONTACT:
         case SWIVEL_FIT_WEIGHT:
         case SWIVEL_COMING:
         case SWIVEL_COMING_TIME:
         case SWIVEL_SHIFT_WISH:
+        case SWIVEL_GRIP:
+        case SWIVEL_PROP_PLACE:
+        case SWIVEL_PROP_TURN:
+        case SWIVEL_PROP_SHARE:
             return true;
         default:
             return false;
@@ -84,7 +70,7 @@ struct Planted {
 
     Planted(const Group& group, std::uint32_t limb)
     {
-        const Value plant(group, limb, SWIVEL_PLANT);
+        const LimbValue plant(group, limb, SWIVEL_PLANT);
         offset = plant.length(3, 3);
         left = plant[9];
         is_moving = is_fading() && plant.length(3, 6) > 0;
@@ -105,15 +91,15 @@ struct PlantedLimb {
     Planted state{group, limb};
 
     bool is_by_motion() const { return group.features & SWIVEL_PLANT_BY_MOTION; }
-    float label() const { return Value(group, limb, SWIVEL_CONTACT).number(0); }
+    float label() const { return LimbValue(group, limb, SWIVEL_CONTACT).number(0); }
     bool is_in_contact() const
     {
-        return is_by_motion() ? Value(group, limb, SWIVEL_MOTION).number(3) > 0.5f : label() > 0.5f;
+        return is_by_motion() ? LimbValue(group, limb, SWIVEL_MOTION).number(3) > 0.5f : label() > 0.5f;
     }
     // As the limb's parent is scaled.
     double share(double distance) const
     {
-        return distance / (double{group.limb.rest_length} * Value(group, limb, SWIVEL_RECORD)[kRecordScale]);
+        return distance / (double{group.limb.rest_length} * LimbValue(group, limb, SWIVEL_RECORD)[kRecordScale]);
     }
 
     void explain_locked(Text& text) const
@@ -182,8 +168,8 @@ struct PlantedLimb {
 
 bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field)
 {
-    return is_of_whole_bodies(group.features, field) && field_row_count(group.features, field) > 0 &&
-           is_bad(Value(group, limb, field), field);
+    return is_of_whole_bodies(group, field) && field_row_count(group.features, field) > 0 &&
+           is_bad(LimbValue(group, limb, field), field);
 }
 bool is_bad_in_body(const Group& group, std::uint32_t limb)
 {
@@ -210,8 +196,8 @@ void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, 
 
 void explain_shift(const Group& group, std::uint32_t limb, Text& text)
 {
-    const auto flags = bit_cast<std::uint32_t>(Value(group, limb, SWIVEL_FLAGS).number(0));
-    const Value shift(group, limb, SWIVEL_SHIFT), wish(group, limb, SWIVEL_SHIFT_WISH);
+    const auto flags = bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
+    const LimbValue shift(group, limb, SWIVEL_SHIFT), wish(group, limb, SWIVEL_SHIFT_WISH);
     if (is_bad_in_body(group, limb, SWIVEL_SHIFT_WISH))
         return text.add("Bad input: shift_wish (%g) is out of its range, %s. The shift stays as it was.", wish[0],
                         row_of(SWIVEL_SHIFT_WISH).range);

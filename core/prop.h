@@ -79,7 +79,7 @@ SWIVEL_INLINE constexpr Vector<T> least_move(const ReachingMoves<T>& a, const Re
     const Vector<T> between = b.middle - a.middle;
     const T both = a.reach + b.reach, distance2 = len2(between);
     const Mask<T> is_a = b.has(least_a), is_b = a.has(least_b),
-                  meets = !(is_a | is_b) & (distance2 > T(kOneMiddle2) * (len2(a.middle) + both * both));
+                  meets = (distance2 > T(kOneMiddle2) * (len2(a.middle) + both * both)) & !(is_a | is_b);
     const Vector<T> one = select(is_a, least_a, least_b);
     if (!any(meets)) return one;
     const T distance = sqrt(hi(distance2, T(kTiny2)));

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+//
+// Random bodies whose hands hold a prop, and where that belongs, by Eigen in double.
+#pragma once
+
+#include "tests/linked_bodies.h"
+
+namespace swivel::test {
+
+inline PoseLayout random_prop_layout(Random& random)
+{
+    PoseLayout layout;
+    layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
+    layout.translates = layout.scales = layout.form != SWIVEL_ROTATIONS || random.below(2);
+    layout.roots = random.below(2);
+    return layout;
+}
+
+// What of a prop's place is known.
+struct UnmovedProp {
+    Held frame;
+    bool is_of_hands;  // the caller and the pose say nothing of it
+    std::vector<Held> points, hands;
+    std::vector<Ball> moves;                 // by which each arm reaches
+    std::vector<bool> is_posed, is_written;  // each arm's goal: nothing of it was written, all of it
+    double most, off;                        // off: what floats may be off
+};
+
+struct PropBodies : LinkedBodies {
+    std::vector<std::uint32_t> arms;  // groups
+    std::uint32_t prop = 0, shift = kNoLimbHere;
+    swivel_features bounds;
+
+    explicit PropBodies(Random& random, std::size_t body_count)
+        : LinkedBodies(random, {3 + random.below(4), 3, random.below(2), false}, body_count,
+                       random_prop_layout(random)),
+          bounds((random.below(3) ? 0 : SWIVEL_WITH_FLEXION_LIMIT) | (random.below(3) ? 0 : SWIVEL_WITH_CAP))
+    {
+        const std::uint32_t arm_count = random.below(5) ? 2 : 1, prop_at = random.below(arm_count + 1);
+        const swivel_features holds = SWIVEL_WITH_HAND | SWIVEL_WITH_LINK | SWIVEL_POLE_INCOMING | bounds |
+                                      (random.below(2) ? SWIVEL_WITH_EFFECTOR : 0);
+        prop = prop_at;
+        for (std::uint32_t n = 0; n <= arm_count; ++n)
+            if (n == prop_at)
+                add(prop_def(random));
+            else
+                arms.push_back(add_limb(static_cast<std::uint32_t>(arms.size()), holds, prop));
+        if (random.below(3) == 0) add_leg(random);
+        for (const std::uint32_t arm : arms) give_arm(random, arm);
+        give_prop(random);
+    }
+    Vector3d root(std::size_t n, const SolvedLinks& solved) const
+    {
+        const Body& body = bodies[n];
+        Vector3d root = vec(body.root_position);
+        if (shift != kNoLimbHere)
+            root += double{solved.result<Float3>(SWIVEL_SHIFT, shift, n)[0]} *
+                    (quat(body.root_rotation).normalized() * Vector3d::UnitY());
+        return root;
+    }
+    UnmovedProp unmoved(const LinkedBody& body, const Vector3d& root) const
+    {
+        UnmovedProp is{};
+        double size = 0;
+        for (const std::uint32_t arm : arms) {
+            add_animated(body, arm, root, is);
+            is.hands.push_back(is.points.back() * body.grip(arm).inverse());
+            size += body.length(arm) + body.rounding(arm) / 3e-7 + is.hands.back().place.norm();
+        }
+        const double share = arms.size() == 1 ? 0 : double{value(prop, SWIVEL_PROP_SHARE, body.n, Float1{})[0]};
+        is.frame = between(is.hands.front(), is.hands.back(), share);
+        const Float3 place = value(prop, SWIVEL_PROP_PLACE, body.n, kNoPlace);
+        const Float4 turn = value(prop, SWIVEL_PROP_TURN, body.n, kNoTurn);
+        const bool has_place = !std::isnan(place[0]), has_turn = !std::isnan(turn[0]);
+        const Quaterniond rotation = has_turn ? quat(turn).normalized() : Quaterniond::Identity();
+        if (const std::int32_t joint = groups[prop].prop.joint; joint >= 0) {
+            const JointAt& at = body.was[static_cast<std::size_t>(joint)];
+            is.frame = Held{at.rotation, at.place} * Held{rotation, has_place ? vec(place) : Vector3d(0, 0, 0)};
+        } else {
+            if (has_place) is.frame.place = vec(place) - root;
+            if (has_turn) is.frame.rotation = rotation;
+            is.is_of_hands = !has_place && !has_turn;
+        }
+        is.off = 1e-6 * (size + is.frame.place.norm()) + 3e-7 * root.norm();
+        for (std::size_t n = 0; n < arms.size(); ++n) is.moves.push_back(moves(body, arms[n], is.frame));
+        is.most = double{groups[prop].prop.most_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
+        return is;
+    }
+    // The same limbs with the same goals, that hold nothing.
+    LinkedBodies free() const
+    {
+        LinkedBodies of = *this;
+        of.groups.erase(of.groups.begin() + prop), of.limb_of.erase(of.limb_of.begin() + prop);
+        std::erase_if(of.inputs,
+                      [&](const LinkedInput& input) { return input.group == prop || input.field == SWIVEL_GRIP; });
+        for (LinkedInput& input : of.inputs) input.group -= input.group > prop;
+        for (swivel_group_def& group : of.groups) group.features &= ~SWIVEL_WITH_LINK;
+        return of;
+    }
+
+private:
+    swivel_group_def prop_def(Random& random) const
+    {
+        constexpr float most[] = {0, 0.1f, 1, 5};
+        swivel_group_def made = swivel_default_prop_group_def();
+        made.prop.most_move = most[random.below(4)];
+        if (random.below(4) == 0) made.prop.joint = static_cast<std::int32_t>(random.below(3));  // of the trunk
+        return made;
+    }
+    void add_leg(Random& random)
+    {
+        swivel_group_def fit = swivel_default_fit_group_def();
+        fit.fit.drop = fit.fit.rise = 0.5f;
+        shift = add(fit);
+        const std::uint32_t leg = add_limb(2, SWIVEL_WITH_FIT | SWIVEL_POLE_INCOMING);
+        give(leg, SWIVEL_TARGET, [&](std::size_t n) {
+            const Float3 target = random_goal(random, skeleton, bodies[n], 2).target;
+            return floats(Vector3d(vec(target) + Vector3d(0, -0.2 * double{bodies[n].root_scale}, 0)));
+        });
+    }
+    void give_arm(Random& random, std::uint32_t arm)
+    {
+        if (has(arm, SWIVEL_WITH_EFFECTOR))
+            give(arm, SWIVEL_EFFECTOR,
+                 [&](std::size_t) { return floats(Vector3d(random.between(0, 0.1) * random.direction())); });
+        if (has(arm, SWIVEL_WITH_FLEXION_LIMIT))
+            give(arm, SWIVEL_FLEXION_LIMIT,
+                 [&](std::size_t) { return flexion(random.between(0, 0.5), random.between(2, 3.1)); });
+        if (has(arm, SWIVEL_WITH_CAP))
+            give(arm, SWIVEL_CAP, [&](std::size_t) {
+                return Float3{static_cast<float>(random.between(0, 0.1)), static_cast<float>(random.between(0.5, 1)),
+                              0};
+            });
+        const bool is_ever_written = random.below(2);
+        std::vector<BodyGoal> goals;
+        for (const Body& body : bodies) goals.push_back(random_goal(random, skeleton, body, limb_of[arm]));
+        std::vector<std::uint32_t> writes;  // bits of target and hand
+        for (std::size_t n = 0; n < bodies.size(); ++n) writes.push_back(is_ever_written ? random.below(4) : 0);
+        give(arm, SWIVEL_TARGET, [&](std::size_t n) { return writes[n] & 1 ? goals[n].target : kNoPlace; });
+        give(arm, SWIVEL_HAND, [&](std::size_t n) { return writes[n] & 2 ? goals[n].hand : kNoTurn; });
+    }
+    // Grips that fit, or from which the other arm must move the prop, or cannot.
+    void give_prop(Random& random)
+    {
+        std::vector<Held> at;
+        std::vector<std::vector<Float7>> grips(arms.size());
+        for (std::size_t n = 0; n < bodies.size(); ++n) {
+            const std::vector<JointAt> joints_are = joints_at(skeleton, bodies[n]);
+            for (std::size_t a = 0; a < arms.size(); ++a) {
+                const BodyLimbJoints& limb = skeleton.limbs[limb_of[arms[a]]];
+                const JointAt &wrist = joints_are[limb.wrist], &shoulder = joints_are[limb.shoulder];
+                Held hand{wrist.rotation, wrist.place};
+                const double length = (joints_are[limb.elbow].place - shoulder.place).norm() +
+                                      (wrist.place - joints_are[limb.elbow].place).norm();
+                if (a == 0)
+                    at.push_back(hand * Held{random.rotation(), 0.5 * length * random.unit() * random.direction()});
+                else if (random.below(3))
+                    hand = {random.rotation(), shoulder.place + random.between(0.3, 1.5) * length * random.direction()};
+                grips[a].push_back(floats(at.back().inverse() * hand));
+            }
+        }
+        for (std::size_t a = 0; a < arms.size(); ++a)
+            give(arms[a], SWIVEL_GRIP, [&](std::size_t n) { return grips[a][n]; });
+        give(prop, SWIVEL_PROP_SHARE, [&](std::size_t) {
+            const std::uint32_t kind = random.below(3);
+            return Float1{kind < 2 ? static_cast<float>(kind) : static_cast<float>(random.unit())};
+        });
+        const bool is_ever_written = random.below(2);
+        const std::int32_t joint = groups[prop].prop.joint;
+        std::vector<Held> written;
+        for (std::size_t n = 0; n < bodies.size(); ++n) {
+            Held wanted = at[n];
+            wanted.place += 0.1 * double{bodies[n].root_scale} * random.direction();
+            if (joint >= 0) {
+                const JointAt is = joints_at(skeleton, bodies[n])[static_cast<std::size_t>(joint)];
+                wanted = Held{is.rotation, is.place}.inverse() * wanted;
+            } else {
+                wanted.place += vec(bodies[n].root_position);
+            }
+            written.push_back(wanted);
+        }
+        give(prop, SWIVEL_PROP_PLACE,
+             [&](std::size_t n) { return is_ever_written && random.below(2) ? floats(written[n].place) : kNoPlace; });
+        give(prop, SWIVEL_PROP_TURN,
+             [&](std::size_t n) { return is_ever_written && random.below(2) ? floats(written[n].rotation) : kNoTurn; });
+    }
+    void add_animated(const LinkedBody& body, std::uint32_t arm, const Vector3d& root, UnmovedProp& is) const
+    {
+        const JointAt& wrist = body.was[body.joints(arm).wrist];
+        Held point = body.point(arm, {wrist.rotation, wrist.place});
+        const Float3 target = value(arm, SWIVEL_TARGET, body.n, kNoPlace);
+        const Float4 hand = value(arm, SWIVEL_HAND, body.n, kNoTurn);
+        const bool has_target = !std::isnan(target[0]), has_hand = !std::isnan(hand[0]);
+        if (has_target) point.place = vec(target) - root;
+        if (has_hand) point.rotation = quat(hand).normalized();
+        is.points.push_back(point);
+        is.is_posed.push_back(!has_target && !has_hand), is.is_written.push_back(has_target && has_hand);
+    }
+    static Held between(const Held& a, const Held& b, double share)
+    {
+        const double side = a.rotation.dot(b.rotation) < 0 ? -1 : 1;
+        Quaterniond q;
+        q.coeffs() = (1 - share) * a.rotation.coeffs() + side * share * b.rotation.coeffs();
+        return {q.normalized(), (1 - share) * a.place + share * b.place};
+    }
+    Ball moves(const LinkedBody& body, std::uint32_t arm, const Held& frame) const
+    {
+        const BodyLimbJoints& limb = body.joints(arm);
+        const Vector3d shoulder = body.was[limb.shoulder].place, elbow = body.was[limb.elbow].place,
+                       wrist = body.was[limb.wrist].place;
+        const double upper = (elbow - shoulder).norm(), fore = (wrist - elbow).norm(), bones = upper + fore;
+        double far = bones;
+        if (const LinkedInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT)) {
+            const double half = std::acos(double{limit->of<Float2>(body.n)[0]});  // of the least flexion
+            far = std::sqrt(upper * upper + fore * fore + 2 * upper * fore * std::cos(2 * half));
+        }
+        if (const LinkedInput* const cap = find(arm, SWIVEL_CAP))  // which eases from where the incoming limb is
+            far = std::min(far, std::max((wrist - shoulder).norm(), double{cap->of<Float3>(body.n)[1]} * bones));
+        const Held hand = frame * body.grip(arm);
+        const Float3 effector = value(arm, SWIVEL_EFFECTOR, body.n, Float3{});
+        return {shoulder - (hand.place - body.scale(arm) * (hand.rotation * vec(effector))), far};
+    }
+    double rest_length(std::uint32_t limb) const
+    {
+        Body rest;
+        rest.rotations = skeleton.rotations, rest.translations = skeleton.translations;
+        rest.scales.assign(skeleton.size(), Float3{1, 1, 1});
+        const std::vector<JointAt> at = joints_at(skeleton, rest);
+        const BodyLimbJoints& of = skeleton.limbs[limb];
+        return (at[of.elbow].place - at[of.shoulder].place).norm() + (at[of.wrist].place - at[of.elbow].place).norm();
+    }
+};
+
+// The bytes that a pose has of a joint.
+inline std::vector<unsigned char> joint_bytes(PoseBuffer& poses, std::size_t body, std::uint32_t joint)
+{
+    const swivel_pose pose = poses.view();
+    const auto* const first = static_cast<const unsigned char*>(pose.rotations.data) +
+                              body * pose.rotations.body_stride + joint * pose.rotations.joint_stride;
+    return {first, first + (pose.form == SWIVEL_ROTATIONS ? 16 : pose.form == SWIVEL_MATRIX_COLUMNS ? 64 : 48)};
+}
+
+}  // namespace swivel::test

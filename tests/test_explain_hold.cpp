@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: swivel_explain() says what a hand holds, and of a prop where its place comes from, how far it moved for
+// its hands, and how far each is from its grip. Forward kinematics of Eigen's confirm the numbers. Bad input is named.
+#include <catch2/catch.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/holding_bodies.h"
+#include "tests/prop_bodies.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+constexpr std::uint32_t kBody = 20;  // with nothing written of its prop
+
+double number_after(const std::string& text, const std::string& words)
+{
+    const std::size_t at = text.find(words);
+    if (at == std::string::npos) FAIL(text << " lacks " << words);
+    return std::stod(text.substr(at + words.size()));
+}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+std::string group_name(std::uint32_t g) { return "group " + std::to_string(g); }
+
+// As four digits say it.
+bool is_told(double told, double is, double off) { return std::fabs(told - is) <= 6e-4 * std::fabs(is) + off; }
+
+HoldingBodies holding(std::uint64_t seed)
+{
+    Random random{seed};
+    PoseLayout layout;
+    layout.roots = true;
+    HoldingBodies bodies(random, 40, layout);
+    bodies.find(HoldingBodies::left, SWIVEL_TARGET)->at(kBody)[0] = kNan;
+    bodies.find(HoldingBodies::prop, SWIVEL_PROP_PLACE)->at(kBody)[0] = kNan;
+    bodies.find(HoldingBodies::prop, SWIVEL_PROP_SHARE)->at(kBody)[0] = 0;
+    return bodies;
+}
+std::string text_of(const LinkedBodies& bodies, std::uint32_t group, std::uint32_t body = kBody)
+{
+    return SolvedLinks(bodies).crowd.explain(group, body);
+}
+
+// What a text says of where a prop's place comes from.
+std::string source_of(const PropBodies& of, std::size_t n)
+{
+    const bool has_place = !std::isnan(of.value(of.prop, SWIVEL_PROP_PLACE, n, kNoPlace)[0]),
+               has_turn = !std::isnan(of.value(of.prop, SWIVEL_PROP_TURN, n, kNoTurn)[0]);
+    const float share = of.arms.size() == 1 ? 0 : of.value(of.prop, SWIVEL_PROP_SHARE, n, Float1{})[0];
+    const std::string hands = share == 0   ? "as the hand of " + group_name(of.arms[0]) + " has it. "
+                              : share == 1 ? "as the hand of " + group_name(of.arms[1]) + " has it. "
+                                           : "between the hands of groups " + std::to_string(of.arms[0]) + " and " +
+                                                 std::to_string(of.arms[1]) + ", at ";
+    if (const std::int32_t joint = of.groups[of.prop].prop.joint; joint >= 0)
+        return "It lies as joint " + std::to_string(joint) + " has it" +
+               (has_place && has_turn ? ", with the place and rotation that are written in that joint's frame. "
+                : has_place           ? ", with the place that is written in that joint's frame. "
+                : has_turn            ? ", with the rotation that is written in that joint's frame. "
+                                      : ". ");
+    if (has_place && has_turn) return "Its place and rotation are written. ";
+    return (has_place  ? "Its place is written, its rotation is "
+            : has_turn ? "Its rotation is written, its place is "
+                       : "It lies ") +
+           hands;
+}
+
+}  // namespace
+
+TEST_CASE("explain says where a prop lies and why, how far it moved, and how far each hand is from its grip")
+{
+    rc::prop("as forward kinematics have it", [](std::uint64_t seed) {
+        Random random{seed};
+        PropBodies bodies(random, 20);
+        for (const std::uint32_t arm : bodies.arms) bodies.groups[arm].features |= SWIVEL_WITH_RECORD;
+        const SolvedLinks solved(bodies);
+        for (std::uint32_t n = 0; n < 20; ++n) {
+            const std::string text = solved.crowd.explain(bodies.prop, n);
+            INFO(text);
+            const LinkedBody body(solved, n);
+            const Vector3d root = bodies.root(n, solved);
+            const UnmovedProp wanted = bodies.unmoved(body, root);
+            const Held told = held(solved.result<Float7>(SWIVEL_PROP_FRAME, bodies.prop, n)),
+                       is{told.rotation, told.place - root};
+            RC_ASSERT(text.starts_with(source_of(bodies, n)));
+            const bool reaches = solved.flags(bodies.prop, n) == SWIVEL_REACHED,
+                       is_known = bodies.groups[bodies.prop]
+                                      .prop.joint<0, may_move = bodies.groups[bodies.prop].prop.most_move> 0;
+            const double moved = (is.place - wanted.frame.place).norm();
+            if (is_known && moved > 1e-4 * body.length(bodies.arms[0]))
+                RC_ASSERT(is_told(number_after(text, "It moved by "), moved, wanted.off));
+            if (is_known && moved < wanted.off && wanted.off < 3e-6 * body.length(bodies.arms[0]))
+                RC_ASSERT(!has(text, "It moved by"));
+            if (reaches)
+                RC_ASSERT((has(text, "It need not move: all hands reach it.") ||
+                           has(text, "no more than it must for all hands to reach it.") || !is_known));
+            else
+                RC_ASSERT(has(text, may_move ? "Not all hands reach it, wherever it goes within "
+                                             : "It never moves, and not all hands reach it."));
+            for (const std::uint32_t arm : bodies.arms) {
+                const double missed = (body.point(arm).place - body.wanted(arm, is).place).norm();
+                RC_ASSERT(is_told(number_after(text, "The hand of " + group_name(arm) + " is "), missed,
+                                  wanted.off + 4e-6 * body.length(arm)));
+                const std::string hand = solved.crowd.explain(arm, n);
+                RC_ASSERT(hand.starts_with("It holds the prop of " + group_name(bodies.prop) +
+                                           (reaches ? ". " : ", which not all hands reach. ")));
+            }
+        }
+    });
+}
+
+TEST_CASE("explain names the limb whose hand a hand holds, and how it is")
+{
+    HoldingBodies bodies = holding(1);
+    const SolvedLinks solved(bodies);
+    for (std::uint32_t n = 0; n < 40; ++n) {
+        const bool reaches = solved.flags(HoldingBodies::free, n) & SWIVEL_REACHED;
+        CHECK(solved.crowd.explain(HoldingBodies::follower, n)
+                  .starts_with(reaches ? "It holds the hand of group 4. "
+                                       : "It holds the hand of group 4, which is not at its own target. "));
+    }
+    bodies.find(HoldingBodies::free, SWIVEL_TARGET)->at(kBody)[2] = kNan;
+    CHECK(has(text_of(bodies, HoldingBodies::follower),
+              "It holds the hand of group 4, which keeps its pose because its input is bad. "));
+    const Crowd unsolved = bodies.crowd();
+    CHECK(unsolved.explain(HoldingBodies::follower, 0) == "It was never solved, so no pose of it is known.");
+    CHECK(unsolved.explain(HoldingBodies::prop, 1) == "It was never solved, so it has no place.");
+}
+
+TEST_CASE("explain names bad input of hands and props, with its range")
+{
+    HoldingBodies bodies = holding(2);
+    const auto input = [&](std::uint32_t group, swivel_field field) { return bodies.find(group, field)->at(kBody); };
+    SECTION("a grip")
+    {
+        input(HoldingBodies::follower, SWIVEL_GRIP)[1] = 2e15f;
+        const std::string text = text_of(bodies, HoldingBodies::follower);
+        INFO(text);
+        CHECK(text.starts_with("Bad input: grip ("));
+        CHECK(has(text, ") is out of its range, a place no further than 1e15 and a quaternion of length 1e-9 to 1e9"));
+        CHECK(has(text, ". The limb keeps its incoming pose."));
+    }
+    SECTION("a grip that is no number, of the hand that says where the prop is")
+    {
+        input(HoldingBodies::left, SWIVEL_GRIP)[5] = kNan;
+        const std::string text = text_of(bodies, HoldingBodies::left);
+        INFO(text);
+        CHECK(has(text, "Bad input: grip ("));
+        CHECK(has(text, "is not a number; group 0, which it holds, has bad input. "));
+        CHECK(text_of(bodies, HoldingBodies::right).starts_with("Bad input: group 0, which it holds, has bad input. "));
+        CHECK(text_of(bodies, HoldingBodies::prop) ==
+              "Bad input: the hand of group 1 has some; the hand of group 2 has some. So its place is not known, and "
+              "hands on it have bad input, too.");
+    }
+    SECTION("a share, a place and a rotation of a prop")
+    {
+        input(HoldingBodies::prop, SWIVEL_PROP_SHARE)[0] = 1.5f;
+        CHECK(text_of(bodies, HoldingBodies::prop)
+                  .starts_with("Bad input: prop_share (1.5) is out of its range, 0 to 1"));
+        input(HoldingBodies::prop, SWIVEL_PROP_SHARE)[0] = kNan;
+        CHECK(text_of(bodies, HoldingBodies::prop).starts_with("Bad input: prop_share (nan) is not a number"));
+        input(HoldingBodies::prop, SWIVEL_PROP_SHARE)[0] = 0;
+        std::fill_n(input(HoldingBodies::prop, SWIVEL_PROP_PLACE), 3, 1e15f);
+        CHECK(text_of(bodies, HoldingBodies::prop)
+                  .starts_with("Bad input: prop_place (1e+15, 1e+15, 1e+15) is out of its range, "));
+        std::fill_n(input(HoldingBodies::prop, SWIVEL_PROP_PLACE), 3, kNan);
+        std::fill_n(input(HoldingBodies::prop, SWIVEL_PROP_TURN), 4, 0.0f);
+        CHECK(text_of(bodies, HoldingBodies::prop)
+                  .starts_with("Bad input: prop_turn (0, 0, 0, 0) is out of its range, "));
+    }
+    SECTION("a target that is written for a hand on a prop, and not for one on a limb")
+    {
+        std::fill_n(input(HoldingBodies::left, SWIVEL_TARGET), 3, 1e15f);
+        CHECK(has(text_of(bodies, HoldingBodies::left), "Bad input: target (1e+15, 1e+15, 1e+15) is out of its range"));
+        Crowd crowd = bodies.crowd();
+        crowd.write_all(SWIVEL_TARGET, HoldingBodies::follower, Float3{1e15f, 1e15f, 1e15f});
+        crowd.write_all(SWIVEL_HAND, HoldingBodies::follower, Float4{});
+        PoseBuffer poses(bodies.layout, bodies.bodies);
+        solve_poses(crowd, bodies.view(poses));
+        CHECK(crowd.explain(HoldingBodies::follower, kBody).starts_with("It holds the hand of group 4"));
+    }
+    SECTION("a pose of the other hand, for which the prop does not move")
+    {
+        bodies.bodies[kBody].rotations[bodies.skeleton.limbs[1].elbow][0] = kNan;
+        const std::string text = text_of(bodies, HoldingBodies::prop);
+        INFO(text);
+        CHECK(has(text, "It lies as the hand of group 1 has it."));
+        CHECK(has(text, "The hand of group 2 has bad input, so nothing is done for it."));
+        CHECK(has(text_of(bodies, HoldingBodies::right), "Bad input: in the pose, a rotation"));
+    }
+    SECTION("a root")
+    {
+        bodies.bodies[kBody].root_rotation[0] = kNan;
+        CHECK(text_of(bodies, HoldingBodies::handle).starts_with("Bad input: "));
+        CHECK(has(text_of(bodies, HoldingBodies::fit), "the root's rotation"));
+    }
+}
+
+TEST_CASE("explain of a shift is still that of a shift")
+{
+    CHECK(text_of(holding(3), HoldingBodies::fit).starts_with("The body is shifted by "));
+}
