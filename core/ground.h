@@ -79,10 +79,10 @@ SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, con
         foot.rotation;
     const Rotor<T> on_slope = select(ground.is, unit_rotation(with_ground), foot.rotation);
 
-    // The heel goes up a circle about the toe, in the plane that it and the normal span.
+    // The heel goes up a circle about the toe, in the plane that it and the normal span; to its top at most.
     const Vector<T> heel = turned(on_slope, heel_from_toe);
-    const T length2 = len2(heel), length = sqrt(length2), height = scalar_product(ground.normal, heel);
-    const T wanted = lo(hi(T(rules.heel_clearance) * scale - ground.distance(toe), -length), length);
+    const T length2 = len2(heel), height = scalar_product(ground.normal, heel);
+    const T wanted = T(rules.heel_clearance) * scale - ground.distance(toe);
     const Mask<T> lifts = ground.is & (height < wanted);
     if (!any(lifts)) return {toe, on_slope};
     const Vector<T> flat = heel - height * ground.normal;
