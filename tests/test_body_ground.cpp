@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: feet stand on ground as it lies. What they do on hills is measured by forward kinematics of Eigen's, in
+// double: how far soles are from the ground, how they slide, and how fast legs turn. It prints what it measures:
+// test_library -# "[#test_body_ground]".
+#include <catch2/catch.hpp>
+
+#include <cstdio>
+
+#include "tests/hill_walkers.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+constexpr int kWalkedFrames = 600;
+
+// What walkers do, at worst. Lengths in metres, turns in radians a frame.
+struct Gait {
+    double rest = 0;           // how far a toe that is planted and at rest is from its plane
+    double from_ground = 0;    // the same from the ground itself
+    double heel = 0, toe = 0;  // how far below the plane of a leg that reaches
+    double under_ground = 0;   // how far below the ground itself
+    double slide = 0;          // of a toe at rest, in a frame
+    double thigh = 0, shin = 0, foot = 0;
+    double pelvis = 0, shift = 0;  // in a frame, along up: with the root, and the shift alone
+    int rest_count = 0, reach_count = 0, count = 0;
+
+    void print(const char* name) const
+    {
+        std::printf(
+            "%-28s rest %.4f mm (ground %.3f) heel %.3f toe %.3f (ground %.2f) slide %.4f mm; turn thigh %.4f shin "
+            "%.4f "
+            "foot %.4f rad; pelvis %.2f shift %.2f mm; %d at rest, %d of %d reach\n",
+            name, 1e3 * rest, 1e3 * from_ground, 1e3 * heel, 1e3 * toe, 1e3 * under_ground, 1e3 * slide, thigh, shin,
+            foot, 1e3 * pelvis, 1e3 * shift, rest_count, reach_count, count);
+    }
+};
+
+// Walkers' legs from frame to frame.
+struct Gauge {
+    const HillWalkers& walkers;
+    Gait is;
+    int first;  // the frame from which on it measures
+    struct Last {
+        HillWalkers::Leg leg;
+        bool rests;
+        double pelvis, shift;
+    };
+    std::vector<Last> last;
+
+    explicit Gauge(const HillWalkers& of, int from = 1) : walkers(of), first(from), last(2 * of.count()) {}
+    void take(const Crowd& crowd, const PoseBuffer& poses, int frame)
+    {
+        std::vector<Float3> shifts(walkers.count());
+        if (swivel_group_count(crowd.get()) > 2) crowd.read(SWIVEL_SHIFT, 2, std::span(shifts));
+        for (std::uint32_t n = 0; n < walkers.count(); ++n)
+            for (std::uint32_t leg = 0; leg < 2; ++leg) take(crowd, poses, frame, n, leg, double{shifts[n][0]});
+    }
+
+private:
+    void take(const Crowd& crowd, const PoseBuffer& poses, int frame, std::uint32_t n, std::uint32_t leg, double shift)
+    {
+        const std::uint32_t flags = flags_of(crowd, leg, n);
+        REQUIRE(!(flags & SWIVEL_BAD_INPUT));
+        const HillWalkers::Leg at = walkers.leg(poses, n, leg, shift);
+        const auto plant = value_of<std::array<float, 11>>(crowd, SWIVEL_PLANT, leg, n);
+        const bool reaches = flags & SWIVEL_REACHED, rests = reaches && flags & SWIVEL_PLANTED && plant[9] == 0;
+        Last& was = last[2 * n + leg];
+        const double pelvis = walkers.roots[n].y() + shift;
+        if (frame >= first) {
+            const auto place = value_of<Float3>(crowd, SWIVEL_GROUND, leg, n),
+                       normal = value_of<Float3>(crowd, SWIVEL_GROUND_NORMAL, leg, n);
+            const Vector3d up = vec(normal).normalized(),
+                           from = vec(place) + (walkers.has_doubles ? walkers.roots[n] : Vector3d(Vector3d::Zero()));
+            const auto keep = [](double& worst, double x) { worst = x <= worst ? worst : x; };  // NaN stays
+            const double toe = up.dot(at.toe - from);
+            if (rests) keep(is.rest, std::fabs(toe)), keep(is.from_ground, std::fabs(walkers.terrain.over(at.toe)));
+            if (reaches) {
+                keep(is.toe, -toe), keep(is.heel, -up.dot(at.heel - from));
+                keep(is.under_ground, -walkers.terrain.over(at.toe)),
+                    keep(is.under_ground, -walkers.terrain.over(at.heel));
+            }
+            if (rests && was.rests) keep(is.slide, (at.toe - was.leg.toe).norm());
+            keep(is.thigh, at.thigh.angularDistance(was.leg.thigh));
+            keep(is.shin, at.shin.angularDistance(was.leg.shin));
+            keep(is.foot, at.foot.angularDistance(was.leg.foot));
+            keep(is.pelvis, std::fabs(pelvis - was.pelvis)), keep(is.shift, std::fabs(shift - was.shift));
+            is.rest_count += rests && was.rests, is.reach_count += reaches, ++is.count;
+        }
+        was = {at, rests, pelvis, shift};
+    }
+};
+
+// Solves frames by solve(crowd, poses).
+template <class Solve>
+Gait gait_of(HillWalkers& walkers, const Solve& solve, int first = 1)
+{
+    Crowd crowd = walkers.crowd();
+    Gauge gauge(walkers, first);
+    for (int frame = 0; frame < kWalkedFrames; ++frame) {
+        walkers.go_to(frame);
+        PoseBuffer poses = walkers.poses();
+        solve(crowd, poses);
+        gauge.take(crowd, poses, frame);
+    }
+    return gauge.is;
+}
+// The ground below the last solve's probes.
+void solve_late(const HillWalkers& walkers, Crowd& crowd, PoseBuffer& poses)
+{
+    walkers.solve(crowd, poses);
+    for (std::uint32_t leg = 0; leg < 2; ++leg) HillWalkers::write(crowd, leg, walkers.samples(crowd, leg));
+}
+
+}  // namespace
+
+TEST_CASE("feet stand on hills, however their ground is sampled, with the same bits")
+{
+    HillWalkers walkers(1, 500, bumpy_field());
+    Crowd given = walkers.crowd(), probed = walkers.crowd(), asking = walkers.crowd();
+    Gauge gauge(walkers);
+    for (int frame = 0; frame < kWalkedFrames; ++frame) {
+        walkers.go_to(frame);
+        PoseBuffer poses = walkers.poses(), given_poses = poses, asking_poses = poses;
+        walkers.probe_and_solve(probed, poses);
+        for (std::uint32_t leg = 0; leg < 2; ++leg) {
+            const auto places = read<Float3>(probed, SWIVEL_GROUND, leg),
+                       normals = read<Float3>(probed, SWIVEL_GROUND_NORMAL, leg);
+            given.write(SWIVEL_GROUND, leg, places), given.write(SWIVEL_GROUND_NORMAL, leg, normals);
+        }
+        walkers.solve(given, given_poses);
+        walkers.ask_and_solve(asking, asking_poses);
+        REQUIRE(given_poses.bytes == poses.bytes);
+        REQUIRE(asking_poses.bytes == poses.bytes);
+        REQUIRE(swivel_digest(given.get()) == swivel_digest(probed.get()));
+        REQUIRE(swivel_digest(asking.get()) == swivel_digest(probed.get()));
+        if (frame % 100 == 0) REQUIRE(all_words(given) == all_words(probed));
+        gauge.take(probed, poses, frame);
+    }
+    const Gait& is = gauge.is;
+    is.print("hills, sampled at once");
+    CHECK(is.rest_count > 100000);
+    CHECK(is.rest <= 1e-4);
+    CHECK(is.from_ground <= 1e-4);
+    CHECK(is.heel <= 1e-3);
+    CHECK(is.toe <= 1e-3);
+    CHECK(is.slide <= 1e-4);
+    CHECK(is.shin <= 0.157);
+    CHECK(is.foot <= 0.141);
+    CHECK(is.pelvis <= 0.019);
+}
+
+TEST_CASE("on the ground below the last solve's probes feet stand nearly as well")
+{
+    HillWalkers walkers(1, 500, bumpy_field());
+    // Who starts on ground that is not known yet stands in the air until the next step.
+    const Gait is = gait_of(
+        walkers, [&](Crowd& crowd, PoseBuffer& poses) { solve_late(walkers, crowd, poses); }, 60);
+    is.print("hills, sampled late");
+    CHECK(is.rest_count > 100000);
+    CHECK(is.rest <= 1e-4);
+    CHECK(is.from_ground <= 1e-4);
+    CHECK(is.heel <= 0.01);
+    CHECK(is.toe <= 1e-3);
+    CHECK(is.slide <= 1e-4);
+    CHECK(is.shin <= 0.157);
+    CHECK(is.foot <= 0.141);
+    CHECK(is.pelvis <= 0.019);
+}
+
+TEST_CASE("on flat ground feet walk as they are animated")
+{
+    HillWalkers walkers(2, 50, Terrain{});
+    gait_of(walkers, [](Crowd&, PoseBuffer&) {}).print("flat, as animated");
+    const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) { walkers.probe_and_solve(crowd, poses); });
+    is.print("flat, sampled at once");
+    CHECK(is.rest <= 1e-5);
+    CHECK(is.heel <= 1e-5);
+    CHECK(is.slide <= 1e-5);
+}
+
+TEST_CASE("on stairs no sole goes through a tread that it is over")
+{
+    HillWalkers walkers(3, 200, stairs());
+    const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) { walkers.probe_and_solve(crowd, poses); });
+    is.print("stairs, sampled at once");
+    gait_of(
+        walkers, [&](Crowd& crowd, PoseBuffer& poses) { solve_late(walkers, crowd, poses); }, 60)
+        .print("stairs, sampled late");
+    CHECK(is.heel <= 1e-3);
+    CHECK(is.toe <= 1e-3);
+    CHECK(is.slide <= 1e-4);
+}
