@@ -68,9 +68,11 @@ constexpr Recipe kBodies[] = {
          kShoulderCone | kHumeralTwist | kShoulderBox | kHandCone | kForearmTwist | kHandTwist | kWristBox | kClavicle
          | kRecord, kTranslations | kScales | kRoots | kBetween | kFar | kInBody | kAllJoints, Form::rotations, 3),
 };
-constexpr Recipe standing(const char* name, std::uint64_t seed, std::uint32_t features, std::uint32_t pose)
+constexpr Recipe standing(const char* name, std::uint64_t seed, std::uint64_t features, std::uint32_t pose,
+                          Holds holds = Holds::nothing, std::uint64_t holding = 0)
 {
-    return {Part::standing, name, seed, kPlant | features, 0, Order::zyx, Order::xzy, Form::rotations, kRoots | pose};
+    return {Part::standing, name, seed, kPlant | features, 0, Order::zyx, Order::xzy, Form::rotations, kRoots | pose,
+            holds, holding};
 }
 constexpr Recipe kStanding[] = {
     standing("feet", 0x2b8f6b1ddc2f4a93u, kHand | kEffector | kYields | kPoleIncoming | kCap | kFit | kComing, 0),
@@ -79,6 +81,18 @@ constexpr Recipe kStanding[] = {
              kTranslations | kSupports | kRests),
     standing("palms-by-motion", 0x5a02cf7be8913d64u, kHand | kPlantTurn | kByMotion | kPoleIncoming | kFit | kComing |
              kRecord | kFlexion | kClavicle, kBetween | kFar | kSupports | kAllJoints),
+    standing("ground", 0xd10b5e3c96a2487fu, kHand | kEffector | kYields | kPoleIncoming | kCap | kFit | kGround,
+             kSupports),
+    standing("ground-by-motion", 0x3a9f04c7e85d216bu, kHand | kEffector | kPlantTurn | kByMotion | kPoleIncoming |
+             kFit | kComing | kGround | kRecord, kTranslations | kFar | kSupports | kRests),
+    standing("held-hand", 0x76e1d8b30c4fa295u, kHand | kEffector | kPoleIncoming | kGround | kHandFrame | kClavicle,
+             kBetween | kFar | kSupports | kAllJoints, Holds::hand, kHand | kEffector | kPoleIncoming | kWeights |
+             kLink | kHandFrame | kRecord | kClavicle),
+    standing("prop", 0x0f52c96ae7b8d341u, kHand | kPoleIncoming | kFit, kTranslations, Holds::prop, kHand | kEffector |
+             kPoleIncoming | kCap | kLink | kRecord),
+    standing("prop-at-joint", 0xb9837d1f5ec0264au, kHand | kEffector | kPoleIncoming | kGround | kFit, kBetween | kFar |
+             kSupports | kRests, Holds::prop_at_joint, kHand | kEffector | kYields | kPoleIncoming | kReach |
+             kStep | kLink),
 };
 // clang-format on
 

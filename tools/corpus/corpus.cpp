@@ -124,16 +124,18 @@ void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, 
 // What the features bring must be all that the crowd has.
 void check_rows(const Recipe& recipe, const Crowd& crowd)
 {
-    std::uint32_t inputs = 0, results = 0;
-    for (const Field field : inputs_of(recipe)) inputs += component_count(recipe, field);
-    for (const Field field : results_of(recipe)) results += component_count(recipe, field);
     const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {
         if (listed != has)
             throw std::logic_error("corpus: crowd " + full_name(recipe) + " lists " + std::to_string(listed) +
                                    " rows of " + what + ", the library has " + std::to_string(has));
     };
-    require(inputs, input_row_count(crowd), "inputs");
-    require(results, result_row_count(crowd), "results");
+    for (std::uint32_t group = 0; group < kGroupCount; ++group) {
+        std::uint32_t inputs = 0, results = 0;
+        for (const Field field : inputs_of(recipe, group)) inputs += component_count(recipe, field);
+        for (const Field field : results_of(recipe, group)) results += component_count(recipe, field);
+        require(inputs, input_row_count(crowd, group), "inputs");
+        require(results, result_row_count(crowd, group), "results");
+    }
 }
 
 }  // namespace
@@ -177,6 +179,11 @@ std::uint32_t frame_count(Part part)
 {
     constexpr std::uint32_t counts[] = {1, 1, 3, 3, 50};
     return counts[static_cast<std::size_t>(part)];
+}
+
+std::uint32_t share_of(const Recipe& recipe, std::uint32_t frames)
+{
+    return recipe.features & kGround || recipe.holds != Holds::nothing ? frames / kHoldingShare : frames;
 }
 
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count)

@@ -35,6 +35,9 @@ std::uint32_t frame_count(Part part);
 inline constexpr std::uint32_t kStandingFrames = 10000;
 // The first of these frames, for emulators. Every body swings to and fro in them, and every flag is there.
 inline constexpr std::uint32_t kStandingStart = 1000;
+// Crowds on ground as it lies, and those that hold something, take a part of either.
+inline constexpr std::uint32_t kHoldingShare = 5;
+std::uint32_t share_of(const Recipe& recipe, std::uint32_t frames);
 // Their rows are digested in every frame. Poses, in which nothing is carried, are in one of so many: that takes longer
 // than a solve.
 inline constexpr std::uint32_t kStandingPoses = 16;
@@ -74,7 +77,8 @@ std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_
 {
     const std::uint32_t count = limb_count == 0 ? own_limb_count(recipe.part) : limb_count;
     if (recipe.part == Part::standing)
-        return standing_digest(recipe, solve, count, limb_count == 0 ? kStandingFrames : frame_count(recipe.part));
+        return standing_digest(recipe, solve, count,
+                               limb_count == 0 ? share_of(recipe, kStandingFrames) : frame_count(recipe.part));
     Crowd crowd = make_crowd(recipe, count);
     std::uint64_t hash = kDigestStart;
     for (std::uint32_t frame = 0; frame < frame_count(recipe.part); ++frame) {
@@ -108,7 +112,8 @@ std::uint64_t digest_of_start(Solve&& solve)
 {
     std::vector<std::uint64_t> digests;
     for (const Recipe& recipe : recipes_of(Part::standing))
-        digests.push_back(standing_digest(recipe, solve, own_limb_count(Part::standing), kStandingStart));
+        digests.push_back(
+            standing_digest(recipe, solve, own_limb_count(Part::standing), share_of(recipe, kStandingStart)));
     return fold(digests);
 }
 

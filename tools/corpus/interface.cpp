@@ -48,13 +48,16 @@ constexpr FeatureName kFeatures[] = {
     {kFit, SWIVEL_WITH_FIT},
     {kComing, SWIVEL_WITH_COMING},
     {kYields, SWIVEL_HAND_YIELDS},
+    {kGround, SWIVEL_WITH_GROUND},
+    {kLink, SWIVEL_WITH_LINK},
+    {kHandFrame, SWIVEL_WITH_HAND_FRAME},
 };
 
 struct FieldName {
     Field field;
     swivel_field library;
     std::uint32_t components;
-    std::uint32_t needs = 0, excludes = 0;  // the features that bring it, and those that take it away
+    std::uint64_t needs = 0, excludes = 0;  // the features that bring it, and those that take it away
 };
 // In the order of enum Field.
 constexpr FieldName kFields[] = {
@@ -88,6 +91,10 @@ constexpr FieldName kFields[] = {
     {Field::fit_weight, SWIVEL_FIT_WEIGHT, 1, kFit},
     {Field::coming, SWIVEL_COMING, 3, kComing},
     {Field::coming_time, SWIVEL_COMING_TIME, 1, kComing},
+    {Field::ground, SWIVEL_GROUND, 3, kGround},
+    {Field::ground_normal, SWIVEL_GROUND_NORMAL, 3, kGround},
+    {Field::ground_weight, SWIVEL_GROUND_WEIGHT, 1, kGround},
+    {Field::grip, SWIVEL_GRIP, 7, kLink},
     {Field::shoulder, SWIVEL_SHOULDER, 4},
     {Field::elbow, SWIVEL_ELBOW, 2},  // 4 with joints
     {Field::wrist, SWIVEL_WRIST, 4, kHand},
@@ -101,6 +108,10 @@ constexpr FieldName kFields[] = {
     {Field::plant_turn, SWIVEL_PLANT_TURN, 10, kPlantTurn},
     {Field::plant_motion, SWIVEL_MOTION, 4, kByMotion},
     {Field::goal, SWIVEL_GOAL, 7, kPlant | kRecord},
+    {Field::goal, SWIVEL_GOAL, 7, kLink | kRecord},  // the two features exclude each other
+    {Field::probe, SWIVEL_PROBE, 3, kGround},
+    {Field::lift, SWIVEL_LIFT, 3, kGround},
+    {Field::hand_frame, SWIVEL_HAND_FRAME, 7, kHandFrame},
 };
 
 struct FlagName {
@@ -145,12 +156,13 @@ const FieldName& name_of(Field field)
     throw std::logic_error("corpus: interface.cpp has no row for field " + std::to_string(static_cast<int>(field)));
 }
 
-std::vector<Field> fields_of(const Recipe& recipe, bool are_results)
+std::vector<Field> fields_of(const Recipe& recipe, std::uint32_t group, bool are_results)
 {
+    const std::uint64_t features = features_of(recipe, group);
     std::vector<Field> fields;
     for (const FieldName& name : kFields) {
-        if ((name.field >= Field::shoulder) != are_results || (recipe.features & name.needs) != name.needs) continue;
-        if (recipe.features & name.excludes) continue;
+        if ((name.field >= Field::shoulder) != are_results || (features & name.needs) != name.needs) continue;
+        if (features & name.excludes) continue;
         if (name.field == Field::twist && recipe.twist_bones == 0) continue;
         fields.push_back(name.field);
     }
@@ -215,6 +227,22 @@ constexpr swivel_plant kPlants[kGroupCount] = {
     {0.02f, 0.05f, 0, 0, 0, 0, 0.5f, {2, 4}, {10, 10}},
 };
 constexpr swivel_fit kShifts = {0.3f, 0.2f, 0.15f, 0.3f};
+constexpr swivel_ground kGrounds[kGroupCount] = {
+    {{0.03f, -0.06f, 0.05f}, 0.01f, 0.02f, 0.8f, 0.05f},
+    {{0, 0, 0}, 0, 0, 0.95f, 0.2f},
+    {{-0.1f, 0.02f, 0}, 0.05f, 0, 0.3f, 0},
+};
+constexpr float kMostMoves[] = {1, 0.1f};  // of props, and of those at a joint
+
+swivel_features library_features(const Recipe& recipe, std::uint32_t group)
+{
+    swivel_features features = recipe.twist_bones * SWIVEL_WITH_TWIST_BONES;
+    for (const FeatureName& name : kFeatures)
+        if (features_of(recipe, group) & name.feature) features |= name.library;
+    return features;
+}
+// The groups after the limbs': the shift, and the prop.
+std::uint32_t prop_group(bool has_shift) { return kGroupCount + (has_shift ? 1 : 0); }
 
 Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swivel_group_def> groups)
 {
@@ -234,16 +262,27 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
         groups[g].joints = &joints[g];
         groups[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
         groups[g].plant = kPlants[g];
+        groups[g].ground = kGrounds[g];
+        if (is_holding(recipe, static_cast<std::uint32_t>(g)) && has_prop(recipe))
+            groups[g].link = prop_group(recipe.features & kFit);
     }
-    swivel_group_def all[kGroupCount + 1];
-    std::copy(groups.begin(), groups.end(), all);
-    all[kGroupCount] = swivel_default_fit_group_def();
-    all[kGroupCount].fit = kShifts;
+    swivel_group_def all[kGroupCount + 2];
+    swivel_group_def* end = std::copy(groups.begin(), groups.end(), all);
+    if (recipe.features & kFit) {
+        *end = swivel_default_fit_group_def();
+        end++->fit = kShifts;
+    }
+    if (has_prop(recipe)) {
+        const bool is_at_joint = recipe.holds == Holds::prop_at_joint;
+        *end = swivel_default_prop_group_def();
+        // One of the trunk, which comes last.
+        end++->prop = {is_at_joint ? static_cast<std::int32_t>(own.joint_count()) - 2 : -1, kMostMoves[is_at_joint]};
+    }
     swivel_crowd_def def = swivel_default_crowd_def();
     def.skeleton = &skeleton;
     def.body_count = body_count;
     def.groups = all;
-    def.group_count = kGroupCount + (recipe.features & kFit ? 1 : 0);
+    def.group_count = static_cast<std::uint32_t>(end - all);
     def.up[0] = 1, def.up[1] = 3, def.up[2] = -2;
     return Crowd(def);
 }
@@ -287,19 +326,11 @@ swivel_pose library_pose(Poses& poses)
 
 }  // namespace
 
-std::uint64_t library_features(const Recipe& recipe)
-{
-    swivel_features features = recipe.twist_bones * SWIVEL_WITH_TWIST_BONES;
-    for (const FeatureName& name : kFeatures)
-        if (recipe.features & name.feature) features |= name.library;
-    return features;
-}
-
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
 {
     swivel_group_def groups[kGroupCount];
     for (std::uint32_t g = 0; g < kGroupCount; ++g) {
-        groups[g] = group(limb_counts[g], library_binding(kBindings[g]), library_features(recipe));
+        groups[g] = group(limb_counts[g], library_binding(kBindings[g]), library_features(recipe, g));
         groups[g].shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
         groups[g].wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
     }
@@ -307,8 +338,8 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
     return Crowd(groups);
 }
 
-std::vector<Field> inputs_of(const Recipe& recipe) { return fields_of(recipe, false); }
-std::vector<Field> results_of(const Recipe& recipe) { return fields_of(recipe, true); }
+std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, false); }
+std::vector<Field> results_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, true); }
 
 LimbCounts limb_counts(const Crowd& crowd)
 {
@@ -318,8 +349,14 @@ LimbCounts limb_counts(const Crowd& crowd)
     return counts;
 }
 
-std::uint32_t input_row_count(const Crowd& crowd) { return swivel_input_rows(crowd.get(), 0).row_count; }
-std::uint32_t result_row_count(const Crowd& crowd) { return swivel_result_rows(crowd.get(), 0).row_count; }
+std::uint32_t input_row_count(const Crowd& crowd, std::uint32_t group)
+{
+    return swivel_input_rows(crowd.get(), group).row_count;
+}
+std::uint32_t result_row_count(const Crowd& crowd, std::uint32_t group)
+{
+    return swivel_result_rows(crowd.get(), group).row_count;
+}
 
 std::uint32_t component_count(const Recipe& recipe, Field field)
 {
@@ -362,6 +399,17 @@ void write_shift_wishes(Crowd& crowd, std::span<const float> wishes)
 {
     crowd.write(SWIVEL_SHIFT_WISH, kGroupCount, wishes);
 }
+void write_props(Crowd& crowd, const PropRows& props)
+{
+    const auto count = static_cast<std::uint32_t>(props.shares.size());
+    const auto write = [&](swivel_field field, const std::vector<float>& values) {
+        const swivel_in in{values.data(), values.size() / count * sizeof(float)};
+        check(swivel_write(crowd.get(), field, swivel_group_count(crowd.get()) - 1, 0, count, in));
+    };
+    if (!props.places.empty()) write(SWIVEL_PROP_PLACE, props.places);
+    write(SWIVEL_PROP_TURN, props.turns);
+    write(SWIVEL_PROP_SHARE, props.shares);
+}
 
 void with_job(Poses& poses, const std::function<void(const Job&)>& take)
 {
@@ -369,13 +417,16 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     const swivel_pose pose = library_pose(poses);
     Job job{.pose = &pose};
     if (!poses.mask.empty()) job.mask = poses.mask;
-    std::array<Frame, kGroupCount + 1> frames;
+    std::array<Frame, kGroupCount + 2> frames;
     for (std::size_t g = 0; g < kGroupCount; ++g) {
         if (!poses.far_targets[g].empty()) frames[g].in(SWIVEL_TARGET, body_values(poses, poses.far_targets[g]));
         if (!poses.far_poles[g].empty()) frames[g].in(SWIVEL_POLE, body_values(poses, poses.far_poles[g]));
         if (!poses.far_comings[g].empty()) frames[g].in(SWIVEL_COMING, body_values(poses, poses.far_comings[g]));
+        if (!poses.far_grounds[g].empty()) frames[g].in(SWIVEL_GROUND, body_values(poses, poses.far_grounds[g]));
     }
-    const std::span<Frame> given = std::span(frames).first(kGroupCount + (poses.has_shift ? 1 : 0));
+    const std::uint32_t prop = prop_group(poses.has_shift);
+    if (!poses.far_props.empty()) frames[prop].in(SWIVEL_PROP_PLACE, body_values(poses, poses.far_props));
+    const std::span<Frame> given = std::span(frames).first(prop + (poses.has_prop ? 1 : 0));
     if (pose.root_is_double) job.frames = given;
     take(job);
 }

@@ -19,23 +19,21 @@ namespace swivel::corpus {
 
 using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
-// The recipe's features in the library's bits.
-std::uint64_t library_features(const Recipe& recipe);
 // An empty crowd of three groups with the bindings of bindings.h, or of bodies, of which each group has a limb.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
 LimbCounts limb_counts(const Crowd& crowd);
 
-// The fields that the recipe's features bring, in the order of enum Field: inputs, which are written, and results,
+// The fields that the features of a group bring, in the order of enum Field: inputs, which are written, and results,
 // which are digested in this order.
-std::vector<Field> inputs_of(const Recipe& recipe);
-std::vector<Field> results_of(const Recipe& recipe);
+std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group = 0);
+std::vector<Field> results_of(const Recipe& recipe, std::uint32_t group = 0);
 
 // Floats of a field's value, or the one word of flags.
 std::uint32_t component_count(const Recipe& recipe, Field field);
 
-// The crowd's own numbers of rows: what the fields of a recipe must add up to.
-std::uint32_t input_row_count(const Crowd& crowd);
-std::uint32_t result_row_count(const Crowd& crowd);
+// A group's own numbers of rows: what the fields of a recipe must add up to.
+std::uint32_t input_row_count(const Crowd& crowd, std::uint32_t group);
+std::uint32_t result_row_count(const Crowd& crowd, std::uint32_t group);
 
 // values: component_count() floats for each limb of the group.
 void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values);
@@ -43,7 +41,7 @@ void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const
 // words have the corpus's bits.
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group);
 
-// Clears what a limb carries. The group after the limbs' is the shift.
+// Clears what a limb carries. The group after the limbs' is the shift, where there is one.
 void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb);
 // Changes what a body's limb of one group stands on.
 struct Support {
@@ -52,6 +50,11 @@ struct Support {
 };
 void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const Support& from, const Support& to);
 void write_shift_wishes(Crowd& crowd, std::span<const float> wishes);
+// What the caller says of props, body by body: places, unless they are empty, rotations and shares.
+struct PropRows {
+    std::vector<float> places, turns, shares;
+};
+void write_props(Crowd& crowd, const PropRows& props);
 
 // Calls take(job) with a job that solves all, and brings the poses.
 void with_job(Poses& poses, const std::function<void(const Job&)>& take);

@@ -24,13 +24,14 @@ struct Poses {
     std::vector<std::size_t> offsets;  // of each joint's rotation from its body's first; empty: in the joints' order
     std::vector<float> root_positions, root_rotations, root_scales;
     std::vector<double> far_roots;  // in place of root_positions
-    std::array<std::vector<double>, kGroupCount> far_targets, far_poles,
-        far_comings;  // of each group, in place of rows
+    std::array<std::vector<double>, kGroupCount> far_targets, far_poles, far_comings,
+        far_grounds;  // of each group, in place of rows
 
     // Of bodies that stand.
-    bool has_shift = false;  // a group more
+    bool has_shift = false, has_prop = false;  // a group more each
     std::vector<float> times, support_positions, support_rotations;
     std::vector<double> far_supports;  // in place of support_positions
+    std::vector<double> far_props;     // in place of rows
     std::vector<std::uint32_t> mask;   // of bodies that are solved; empty: all
 
     std::uint32_t rotation_floats() const;

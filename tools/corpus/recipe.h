@@ -13,12 +13,13 @@ enum class Part : std::uint8_t {
     hard,      // plain arms of bad numbers, degenerate poles, straight, folded, of every size
     limbs,     // whole limbs: each feature alone, and many together
     bodies,    // poses of bodies go in and out
-    standing,  // bodies over many frames: plants, caps and shifts, which start from what the last frame left
+    standing,  // bodies over many frames: plants, caps, shifts, ground, and what hands hold; all but the last start
+               // from what the last frame left
 };
 inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs, Part::bodies, Part::standing};
 constexpr bool is_of_bodies(Part part) { return part == Part::bodies || part == Part::standing; }
 
-enum Feature : std::uint32_t {
+enum Feature : std::uint64_t {
     kWorld = 1u << 0,
     kJoints = 1u << 1,
     kHand = 1u << 2,
@@ -50,6 +51,9 @@ enum Feature : std::uint32_t {
     kFit = 1u << 28,  // and a group more, which is the shift
     kComing = 1u << 29,
     kYields = 1u << 30,
+    kGround = 1ull << 31,
+    kLink = 1ull << 32,
+    kHandFrame = 1ull << 33,
 };
 
 // Random numbers of a field depend on its number here.
@@ -85,6 +89,7 @@ enum class Field : std::uint8_t {
     fit_weight = 28,
     coming = 29,
     coming_time = 30,
+    ground = 31,
     // of bodies, which have no rows of them
     skeleton = 32,
     joint_rotation = 33,
@@ -95,6 +100,10 @@ enum class Field : std::uint8_t {
     root_rotation = 38,
     root_scale = 39,
     motion = 40,  // all that changes from frame to frame
+    // inputs again
+    ground_normal = 41,
+    ground_weight = 42,
+    grip = 43,
     // results
     shoulder = 64,
     elbow = 65,
@@ -109,6 +118,9 @@ enum class Field : std::uint8_t {
     plant_turn = 74,
     plant_motion = 75,
     goal = 76,
+    probe = 77,
+    lift = 78,
+    hand_frame = 79,
 };
 
 // Bits of the flag words that are digested.
@@ -160,15 +172,36 @@ enum PoseFeature : std::uint32_t {
     kSupports = 1u << 11,     // what they stand on moves and turns, and is changed now and then
 };
 
+// What limbs hold.
+enum class Holds : std::uint8_t {
+    nothing,
+    hand,           // the last group's holds the first one's hand
+    prop,           // the last two hold a prop, which is a group more
+    prop_at_joint,  // the same, and it hangs on the trunk
+};
+
 struct Recipe {
     Part part;
     const char* name;
     std::uint64_t seed;
-    std::uint32_t features;  // of enum Feature
+    std::uint64_t features;  // of enum Feature
     std::uint32_t twist_bones = 0;
     Order shoulder_order = Order::xyz, wrist_order = Order::xyz;
     Form form = Form::rotations;
     std::uint32_t pose = 0;  // of enum PoseFeature
+    Holds holds = Holds::nothing;
+    std::uint64_t holding = 0;  // the features of limbs that hold something, in place of the others'
 };
+
+constexpr bool has_prop(const Recipe& recipe) { return recipe.holds >= Holds::prop; }
+// Whether a group's limb holds something.
+constexpr bool is_holding(const Recipe& recipe, std::uint32_t group)
+{
+    return group == 2 ? recipe.holds != Holds::nothing : group == 1 && has_prop(recipe);
+}
+constexpr std::uint64_t features_of(const Recipe& recipe, std::uint32_t group)
+{
+    return is_holding(recipe, group) ? recipe.holding : recipe.features;
+}
 
 }  // namespace swivel::corpus

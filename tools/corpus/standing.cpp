@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tools/corpus/hard_cases.h"
+#include "tools/corpus/hard_poses.h"
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {
@@ -113,33 +114,37 @@ Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
         rows_.coming_times[group].resize(body_count);
         rows_.comings[group].resize(std::size_t{3} * body_count);
         rows_.targets[group].resize(std::size_t{3} * body_count);
-        if (is_far && recipe.features & kComing) poses_.far_comings[group].resize(std::size_t{3} * body_count);
+        if (is_far && features_of(recipe, group) & kComing)
+            poses_.far_comings[group].resize(std::size_t{3} * body_count);
     }
     if (is_far) poses_.far_targets[kGroupCount - 1].resize(std::size_t{3} * body_count);
     rows_.shift_wishes.resize(body_count);
+    if (recipe.features & kGround || recipe.holds != Holds::nothing) holding_.emplace(recipe, from, poses_);
 }
 
+// Shares, some of them all or nothing; small ones of caps and zones.
 void Standing::write_constants(Crowd& crowd) const
 {
     const auto body_count = static_cast<std::uint32_t>(movers_.size());
-    for (const Field field : {Field::effector, Field::cap, Field::fit_weight, Field::clavicle}) {
-        const std::vector<Field> fields = inputs_of(recipe_);
-        if (std::find(fields.begin(), fields.end(), field) == fields.end()) continue;
+    for (const Field field : {Field::effector, Field::cap, Field::fit_weight, Field::clavicle, Field::ground_weight,
+                              Field::reach, Field::weights})
         for (std::uint32_t group = 0; group < kGroupCount; ++group) {
+            const std::vector<Field> fields = inputs_of(recipe_, group);
+            if (std::find(fields.begin(), fields.end(), field) == fields.end()) continue;
+            if (field == Field::weights && !is_holding(recipe_, group)) continue;  // theirs stay as at the start
             Random random = stream(recipe_.seed, group, field, Use::value, 0);
             std::vector<float> values(std::size_t{body_count} * component_count(recipe_, field));
-            // Shares, some of them all or nothing; small ones of caps.
             for (float& x : values) {
                 const std::uint32_t kind = random.below(4);
                 const double share = random.unit();
-                x = static_cast<float>(field == Field::cap        ? 0.2 * share
-                                       : field == Field::effector ? 0.1 * share
-                                       : kind < 2                 ? kind
-                                                                  : share);
+                x = static_cast<float>(field == Field::cap || field == Field::reach ? 0.2 * share
+                                       : field == Field::effector                   ? 0.1 * share
+                                       : kind < 2                                   ? kind
+                                                                                    : share);
             }
+            for (std::size_t n = 2; field == Field::reach && n < values.size(); n += 4) values[n] += 1;  // the stretch
             write_field(crowd, field, group, values);
         }
-    }
 }
 
 void Standing::set_root(std::uint32_t n, double swing)
@@ -153,14 +158,19 @@ void Standing::set_root(std::uint32_t n, double swing)
     put_between(mover.from.root_rotation, mover.to.root_rotation, swing, &poses_.root_rotations[4 * n]);
 }
 
+Vector Standing::root_now(std::uint32_t n) const
+{
+    const bool is_far = recipe_.pose & kFar;
+    const double* const far = is_far ? &poses_.far_roots[3 * n] : nullptr;
+    const float* const near = is_far ? nullptr : &poses_.root_positions[3 * n];
+    return far ? Vector{far[0], far[1], far[2]} : Vector{near[0], near[1], near[2]};
+}
+
 // Where limbs go next, and where the last group's points are, whatever the pose says.
 void Standing::set_goals(std::uint32_t n, double swing, bool rests)
 {
     Mover& mover = movers_[n];
-    const bool is_far = recipe_.pose & kFar;
-    const double* const far = is_far ? &poses_.far_roots[3 * n] : nullptr;
-    const float* const near = is_far ? nullptr : &poses_.root_positions[3 * n];
-    const Vector root = far ? Vector{far[0], far[1], far[2]} : Vector{near[0], near[1], near[2]};
+    const Vector root = root_now(n);
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
         const bool flickers = mover.random.below(32) == 0, is_weak = mover.random.below(4) == 0;
         rows_.contacts[group][n] = is_weak ? (rests != flickers ? 0.75f : 0.25f) : (rests != flickers ? 1.0f : 0.0f);
@@ -172,6 +182,11 @@ void Standing::set_goals(std::uint32_t n, double swing, bool rests)
         if (!poses_.far_targets[group].empty()) put_vector(goal, &poses_.far_targets[group][3 * n]);
     }
     rows_.shift_wishes[n] = static_cast<float>(0.1 * (swing - 0.5));
+    if (!has_prop(recipe_) || n / 8 % 2 == 0) return;
+    // Half of those with props hold them as the pose has it.
+    constexpr std::uint32_t last = kGroupCount - 1;
+    std::fill_n(&rows_.targets[last][3 * n], 3, kNan);
+    if (!poses_.far_targets[last].empty()) std::fill_n(&poses_.far_targets[last][3 * n], 3, double{kNan});
 }
 
 Support Standing::support_of(std::uint32_t n, std::uint32_t k, double swing) const
@@ -223,6 +238,7 @@ void Standing::move_body(std::uint32_t frame, std::uint32_t n)
     set_root(n, swing(1));
     set_goals(n, pose, pose <= 0 || pose >= 1);
     if (recipe_.pose & kSupports) set_support(n, support_of(n, mover.stands_on, swing(2)));
+    if (holding_) holding_->move_body(n, root_now(n), swing(2), poses_);
     const std::uint32_t kind = mover.random.below(16);
     const double time = mover.random.between(0.004, 0.03);
     poses_.times[n] = static_cast<float>(kind == 0 ? 0 : kind == 1 ? 40 * time : time);
@@ -239,7 +255,8 @@ void Standing::change_carried(std::uint32_t frame, std::uint32_t n, Crowd& crowd
     const double swing = swing_of(mover.starts[2] + frame * mover.speeds[2]);
     const Support was = support_of(n, mover.stands_on, swing), is = support_of(n, 1 - mover.stands_on, swing);
     mover.stands_on = 1 - mover.stands_on;
-    for (std::uint32_t group = 0; group < kGroupCount; ++group) change_support(crowd, group, n, was, is);
+    for (std::uint32_t group = 0; group < kGroupCount; ++group)
+        if (features_of(recipe_, group) & kPlant) change_support(crowd, group, n, was, is);
 }
 
 // Leaves out some bodies in every fourth frame.
@@ -262,14 +279,17 @@ void Standing::go_to(std::uint32_t frame, Crowd& crowd)
     choose(frame);
     const bool is_far = recipe_.pose & kFar;
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-        if (!(recipe_.features & kByMotion)) write_field(crowd, Field::contact, group, rows_.contacts[group]);
-        if (recipe_.features & kComing) {
+        const std::uint64_t features = features_of(recipe_, group);
+        if ((features & (kPlant | kByMotion)) == kPlant)
+            write_field(crowd, Field::contact, group, rows_.contacts[group]);
+        if (features & kComing) {
             if (!is_far) write_field(crowd, Field::coming, group, rows_.comings[group]);
             write_field(crowd, Field::coming_time, group, rows_.coming_times[group]);
         }
     }
     if (!is_far) write_field(crowd, Field::target, kGroupCount - 1, rows_.targets[kGroupCount - 1]);
     if (poses_.has_shift) write_shift_wishes(crowd, rows_.shift_wishes);
+    if (holding_) holding_->write(crowd);
 }
 
 }  // namespace swivel::corpus

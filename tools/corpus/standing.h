@@ -6,10 +6,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tools/corpus/arms.h"
 #include "tools/corpus/bodies.h"
+#include "tools/corpus/holding.h"
 #include "tools/corpus/interface.h"
 #include "tools/corpus/vectors.h"
 
@@ -45,6 +47,7 @@ private:
     void move_body(std::uint32_t frame, std::uint32_t body);
     void set_root(std::uint32_t body, double swing);
     void set_goals(std::uint32_t body, double swing, bool rests);
+    Vector root_now(std::uint32_t body) const;
     Support support_of(std::uint32_t body, std::uint32_t n, double swing) const;
     void set_support(std::uint32_t body, const Support& support);
     void spoil_body(std::uint32_t body);
@@ -55,6 +58,7 @@ private:
     std::vector<Mover> movers_;
     Poses poses_;
     Changes rows_;
+    std::optional<Holding> holding_;  // where feet are on ground or something is held
 };
 
 }  // namespace swivel::corpus

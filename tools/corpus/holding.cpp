@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "tools/corpus/holding.h"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+
+#include "tools/corpus/hard_cases.h"
+#include "tools/corpus/hard_poses.h"
+
+namespace swivel::corpus {
+
+namespace {
+
+Vector random_vector(Random& random, double size)
+{
+    const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
+    return size * Vector{x, y, z};
+}
+Vector between(const Vector& from, const Vector& to, double share) { return from + share * (to - from); }
+
+Holder holder_of(const Recipe& recipe, std::uint32_t n, const Body& body)
+{
+    Holder holder{stream(recipe.seed, 1, Field::motion, Use::value, n), body.root_scale, {}, {}, {}, {}, {}, {}};
+    Random& random = holder.random;
+    const Vector up = unit(turn(unit(rotation_of(body.root_rotation)), {1, 3, -2}));  // the crowd's
+    for (std::size_t group = 0; group < kGroupCount; ++group) {
+        holder.grounds[group] = random_vector(random, 0.2);
+        const double size = random.between(0.5, 2);
+        holder.normals[group] = size * (up + random_vector(random, 0.5));
+        const std::array<float, 3> place = floats(random_vector(random, has_prop(recipe) ? 0.1 * holder.scale : 0.2));
+        const std::array<float, 4> rotation = floats(random_rotation(random, 0.5, 2));
+        std::copy(rotation.begin(), rotation.end(), std::copy(place.begin(), place.end(), holder.grips[group].begin()));
+    }
+    holder.ground_way = random_vector(random, 0.2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        holder.prop_places[k] = random_vector(random, 0.3);
+        holder.prop_turns[k] = floats(random_rotation(random, 0.5, 2));
+    }
+    return holder;
+}
+
+void put_vector(const Vector& v, float* at)
+{
+    const std::array<float, 3> numbers = floats(v);
+    std::copy(numbers.begin(), numbers.end(), at);
+}
+void put_vector(const Vector& v, double* at) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
+
+// A body's part of all bodies' values.
+template <class Value>
+std::span<Value> values_of(std::vector<Value>& values, std::size_t body_count, std::uint32_t body)
+{
+    const std::size_t each = values.size() / body_count;
+    return std::span(values).subspan(body * each, each);
+}
+
+}  // namespace
+
+Holding::Holding(const Recipe& recipe, const std::vector<Body>& bodies, Poses& poses) : recipe_(recipe)
+{
+    const std::size_t body_count = bodies.size(), three = 3 * body_count;
+    const bool is_far = recipe.pose & kFar;
+    for (std::uint32_t n = 0; n < body_count; ++n) holders_.push_back(holder_of(recipe, n, bodies[n]));
+    for (std::uint32_t group = 0; group < kGroupCount; ++group) {
+        if (features_of(recipe, group) & kGround) {
+            is_far ? poses.far_grounds[group].resize(three) : grounds_[group].resize(three);
+            normals_[group].resize(three);
+        }
+        if (features_of(recipe, group) & kLink) grips_[group].resize(7 * body_count);
+    }
+    poses.has_prop = has_prop(recipe);
+    if (!poses.has_prop) return;
+    is_far ? poses.far_props.resize(three) : props_.places.resize(three);
+    props_.turns.resize(4 * body_count);
+    props_.shares.resize(body_count);
+}
+
+// One body in eight has no ground, and others have none now and then.
+void Holding::set_ground(std::uint32_t n, std::uint32_t group, const Vector& root, double swing, Poses& poses)
+{
+    Holder& holder = holders_[n];
+    const std::uint32_t kind = holder.random.below(32);
+    const bool is_none = kind == 0 || n % 8 == 7, is_steep = kind == 1;
+    const Vector any = random_direction(holder.random), none{kNan, kNan, kNan},
+                 from_root = holder.grounds[group] + swing * holder.ground_way,
+                 place = is_none ? none : root + holder.scale * from_root;
+    if (poses.far_grounds[group].empty())
+        put_vector(place, &grounds_[group][3 * n]);
+    else
+        put_vector(place, &poses.far_grounds[group][3 * n]);
+    put_vector(is_steep ? any : holder.normals[group], &normals_[group][3 * n]);
+}
+
+// Of four bodies one is told where its prop is, one how it is turned, one both. The fourth has it at hand.
+void Holding::set_prop(std::uint32_t n, const Vector& root, double swing, Poses& poses)
+{
+    Holder& holder = holders_[n];
+    const bool is_far = holder.random.below(64) == 0, has_place = n % 2 == 1, has_turn = n / 2 % 2 == 1;
+    const double size = (is_far ? 1000 : 1) * holder.scale;
+    const Vector way = size * between(holder.prop_places[0], holder.prop_places[1], swing), none{kNan, kNan, kNan},
+                 place = !has_place                              ? none
+                         : recipe_.holds == Holds::prop_at_joint ? way
+                                                                 : root + way;
+    if (poses.far_props.empty())
+        put_vector(place, &props_.places[3 * n]);
+    else
+        put_vector(place, &poses.far_props[3 * n]);
+    for (std::size_t c = 0; c < 4; ++c) {
+        const double from = holder.prop_turns[0][c], to = holder.prop_turns[1][c];
+        props_.turns[4 * n + c] = has_turn ? static_cast<float>(from + swing * (to - from)) : kNan;
+    }
+    const double shares[] = {0, 1, swing, 0.5};
+    props_.shares[n] = static_cast<float>(shares[n / 4 % 4]);
+}
+
+void Holding::spoil_body(std::uint32_t n, Poses& poses)
+{
+    Random& random = holders_[n].random;
+    std::vector<float>* const values[] = {&grounds_[0],   &normals_[0],   &grips_[1],    &grips_[2],
+                                          &props_.places, &props_.shares, &props_.turns, &normals_[1]};
+    std::vector<double>* const far_values[] = {&poses.far_grounds[0], &poses.far_grounds[1], &poses.far_props};
+    const std::uint32_t chosen = random.below(static_cast<std::uint32_t>(std::size(values) + std::size(far_values)));
+    if (chosen < std::size(values)) {
+        const std::span<float> some = values_of(*values[chosen], holders_.size(), n);
+        spoil(random, some, some.size() == 1 ? 1 : 3);
+    } else {
+        spoil(random, values_of(*far_values[chosen - std::size(values)], holders_.size(), n), 3);
+    }
+}
+
+void Holding::move_body(std::uint32_t n, const Vector& root, double swing, Poses& poses)
+{
+    for (std::uint32_t group = 0; group < kGroupCount; ++group) {
+        if (!normals_[group].empty()) set_ground(n, group, root, swing, poses);
+        if (grips_[group].empty()) continue;
+        const std::array<float, 7>& grip = holders_[n].grips[group];
+        std::copy(grip.begin(), grip.end(), &grips_[group][7 * n]);
+    }
+    if (poses.has_prop) set_prop(n, root, swing, poses);
+    if (holders_[n].random.below(64) == 0) spoil_body(n, poses);
+}
+
+void Holding::write(Crowd& crowd) const
+{
+    for (std::uint32_t group = 0; group < kGroupCount; ++group) {
+        if (!grounds_[group].empty()) write_field(crowd, Field::ground, group, grounds_[group]);
+        if (!normals_[group].empty()) write_field(crowd, Field::ground_normal, group, normals_[group]);
+        if (!grips_[group].empty()) write_field(crowd, Field::grip, group, grips_[group]);
+    }
+    if (has_prop(recipe_)) write_props(crowd, props_);
+}
+
+}  // namespace swivel::corpus

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// What bodies that stand on ground as it lies, or hold something, get beside other inputs: the ground below each foot,
+// grips, and props. Now and then ground is steep or none, a prop is far away, and a number is spoilt.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tools/corpus/bodies.h"
+#include "tools/corpus/interface.h"
+#include "tools/corpus/vectors.h"
+
+namespace swivel::corpus {
+
+// Of one body. Places are from the root, in the unit of its scale.
+struct Holder {
+    Random random;  // of all frames
+    double scale;
+    std::array<Vector, kGroupCount> grounds, normals;  // normals are of any length
+    Vector ground_way;
+    std::array<std::array<float, 7>, kGroupCount> grips;
+    std::array<Vector, 2> prop_places;
+    std::array<std::array<float, 4>, 2> prop_turns;
+};
+
+class Holding {
+public:
+    // bodies: in their first poses.
+    Holding(const Recipe& recipe, const std::vector<Body>& bodies, Poses& poses);
+    // root: where the body's is now. swing: 0 to 1.
+    void move_body(std::uint32_t body, const Vector& root, double swing, Poses& poses);
+    void write(Crowd& crowd) const;
+
+private:
+    void set_ground(std::uint32_t body, std::uint32_t group, const Vector& root, double swing, Poses& poses);
+    void set_prop(std::uint32_t body, const Vector& root, double swing, Poses& poses);
+    void spoil_body(std::uint32_t body, Poses& poses);
+
+    const Recipe& recipe_;
+    std::vector<Holder> holders_;
+    std::array<std::vector<float>, kGroupCount> grounds_, normals_, grips_;
+    PropRows props_;
+};
+
+}  // namespace swivel::corpus
