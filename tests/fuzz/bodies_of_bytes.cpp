@@ -38,6 +38,7 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
         if (bytes.one_in(2)) groups[g].on_bad_input = SWIVEL_REST_POSE;
     }
     add_shift();
+    take_links(bytes, trunk);
     if (bytes.one_in(2)) take_constants(bytes);
     if (!bytes.one_in(4)) return;
     is_sound = false;
@@ -49,6 +50,33 @@ void BodyDef::add_shift()
 {
     if (std::ranges::any_of(groups, [](const auto& group) { return group.features & SWIVEL_WITH_FIT; }))
         groups.push_back(swivel_default_fit_group_def());
+}
+
+// What limbs hold: the hand of an earlier one, or a prop.
+void BodyDef::take_links(Bytes& bytes, std::uint32_t trunk)
+{
+    for (std::uint32_t g = 0; g < joints.size(); ++g) {
+        if (!(groups[g].features & SWIVEL_WITH_LINK)) continue;
+        const std::uint32_t earlier = bytes.below(g + 2);
+        if (earlier < g && groups[earlier].features & SWIVEL_WITH_HAND)
+            groups[g].link = earlier;
+        else
+            link_to_prop(bytes, trunk, groups[g]);
+    }
+}
+// The last group may be a prop that one limb holds so far. Others are new.
+void BodyDef::link_to_prop(Bytes& bytes, std::uint32_t trunk, swivel_group_def& group)
+{
+    const auto last = static_cast<std::uint32_t>(groups.size() - 1);
+    const auto is_on_last = [&](const swivel_group_def& other) {
+        return other.features & SWIVEL_WITH_LINK && other.link == last;
+    };
+    const bool is_held = groups[last].features & SWIVEL_PROP && std::ranges::count_if(groups, is_on_last) == 1;
+    group.link = is_held && !bytes.one_in(4) ? last : last + 1;
+    if (group.link == last) return;
+    swivel_group_def prop = swivel_default_prop_group_def();
+    if (bytes.one_in(2)) prop.prop.joint = static_cast<std::int32_t>(bytes.below(trunk + 1)) - 1;
+    groups.push_back(prop);  // group is no longer there
 }
 
 // How limbs stand and bodies shift, in steps from nothing to much.
@@ -67,6 +95,13 @@ void BodyDef::take_constants(Bytes& bytes)
                        {number(2) - 1, number(2) - 1}};
         group.plant.unlock += group.plant.lock;  // which it is no less than
         group.fit = {number(1), number(1), number(0.4f), number(1)};
+        if (!((group.features & SWIVEL_WITH_GROUND) | (group.features & SWIVEL_PROP))) continue;
+        group.ground = {{number(0.4f) - 0.2f, number(0.4f) - 0.2f, number(0.4f) - 0.2f},
+                        number(0.2f),
+                        number(0.2f),
+                        number(1),
+                        number(0.4f)};
+        group.prop.most_move = number(1);
     }
     for (float& x : up) x = number(2) - 1;
     up[1] = 1;
@@ -107,7 +142,7 @@ void BodyDef::spoil(Bytes& bytes)
     const std::uint32_t joint = bytes.below(joint_count()), any_joint = bytes.below(joint_count() + 2);
     const std::size_t g = bytes.below(static_cast<std::uint32_t>(joints.size()));
     swivel_limb_joints& limb = joints[g];
-    switch (bytes.take<std::uint8_t>() % 15) {
+    switch (bytes.take<std::uint8_t>() % 16) {
         case 0:  // also in a circle
             parents[joint] = static_cast<std::int32_t>(any_joint) - 1;
             break;
@@ -151,8 +186,37 @@ void BodyDef::spoil(Bytes& bytes)
         case 13:  // also a second shift
             groups.push_back(swivel_default_fit_group_def());
             break;
+        case 14:
+            spoil_link(bytes, groups[g]);
+            break;
         default:
             groups[g].joints = nullptr;
+    }
+}
+
+// Also of a group that has none, which does not matter.
+void BodyDef::spoil_link(Bytes& bytes, swivel_group_def& group)
+{
+    swivel_group_def& last = groups.back();
+    switch (bytes.below(6)) {
+        case 0:  // also to itself, to a later one, or to none
+            group.link = bytes.below(static_cast<std::uint32_t>(groups.size()) + 2);
+            break;
+        case 1:
+            group.features ^= SWIVEL_WITH_LINK;
+            break;
+        case 2:  // also one that a limb turns
+            last.prop.joint = static_cast<std::int32_t>(bytes.below(joint_count() + 2)) - 1;
+            break;
+        case 3:
+            last.prop.joint = bytes.take<std::int32_t>();
+            break;
+        case 4:
+            *std::array{&group.ground.heel[1], &group.ground.toe_clearance, &group.ground.cos_most, &group.ground.half,
+                        &last.prop.most_move}[bytes.below(5)] = bytes.any_float();
+            break;
+        default:  // that nobody holds
+            groups.push_back(swivel_default_prop_group_def());
     }
 }
 
@@ -190,12 +254,15 @@ bool BodyDef::is_needed(std::uint32_t joint) const
         for (const std::uint32_t turned : turned_joints(g))
             if (is_above(joint, turned)) return true;
     }
-    return false;
+    return std::ranges::any_of(groups, [&](const swivel_group_def& group) {
+        return group.features & SWIVEL_PROP && group.prop.joint >= 0 &&
+               is_above(joint, static_cast<std::uint32_t>(group.prop.joint));
+    });
 }
 
 std::vector<std::uint32_t> BodyDef::turned_joints(std::uint32_t group) const
 {
-    if (group >= joints.size()) return {};  // a shift turns none
+    if (group >= joints.size()) return {};  // shifts and props turn none
     const swivel_limb_joints limb = limb_of(group);
     const swivel_features features = groups[group].features;
     std::vector<std::uint32_t> turned = {limb.shoulder, limb.elbow};

@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Crowds of bodies as a fuzzer's bytes say: a skeleton with limbs beside each other, and the same spoilt in some
-// places.
+// Crowds of bodies as a fuzzer's bytes say: a skeleton with limbs beside each other, which may hold each other or
+// things, and the same spoilt in some places.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace swivel::fuzz {
 struct BodyDef {
     std::vector<std::int32_t> parents = {};
     std::vector<float> rotations = {}, translations = {};
-    std::vector<swivel_limb_joints> joints = {};  // of each group that is no shift
+    std::vector<swivel_limb_joints> joints = {};  // of each group that is a limb; they come first
     std::vector<std::vector<std::uint32_t>> twist_bones = {};
     swivel_skeleton skeleton = swivel_default_skeleton();
     std::vector<swivel_group_def> groups = {};
@@ -42,8 +42,11 @@ private:
     bool is_above(std::uint32_t joint, std::uint32_t below) const;
     void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swivel_features features);
     void add_shift();
+    void take_links(Bytes& bytes, std::uint32_t trunk);
+    void link_to_prop(Bytes& bytes, std::uint32_t trunk, swivel_group_def& group);
     void take_constants(Bytes& bytes);
     void spoil(Bytes& bytes);
+    void spoil_link(Bytes& bytes, swivel_group_def& group);
 };
 
 }  // namespace swivel::fuzz

@@ -98,7 +98,7 @@ void check_rotations(Reader& reader)
 // What stands, and what it stands with: numbers, and a state that there is.
 void check_plant(Reader& reader)
 {
-    for (const swivel_field field : {SWIVEL_PLANT_TURN, SWIVEL_MOTION, SWIVEL_SHIFT, SWIVEL_PLANT}) {
+    for (const swivel_field field : {SWIVEL_PLANT_TURN, SWIVEL_MOTION, SWIVEL_SHIFT, SWIVEL_LIFT, SWIVEL_PLANT}) {
         const std::uint32_t count = reader.read(field);
         for (std::uint32_t n = 0; n < count; ++n) SWIVEL_REQUIRE(std::isfinite(reader.value[n]));
     }
@@ -107,6 +107,17 @@ void check_plant(Reader& reader)
     SWIVEL_REQUIRE(state == 0 || (state >= 8 && state < 16 && state == std::floor(state)));
     SWIVEL_REQUIRE(left >= 0);
     if (state != 0 && reader.read(SWIVEL_PLANT_TURN) > 0) SWIVEL_REQUIRE(is_unit(reader.value.data(), 4, 1e-5));
+}
+
+// A place and a rotation. All of it may be NaN where the limb's input is bad.
+void check_frame(Reader& reader, swivel_field field, bool is_bad)
+{
+    if (reader.read(field) == 0) return;
+    bool is_none = true;
+    for (std::size_t n = 0; n < 7; ++n) is_none = is_none && std::isnan(reader.value[n]);
+    if (is_none && is_bad) return;
+    for (std::size_t n = 0; n < 3; ++n) SWIVEL_REQUIRE(std::isfinite(reader.value[n]));
+    SWIVEL_REQUIRE(is_unit(reader.value.data() + 3, 4, 1e-6) && is_on_its_side(reader.value.data() + 3));
 }
 
 void check_places(const Session& session, std::uint32_t group, std::uint32_t limb)
@@ -129,7 +140,9 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     std::memcpy(&flags, reader.value.data(), sizeof flags);
     SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
     check_plant(reader);
-    if (has_features(session, group, SWIVEL_FIT))
+    check_frame(reader, SWIVEL_PROP_FRAME, false);
+    check_frame(reader, SWIVEL_HAND_FRAME, flags == SWIVEL_BAD_INPUT);
+    if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
         return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_BAD_INPUT);
     check_rotations(reader);
     if (reader.read(SWIVEL_STRETCH) > 0) SWIVEL_REQUIRE(reader.value[0] >= 1 && reader.value[0] <= 1000);
@@ -182,6 +195,22 @@ void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb
     const Rows results = results_of(session.crowd, group), got = results_of(alone, to);
     for (std::size_t row = 0; row < got.row_count; ++row)
         SWIVEL_REQUIRE(std::memcmp(got.at(0, row), results.at(limb, row), got.number_bytes) == 0);
+}
+
+void check_probes(const Session& session, const SomeLimbs& chosen)
+{
+    for (std::uint32_t group = 0; group < session.group_count; ++group) {
+        const Rows results = results_of(session.crowd, group);
+        const std::size_t first = swivel_field_first_row(session.crowd, group, SWIVEL_PROBE),
+                          end = first + swivel_field_row_count(session.crowd, group, SWIVEL_PROBE);
+        for (std::size_t limb = 0; limb < chosen[group].size(); ++limb)
+            for (std::size_t row = 0; row < results.row_count; ++row) {
+                const char* const now = results.at(limb, row);
+                if (row < first || row >= end)
+                    SWIVEL_REQUIRE(std::memcmp(now, before(session, now), results.number_bytes) == 0);
+            }
+    }
+    check_others(session, chosen);
 }
 
 void check_others(const Session& session, const SomeLimbs& chosen)

@@ -17,6 +17,8 @@ void solve_scalar(swivel_crowd* alone, const swivel_job* job);
 void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone,
                  std::uint32_t to);
 
+// A job for probes alone changed no other result.
+void check_probes(const Session& session, const SomeLimbs& chosen);
 // Inputs and results of limbs that are not chosen, and whole blocks without such a limb, have the bits that they
 // had before the call.
 void check_others(const Session& session, const SomeLimbs& chosen);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/crowd_of_bytes.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -83,7 +84,15 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
         case SWIVEL_CAP:
         case SWIVEL_FIT_WEIGHT:
         case SWIVEL_COMING_TIME:
+        case SWIVEL_GROUND_WEIGHT:
+        case SWIVEL_PROP_SHARE:
             for (float& x : value) x = std::abs(x);
+            if (random.below(4) == 0) value[0] = std::round(value[0]);  // nothing or all
+            break;
+        case SWIVEL_GROUND:
+        case SWIVEL_PROP_PLACE:
+        case SWIVEL_PROP_TURN:
+            if (random.below(4) == 0) std::ranges::fill(value, std::numeric_limits<float>::quiet_NaN());  // none
             break;
         case SWIVEL_REACH:
             for (float& x : value) x = 0.25f * std::abs(x);
@@ -185,7 +194,7 @@ swivel_features body_features_of(Bytes& bytes)
 {
     swivel_feature_info info;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info) && info.feature != SWIVEL_BODY;) ++n;
-    return features_with(info.feature | info.needs, info.excludes | SWIVEL_FIT, bytes);
+    return features_with(info.feature | info.needs, info.excludes | SWIVEL_FIT | SWIVEL_PROP, bytes);
 }
 
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)

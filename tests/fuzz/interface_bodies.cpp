@@ -231,7 +231,7 @@ swivel_pose Pose::of_body(std::uint32_t body, std::array<std::vector<char>, 7>& 
     return pose;
 }
 
-void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body)
+void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body, const swivel_job& like)
 {
     std::uint32_t named = 0;
     for (std::uint32_t group = 0; group < session.group_count; ++group)
@@ -248,10 +248,12 @@ void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t b
     swivel_job job = swivel_default_job();
     job.groups = &named, job.group_word_count = 1;
     job.pose = &pose;
+    job.probes_only = like.probes_only, job.sample = like.sample, job.sample_user = like.sample_user;
     solve_scalar(alone, &job);
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
         if (!chosen[group][body]) continue;
         check_equal(session, group, body, alone, group);
+        if (like.probes_only) continue;
         for_each_written(session, group, [&](Array n, std::uint32_t joint) {
             const char* const value = &memory[n][joint * arrays[n]->value_bytes()];
             arrays[n]->expect(body, joint, is_overwritten(session, group, body) ? nullptr : value);
@@ -259,9 +261,9 @@ void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t b
     }
 }
 
-void Pose::check(Session& session, const SomeLimbs& chosen)
+void Pose::check(Session& session, const SomeLimbs& chosen, const swivel_job& like)
 {
-    for (std::uint32_t body = 0; body < session.bodies->body_count; ++body) check_body(session, chosen, body);
+    for (std::uint32_t body = 0; body < session.bodies->body_count; ++body) check_body(session, chosen, body, like);
     check_all();
 }
 

@@ -28,8 +28,9 @@ struct Pose {
     // named: the groups that are solved.
     bool is_valid(const Session& session, const std::vector<bool>& named) const;
     const std::optional<Strided>& root_position() const { return roots[0]; }
-    // Chosen limbs have the pose and the results of their body alone. All other bytes are as they were.
-    void check(Session& session, const SomeLimbs& chosen);
+    // Chosen limbs have the pose and the results of their body alone, solved by a job like `like` or, of probes, asked
+    // for by it. All other bytes are as they were.
+    void check(Session& session, const SomeLimbs& chosen, const swivel_job& like);
     // The same where it is not known which limbs were chosen: those that might be may have changed.
     void check_others(const Session& session);
 
@@ -39,7 +40,7 @@ private:
     // Calls take(array, joint) for each value of a body that a solve of a group may write.
     template <class Take>
     void for_each_written(const Session& session, std::uint32_t group, const Take& take);
-    void check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body);
+    void check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body, const swivel_job& like);
     void check_all() const;
 };
 

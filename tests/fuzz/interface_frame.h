@@ -11,6 +11,9 @@
 
 namespace swivel::fuzz {
 
+// How a job has the ground sampled.
+enum class Sampling : std::uint8_t { none, asks, probes_only };
+
 // One group's frame and the arrays that it points to.
 struct Frame {
     swivel_in origin = {};
@@ -26,12 +29,13 @@ struct Frame {
 
     // Inputs of chosen limbs are in the crowd's rows, and results are the crowd's. Values of others, and all of them if
     // nothing is chosen, are as they were.
-    void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const;
+    void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen,
+               Sampling sampling = Sampling::none) const;
 
 private:
     double from(const Session& session, std::uint32_t group, swivel_field field, std::uint32_t limb,
                 std::size_t c) const;
-    void check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb) const;
+    void check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb, Sampling sampling) const;
     void take_origin(Session& session, std::uint32_t limb_count);
     void take_input(Session& session, std::uint32_t group, swivel_field field);
     void take_output(Session& session, std::uint32_t group, swivel_field field);

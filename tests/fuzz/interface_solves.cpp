@@ -5,6 +5,8 @@
 #include <bit>
 #include <memory>
 
+#include "tests/fuzz/check_results.h"
+#include "tests/fuzz/crowd_of_bytes.h"
 #include "tests/fuzz/interface_bodies.h"
 #include "tests/fuzz/interface_frame.h"
 #include "tests/fuzz/interface_session.h"
@@ -101,6 +103,30 @@ bool has_workspace(const Session& session)
     return session.has_workspace || swivel_workspace_bytes(session.crowd) == 0;
 }
 
+// The ground that a job asks for. It depends on the place alone, so a body has the same alone.
+struct Ground {
+    std::uint64_t seed = 0;
+    const Session* session = nullptr;
+};
+// Some of it is none, some is hard, and some is left as it was.
+void sample_ground(const swivel_probes* probes, void* user)
+{
+    const Ground& ground = *static_cast<const Ground*>(user);
+    SWIVEL_REQUIRE(probes->count > 0 && probes->count <= 128);
+    SWIVEL_REQUIRE(probes->group < ground.session->group_count);
+    SWIVEL_REQUIRE(ground.session->groups[probes->group].features & SWIVEL_WITH_GROUND);
+    for (std::uint32_t n = 0; n < probes->count; ++n) {
+        SWIVEL_REQUIRE(probes->bodies[n] < ground.session->bodies->body_count);
+        SWIVEL_REQUIRE(n == 0 || probes->bodies[n] > probes->bodies[n - 1]);
+        std::uint64_t key = ground.seed;
+        for (const float x : probes->places[n]) key = Random{key ^ std::bit_cast<std::uint32_t>(x)}.bits();
+        Random random{key};
+        const std::uint32_t kind = random.below(8);
+        if (kind > 0) make_value(random, SWIVEL_GROUND, kind, probes->grounds[n]);
+        if (kind > 1) make_value(random, SWIVEL_GROUND_NORMAL, kind, probes->normals[n]);
+    }
+}
+
 // A job from bytes, what it points to, and which lanes it solves.
 struct TakenJob {
     Session& session;
@@ -122,6 +148,7 @@ struct TakenJob {
         char bytes[64];
     };
     std::vector<Line> workspace = {};
+    Ground ground = {};
 
     explicit TakenJob(Session& in) : session(in), lanes(in.lane_count(), true)
     {
@@ -142,6 +169,7 @@ struct TakenJob {
         if (bytes.one_in(64) && !job.mask) take_mask();  // beside another choice, it may be
         if (bytes.one_in(4)) take_groups();
         if (session.bodies) take_pose();
+        if (session.bodies) take_sampling();
         if (bytes.one_in(2)) take_frames();
         if (bytes.one_in(2)) job.solved_count = &solved_count;
         take_workspace();
@@ -153,6 +181,10 @@ struct TakenJob {
         }
     }
 
+    Sampling sampling() const
+    {
+        return job.probes_only ? Sampling::probes_only : job.sample ? Sampling::asks : Sampling::none;
+    }
     // Not of one whose urgent blocks are not known here.
     bool is_known() const { return !job.priorities; }
     SomeLimbs chosen() const
@@ -202,6 +234,32 @@ private:
         std::vector<bool> is_solved;
         for (std::uint32_t group = 0; group < session.group_count; ++group) is_solved.push_back(is_named(group));
         if (!job.pose || !pose->is_valid(session, is_solved)) is_valid = false;
+        if (!are_links_named()) is_valid = false;
+    }
+    // What limbs are linked to is solved with them, and no prop without all that hold it.
+    bool are_links_named() const
+    {
+        for (std::uint32_t group = 0; group < session.group_count; ++group) {
+            if (!has_features(session, group, SWIVEL_WITH_LINK)) continue;
+            const std::uint32_t link = session.groups[group].link;
+            if (is_named(group) && !is_named(link)) return false;
+            if (is_named(link) && !is_named(group) && has_features(session, link, SWIVEL_PROP)) return false;
+        }
+        return true;
+    }
+    void take_sampling()
+    {
+        bool has_ground = false;
+        for (std::uint32_t group = 0; group < session.group_count; ++group)
+            has_ground = has_ground || (is_named(group) && has_features(session, group, SWIVEL_WITH_GROUND));
+        if (!has_ground && !session.bytes.one_in(32)) return;
+        const std::uint32_t kind = session.bytes.below(16);
+        if (kind % 4 == 1 || kind == 15) job.probes_only = 1;
+        if (kind % 4 == 2 || kind == 15) {
+            ground = {session.bytes.take<std::uint16_t>(), &session};
+            job.sample = sample_ground, job.sample_user = &ground;
+        }
+        if ((job.probes_only || job.sample) && (!has_ground || kind == 15)) is_valid = false;
     }
     void take_workspace()
     {
@@ -293,10 +351,13 @@ void call_solve(Session& session)
     }
     const SomeLimbs chosen = is_solved ? taken.chosen() : session.limbs_that(false);
     for (std::size_t n = 0; n < taken.frames.size(); ++n)
-        taken.frames[n].check(session, taken.framed_groups[n], chosen[taken.framed_groups[n]]);
-    if (taken.pose) taken.pose->check(session, chosen);
+        taken.frames[n].check(session, taken.framed_groups[n], chosen[taken.framed_groups[n]], taken.sampling());
+    if (taken.pose) taken.pose->check(session, chosen, taken.job);
     if (!is_solved) return;
-    check_solved(session, chosen);
+    if (taken.job.probes_only)
+        check_probes(session, chosen);
+    else
+        check_solved(session, chosen);
     if (taken.job.solved_count) SWIVEL_REQUIRE(taken.count() == taken.solved_count);
 }
 
