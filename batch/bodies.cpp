@@ -73,7 +73,10 @@ private:
             for (const swivel_frame_field& each : fields_of(frame))
                 if (each.field == SWIVEL_PROBE && each.data) {
                     frame.fields = &each, frame.field_count = 1;
-                    share(group, run, frame, [&](const Share& of) { of.copy_out(work.mask, run); });
+                    share(group, run, frame, [&](Share of) {
+                        of.kept_end = of.in_end;  // also where the last solve kept the pose
+                        of.copy_out(work.mask, run);
+                    });
                     return;
                 }
         });

@@ -172,7 +172,7 @@ struct StageBody<Stage::link> {
         s.set_body(limb.goal + kGoalFlagsRow, bits<T>(0));
         send(s, goal.place, goal.rotation);
         if (s.has(SWIVEL_WITH_RECORD)) {
-            const Rows<T, kTold> out = good_rows(s);
+            const Rows<T, kTold> out = waiting_rows(s);
             out.store_vector(SWIVEL_GOAL, goal.place + s.body_vector(kRootRow));
             out.store_rotor(SWIVEL_GOAL, goal.rotation, 3);
         }
@@ -201,17 +201,17 @@ struct StageBody<Stage::hand_frame> {
         const Mask<T> kept = s.body_row(kKeptRow) > T(0.5), valid = lanes_where<T>(s.good()) | kept;
         const T nan = T(__builtin_nan(""));
         const Vector<T> place = select(kept, s.body_vector(limb.wrist + kPlaceRow), solved.place);
-        const HeldFrame<T> is{select(kept, s.body_rotor(limb.wrist + kTurnRow), solved.rotation),
-                              select(valid, place, vector(nan, nan, nan))};
+        const Rotor<T> turn = select(kept, s.body_rotor(limb.wrist + kTurnRow), solved.rotation);
+        const Mask<T> is_known = valid & (len2(place) <= T(kHuge2)) & is_within(len2(turn), 0.99, 1.01) &
+                                 (len2(s.body_vector(kRootRow)) <= T(kHuge2));
+        const HeldFrame<T> is{select(is_known, turn, rotor(nan, nan, nan, nan)),
+                              select(is_known, place, vector(nan, nan, nan))};
         set_held(s, limb.frame, is);
         s.set_body(limb.frame + kHeldScaleRow, scale);
         Rows<T, kTold> out = s.io;
         out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
         out.store_vector(SWIVEL_HAND_FRAME, with_one_nan(is.place + s.body_vector(kRootRow)));
-        const Rotor<T> rotation = hemisphere(is.rotation);
-        const Mask<T> is_known = len2(place) <= T(kHuge2);
-        out.store_rotor(SWIVEL_HAND_FRAME, with_one_nan(select(valid & is_known, rotation, rotor(nan, nan, nan, nan))),
-                        3);
+        out.store_rotor(SWIVEL_HAND_FRAME, with_one_nan(hemisphere(is.rotation)), 3);
     }
 };
 

@@ -222,7 +222,7 @@ struct StageBody<Stage::stand> {
         const Rows<T, kTold> from = waiting_rows(s), out = good_rows(s);
         Rows<T, kTold> cleared = s.io;
         cleared.chosen = s.strip.run.keeps ? 0 : s.chosen() & ~s.good();
-        for (const swivel_field field : kPlantResults) {
+        for (const swivel_field field : kSentResults) {
             const FieldRow& row = row_of(field);
             if ((s.strip.run.features & row.needs) != row.needs) continue;
             for (int c = 0; c < static_cast<int>(row.component_count); ++c) {

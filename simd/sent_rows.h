@@ -22,12 +22,13 @@ SWIVEL_INLINE Rows<typename S::T, kTold> good_rows(const S& s)
     return rows;
 }
 
-// The results of a planted limb that it has before all of its input is known to be good. Their rows lie side by side.
-inline constexpr swivel_field kPlantResults[] = {SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION,
-                                                 SWIVEL_GOAL,  SWIVEL_PROBE,      SWIVEL_LIFT};
+// The results of a limb that is sent that it has before all of its input is known to be good. Their rows lie side by
+// side.
+inline constexpr swivel_field kSentResults[] = {SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION,
+                                                SWIVEL_GOAL,  SWIVEL_PROBE,      SWIVEL_LIFT};
 static_assert([] {
     std::uint32_t count = 0;
-    for (const swivel_field field : kPlantResults) count += row_of(field).component_count;
+    for (const swivel_field field : kSentResults) count += row_of(field).component_count;
     return kGoalResultsRow + count == kGoalRows;
 }());
 // The same rows, where they wait for that.

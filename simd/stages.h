@@ -48,7 +48,7 @@ enum class Stage : std::uint8_t {
     twist_bones,
     correct,     // a body's joints
     hand_frame,  // where the hand is then
-    stand,       // how a planted limb stands
+    stand,       // how a planted limb stands, and where a limb was sent
     count
 };
 
@@ -117,7 +117,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},
     {Stage::hand_frame, 0, SWIVEL_WITH_HAND_FRAME, 0},
-    {Stage::stand, 0, SWIVEL_WITH_PLANT, 0},
+    {Stage::stand, 0, SWIVEL_WITH_PLANT | SWIVEL_WITH_RECORD, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 constexpr bool needs(swivel_features features, const StageRow& row)
