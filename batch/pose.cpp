@@ -141,7 +141,7 @@ swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
 swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given)
 {
     const swivel_status status = check_pose(crowd, given);
-    if (status != SWIVEL_OK || full_pose(given).time.data || !needs_time(crowd, groups)) return status;
+    if (status != SWIVEL_OK || !given || full_pose(given).time.data || !needs_time(crowd, groups)) return status;
     return fail(SWIVEL_INVALID_ARGUMENT,
                 "the pose has no time, which plants and shifts need; give the seconds since each body's last solve");
 }
