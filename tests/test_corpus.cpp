@@ -28,7 +28,7 @@ std::uint32_t flags_of(Part part)
             }
         };
         if (part == Part::standing)
-            standing_digest(recipe, look, own_limb_count(part), kStandingStart);
+            standing_digest(recipe, look, own_limb_count(part), share_of(recipe, kStandingStart));
         else
             digest_of(recipe, look);
     }
