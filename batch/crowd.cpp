@@ -198,7 +198,7 @@ swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
                               SWIVEL_WITH_TWIST_BONES;
         group.features &= ~SWIVEL_SENT;
         if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK)) group.features |= SWIVEL_SENT;
-        if (is_linked_to(def, g) && !(group.features & kNoLimb)) group.features |= SWIVEL_WITH_HAND_FRAME;
+        if (is_linked_to(def, g) && group.features & SWIVEL_WITH_HAND) group.features |= SWIVEL_WITH_HAND_FRAME;
         if (group.limb_count == 0) group.limb_count = def.body_count;
     }
     return group;

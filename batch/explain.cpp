@@ -165,7 +165,9 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
         const swivel_field field = row.field;
         if (row.kind != SWIVEL_FIELD_INPUT) continue;
         if (is_bad_in_body(group, limb, field)) found(field);
-        if (probe.component_count(field) == 0) continue;
+        // What a limb that is sent goes to is no input.
+        const bool is_goal = field == SWIVEL_TARGET || field == SWIVEL_HAND;
+        if (probe.component_count(field) == 0 || (is_goal && group.features & SWIVEL_SENT)) continue;
         probe.take();
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
@@ -355,13 +357,13 @@ void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t l
     if (probe.is_of_body() && flags_were == 0) return text.add("It was never solved, so no pose of it is known.");
     const LimbPose was = probe.pose();
     const std::uint32_t flags = probe.solve();
-    const bool is_kept = group.keeps && flags & SWIVEL_BAD_INPUT;
+    // The goal of a limb that is sent is that of its last good solve.
+    const bool was_bad = group.features & SWIVEL_SENT && flags_were & SWIVEL_BAD_INPUT;
+    const bool is_kept = was_bad || (group.keeps && flags & SWIVEL_BAD_INPUT);
     const bool is_same = probe.is_of_body() ? is_near(was, probe.pose()) : probe.has_bits_of_limb();
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
     if (!(group.features & kCarryingFeatures) && !is_kept && !is_same)
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
-    // The goal of a limb that is sent is that of its last good solve.
-    const bool was_bad = group.features & SWIVEL_SENT && flags_were & SWIVEL_BAD_INPUT;
     if (flags & SWIVEL_BAD_INPUT || was_bad || is_bad_in_body(group, limb))
         return explain_bad_input(probe, crowd, group, limb, text);
     if (group.features & SWIVEL_WITH_PLANT) explain_plant(group, limb, flags_were, text);

@@ -58,7 +58,10 @@ struct StageBody<Stage::grasp> {
         s.set_body_vector(limb.holder + kHolderWristRow, wrist);
         s.set_body_vector(limb.holder + kHolderShoulderRow, s.body_vector(limb.shoulder + kPlaceRow));
         s.set_body(limb.holder + kHolderReachRow, reach.exact);
-        send(s, animated.point, animated.rotation);
+        // A hand that is written goes on as it is, of any length, as it would if the limb held nothing.
+        const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+        const T length2 = len2(hand);
+        send(s, animated.point, select(length2 == length2, hand, animated.rotation));
         s.set_body(limb.goal + kGoalOwnRow, select(animated.is_posed, T(1), T(0)));
     }
 };

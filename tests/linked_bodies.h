@@ -60,12 +60,14 @@ struct LinkedBodies {
     PoseLayout layout;
     float time = 0.02f;  // of groups that are FIT
 
-    LinkedBodies(Random& random, const SkeletonWish& wish, std::size_t body_count, const PoseLayout& of) : layout(of)
+    LinkedBodies(Random& random, const SkeletonWish& wish, std::size_t body_count, const PoseLayout& of,
+                 double most_bend = 3.1)
+        : layout(of)
     {
         skeleton = random_body_skeleton(random, wish);
         for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
         for (std::size_t n = 0; n < body_count; ++n)
-            bodies.push_back(random_body(random, skeleton, {of.translates, of.scales, of.roots}));
+            bodies.push_back(random_body(random, skeleton, {of.translates, of.scales, of.roots, most_bend}));
     }
     std::uint32_t add_limb(std::uint32_t limb, swivel_features features, std::uint32_t link = 0)
     {
@@ -212,7 +214,8 @@ struct LinkedBody {
     // What floats may be off, as they know where the hand is from the root.
     double rounding(std::uint32_t group) const
     {
-        return 3e-7 * (way_to(of.skeleton, was, joints(group).wrist) + scale(group) * grip(group).place.norm());
+        const double share = of.layout.in_body ? 8e-7 : 3e-7;
+        return share * (way_to(of.skeleton, was, joints(group).wrist) + scale(group) * grip(group).place.norm());
     }
     double bound(std::uint32_t group) const { return 2e-6 * length(group) + rounding(group); }
     std::array<Float4, 3> local(std::uint32_t group, const Body& body) const

@@ -31,14 +31,16 @@ struct PropBodies : LinkedBodies {
     std::uint32_t prop = 0, shift = kNoLimbHere;
     swivel_features bounds;
 
+    // Arms are nearly straight in one crowd of four.
     explicit PropBodies(Random& random, std::size_t body_count)
-        : LinkedBodies(random, {3 + random.below(4), 3, random.below(2), false}, body_count,
-                       random_prop_layout(random)),
+        : LinkedBodies(random, {3 + random.below(4), 3, random.below(2), false, random.below(2)}, body_count,
+                       random_prop_layout(random), random.below(4) ? 3.1 : 1e-4),
           bounds((random.below(3) ? 0 : SWIVEL_WITH_FLEXION_LIMIT) | (random.below(3) ? 0 : SWIVEL_WITH_CAP))
     {
         const std::uint32_t arm_count = random.below(5) ? 2 : 1, prop_at = random.below(arm_count + 1);
         const swivel_features holds = SWIVEL_WITH_HAND | SWIVEL_WITH_LINK | SWIVEL_POLE_INCOMING | bounds |
-                                      (random.below(2) ? SWIVEL_WITH_EFFECTOR : 0);
+                                      (random.below(2) ? SWIVEL_WITH_EFFECTOR : 0) |
+                                      (random.below(4) ? 0 : SWIVEL_WITH_ANGLE);
         prop = prop_at;
         for (std::uint32_t n = 0; n <= arm_count; ++n)
             if (n == prop_at)
@@ -112,7 +114,7 @@ private:
         swivel_group_def fit = swivel_default_fit_group_def();
         fit.fit.drop = fit.fit.rise = 0.5f;
         shift = add(fit);
-        const std::uint32_t leg = add_limb(2, SWIVEL_WITH_FIT | SWIVEL_POLE_INCOMING);
+        const std::uint32_t leg = add_limb(2, SWIVEL_WITH_FIT | SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND);
         give(leg, SWIVEL_TARGET, [&](std::size_t n) {
             const Float3 target = random_goal(random, skeleton, bodies[n], 2).target;
             return floats(Vector3d(vec(target) + Vector3d(0, -0.2 * double{bodies[n].root_scale}, 0)));
@@ -123,6 +125,8 @@ private:
         if (has(arm, SWIVEL_WITH_EFFECTOR))
             give(arm, SWIVEL_EFFECTOR,
                  [&](std::size_t) { return floats(Vector3d(random.between(0, 0.1) * random.direction())); });
+        if (has(arm, SWIVEL_WITH_ANGLE))
+            give(arm, SWIVEL_ANGLE, [&](std::size_t) { return turn(random.between(0.3, 3)); });
         if (has(arm, SWIVEL_WITH_FLEXION_LIMIT))
             give(arm, SWIVEL_FLEXION_LIMIT,
                  [&](std::size_t) { return flexion(random.between(0, 0.5), random.between(2, 3.1)); });

@@ -24,6 +24,7 @@ struct RandomLinks : LinkedBodies {
                         random.below(3) == 0 ? 1 + random.below(2) : 0},
                        kLinkedBodies, random_layout(random))
     {
+        if (layout.translates && layout.scales && random.below(4) == 0) layout.in_body = &skeleton;
         for (std::uint32_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
             const bool is_linked = limb > 0 && random.below(4) > 0;
             add_limb(limb, (is_linked ? SWIVEL_WITH_LINK : 0) | random_features(random, limb, is_linked),
@@ -31,6 +32,8 @@ struct RandomLinks : LinkedBodies {
         }
         for (std::uint32_t g = 0; g < groups.size(); ++g) give_inputs(random, g);
     }
+
+    RandomLinks(const RandomLinks&) = delete;
 
 private:
     static PoseLayout random_layout(Random& random)

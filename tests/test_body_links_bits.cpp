@@ -61,7 +61,7 @@ HeldBits held_bits(const LinkedBodies& of, const HoldingWay& way = {})
 void in_chunks(Crowd& crowd, Job job)
 {
     job.on_this_thread = true;
-    for (std::uint32_t first = swivel_block_count(crowd.get()) / swivel_group_count(crowd.get()); first-- > 0;) {
+    for (std::uint32_t first = swivel_block_count(crowd.get()); first-- > 0;) {
         job.blocks = swivel_blocks{first, 1};
         crowd.solve(job);
     }
@@ -138,7 +138,7 @@ TEST_CASE("many hands that hold have the same bits on threads")
 {
     Random random{3};
     const HoldingBodies bodies(random, 2500, any_layout(random, false, nullptr));
-    CHECK(held_bits(bodies) == held_bits(bodies, {.solve = in_chunks}));
+    CHECK((held_bits(bodies) == held_bits(bodies, {.solve = in_chunks})));
 }
 
 TEST_CASE("a prop's place in doubles far from the origin gives the pose of floats near it")
@@ -177,7 +177,7 @@ TEST_CASE("a prop's place in doubles far from the origin gives the pose of float
         if (is_place(input.field))
             frames[input.group].in(input.field, swivel_in{far_from(input.numbers.data(), input.numbers.size()), 24});
     other.solve({.frames = frames, .pose = &pose});
-    CHECK(poses.bytes == near.bytes);
+    CHECK((poses.bytes == near.bytes));
     int written = 0;
     for (std::uint32_t n = 0; n < bodies.body_count(); ++n)
         written += !std::isnan(bodies.value(HoldingBodies::prop, SWIVEL_PROP_PLACE, n, kNoPlace)[0]);
