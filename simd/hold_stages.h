@@ -120,10 +120,10 @@ struct StageBody<Stage::prop> {
         using T = typename S::T;
         const BodyLimb& prop = *s.strip.run.limb;
         PropAtHand<S> is(s);
-        // So much less that what rounds still reaches.
         const ReachingMoves<T> a = is.reaching(0), b = is.reaching(prop.holder_number - 1);
+        // So much less that what rounds still reaches, of a far move, too.
         const auto within = [](const ReachingMoves<T>& of) SWIVEL_INLINE_LAMBDA {
-            return ReachingMoves<T>{of.middle, T(1 - 1e-6) * of.reach};
+            return ReachingMoves<T>{of.middle, hi(of.reach - T(1e-6) * (of.reach + sqrt(len2(of.middle))), T(0))};
         };
         const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
         Mask<T> is_longer = T(1) < T(0);

@@ -214,8 +214,10 @@ struct LinkedBody {
     // What floats may be off, as they know where the hand is from the root.
     double rounding(std::uint32_t group) const
     {
-        const double share = of.layout.in_body ? 8e-7 : 3e-7;
-        return share * (way_to(of.skeleton, was, joints(group).wrist) + scale(group) * grip(group).place.norm());
+        const std::uint32_t link = of.groups[group].link;
+        const double grip_scale = !of.has(group, SWIVEL_WITH_LINK) || of.has(link, SWIVEL_PROP) ? 1 : scale(link);
+        return (of.layout.in_body ? 8e-7 : 3e-7) *
+               (way_to(of.skeleton, was, joints(group).wrist) + grip_scale * grip(group).place.norm());
     }
     double bound(std::uint32_t group) const { return 2e-6 * length(group) + rounding(group); }
     std::array<Float4, 3> local(std::uint32_t group, const Body& body) const

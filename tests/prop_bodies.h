@@ -83,7 +83,7 @@ struct PropBodies : LinkedBodies {
             if (has_turn) is.frame.rotation = rotation;
             is.is_of_hands = !has_place && !has_turn;
         }
-        is.off = 1e-6 * (size + is.frame.place.norm()) + 3e-7 * root.norm();
+        is.off = 1.2e-6 * (size + is.frame.place.norm()) + 3e-7 * root.norm();
         for (std::size_t n = 0; n < arms.size(); ++n) is.moves.push_back(moves(body, arms[n], is.frame));
         is.most = double{groups[prop].prop.most_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
         return is;
