@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "batch/explain_ground.h"
 #include "batch/explain_hold.h"
 #include "batch/explain_plant.h"
 #include "batch/forward.h"
@@ -367,6 +368,7 @@ void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t l
     if (flags & SWIVEL_BAD_INPUT || was_bad || is_bad_in_body(group, limb))
         return explain_bad_input(probe, crowd, group, limb, text);
     if (group.features & SWIVEL_WITH_PLANT) explain_plant(group, limb, flags_were, text);
+    if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
     if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
     explain_reach(probe, flags, text);
     explain_limits(probe, probe.pose(), flags, text);

@@ -31,6 +31,8 @@ bool is_bad(const LimbValue& value, swivel_field field)
             return !is_within(value.length(0, 3), 0, kMost);
         case SWIVEL_COMING_TIME:
             return !is_within(value[0], 0, kMost);
+        case SWIVEL_GROUND_NORMAL:
+            return !is_within(value.length(0, 3), 1e-9, 1e9);
         case SWIVEL_SHIFT_WISH:
             return !is_within(value[0], -kMost, kMost);
         default:
@@ -51,6 +53,8 @@ bool is_of_whole_bodies(const Group& group, swivel_field field)
         case SWIVEL_COMING:
         case SWIVEL_COMING_TIME:
         case SWIVEL_SHIFT_WISH:
+        case SWIVEL_GROUND_NORMAL:
+        case SWIVEL_GROUND_WEIGHT:
         case SWIVEL_GRIP:
         case SWIVEL_PROP_PLACE:
         case SWIVEL_PROP_TURN:

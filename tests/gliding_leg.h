@@ -24,8 +24,9 @@ struct GlidingLeg {
     float time = kFrame, scale = 1;
     std::vector<Vector3d> sent;  // the target of each frame
 
-    explicit GlidingLeg(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant())
-        : groups(groups_of(joints, features, plant)), crowd(skeleton(), 1, groups)
+    explicit GlidingLeg(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant(),
+                        swivel_ground ground = swivel_default_ground())
+        : groups(groups_of(joints, features, plant, ground)), crowd(skeleton(), 1, groups)
     {
         rotations.fill({0, 0, 0, 1});
         rotations[1] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
@@ -88,10 +89,11 @@ private:
         return of;
     }
     static std::vector<swivel_group_def> groups_of(const swivel_limb_joints& joints, swivel_features features,
-                                                   const swivel_plant& plant)
+                                                   const swivel_plant& plant, const swivel_ground& ground)
     {
         std::vector<swivel_group_def> groups = {body_group(joints, features)};
         groups[0].plant = plant;
+        groups[0].ground = ground;
         if (features & SWIVEL_WITH_FIT) groups.push_back(swivel_default_fit_group_def());
         return groups;
     }
