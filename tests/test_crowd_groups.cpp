@@ -31,7 +31,7 @@ constexpr swivel_features kPlainLeg = SWIVEL_WORLD | SWIVEL_JOINTS, kPlainArm = 
 
 // And those of bodies, of which one is their shift.
 constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
-                          kBodies[] = {
+                          kOfCrowds[] = {
                               kOfBodies | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING,
                               kOfBodies | SWIVEL_WITH_HAND | SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN |
                                   SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_RECORD | SWIVEL_SENT | SWIVEL_WITH_GROUND |
@@ -177,7 +177,7 @@ TEST_CASE("the library describes the fields, features and flags that the header 
             CHECK((swivel_field_row_count(crowd.get(), 0, field.field) > 0) == is_of(field, features));
             CHECK((swivel_component_count(field.field, features) > 0) == is_of(field, features));
         }
-        for (const swivel_features features : kBodies)
+        for (const swivel_features features : kOfCrowds)
             CHECK((swivel_component_count(field.field, features) > 0) == is_of(field, features));
     }
     CHECK(got == wanted);
