@@ -131,15 +131,15 @@ swivel::Crowd make_crowd(std::size_t count)
 }
 
 // What is below these feet. Solving threads call it.
-void sample(const swivel_probes* probes, void*)
+void sample(const swivel::Probes& probes)
 {
-    for (std::uint32_t n = 0; n < probes->count; ++n) {
-        const double x = double{probes->places[n][0]}, z = double{probes->places[n][2]}, near = 1e-3;
-        const float ground[] = {probes->places[n][0], static_cast<float>(height(x, z)), probes->places[n][2]};
+    for (std::size_t n = 0; n < probes.places.size(); ++n) {
+        const double x = double{probes.places[n][0]}, z = double{probes.places[n][2]}, near = 1e-3;
+        const float ground[] = {probes.places[n][0], static_cast<float>(height(x, z)), probes.places[n][2]};
         const float normal[] = {static_cast<float>((height(x - near, z) - height(x + near, z)) / (2 * near)), 1,
                                 static_cast<float>((height(x, z - near) - height(x, z + near)) / (2 * near))};
-        std::copy(std::begin(ground), std::end(ground), probes->grounds[n]);
-        std::copy(std::begin(normal), std::end(normal), probes->normals[n]);
+        std::copy(std::begin(ground), std::end(ground), probes.grounds[n]);
+        std::copy(std::begin(normal), std::end(normal), probes.normals[n]);
     }
 }
 

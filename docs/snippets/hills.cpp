@@ -139,20 +139,17 @@ TEST_CASE("docs: feet on hills")
     // [end]
     const swivel_pose& pose = scene.pose;
     const std::vector<Character> animated = characters;
-    const auto frames = [&] {
-        // [frames]
-        std::array<swivel::Frame, 3> frames;  // two legs, and the pelvis
-        constexpr std::size_t step = sizeof(Character);
-        for (std::size_t leg = 0; leg < 2; ++leg) {
-            frames[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
-            frames[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
-            frames[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
-            frames[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
-            frames[leg].out(SWIVEL_HAND_FRAME, {&characters[0].ankle[leg], step});
-        }
-        // [end]
-        return frames;
-    }();
+    // [frames]
+    std::array<swivel::Frame, 3> frames;  // two legs, and the pelvis
+    constexpr std::size_t step = sizeof(Character);
+    for (std::size_t leg = 0; leg < 2; ++leg) {
+        frames[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
+        frames[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
+        frames[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
+        frames[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
+        frames[leg].out(SWIVEL_HAND_FRAME, {&characters[0].ankle[leg], step});
+    }
+    // [end]
     const auto animate = [&] {
         for (std::size_t n = 0; n < characters.size(); ++n)
             characters[n].pose = animated[n].pose;
@@ -172,31 +169,20 @@ TEST_CASE("docs: feet on hills")
     }
     CHECK(scene.worst() < 1e-4);
 
-    swivel::Crowd asking(skeleton, 40, groups);
-    for (std::uint32_t leg = 0; leg < 2; ++leg)
-        asking.write_all(SWIVEL_EFFECTOR, leg, kBall);
     const std::vector<Character> as_two_calls_have_it = characters;
-    std::array<swivel::Frame, 2> legs_in_contact;
-    for (std::size_t leg = 0; leg < 2; ++leg) {
-        legs_in_contact[leg].in(SWIVEL_CONTACT,
-                                {&characters[0].down[leg], sizeof(Character)});
-        legs_in_contact[leg].out(SWIVEL_HAND_FRAME,
-                                 {&characters[0].ankle[leg], sizeof(Character)});
-    }
+    for (std::uint32_t group = 0; group < 3; ++group)
+        swivel::check(swivel_reset(crowd.get(), group, 0, 40));
     for (int n = 0; n < 30; ++n) {
         animate();
-        swivel::Crowd& crowd = asking;
-        const std::array<swivel::Frame, 3> frames = {
-            legs_in_contact[0], legs_in_contact[1], {}};
         // [sample]
         const auto sample = [](const swivel::Probes& probes) {
-            for (std::size_t n = 0; n < probes.places.size(); ++n) {
-                const auto& at = probes.places[n];
-                probes.grounds[n][0] = at[0];
-                probes.grounds[n][1] = terrain.height(at[0], at[2]);
-                probes.grounds[n][2] = at[2];
+            for (std::size_t foot = 0; foot < probes.places.size(); ++foot) {
+                const auto& at = probes.places[foot];
+                probes.grounds[foot][0] = at[0];
+                probes.grounds[foot][1] = terrain.height(at[0], at[2]);
+                probes.grounds[foot][2] = at[2];
                 const Float3 normal = terrain.normal(at[0], at[2]);
-                std::copy(normal.begin(), normal.end(), probes.normals[n]);
+                std::copy(normal.begin(), normal.end(), probes.normals[foot]);
             }
         };
         crowd.solve({.frames = frames, .pose = &pose, .sample = sample});
