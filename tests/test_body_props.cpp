@@ -105,7 +105,7 @@ struct PropStage {
         const bool is_own = wanted.is_posed[sayer] && of.bounds == 0;
         // Of a straight arm, rounding does not say that its own hand is out of reach.
         const bool other_reaches = of.arms.size() == 1 || wanted.moves[other].beyond(Vector3d::Zero()) <= -wanted.off;
-        if (is_own && other_reaches && wanted.off <= 6e-6 * body.length(arm)) RC_ASSERT(stays);
+        if (is_own && other_reaches && wanted.off <= 1.5e-5 * body.length(arm)) RC_ASSERT(stays);
         if (!stays) return;
         const BodyLimbJoints& limb = of.skeleton.limbs[of.limb_of[arm]];
         if (is_own) {  // but for what turns the elbow

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "swivel/lecture.h"
+#include "tests/holding_bodies.h"
 #include "tests/rest_skeleton.h"
 #include "tests/test_crowd.h"
 #include "tests/test_isa_scope.h"
@@ -177,6 +178,28 @@ TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of st
         CHECK(jobs.bytes <= kPromised);
         CHECK(questions.bytes <= kPromised);
     }
+}
+
+TEST_CASE("hands that hold, and what explains them, take at most 32 KiB of stack")
+{
+    Random random{8};
+    PoseLayout layout;
+    layout.roots = true;
+    const HoldingBodies bodies(random, 100, layout);
+    Crowd crowd = bodies.crowd();
+    PoseBuffer poses(layout, bodies.bodies);
+    const swivel_pose pose = bodies.view(poses);
+    Most jobs, questions;
+    run_jobs(crowd, &pose, "hands that hold", jobs);
+    for (std::uint32_t g = 0; g < bodies.groups.size(); ++g)
+        for (std::uint32_t n = 0; n < 100; n += 7) {
+            char text[4096];
+            questions.take("explain group " + std::to_string(g),
+                           [&] { check(swivel_explain(crowd.get(), g, n, text, sizeof text)); });
+        }
+    INFO(jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
+    CHECK(jobs.bytes <= kPromised);
+    CHECK(questions.bytes <= kPromised);
 }
 
 TEST_CASE("jobs run on threads of 64 KiB, also on oneTBB's own")
