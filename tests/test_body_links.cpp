@@ -170,10 +170,9 @@ TEST_CASE("a linked hand is at its grip on the hand that the other limb reached"
                 ++reached_count;
                 const std::uint32_t link = bodies.groups[g].link;
                 const Held wanted = body.wanted(g, body.hand(link)), point = body.point(g);
-                const double lever = 4e-6 * (wanted.place - body.hand(link).place).norm();
-                RC_ASSERT((point.place - wanted.place).norm() <= body.bound(g) + body.bound(link) + lever);
+                RC_ASSERT((point.place - wanted.place).norm() <= body.bound(g) + body.rounding(link));
                 if (!bodies.has(g, SWIVEL_HAND_YIELDS))
-                    RC_ASSERT(point.rotation.angularDistance(wanted.rotation) <= 8e-6);
+                    RC_ASSERT(point.rotation.angularDistance(wanted.rotation) <= 4e-6);
             }
         }
     });
