@@ -14,8 +14,8 @@ void check_alone(Session& session, std::uint32_t group, std::uint32_t limb);
 // Its parts: the limb as it was before the call becomes limb 0 of a group there, which is solved, and is equal.
 void copy_limb(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to);
 void solve_scalar(swivel_crowd* alone, const swivel_job* job);
-void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone,
-                 std::uint32_t to);
+void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to,
+                 swivel_field except = SWIVEL_RESULT_END);
 
 // A job for probes alone changed no other result.
 void check_probes(const Session& session, const SomeLimbs& chosen);

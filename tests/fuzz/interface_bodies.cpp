@@ -248,11 +248,13 @@ void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t b
     swivel_job job = swivel_default_job();
     job.groups = &named, job.group_word_count = 1;
     job.pose = &pose;
-    job.probes_only = like.probes_only, job.sample = like.sample, job.sample_user = like.sample_user;
+    job.probes_only = like.probes_only;  // ground that was sampled lies in rows by now
     solve_scalar(alone, &job);
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
         if (!chosen[group][body]) continue;
-        check_equal(session, group, body, alone, group);
+        // Bad input keeps the probe that was sampled at, which another ground may have moved.
+        const bool was_sampled = like.sample && is_bad(session, group, body);
+        check_equal(session, group, body, alone, group, was_sampled ? SWIVEL_PROBE : SWIVEL_RESULT_END);
         if (like.probes_only) continue;
         for_each_written(session, group, [&](Array n, std::uint32_t joint) {
             const char* const value = &memory[n][joint * arrays[n]->value_bytes()];

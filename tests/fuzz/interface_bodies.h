@@ -28,8 +28,8 @@ struct Pose {
     // named: the groups that are solved.
     bool is_valid(const Session& session, const std::vector<bool>& named) const;
     const std::optional<Strided>& root_position() const { return roots[0]; }
-    // Chosen limbs have the pose and the results of their body alone, solved by a job like `like` or, of probes, asked
-    // for by it. All other bytes are as they were.
+    // Chosen limbs have the pose and the results of their body alone, with the ground that the job sampled, if it did.
+    // All other bytes are as they were.
     void check(Session& session, const SomeLimbs& chosen, const swivel_job& like);
     // The same where it is not known which limbs were chosen: those that might be may have changed.
     void check_others(const Session& session);

@@ -58,11 +58,15 @@ bool is_known(const Session& session, std::uint32_t group)
     return !session.bodies || has_features(session, group, SWIVEL_WITH_RECORD);
 }
 
-bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb)
+bool is_bad(const Session& session, std::uint32_t group, std::uint32_t limb)
 {
     std::uint32_t flags = 0;
     swivel_read(session.crowd, SWIVEL_FLAGS, group, limb, 1, {&flags, sizeof flags});
-    return session.groups[group].on_bad_input == SWIVEL_KEEP_POSE && flags == SWIVEL_BAD_INPUT;
+    return flags == SWIVEL_BAD_INPUT;
+}
+bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb)
+{
+    return session.groups[group].on_bad_input == SWIVEL_KEEP_POSE && is_bad(session, group, limb);
 }
 
 bool is_overwritten(const Session& session, std::uint32_t group, std::uint32_t limb)

@@ -46,7 +46,8 @@ std::uint32_t component_count(const Session& session, std::uint32_t group, swive
 bool has_features(const Session& session, std::uint32_t group, swivel_features features);
 // Whether it is known where limbs are: of free ones, and of bodies that keep it.
 bool is_known(const Session& session, std::uint32_t group);
-// Whether a limb has bad input and keeps its results.
+// Whether a limb has bad input, and whether it then keeps its results.
+bool is_bad(const Session& session, std::uint32_t group, std::uint32_t limb);
 bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb);
 
 // Whether a limb carries any bits; of bodies any limb of its body.
