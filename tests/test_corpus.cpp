@@ -44,7 +44,7 @@ TEST_CASE("ordinary arms are reached, too far and too near; limbs, bodies and th
     CHECK(flags_of(Part::hard) == (reach | kSwivelUndefined | kBadInput));
     CHECK(flags_of(Part::limbs) == (kEveryFlag & ~kPlantFlags));
     CHECK(flags_of(Part::bodies) == (kEveryFlag & ~kPlantFlags));
-    constexpr std::uint32_t stand = reach | kPlantFlags | kSoftened | kBadInput;
+    constexpr std::uint32_t stand = reach | kPlantFlags | kSoftened | kStretched | kBadInput;
     CHECK(flags_of(Part::standing) == stand);
 }
 

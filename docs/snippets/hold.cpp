@@ -114,17 +114,16 @@ TEST_CASE("docs: a hand that holds the other one")
     const Grip grip = {0.05f, 0, 0.1f, 0, 0, 0, 1};  // in the right hand's frame
     crowd.write_all(SWIVEL_GRIP, 1, grip);
     // [end]
-    for (std::uint32_t body = 0; body < 40; ++body) {
-        const Frame hand = frame_of(scene.characters[body], kRightHand);
-        const Float3 target = {static_cast<float>(hand.place[0] + 0.1), 1.3f, 0.5f};
-        const Eigen::Quaterniond turn = hand.turn;
-        crowd.write(SWIVEL_TARGET, 0, std::array{target}, body);
-        crowd.write(SWIVEL_HAND, 0,
-                    std::array{Float4{
-                        static_cast<float>(turn.x()), static_cast<float>(turn.y()),
-                        static_cast<float>(turn.z()), static_cast<float>(turn.w())}},
-                    body);
+    std::vector<Float3> targets;
+    std::vector<Float4> hands;
+    for (const Character& each : scene.characters) {
+        const Frame hand = frame_of(each, kRightHand);
+        const Eigen::Vector4f turn = hand.turn.coeffs().cast<float>();
+        targets.push_back({each.place[0] - 0.05f, 1.3f, 0.4f});
+        hands.push_back({turn[0], turn[1], turn[2], turn[3]});
     }
+    crowd.write(SWIVEL_TARGET, 0, targets);
+    crowd.write(SWIVEL_HAND, 0, hands);
     crowd.solve({.pose = &scene.pose});
     CHECK(scene.worst({0.05f, 0, 0.1f}) < 2e-6);
 }
