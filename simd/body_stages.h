@@ -79,6 +79,8 @@ private:
                                                        : s.body_vector(is_sent ? kShiftedRow : kRootRow),
                         target = is_sent ? s.body_vector(goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET);
         s.require(len2(target) <= T(kHuge2));
+        // What is sent does not depend on the root's place, which is bad input even so.
+        if (is_sent) s.require(len2(s.body_vector(kRootRow)) <= T(kHuge2));
         s.set_vector(kWristRow, per_scale * seen.back(target - root - shoulder));
         if constexpr (!S::is(SWIVEL_POLE_INCOMING)) {
             const Vector<T> pole = s.io.load_vector(SWIVEL_POLE);

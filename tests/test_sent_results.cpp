@@ -126,3 +126,16 @@ TEST_CASE("a job for probes alone gives them to a frame, also where the last sol
         CHECK(probes[body] == value_of<Float3>(crowd, SWIVEL_PROBE, 0, body));
     }
 }
+
+TEST_CASE("a root without a place is bad input of what is planted, also on a support as far away")
+{
+    PlantedBodies stage(10, Ground::still);
+    Crowd crowd = stage.crowd(kPlanted | SWIVEL_WITH_HAND_FRAME);
+    constexpr std::uint32_t kBad = 4;
+    Body body = stage.bodies[kBad];
+    body.root_position = stage.supports[kBad] = {3e37f, 0, 0};
+    stage.poses.write(kBad, body);
+    stage.solve(crowd);
+    for (std::uint32_t n = 0; n < stage.body_count; ++n)
+        CHECK((flags_of(crowd, 0, n) == SWIVEL_BAD_INPUT) == (n == kBad));
+}
