@@ -121,9 +121,10 @@ struct StageBody<Stage::prop> {
         const BodyLimb& prop = *s.strip.run.limb;
         PropAtHand<S> is(s);
         const ReachingMoves<T> a = is.reaching(0), b = is.reaching(prop.holder_number - 1);
-        // So much less that what rounds still reaches, of a far move, too.
-        const auto within = [](const ReachingMoves<T>& of) SWIVEL_INLINE_LAMBDA {
-            return ReachingMoves<T>{of.middle, hi(of.reach - T(1e-6) * (of.reach + sqrt(len2(of.middle))), T(0))};
+        // So much less that what rounds still reaches, of a far move and of the shorter arm, too.
+        const T size = lo(a.reach, b.reach) + sqrt(len2(a.middle)) + sqrt(len2(b.middle));
+        const auto within = [&](const ReachingMoves<T>& of) SWIVEL_INLINE_LAMBDA {
+            return ReachingMoves<T>{of.middle, hi(of.reach - T(1e-6) * size, T(0))};
         };
         const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
         Mask<T> is_longer = T(1) < T(0);

@@ -44,6 +44,11 @@ struct LinkedInput {
         return value;
     }
     float* at(std::size_t body) { return &numbers[body * size]; }
+    template <class Value>
+    void write(std::size_t body, const Value& value)
+    {
+        std::memcpy(at(body), &value, sizeof value);
+    }
 };
 
 inline constexpr std::uint32_t kNoLimbHere = ~0u;

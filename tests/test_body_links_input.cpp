@@ -78,6 +78,17 @@ TEST_CASE("bad input of hands and props is that of what depends on them")
         stage.input(HoldingBodies::right, SWIVEL_GRIP)[1] = kNan;
         stage.check_bad({HoldingBodies::right});
     }
+    SECTION("a grip of the other hand, where the prop comes from far away")
+    {
+        for (LinkedBodies* const of :
+             {static_cast<LinkedBodies*>(&stage.good_bodies), static_cast<LinkedBodies*>(&stage.bodies)}) {
+            of->groups[HoldingBodies::prop].prop.most_move = 1000;
+            of->find(HoldingBodies::prop, SWIVEL_PROP_PLACE)->write(kBadBody, Float3{30, 0, 0});
+        }
+        stage.input(HoldingBodies::right, SWIVEL_GRIP)[1] = kNan;
+        stage.check_bad({HoldingBodies::right});
+        CHECK(SolvedLinks(stage.bodies).flags(HoldingBodies::prop, kBadBody) == SWIVEL_REACHED);
+    }
     SECTION("a grip of no rotation")
     {
         std::fill_n(stage.input(HoldingBodies::follower, SWIVEL_GRIP) + 3, 4, 0.0f);

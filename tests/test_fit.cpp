@@ -12,6 +12,7 @@
 #include <rapidcheck/catch.h>
 
 #include "core/limb_bones.h"
+#include "core/plant_rules.h"
 #include "tests/formula_arm.h"
 
 namespace {
