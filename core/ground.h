@@ -66,6 +66,20 @@ SWIVEL_INLINE constexpr Rotor<T> no_further(const Rotor<T>& turn, const T& cos_h
     return select(is_further, rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), cos_half), turn);
 }
 
+// The turn that lifts an end of a foot to a height along the normal, over the point that it is from. The end goes up a
+// circle, in the plane that it and the normal span; to its top at most. An end that is high enough stays.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> lifting_turn(const Mask<T>& counts, const Vector<T>& normal, const Vector<T>& end,
+                                              const T& wanted)
+{
+    const T length2 = len2(end), height = scalar_product(normal, end);
+    const Mask<T> lifts = counts & (height < wanted);
+    if (!any(lifts)) return one<T>();
+    const Vector<T> flat = end - height * normal;
+    const T flat2 = len2(flat), across = sqrt(hi(length2 - wanted * wanted, T(0)) / hi(flat2, T(kTiny2)));
+    return select(lifts, clavicle_turn(end, wanted * normal + across * flat, T(1)), one<T>());
+}
+
 // The foot, turned with the ground by a share of 0 to 1, with toe and heel no nearer to it than their clearances.
 // heel_from_toe: in the foot's frame, in the world's unit. clearances: in the same unit.
 template <class T>
@@ -77,18 +91,11 @@ SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, con
     const Rotor<T> with_ground =
         no_further(clavicle_turn(up, ground.normal, share), T(rules.cos_half_most), T(rules.sin_half_most)) *
         foot.rotation;
-    const Rotor<T> on_slope = select(ground.is, unit_rotation(with_ground), foot.rotation);
+    const Rotor<T> on_slope = unit_rotation(with_ground);
 
-    // The heel goes up a circle about the toe, in the plane that it and the normal span; to its top at most.
-    const Vector<T> heel = turned(on_slope, heel_from_toe);
-    const T length2 = len2(heel), height = scalar_product(ground.normal, heel);
     const T wanted = T(rules.heel_clearance) * scale - ground.distance(toe);
-    const Mask<T> lifts = ground.is & (height < wanted);
-    if (!any(lifts)) return {toe, on_slope};
-    const Vector<T> flat = heel - height * ground.normal;
-    const T flat2 = len2(flat), across = sqrt(hi(length2 - wanted * wanted, T(0)) / hi(flat2, T(kTiny2)));
-    const Rotor<T> lift = clavicle_turn(heel, wanted * ground.normal + across * flat, T(1));
-    return {toe, select(lifts, unit_rotation(lift * on_slope), on_slope)};
+    const Rotor<T> lift = lifting_turn(ground.is, ground.normal, turned(on_slope, heel_from_toe), wanted);
+    return {toe, select(ground.is, unit_rotation(lift * on_slope), foot.rotation)};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

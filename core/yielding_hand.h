@@ -23,11 +23,16 @@ inline constexpr double kAtItsPlace = 1e-6;
 // hand: of unit length. missing: from where the wrist is to its place. length: of the limb.
 // Where the target is straight behind, no way round is shorter, and nothing turns.
 template <class T>
+SWIVEL_INLINE constexpr Mask<T> misses_its_place(const Vector<T>& missing, const T& length)
+{
+    const T least = T(kAtItsPlace) * length;
+    return len2(missing) > least * least;
+}
+template <class T>
 SWIVEL_INLINE constexpr Rotor<T> yielding_hand(const Rotor<T>& hand, const Vector<T>& effector,
                                                const Vector<T>& missing, const T& length)
 {
-    const T least = T(kAtItsPlace) * length;
-    const Mask<T> misses = len2(missing) > least * least;
+    const Mask<T> misses = misses_its_place(missing, length);
     if (!any(misses)) return hand;
     const Vector<T> from_wrist = sandwich(hand, effector);
     return select(misses, clavicle_turn(from_wrist, from_wrist + missing, T(1)) * hand, hand);

@@ -3,7 +3,6 @@
 // The stages of limbs that are planted: where their points go, on flat ground and on other, and how they stand then.
 #pragma once
 
-#include "core/ground.h"
 #include "core/plant_turn.h"
 #include "simd/sent_rows.h"
 
@@ -83,16 +82,6 @@ SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<type
     out.store_vector(SWIVEL_PLANT_TURN, turn.offset, kTurnOffset);
     out.store_vector(SWIVEL_PLANT_TURN, turn.velocity, kTurnVelocity);
     return support * is;
-}
-
-// The ground below a foot.
-template <class S>
-SWIVEL_INLINE GroundPlane<typename S::T> ground_of(const S& s, const Vector<typename S::T>& up)
-{
-    using T = typename S::T;
-    const Vector<T> normal = s.io.load_vector(SWIVEL_GROUND_NORMAL);
-    s.require(is_within(len2(normal), 1e-18, 1e18));
-    return ground_plane(s.io.load_vector(SWIVEL_GROUND) - s.body_vector(kRootRow), normal, up);
 }
 
 // A limb's point in a step of its plant.

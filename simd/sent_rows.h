@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "core/ground.h"
 #include "core/limb_bones.h"
 #include "core/spring.h"
 #include "core/yielding_hand.h"
@@ -48,6 +49,16 @@ SWIVEL_INLINE Vector<typename S::T> up_of(const S& s)
     using T = typename S::T;
     const float(&up)[3] = s.strip.run.limb->up;
     return turned(s.body_rotor(kRootJoint + kTurnRow), vector(T(up[0]), T(up[1]), T(up[2])));
+}
+
+// The ground below a foot.
+template <class S>
+SWIVEL_INLINE GroundPlane<typename S::T> ground_of(const S& s, const Vector<typename S::T>& up)
+{
+    using T = typename S::T;
+    const Vector<T> normal = s.io.load_vector(SWIVEL_GROUND_NORMAL);
+    s.require(is_within(len2(normal), 1e-18, 1e18));
+    return ground_plane(s.io.load_vector(SWIVEL_GROUND) - s.body_vector(kRootRow), normal, up);
 }
 
 // The frame that planted points are carried in, as the body's root sees it.
