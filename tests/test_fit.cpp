@@ -13,6 +13,7 @@
 
 #include "core/limb_bones.h"
 #include "core/plant_rules.h"
+#include "core/spring.h"
 #include "tests/formula_arm.h"
 
 namespace {
