@@ -76,7 +76,7 @@ struct GroundedFoot {
         GroundRules heel_anywhere = rules;
         heel_anywhere.heel_clearance = -1e15f;
         GroundRules any_angle = heel_anywhere;
-        any_angle.cos_half_most = -1, any_angle.sin_half_most = 0;
+        any_angle.cos_half_most = 0, any_angle.sin_half_most = 1;
         const Rotor<double> with_ground = stood(heel_anywhere);
         const double turn = degrees_between(sent, with_ground), wanted = degrees_between(sent, stood(any_angle)),
                      lift = degrees_between(with_ground, stood(rules));

@@ -54,16 +54,19 @@ struct Foot {
     Vector<T> toe;
     Rotor<T> rotation;  // of unit length
 };
-// The least turn of unit length with the same axis, no larger than an angle of which the half has this cosine and sine.
+// A turn of unit length and of no more than half a circle; or where an angle is less, the turn by that about its axis.
+// Half of the angle has this cosine and sine.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> no_further(const Rotor<T>& turn, const T& cos_half, const T& sin_half)
 {
-    const T w = turn.template at<kScalar>();
-    const Mask<T> is_further = w < cos_half;
+    // By the sine: cosines do not tell small angles apart.
+    const Vector<T> v = vector(turn.template at<kI>(), turn.template at<kJ>(), turn.template at<kK>());
+    const T length2 = len2(v);
+    const Mask<T> is_further = length2 > sin_half * sin_half;
     if (!any(is_further)) return turn;
-    const Vector<T> axis = vector(turn.template at<kI>(), turn.template at<kJ>(), turn.template at<kK>());
-    const Vector<T> v = (sin_half / sqrt(select(is_further, len2(axis), T(1)))) * axis;
-    return select(is_further, rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), cos_half), turn);
+    const Vector<T> axis = (sin_half / sqrt(select(is_further, length2, T(1)))) * v;
+    return select(is_further,
+                  rotor(axis.template at<kE1>(), axis.template at<kE2>(), axis.template at<kE3>(), cos_half), turn);
 }
 
 // The turn that lifts an end of a foot to a height along the normal, over the point that it is from. The end goes up a

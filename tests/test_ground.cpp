@@ -21,6 +21,7 @@ using namespace swivel::test;
 
 // 200 of a seed make 20,000. RC_PARAMS=max_success=5000 makes a million.
 constexpr int kSeedFeet = 200;
+constexpr double kAngle = 3e-7;  // radians: the rules have sines and cosines in floats
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // A foot near a plane. Lengths in metres.
@@ -57,7 +58,7 @@ FootCase random_case(Random& random, double slope = 1.4)
     of.heel = random.between(0.02, 0.3) * random.direction();
     of.scale = random.spread(0.5, 2);
     of.share = random.below(4) ? random.unit() : random.below(2);
-    of.most = random.between(0, 1.5);
+    of.most = random.below(8) ? random.spread(1e-4, 1.5) : 0;
     of.toe_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
     of.heel_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
     return of;
@@ -156,16 +157,19 @@ TEST_CASE("a foot turns with the ground by its share, no further than its angle"
             of.toe = of.place + random.between(0.5, 1) * of.unit();
             of.toe_clearance = of.heel_clearance = 0;
             const Quaterniond is = stood<double>(of).foot;
-            RC_ASSERT(is.angularDistance(leaning(of)) <= 2e-7);  // the rules are floats
-            RC_ASSERT(is.angularDistance(of.foot) <= of.most + 2e-7);
+            RC_ASSERT(is.angularDistance(leaning(of)) <= kAngle);
+            RC_ASSERT(is.angularDistance(of.foot) <= of.most + kAngle);
             turned_count += lean_of(of) > 1e-3;
             of.share = 1, of.most = 1.57;
             const Quaterniond whole = stood<double>(of).foot * of.foot.conjugate();
             RC_ASSERT((whole * of.up - of.unit()).norm() <= 1e-12);
             of.share = 0;
             RC_ASSERT(stood<double>(of).foot.angularDistance(of.foot) <= 1e-12);
+            of.share = random.unit(), of.most = 0;
+            RC_ASSERT(stood<double>(of).foot.angularDistance(of.foot) <= 1e-12);
+            RC_ASSERT(stood<float>(of).foot.angularDistance(of.foot) <= kAngle);
         }
-        RC_ASSERT(turned_count > kSeedFeet / 2);
+        RC_ASSERT(turned_count > kSeedFeet / 5);
     });
 }
 
@@ -180,8 +184,9 @@ TEST_CASE("a heel that would be below goes up a circle about the toe")
             const Vector3d was = leaning(of) * of.heel, heel = is.foot * of.heel;
             const double wanted = of.scale * of.heel_clearance, height = of.over(is.toe + was);
             RC_ASSERT(std::fabs(heel.norm() - of.heel.norm()) <= 1e-13);
-            if (height >= wanted + 1e-6) {
-                RC_ASSERT(is.foot.angularDistance(leaning(of)) <= 2e-7);
+            if (std::fabs(height - wanted) < kAngle) continue;  // it may be either
+            if (height > wanted) {
+                RC_ASSERT(is.foot.angularDistance(leaning(of)) <= kAngle);
                 continue;
             }
             const Vector3d flat_was = was - was.dot(of.unit()) * of.unit(),
@@ -191,12 +196,12 @@ TEST_CASE("a heel that would be below goes up a circle about the toe")
             const double highest = of.over(is.toe) + heel.norm();
             RC_ASSERT(std::fabs(of.over(is.toe + heel) - std::min(wanted, highest)) <= 1e-8);
             // In the plane that it and the normal span, so no turn is less.
-            RC_ASSERT(flat.cross(flat_was).norm() <= 1e-6 * flat_was.norm());
+            RC_ASSERT(flat.cross(flat_was).norm() <= kAngle * flat_was.norm());
             RC_ASSERT(flat.dot(flat_was) >= -1e-9);
             const double turn = std::atan2(was.cross(heel).norm(), was.dot(heel));
-            RC_ASSERT(std::fabs(is.foot.angularDistance(leaning(of)) - turn) <= 1e-6);
+            RC_ASSERT(std::fabs(is.foot.angularDistance(leaning(of)) - turn) <= 2 * kAngle);
         }
-        RC_ASSERT(lifted_count > kSeedFeet / 10);
+        RC_ASSERT(lifted_count > kSeedFeet / 20);
     });
 }
 
@@ -262,7 +267,7 @@ TEST_CASE("a foot on ground moves as little as what it stands on")
             // A heel straight below its toe may go up to any side.
             if (heel.cross(of.unit()).norm() < 0.2 * heel.norm()) continue;
             const Stood from = stood<double>(of);
-            for (const double step : {1e-3, 1e-5, 1e-7}) {
+            for (const double step : {1e-3, 1e-5, 1e-6}) {
                 FootCase to = of;
                 to.place += shift(step), to.toe += shift(step), to.heel += shift(0.02 * step);
                 to.normal = Eigen::AngleAxisd(step, random.direction()) * of.normal;
