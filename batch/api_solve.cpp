@@ -71,6 +71,11 @@ swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "the job has a sample function, but probes_only does not call it; give one "
                     "of them");
+    if (job.probes_only && job.priorities)
+        return fail(
+            SWIVEL_INVALID_ARGUMENT,
+            "the job is for probes_only and has priorities, so the solve would choose other bodies; choose them "
+            "by swivel_choose(), and give both jobs its mask");
     for (std::uint32_t g = 0; g < crowd.group_count; ++g)
         if (crowd.groups[g].features & SWIVEL_WITH_GROUND && is_named(job.groups, g)) return SWIVEL_OK;
     return fail(SWIVEL_INVALID_ARGUMENT, "the job %s, but names no group that is SWIVEL_WITH_GROUND; leave it out",

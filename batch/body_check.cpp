@@ -125,6 +125,9 @@ swivel_status check_ground(std::uint32_t g, const swivel_ground& ground)
 swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 {
     const swivel_group_def group = group_at(def, g);
+    if (group.link == UINT32_MAX)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is SWIVEL_WITH_LINK, but is linked to none; set its link to a group's number", g);
     if (group.link >= def.group_count)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u is linked to group %u, which does not exist; there are %u", g,
                     group.link, def.group_count);
@@ -150,7 +153,7 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         const swivel_group_def group = group_at(def, other);
         holders += group.features & SWIVEL_WITH_LINK && group.link == g;
-        if (prop.joint < 0 || static_cast<std::uint32_t>(prop.joint) >= skeleton.joint_count) continue;
+        if (prop.joint < 0) continue;
         for (const std::uint32_t joint : TurnedJoints(skeleton, group))
             if (is_above(skeleton, joint, static_cast<std::uint32_t>(prop.joint)))
                 return fail(SWIVEL_INVALID_ARGUMENT,
@@ -160,9 +163,6 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
     if (holders == 0 || holders > kMostHolders)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_PROP, and %u limbs are linked to it; link one or %u",
                     g, holders, kMostHolders);
-    if (prop.joint < -1 || (prop.joint >= 0 && static_cast<std::uint32_t>(prop.joint) >= skeleton.joint_count))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
-                    g, prop.joint, skeleton.joint_count);
     return check_constants(g, "prop", {{"most_move", prop.most_move, 1000}});
 }
 swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
@@ -188,6 +188,11 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     if (element(def.groups, g, swivel_default_group_def(0)).limb_count != 0 && group.limb_count != def.body_count)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u has %u limbs, but there are %u bodies; leave the count 0", g,
                     group.limb_count, def.body_count);
+    if (const std::int32_t joint = group.prop.joint;
+        group.features & SWIVEL_PROP &&
+        (joint < -1 || (joint >= 0 && static_cast<std::uint32_t>(joint) >= skeleton.joint_count)))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
+                    g, joint, skeleton.joint_count);
     if (!group.joints) return group.features & SWIVEL_FIT ? check_fit(g, group.fit) : SWIVEL_OK;
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
@@ -248,8 +253,8 @@ swivel_status check_bodies(const swivel_crowd_def& def)
         status = check_group_joints(def, skeleton, g);
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) status = check_apart(def, skeleton, g);
     if (status == SWIVEL_OK) status = check_fits(def);
-    if (status == SWIVEL_OK) status = check_held(def, skeleton);
-    return status == SWIVEL_OK ? check_skeleton(def, skeleton) : status;
+    if (status == SWIVEL_OK) status = check_skeleton(def, skeleton);
+    return status == SWIVEL_OK ? check_held(def, skeleton) : status;
 }
 
 }  // namespace swivel

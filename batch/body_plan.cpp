@@ -243,8 +243,8 @@ void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd)
         limb.linked_group = group.link;
         limb.holds_prop = group_at(def, group.link).features & SWIVEL_PROP;
         if (!limb.holds_prop) continue;
-        if (to.holder_number == 0) to.rest_length = rest_length(def, group);
-        limb.holder_number = to.holder_number++;
+        if (to.holder_count == 0) to.rest_length = rest_length(def, group);
+        limb.holder_number = to.holder_count++;
         limb.holder = to.frame + kHoldersRow + limb.holder_number * kHolderRows;
     }
 }

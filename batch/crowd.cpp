@@ -196,8 +196,7 @@ swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
         if (group.joints && !(group.features & kTwistBones))
             group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MOST_TWIST_BONES) *
                               SWIVEL_WITH_TWIST_BONES;
-        group.features &= ~SWIVEL_SENT;
-        if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK)) group.features |= SWIVEL_SENT;
+        group.features = with_sent(group.features);
         if (is_linked_to(def, g) && group.features & SWIVEL_WITH_HAND) group.features |= SWIVEL_WITH_HAND_FRAME;
         if (group.limb_count == 0) group.limb_count = def.body_count;
     }

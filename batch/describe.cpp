@@ -26,7 +26,7 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
 
 uint32_t swivel_component_count(swivel_field field, swivel_features features)
 {
-    return is_field(field) ? field_row_count(features, field) : 0;
+    return is_field(field) ? field_row_count(with_sent(features), field) : 0;
 }
 
 const char* swivel_flag_name(uint32_t flags)

@@ -337,19 +337,16 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
 }
 
 // Of a body's limb, which is solved from a record, so that its last digits differ: whether these are one pose. The
-// share of the limb is a thousand times rounding, and less than anyone sees.
+// share of the limb is a thousand times rounding, and less than anyone sees. The elbow of a straight limb is only known
+// to the root of rounding.
 bool is_near(const LimbPose& a, const LimbPose& b)
 {
-    constexpr double kShare = 1e-4;
+    constexpr double kShare = 1e-4, kElbowShare = 3e-3;
     const double size2 = len2(b.elbow - b.shoulder) + len2(b.wrist - b.elbow);
     const double cos_half = scalar_product(~a.hand, b.hand);
-    return len2(a.elbow - b.elbow) + len2(a.wrist - b.wrist) <= kShare * kShare * size2 &&
-           1 - cos_half * cos_half <= kShare * kShare;
+    return len2(a.elbow - b.elbow) <= kElbowShare * kElbowShare * size2 &&
+           len2(a.wrist - b.wrist) <= kShare * kShare * size2 && 1 - cos_half * cos_half <= kShare * kShare;
 }
-
-}  // namespace
-
-namespace {
 
 void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {

@@ -28,7 +28,7 @@ Rotor<double> rotor_of(const LimbValue& value, std::uint32_t first = 0)
     return normalise(rotor(value[first], value[first + 1], value[first + 2], value[first + 3]));
 }
 // Whether a value is given that NaN leaves out.
-bool is_given(const LimbValue& value) { return !std::isnan(value[0]); }
+bool is_given(const LimbValue& value, std::uint32_t count) { return !std::isnan(value.length(0, count)); }
 
 // A hand that holds a prop, of one body.
 struct Holder {
@@ -68,8 +68,8 @@ private:
         Vector<double> point = vector_of(record, kRecordShoulder) + bone(upper, 0) + bone(fore, 1);
         if (group.features & SWIVEL_WITH_EFFECTOR)
             point = point + scale * sandwich(rotation, vector_of(LimbValue(group, limb, SWIVEL_EFFECTOR)));
-        if (is_given(target)) point = vector_of(target);
-        if (is_given(hand)) rotation = rotor_of(hand);
+        if (is_given(target, 3)) point = vector_of(target);
+        if (is_given(hand, 4)) rotation = rotor_of(hand);
         return {rotation, point};
     }
 };
@@ -82,7 +82,7 @@ struct HeldProp {
     LimbValue place{group, limb, SWIVEL_PROP_PLACE}, turn{group, limb, SWIVEL_PROP_TURN};
 
     bool has_joint() const { return group.limb.joint != 0; }
-    bool is_pair() const { return group.limb.holder_number > 1; }
+    bool is_pair() const { return group.limb.holder_count > 1; }
     double share() const { return is_pair() ? LimbValue(group, limb, SWIVEL_PROP_SHARE)[0] : 0; }
     Holder holder(std::uint32_t n) const
     {
@@ -95,18 +95,18 @@ struct HeldProp {
     template <class Take>
     void for_each_holder(const Take& take) const
     {
-        for (std::uint32_t n = 0; n < group.limb.holder_number; ++n) take(holder(n));
+        for (std::uint32_t n = 0; n < group.limb.holder_count; ++n) take(holder(n));
     }
     // Whether it is known where it would lie if it never moved.
     bool is_known() const
     {
         if (has_joint()) return false;
-        return is_given(place) || (holder(0).is_known() && (!is_pair() || holder(1).is_known()));
+        return is_given(place, 3) || (holder(0).is_known() && (!is_pair() || holder(1).is_known()));
     }
     Vector<double> unmoved() const
     {
-        if (is_given(place)) return vector_of(place);
-        return between(holder(0).held(), holder(group.limb.holder_number - 1).held(), share()).place;
+        if (is_given(place, 3)) return vector_of(place);
+        return between(holder(0).held(), holder(group.limb.holder_count - 1).held(), share()).place;
     }
     double moved() const { return std::sqrt(len2(vector_of(LimbValue(group, limb, SWIVEL_PROP_FRAME)) - unmoved())); }
 
@@ -138,7 +138,7 @@ struct HeldProp {
     void explain_hands(const char* what, Text& text) const
     {
         const double at = share();
-        const Holder first = holder(0), last = holder(group.limb.holder_number - 1);
+        const Holder first = holder(0), last = holder(group.limb.holder_count - 1);
         if (at == 0 || at == 1)
             text.add("%s as the hand of group %u has it", what, at == 0 ? first.number : last.number);
         else
@@ -147,7 +147,7 @@ struct HeldProp {
     }
     void explain_source(Text& text) const
     {
-        const bool has_place = is_given(place), has_turn = is_given(turn);
+        const bool has_place = is_given(place, 3), has_turn = is_given(turn, 4);
         if (has_joint()) {
             text.add("It lies as joint %u has it", skeleton_joint());
             if (has_place || has_turn)

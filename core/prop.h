@@ -40,15 +40,18 @@ SWIVEL_INLINE constexpr HeldFrame<T> between(const HeldFrame<T>& a, const HeldFr
             select(is_a, a.place, select(is_b, b.place, mixed.place))};
 }
 
-// The moves of a thing by which an arm reaches its grip: those no further from `middle` than `reach`.
+// The moves of a thing by which an arm reaches its grip: those no further from `middle` than `reach`, and a little more
+// that is several times rounding. So rounding loses no move.
+inline constexpr double kReachSlack = 5e-7;
 template <class T>
 struct ReachingMoves {
     Vector<T> middle;
     T reach;
 
-    SWIVEL_INLINE constexpr Mask<T> has(const Vector<T>& move, double slack = 1) const
+    SWIVEL_INLINE constexpr Mask<T> has(const Vector<T>& move) const
     {
-        return len2(move - middle) <= (T(slack) * reach) * reach;
+        const T far = reach + T(kReachSlack) * (reach + sqrt(len2(middle)));
+        return len2(move - middle) <= far * far;
     }
     // The shortest of them.
     SWIVEL_INLINE constexpr Vector<T> least() const
@@ -70,19 +73,17 @@ SWIVEL_INLINE constexpr Vector<T> any_across(const Vector<T>& v)
 // The shortest move that is both arms'. Where there is none, the one from which the worse of both misses least.
 //
 // It is one arm's shortest if that is the other's, too. Else it is the point nearest to 0 on the circle in which their
-// spheres meet. Spheres about one middle do not meet; rounding alone then keeps both from having either's.
+// spheres meet. Of spheres about one middle, the slack lets one have the other's.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> least_move(const ReachingMoves<T>& a, const ReachingMoves<T>& b)
 {
-    constexpr double kOneMiddle2 = 1e-12;
     const Vector<T> least_a = a.least(), least_b = b.least();
     const Vector<T> between = b.middle - a.middle;
-    const T both = a.reach + b.reach, distance2 = len2(between);
-    const Mask<T> is_a = b.has(least_a), is_b = a.has(least_b),
-                  meets = (distance2 > T(kOneMiddle2) * (len2(a.middle) + both * both)) & !(is_a | is_b);
+    const T both = a.reach + b.reach;
+    const Mask<T> is_a = b.has(least_a), is_b = a.has(least_b), meets = !(is_a | is_b);
     const Vector<T> one = select(is_a, least_a, least_b);
     if (!any(meets)) return one;
-    const T distance = sqrt(hi(distance2, T(kTiny2)));
+    const T distance = sqrt(hi(len2(between), T(kTiny2)));
     const Vector<T> line = (T(1) / distance) * between;
     const T apart = hi(distance - a.reach - b.reach, T(0));
     const T along =

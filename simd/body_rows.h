@@ -114,7 +114,8 @@ struct BodyLimb {
     std::uint32_t linked_group;   // the group of that
     bool holds_prop;              // it is a prop
     std::uint32_t holder;         // the first row of what it asks of that
-    std::uint32_t holder_number;  // its place among the prop's holders; of a prop how many it has
+    std::uint32_t holder_number;  // its place among the prop's holders
+    std::uint32_t holder_count;   // of a prop
     std::uint32_t joint;          // of a prop: the first row of its joint; 0: none
     float most_move;              // of a prop: in limb lengths of its first holder
     GroundRules ground;           // where it stands on ground

@@ -73,6 +73,11 @@ constexpr swivel_features bits_of(const FeatureRow& row)
 {
     return row.feature == SWIVEL_WITH_TWIST_BONES ? kTwistBones : row.feature;
 }
+// The features that a group of these has besides, by itself.
+constexpr swivel_features with_sent(swivel_features features)
+{
+    return features & (SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK) ? features | SWIVEL_SENT : features & ~SWIVEL_SENT;
+}
 // Every feature, with the number of twist bones at its largest.
 inline constexpr swivel_features kKnownFeatures = [] {
     swivel_features known = 0;

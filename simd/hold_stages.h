@@ -57,12 +57,16 @@ struct StageBody<Stage::grasp> {
         set_held(s, limb.holder, {prop.rotation, place});
         s.set_body_vector(limb.holder + kHolderWristRow, wrist);
         s.set_body_vector(limb.holder + kHolderShoulderRow, s.body_vector(limb.shoulder + kPlaceRow));
-        s.set_body(limb.holder + kHolderReachRow, reach.exact);
+        // A hand that does not hold, by its weight, asks for nothing.
+        T far = reach.exact;
+        if (s.has(SWIVEL_WITH_WEIGHTS)) far = select(s.io.load(SWIVEL_WEIGHTS, 0) == T(0), T(kHuge), far);
+        s.set_body(limb.holder + kHolderReachRow, far);
         // A hand that is written goes on as it is, of any length, as it would if the limb held nothing.
         const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
         const T length2 = len2(hand);
         send(s, animated.point, select(length2 == length2, hand, animated.rotation));
-        s.set_body(limb.goal + kGoalOwnRow, select(animated.is_posed, T(1), T(0)));
+        const T lengths = s.io.load(SWIVEL_LENGTHS, 0) + s.io.load(SWIVEL_LENGTHS, 1);  // NaN: the pose's
+        s.set_body(limb.goal + kGoalOwnRow, select(animated.is_posed & !(lengths == lengths), T(1), T(0)));
     }
 };
 
@@ -77,12 +81,11 @@ struct PropAtHand {
     T share;
 
     SWIVEL_INLINE explicit PropAtHand(const S& of)
-        : s(of),
-          is_of_hands(T(prop.joint) == T(0)),
-          share(prop.holder_number > 1 ? s.io.load(SWIVEL_PROP_SHARE, 0) : T(0))
+        : s(of), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_PROP_SHARE, 0))
     {
         s.require(is_share(share));
-        const HeldFrame<T> hands = between(get_held(s, holder(0)), get_held(s, holder(prop.holder_number - 1)), share);
+        if (prop.holder_count == 1) share = T(0);
+        const HeldFrame<T> hands = between(get_held(s, holder(0)), get_held(s, holder(prop.holder_count - 1)), share);
         const Rotor<T> turn = s.io.load_rotor(SWIVEL_PROP_TURN);
         const Vector<T> at = s.io.load_vector(SWIVEL_PROP_PLACE);
         const T turn2 = len2(turn), at2 = len2(at);
@@ -120,22 +123,20 @@ struct StageBody<Stage::prop> {
         using T = typename S::T;
         const BodyLimb& prop = *s.strip.run.limb;
         PropAtHand<S> is(s);
-        const ReachingMoves<T> a = is.reaching(0), b = is.reaching(prop.holder_number - 1);
+        const ReachingMoves<T> a = is.reaching(0), b = is.reaching(prop.holder_count - 1);
         // So much less that what rounds still reaches, of a far move and of the shorter arm, too.
         const T size = lo(a.reach, b.reach) + sqrt(len2(a.middle)) + sqrt(len2(b.middle));
         const auto within = [&](const ReachingMoves<T>& of) SWIVEL_INLINE_LAMBDA {
-            return ReachingMoves<T>{of.middle, hi(of.reach - T(1e-6) * size, T(0))};
+            return ReachingMoves<T>{of.middle, hi(of.reach - T(2 * kReachSlack) * size, T(0))};
         };
         const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
         Mask<T> is_longer = T(1) < T(0);
         const Vector<T> none = vector(T(0), T(0), T(0));
-        const auto both_have = [&](const Vector<T>& move)
-                                   SWIVEL_INLINE_LAMBDA { return a.has(move, 1 + 1e-6) & b.has(move, 1 + 1e-6); };
-        const Mask<T> rests = both_have(none);
+        const Mask<T> rests = a.has(none) & b.has(none);
         const Vector<T> move =
             all(rests) ? none : select(rests, none, at_most(least_move(within(a), within(b)), most, !rests, is_longer));
         is.frame.place = is.frame.place + move;
-        const Mask<T> reaches = rests | both_have(move), stays = !(len2(move) > T(0));
+        const Mask<T> reaches = rests | (a.has(move) & b.has(move)), stays = !(len2(move) > T(0));
         s.require((len2(is.frame.place) <= T(kHuge2)) & is_within(len2(is.frame.rotation), 0.99, 1.01) &
                   (len2(s.body_vector(kRootRow)) <= T(kHuge2)));
         const T nan = T(__builtin_nan(""));

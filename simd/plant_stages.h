@@ -138,9 +138,9 @@ struct StageBody<Stage::probe> {
     {
         using T = typename S::T;
         const PlantedPoint<S> point(s);
-        Rows<T, kTold> out = s.io;
-        out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        out.store_vector(SWIVEL_PROBE, with_one_nan(point.place() + s.body_vector(kRootRow)));
+        const Vector<T> place = point.place() + s.body_vector(kRootRow);
+        s.require(len2(place) <= T(kHuge2));
+        good_rows(s).store_vector(SWIVEL_PROBE, place);
     }
 };
 

@@ -187,7 +187,12 @@ SWIVEL_INLINE LimbReach<typename S::T> limb_reach(const S& s)
         s.require(is_within(cos_half, 0, 1));
         far = lo(bent_reach(upper, fore, cos_half), far);
     }
-    if (s.has(SWIVEL_WITH_REACH)) return {far, hi(far - s.io.load(SWIVEL_REACH, 0) * bones, T(0))};
+    if (s.has(SWIVEL_WITH_REACH)) {
+        const ReachGoal<T> reach{s.io.load(SWIVEL_REACH, 0), s.io.load(SWIVEL_REACH, 1), s.io.load(SWIVEL_REACH, 2),
+                                 s.io.load(SWIVEL_REACH, 3)};
+        s.require(is_valid(reach));
+        return {far, hi(far - reach.soft_far * bones, T(0))};
+    }
     if (!s.has(SWIVEL_WITH_CAP)) return {far, far};
     const Cap<T> cap{s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
                      sqrt(len2(wrist - shoulder))};

@@ -117,7 +117,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},
     {Stage::hand_frame, 0, SWIVEL_WITH_HAND_FRAME, 0},
-    {Stage::stand, 0, SWIVEL_WITH_PLANT | SWIVEL_WITH_RECORD, 0},
+    {Stage::stand, 0, SWIVEL_SENT, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 constexpr bool needs(swivel_features features, const StageRow& row)

@@ -598,11 +598,12 @@ static inline swivel_fit swivel_default_fit(void)
 // the foot. The caller gives a plane for each foot: SWIVEL_GROUND and its normal, sampled at SWIVEL_PROBE. Where no
 // ground is known, the foot goes as it is animated.
 //
-// - The animated foot is lifted or sunk by how far the ground is from the root's level: from the plane through the
+// - The animated foot is raised or lowered by how far the ground is from the root's level: from the plane through the
 //   root's place, across `up`. A spring eases that.
 // - A point that locks does so at toe_clearance over the plane, where it stays.
-// - No toe is below toe_clearance, no heel below heel_clearance, whatever the animation wants. For its heel the foot
-//   turns about the toe. With SWIVEL_HAND_YIELDS it also does where the leg is too short.
+// - No toe is sent below toe_clearance, no heel below heel_clearance, whatever the animation wants. For its heel the
+//   foot turns about the toe. With SWIVEL_HAND_YIELDS the foot also turns where the leg is too short, and its toe stays
+//   over the plane.
 // - The foot turns by what carries `up` to the ground's normal, times SWIVEL_GROUND_WEIGHT, up to an angle.
 //
 // Clearances are heights over the plane, in the bones' unit. Source: our own.
@@ -622,13 +623,14 @@ static inline swivel_ground swivel_default_ground(void)
 // How a group with SWIVEL_PROP lies: a thing that one hand or two hold, such as a rifle, a steering wheel or a ladder.
 // Limbs are linked to it, and their grips are on it. Its place, and apart from that its rotation, are
 // - SWIVEL_PROP_PLACE and SWIVEL_PROP_TURN, where they are given;
-// - or else, with a joint, that joint's, as the pose has it and the body is shifted. No limb may turn it;
+// - or else the joint's, if there is one: as posed, and shifted with the body. No limb may turn it;
 // - or else as the hands have it in the incoming pose, each by its grip: SWIVEL_PROP_SHARE says which hand. Targets and
 //   hands that are written for these limbs count instead of the pose's. A hand that says alone where it is keeps its
 //   goal to the bit.
 //
 // Then it moves as little as it must so that all hands on it reach their grips, up to most_move. What counts is the
-// reach of bones, flexion limit and cap. Its flags are REACHED where both reach, and CLAMPED_FAR where not. Source: our
+// reach of bones, flexion limit, cap and soft zone. A hand with a position weight of 0 asks for nothing. The flags are
+// REACHED where all hands reach, and CLAMPED_FAR where not. Bad input leaves SWIVEL_PROP_FRAME as it was. Source: our
 // own.
 typedef struct swivel_prop {
     int32_t joint;    // of the skeleton; -1: none
@@ -657,7 +659,7 @@ typedef struct swivel_group_def {
     // WITH_LINK: the group that this one holds. Its wrist or effector goes to SWIVEL_GRIP on it. It is a PROP; or an
     // earlier group, which is another limb's hand or foot, as the same solve leaves it, after its clamps and limits.
     // Then this group's target and hand are not read. Solve both in one job.
-    uint32_t link;
+    uint32_t link;      // UINT32_MAX: none
     uint32_t reserved;  // 0
 } swivel_group_def;
 
@@ -673,6 +675,7 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
     group.fit = swivel_default_fit();
     group.ground = swivel_default_ground();
     group.prop = swivel_default_prop();
+    group.link = UINT32_MAX;
     return group;
 }
 
@@ -804,11 +807,12 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 // Results depend on differences of positions only, but a float 1e7 units from the origin is good to half a unit. So
 // positions far from the origin may be given as doubles. An origin near the limb is subtracted in double before they
 // are rounded to floats. The positions of a limb (SWIVEL_TARGET, SWIVEL_POLE unless a direction,
-// SWIVEL_SHOULDER_POSITION and SWIVEL_COMING) must be given from the same origin. Any origin within some arm lengths of
+// SWIVEL_SHOULDER_POSITION, SWIVEL_COMING, SWIVEL_GROUND, and SWIVEL_PROP_PLACE of a prop without a joint) must be
+// given from the same origin. Any origin within some arm lengths of
 // the limb will do, such as the character's place. A position is rounded to 6e-8 of its distance from its origin.
 // Rotations need no origin; swivel_forward()'s positions are from it, too.
 //
-// field is one of these four. Each limb has 3 consecutive doubles, and so has its origin; stride 0 means one origin
+// field is one of these. Each limb has 3 consecutive doubles, and so has its origin; stride 0 means one origin
 // for all. The call subtracts the origin in double, and rounds the difference once, to the nearest float. If the data
 // of origins is null, it subtracts nothing. Poles that are directions or normals have no origin and are refused with
 // one. A difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap
@@ -832,7 +836,7 @@ typedef struct swivel_frame {
     const swivel_frame_field* fields;
     uint32_t field_count;
     uint32_t reserved;  // 0
-    // Null data: positions are floats. With data, target, pole and shoulder position are 3 doubles each, and this
+    // Null data: positions are floats. With data, all positions are 3 doubles each, and this
     // origin, 3 doubles as well, is subtracted as by swivel_write_doubles(). A pole that is a direction is doubles,
     // too, but has no origin. A position that is not listed keeps its rows, which must be from the same origin. origin
     // may be the same array as the shoulder positions; all is then relative to the shoulder. Stride 0: one origin for
@@ -956,15 +960,14 @@ typedef struct swivel_limbs {
     uint32_t count;
 } swivel_limbs;
 
-// Feet of one group that want to know the ground: bodies that one thread solves together. For each there is a body, the
-// place to sample at, as SWIVEL_PROBE, and room for a point of the ground and its normal, as SWIVEL_GROUND and
-// SWIVEL_GROUND_NORMAL. These hold the present values; NaN in a ground says that there is none.
+// Feet of one group that want to know the ground. Arrays have `count` entries, one for each foot. Positions are in the
+// space of the rows: in the world, or from the root where that is in doubles.
 typedef struct swivel_probes {
     uint32_t group, count;
     const uint32_t* bodies;
-    const float (*places)[3];
-    float (*grounds)[3];
-    float (*normals)[3];
+    const float (*places)[3];  // where to sample, as SWIVEL_PROBE; of bad input the last one that was good
+    float (*grounds)[3];       // to store: SWIVEL_GROUND; it holds the present value. NaN: there is none
+    float (*normals)[3];       // to store: SWIVEL_GROUND_NORMAL; it holds the present value
 } swivel_probes;
 typedef void swivel_sample(const swivel_probes* probes, void* user);
 
@@ -1024,12 +1027,12 @@ typedef struct swivel_job {
 
     // For groups WITH_GROUND there are three ways to sample the ground. Equal ground gives equal bits.
     // - One call: give the ground below the last solve's SWIVEL_PROBE.
-    // - Two calls, without that frame of latency. Not 0: the job finds SWIVEL_PROBE for these bodies and changes
-    //   nothing else. Then sample, and solve as usual. It may be repeated.
+    // - Two calls, without that frame of latency. Not 0: the job finds SWIVEL_PROBE for these bodies and changes no
+    //   other result. Then sample, and solve as usual. It may be repeated, but not with priorities.
     int probes_only;
     // - One call that asks. Unless null, it is called on the threads that solve, by several at a time, with some feet
-    //   of one group: up to 128. It runs in the floating-point environment of its thread, must not throw, and must not
-    //   call this crowd. What it stores are inputs, in rows, too.
+    //   of one group: up to 128. It runs in the floating-point environment of its thread. It must not throw, nor call
+    //   this crowd, nor wait for oneTBB's tasks unless it isolates them. What it stores are inputs, in rows, too.
     swivel_sample* sample;
     void* sample_user;
 } swivel_job;
@@ -1120,7 +1123,7 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
 enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_explain() and swivel_compare()
-#define SWIVEL_EVERY_GROUP UINT32_MAX  // of swivel_explain(): all that a body has
+#define SWIVEL_EVERY_GROUP UINT32_MAX      // of swivel_explain(): all that a body has
 
 // Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, or how far out
 // of reach the target is. It names the limit that turned the elbow from its wish, and by how much. Where no elbow keeps
@@ -1129,11 +1132,11 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // says that they are of the limb's length. With WITH_WEIGHTS it says how far the limb is from the target itself, not
 // from the blended one. limb is counted within the group. text gets at most size bytes, the 0 at its end among them.
 // For people and logs: the words may change, and the last digits differ between C libraries. A text that was cut ends
-// in three dots. Of bodies it needs WITH_RECORD. Then it also says why a planted point stands or slides, what a hand
-// holds, and how the ground lifts and turns a foot, for a root that is upright. Of a group that is no limb it needs
-// none, and says how the body is shifted, or where the prop is and why. With the hands' records it says how far the
-// prop moved, and how far each hand is from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body `limb`,
-// with a line for each that begins "group 0: ". Takes up to a millisecond for a limb; no allocation.
+// in three dots. Of bodies it needs WITH_RECORD. Then it also says why a planted point stands or slides, and what a
+// hand holds. It says how the ground lifts and turns a foot, for a root that is upright. Of a group that is no limb it
+// needs none, and says how the body is shifted, or where the prop is and why. With the hands' records it says how far
+// the prop moved, and how far each hand is from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body
+// `limb`, with a line for each that begins "group 0: ". Takes up to a millisecond for a limb; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 

@@ -263,8 +263,8 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
         groups[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
         groups[g].plant = kPlants[g];
         groups[g].ground = kGrounds[g];
-        if (is_holding(recipe, static_cast<std::uint32_t>(g)) && has_prop(recipe))
-            groups[g].link = prop_group(recipe.features & kFit);
+        if (is_holding(recipe, static_cast<std::uint32_t>(g)))
+            groups[g].link = has_prop(recipe) ? prop_group(recipe.features & kFit) : 0;
     }
     swivel_group_def all[kGroupCount + 2];
     swivel_group_def* end = std::copy(groups.begin(), groups.end(), all);
