@@ -109,7 +109,9 @@ void check_plant(Reader& reader)
     if (state != 0 && reader.read(SWIVEL_PLANT_TURN) > 0) SWIVEL_REQUIRE(is_unit(reader.value.data(), 4, 1e-5));
 }
 
-// A place and a rotation. All of it may be NaN where the limb's input is bad.
+// Whether a limb is so long that its hand may be further away than any place.
+bool is_endless(Reader& reader) { return reader.read(SWIVEL_LENGTHS) > 0 && reader.value[0] + reader.value[1] > 1e13f; }
+// A place and a rotation. All of it may be NaN where the limb's input is bad, or it has no place.
 void check_frame(Reader& reader, swivel_field field, bool is_bad)
 {
     if (reader.read(field) == 0) return;
@@ -141,7 +143,7 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
     check_plant(reader);
     check_frame(reader, SWIVEL_PROP_FRAME, false);
-    check_frame(reader, SWIVEL_HAND_FRAME, flags == SWIVEL_BAD_INPUT);
+    check_frame(reader, SWIVEL_HAND_FRAME, flags == SWIVEL_BAD_INPUT || is_endless(reader));
     if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
         return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_BAD_INPUT);
     check_rotations(reader);
