@@ -382,7 +382,7 @@ typedef enum swivel_field {
     // and 1 once it has begun.
     SWIVEL_LIFT,
     // 7, WITH_HAND_FRAME: where the wrist joint is after the solve, 3, in the space of the target, and its rotation in
-    // the world, 4. Bones may be stretched. It is NaN beyond 1e15, and after bad input but for a good pose that is kept.
+    // the world, 4. Bones may be stretched. It is NaN beyond 1e15, and after bad input but for a good pose that stays.
     SWIVEL_HAND_FRAME,
     // 7, PROP: where it is, 3, in the space of the targets, and its rotation in the world, 4.
     SWIVEL_PROP_FRAME,
