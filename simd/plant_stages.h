@@ -96,7 +96,8 @@ struct PlantedPoint {
     Planted<T> planted;
     EasedHeight<T> lift;  // on ground that is not flat
 
-    SWIVEL_INLINE explicit PlantedPoint(const S& of) : s(of)
+    // sees_ground: else it is lifted as in the last step.
+    SWIVEL_INLINE PlantedPoint(const S& of, bool sees_ground) : s(of)
     {
         s.require(is_posed(s) & is_within(len2(support.rotation), 0.99, 1.01));
         PlantInput<T> in;
@@ -104,7 +105,7 @@ struct PlantedPoint {
         in.length = T(limb.rest_length) * s.body_row(kRootJoint + kScaleRow);
         forget_old(state, in.time, limb.rules);
         Vector<T> point = animated.point;
-        if (s.has(SWIVEL_WITH_GROUND)) point = point + lifted_by_ground();
+        if (s.has(SWIVEL_WITH_GROUND)) point = point + (sees_ground ? lifted_by_ground() : lifted_so_far());
         in.point = support.from_root(point);
         s.require((len2(in.point) <= T(kHuge2)) & is_within(in.time, 0, kHuge));
         in.label = in_contact(s, state.fresh, in, animated.point);
@@ -121,6 +122,12 @@ struct PlantedPoint {
     }
 
 private:
+    SWIVEL_INLINE Vector<T> lifted_so_far() const
+    {
+        const T was = s.io.load_result(SWIVEL_LIFT, 0);
+        const Mask<T> has_begun = (s.io.load_result(SWIVEL_LIFT, 2) > T(0.5)) & (was == was) & !state.fresh;
+        return select(has_begun, was, T(0)) * up_of(s);
+    }
     // From the root's level to the ground below the animated point.
     SWIVEL_INLINE Vector<T> lifted_by_ground()
     {
@@ -130,14 +137,14 @@ private:
     }
 };
 
-// Where to sample the ground. Its height does not matter.
+// Where to sample the ground, whatever was given of it so far. The height does not matter.
 template <>
 struct StageBody<Stage::probe> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const PlantedPoint<S> point(s);
+        const PlantedPoint<S> point(s, false);
         const Vector<T> place = point.place() + s.body_vector(kRootRow);
         s.require(len2(place) <= T(kHuge2));
         good_rows(s).store_vector(SWIVEL_PROBE, place);
@@ -150,7 +157,7 @@ struct StageBody<Stage::plant> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        PlantedPoint<S> point(s);
+        PlantedPoint<S> point(s, true);
         const Planted<T>& planted = point.planted;
         const Vector<T> place = point.place();
         s.require(len2(place) <= T(kHuge2));
