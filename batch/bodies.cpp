@@ -7,6 +7,7 @@
 
 #include "batch/pose.h"
 #include "batch/share.h"
+#include "batch/streams.h"
 #include "simd/float_env.h"
 
 namespace swivel {
@@ -85,38 +86,32 @@ private:
     void sample(const Group& group, GroupBlocks run) const
     {
         if (!(group.features & SWIVEL_WITH_GROUND)) return;
-        constexpr swivel_field fields[] = {SWIVEL_PROBE, SWIVEL_GROUND, SWIVEL_GROUND_NORMAL};
         constexpr std::size_t kMost = kStripBlocks * SWIVEL_LANES;
         std::uint32_t bodies[kMost];
-        float values[3][kMost][3];
+        float places[kMost][3], grounds[kMost][3], normals[kMost][3];
         std::uint32_t count = 0;
-        // Calls take(row, n, c) for each number of a field, of the nth probe.
-        const auto for_each_number = [&](swivel_field field, const auto& take) {
-            for (std::uint32_t n = 0; n < count; ++n)
-                for (std::uint32_t c = 0; c < 3; ++c) {
-                    const std::uint32_t row = group.first_row[index_of(field)] + c;
-                    float* const rows = is_input(field) ? group.input : group.results;
-                    const std::uint32_t row_count = is_input(field) ? group.input_row_count : group.result_row_count;
-                    take(rows[row_offset(bodies[n], row_count, row)], n, c);
-                }
-        };
         for_each_block(run, [&](const BodyBlock& block) {
             for (LaneMask lanes = block.lanes; lanes != 0; lanes &= lanes - 1)
                 bodies[count++] = block.first + static_cast<std::uint32_t>(std::countr_zero(lanes));
         });
         if (count == 0) return;
-        for (std::size_t f = 0; f < 3; ++f)
-            for_each_number(fields[f],
-                            [&](float& number, std::uint32_t n, std::uint32_t c) { values[f][n][c] = number; });
+        const FieldRows probe = rows_of(group, SWIVEL_PROBE), ground = rows_of(group, SWIVEL_GROUND),
+                        normal = rows_of(group, SWIVEL_GROUND_NORMAL);
+        for (std::uint32_t n = 0; n < count; ++n) {
+            copy_out(probe, bodies[n], 1, {places[n], sizeof places[n]});
+            copy_out(ground, bodies[n], 1, {grounds[n], sizeof grounds[n]});
+            copy_out(normal, bodies[n], 1, {normals[n], sizeof normals[n]});
+        }
         const auto g = static_cast<std::uint32_t>(&group - work.crowd.groups);
-        const swivel_probes probes{g, count, bodies, values[0], values[1], values[2]};
+        const swivel_probes probes{g, count, bodies, places, grounds, normals};
         {
             const FloatEnv::Outside outside(env);
             work.sample(&probes, work.sample_user);
         }
-        for (std::size_t f = 1; f < 3; ++f)
-            for_each_number(fields[f],
-                            [&](float& number, std::uint32_t n, std::uint32_t c) { number = values[f][n][c]; });
+        for (std::uint32_t n = 0; n < count; ++n) {
+            copy_in(ground, bodies[n], 1, {grounds[n], 0});
+            copy_in(normal, bodies[n], 1, {normals[n], 0});
+        }
     }
     void give_joints(const BodyPlan& plan, const BodyBlock& block) const
     {
