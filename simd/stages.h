@@ -100,7 +100,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::record, 0, SWIVEL_WITH_RECORD, 0},
     {Stage::goal, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
     {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSpecial},
-    {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM},
+    {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_CAP, kSpecial, SWIVEL_WITH_AIM},
     {Stage::aim, 0, SWIVEL_WITH_AIM, 0},
     {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL, kSpecial, 0},
     {Stage::yield, 0, SWIVEL_HAND_YIELDS, 0},

@@ -309,14 +309,15 @@ TEST_CASE("another unit is named, with its factor")
         Rig rig(random, any_wish(random));
         struct Factor {
             double value;
-            const char *name, *factor;
+            const char *name, *number;
         };
         constexpr Factor factors[] = {{100, "centimetres instead of metres", "100."},
                                       {0.01, "metres instead of centimetres", "1 / 100."},
                                       {1000, "millimetres instead of metres", "1000."},
                                       {2.54, "centimetres instead of inches", "2.54."},
                                       {0.0254, "metres instead of inches", "1 / 39.3701."}};
-        const auto& [factor, name, number] = factors[random.below(5)];
+        const Factor& of = factors[random.below(5)];
+        const double factor = of.value;
         const Vector3d root = rig.root();
         const std::uint32_t what = random.below(3);  // all; translations; the root
         const Places places = moved(rig.places(rig.limb()), [&](const Vector3d& v) {
@@ -328,7 +329,7 @@ TEST_CASE("another unit is named, with its factor")
                                 : what == 1 ? "Your places are in another unit than the pose's translations, such as "
                                             : "Your places and the pose's joints are in another unit than "
                                               "root_position, such as ") +
-                        (what < 2 ? std::string(name) + ": the factor is " + number : std::string()));
+                        (what < 2 ? std::string(of.name) + ": the factor is " + of.number : std::string()));
     });
 }
 

@@ -406,11 +406,11 @@ public:
                             {asked->grounds, asked->count},
                             {asked->normals, asked->count}};
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-        if (self.has_failed_.load(std::memory_order_relaxed)) return;
+        if (self.failures_.load(std::memory_order_relaxed) > 0) return;
         try {
             self.sample_(probes);
         } catch (...) {
-            if (!self.has_failed_.exchange(true)) self.exception_ = std::current_exception();
+            if (self.failures_.fetch_add(1) == 0) self.exception_ = std::current_exception();
         }
 #else
         self.sample_(probes);
@@ -426,7 +426,7 @@ public:
 private:
     const Sample& sample_;
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-    std::atomic<bool> has_failed_ = false;
+    std::atomic<std::uint32_t> failures_ = 0;  // a word: some CPUs exchange no single byte
     std::exception_ptr exception_;
 #endif
 };
