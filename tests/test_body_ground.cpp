@@ -21,6 +21,7 @@ struct Gait {
     double rest = 0;           // how far a toe that is planted and at rest is from its plane
     double from_ground = 0;    // the same from the ground itself
     double heel = 0, toe = 0;  // how far below the plane of a leg that reaches
+    double short_toe = 0;      // how far below the plane of a leg that is too short
     double under_ground = 0;   // how far below the ground itself
     double slide = 0;          // of a toe at rest, in a frame
     double thigh = 0, shin = 0, foot = 0;
@@ -30,11 +31,12 @@ struct Gait {
     void print(const char* name) const
     {
         std::printf(
-            "%-28s rest %.4f mm (ground %.3f) heel %.3f toe %.3f (ground %.2f) slide %.4f mm; turn thigh %.4f shin "
+            "%-28s rest %.4f mm (ground %.3f) heel %.3f toe %.3f (short %.4f, ground %.2f) slide %.4f mm; turn thigh "
+            "%.4f shin "
             "%.4f "
             "foot %.4f rad; pelvis %.2f shift %.2f mm; %d at rest, %d of %d reach\n",
-            name, 1e3 * rest, 1e3 * from_ground, 1e3 * heel, 1e3 * toe, 1e3 * under_ground, 1e3 * slide, thigh, shin,
-            foot, 1e3 * pelvis, 1e3 * shift, rest_count, reach_count, count);
+            name, 1e3 * rest, 1e3 * from_ground, 1e3 * heel, 1e3 * toe, 1e3 * short_toe, 1e3 * under_ground,
+            1e3 * slide, thigh, shin, foot, 1e3 * pelvis, 1e3 * shift, rest_count, reach_count, count);
     }
 };
 
@@ -77,6 +79,7 @@ private:
             const auto keep = [](double& worst, double x) { worst = x <= worst ? worst : x; };  // NaN stays
             const double toe = up.dot(at.toe - from);
             if (rests) keep(is.rest, std::fabs(toe)), keep(is.from_ground, std::fabs(walkers.terrain.over(at.toe)));
+            if (!reaches) keep(is.short_toe, -toe);
             if (reaches) {
                 keep(is.toe, -toe), keep(is.heel, -up.dot(at.heel - from));
                 keep(is.under_ground, -walkers.terrain.over(at.toe)),
@@ -146,6 +149,7 @@ TEST_CASE("feet stand on hills, however their ground is sampled, with the same b
     CHECK(is.from_ground <= 1e-4);
     CHECK(is.heel <= 1e-3);
     CHECK(is.toe <= 1e-3);
+    CHECK(is.short_toe <= 1e-5);
     CHECK(is.slide <= 1e-4);
     CHECK(is.shin <= 0.157);
     CHECK(is.foot <= 0.141);
@@ -174,8 +178,26 @@ TEST_CASE("on flat ground feet walk as they are animated")
 {
     HillWalkers walkers(2, 50, Terrain{});
     gait_of(walkers, [](Crowd&, PoseBuffer&) {}).print("flat, as animated");
-    const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) { walkers.probe_and_solve(crowd, poses); });
+    double from_animation = 0;  // of toes that swing freely
+    int swing_count = 0;
+    const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) {
+        const PoseBuffer animated = poses;
+        walkers.probe_and_solve(crowd, poses);
+        const auto shifts = read<Float3>(crowd, SWIVEL_SHIFT, 2);
+        for (std::uint32_t n = 0; n < walkers.count(); ++n)
+            for (std::uint32_t leg = 0; leg < 2; ++leg) {
+                const std::uint32_t flags = flags_of(crowd, leg, n);
+                const bool is_blending = value_of<std::array<float, 11>>(crowd, SWIVEL_PLANT, leg, n)[9] > 0;
+                if (flags & (SWIVEL_PLANTED | SWIVEL_RELEASED) || !(flags & SWIVEL_REACHED) || is_blending) continue;
+                const Vector3d is = walkers.leg(poses, n, leg, double{shifts[n][0]}).toe,
+                               was = walkers.leg(animated, n, leg, 0).toe;
+                from_animation = std::max(from_animation, (is - was).norm()), ++swing_count;
+            }
+    });
     is.print("flat, sampled at once");
+    std::printf("%d toes that swing are within %.5f mm of the animation\n", swing_count, 1e3 * from_animation);
+    CHECK(swing_count > 1000);
+    CHECK(from_animation <= 1e-5);
     CHECK(is.rest <= 1e-5);
     CHECK(is.heel <= 1e-5);
     CHECK(is.slide <= 1e-5);
