@@ -81,7 +81,7 @@ public:
     {
         Supports made(kBodies);
         for (std::uint32_t n = 0; n < kBodies; ++n) {
-            const double t = n % 2 * frame / kSecond;
+            const double t = n % 2 ? frame / kSecond : 0;
             const Vector3d place = turn_ * Vector3d(n + 0.05 * t, 0.01 * t, 0);
             made[n].position = {place.x(), place.y(), place.z()};
             made[n].rotation = floats(turn_ * Eigen::AngleAxisd(0.05 * t, Vector3d::UnitY()) * turn_.conjugate());

@@ -9,7 +9,6 @@ using namespace swivel::test;
 
 namespace {
 
-constexpr float kFrame = GlidingLeg::kFrame;
 constexpr Float3 kToe{0, -0.07f, 0.13f}, kHeel{0, -0.07f, -0.05f};  // in the foot's frame
 constexpr swivel_features kStands =
     GlidingLeg::kPlants | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS | SWIVEL_WITH_GROUND;

@@ -68,7 +68,7 @@ double angle(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b
 TEST_CASE("a hand yields where its wrist does not get to its place, and there alone")
 {
     rc::prop("", [] {
-        Random random(*rc::gen::arbitrary<std::uint32_t>());
+        Random random{*rc::gen::arbitrary<std::uint64_t>()};
         const Goals goals = random_goals(random);
         const Results stiff = solved(goals, 0), yielding = solved(goals, SWIVEL_HAND_YIELDS);
         RC_ASSERT(stiff.shoulders == yielding.shoulders);
