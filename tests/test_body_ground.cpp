@@ -189,9 +189,9 @@ TEST_CASE("on flat ground feet walk as they are animated")
                 const std::uint32_t flags = flags_of(crowd, leg, n);
                 const bool is_blending = value_of<std::array<float, 11>>(crowd, SWIVEL_PLANT, leg, n)[9] > 0;
                 if (flags & (SWIVEL_PLANTED | SWIVEL_RELEASED) || !(flags & SWIVEL_REACHED) || is_blending) continue;
-                const Vector3d is = walkers.leg(poses, n, leg, double{shifts[n][0]}).toe,
+                const Vector3d toe = walkers.leg(poses, n, leg, double{shifts[n][0]}).toe,
                                was = walkers.leg(animated, n, leg, 0).toe;
-                from_animation = std::max(from_animation, (is - was).norm()), ++swing_count;
+                from_animation = std::max(from_animation, (toe - was).norm()), ++swing_count;
             }
     });
     is.print("flat, sampled at once");
