@@ -48,13 +48,17 @@ struct Runs {
         if (work.probes_only || work.sample) prepare(run, Pass::probe);
         if (work.probes_only) return give_probes(run);
         if (work.sample) for_each_named(run, [&](const Group& group, std::uint32_t) { sample(group, run); });
-        for (const Pass pass : {Pass::ask, Pass::shift, Pass::grasp, Pass::hold}) prepare(run, pass);
+        for (const Pass pass : {Pass::ask, Pass::shift}) prepare(run, pass);
+        look(run, plan);
+        for (const Pass pass : {Pass::grasp, Pass::hold}) prepare(run, pass);
         for_each_named(run, [&](const Group& group, std::uint32_t n) {
             solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
             if (work.frames) share(group, run, n, [&](const Share& of) { of.copy_out(work.mask, run); });
+            if (group.limb.is_look) return;
             for_each_block(run,
                            [&](const BodyBlock& block) { pose_out(work.kernels.bodies, plan, group.limb, block); });
         });
+        if (pose.space == SWIVEL_IN_BODY) carry_unnamed(run, plan);
         if (gives_joints(pose)) for_each_block(run, [&](const BodyBlock& block) { give_joints(plan, block); });
     }
 
@@ -64,6 +68,39 @@ private:
         for_each_named(run, [&](const Group& group, std::uint32_t) {
             prepare_group(work.kernels, group, pass, run, strip, work.mask);
         });
+    }
+    // The looks, one after the other. In the body's space, limbs below count on how all of them move.
+    void look(GroupBlocks run, const BodyPlan& plan) const
+    {
+        for (std::uint32_t g = 0; g < work.crowd.group_count; ++g) {
+            const Group& group = work.crowd.groups[g];
+            if (!group.limb.is_look) continue;
+            const bool is_solved = is_named(work.groups, g);
+            if (is_solved) prepare_group(work.kernels, group, Pass::look, run, strip, work.mask);
+            for_each_block(run, [&](const BodyBlock& block) {
+                if (is_solved)
+                    pose_out(work.kernels.bodies, plan, group.limb, block);
+                else if (pose.space == SWIVEL_IN_BODY)
+                    stay(group.limb, block);
+            });
+        }
+    }
+    // Joints in the body's space move with the looks above them, also where their own groups are not solved.
+    void carry_unnamed(GroupBlocks run, const BodyPlan& plan) const
+    {
+        for (std::uint32_t g = 0; g < work.crowd.group_count; ++g) {
+            const BodyLimb& limb = work.crowd.groups[g].limb;
+            if (is_named(work.groups, g) || !hangs_on_solved(limb)) continue;
+            for_each_block(run, [&](const BodyBlock& block) {
+                stay(limb, block);
+                carry_out(work.kernels.bodies, plan, limb, block);
+            });
+        }
+    }
+    bool hangs_on_solved(const BodyLimb& limb) const
+    {
+        if (limb.above == 0) return false;
+        return is_named(work.groups, limb.above_group) || hangs_on_solved(work.crowd.groups[limb.above_group].limb);
     }
     // Of the results only the probes go out.
     void give_probes(GroupBlocks run) const

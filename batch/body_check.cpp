@@ -152,6 +152,7 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
     std::uint32_t holders = 0;
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         const swivel_group_def group = group_at(def, other);
+        if (group.features & SWIVEL_LOOK) continue;  // a look is done before
         holders += group.features & SWIVEL_WITH_LINK && group.link == g;
         if (prop.joint < 0) continue;
         for (const std::uint32_t joint : TurnedJoints(skeleton, group))
@@ -176,6 +177,56 @@ swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& ske
     return status;
 }
 
+swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
+{
+    char name[16];
+    for (std::uint32_t n = 0; n < look.joint_count; ++n) {
+        std::snprintf(name, sizeof name, "share[%u]", n);
+        if (const swivel_status status = check_constants(g, "look", {{name, look.share[n], 1000}}); status != SWIVEL_OK)
+            return status;
+        if (!(std::fabs(look.cos_most[n]) <= 1))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.cos_most[%u] is %g; it is -1 to 1", g, n,
+                        double(look.cos_most[n]));
+    }
+    const auto length2 = [](const float(&v)[3]) {
+        return double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2];
+    };
+    if (!(look.share[look.joint_count - 1] > 0))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.share of the last joint is 0; let it be more", g);
+    if (!(length2(look.axis) >= kTiny2 && length2(look.axis) <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.axis is %g, %g, %g; give an axis", g, double(look.axis[0]),
+                    double(look.axis[1]), double(look.axis[2]));
+    if (!(length2(look.eye) <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.eye is %g, %g, %g; give a place in the last joint's frame",
+                    g, double(look.eye[0]), double(look.eye[1]), double(look.eye[2]));
+    if (!(look.cos_none >= -1 && look.cos_full <= 1 && look.cos_full - look.cos_none >= 1e-3f))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, look.cos_full is %g, look.cos_none %g; they are -1 to 1, and cos_full is 0.001 more", g,
+                    double(look.cos_full), double(look.cos_none));
+    return check_constants(g, "look", {{"near", look.near, kHuge}, {"rate", look.rate, 1000}});
+}
+swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const swivel_look& look)
+{
+    if (look.joint_count == 0 || look.joint_count > SWIVEL_MOST_BONES)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
+                    int{SWIVEL_MOST_BONES});
+    for (std::uint32_t n = 0; n < look.joint_count; ++n) {
+        const std::uint32_t joint = look.joints[n];
+        if (joint >= skeleton.joint_count)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joints[%u] is %u; the skeleton has %u joints", g, n,
+                        joint, skeleton.joint_count);
+        if (const swivel_status status = check_parents(skeleton, "the chain", joint); status != SWIVEL_OK)
+            return fail_in("the skeleton", status);
+        if (n > 0 && (joint == look.joints[n - 1] || !is_above(skeleton, look.joints[n - 1], joint)))
+            return fail(
+                SWIVEL_INVALID_ARGUMENT,
+                "group %u, look.joints[%u], joint %u, is not below the one before, joint %u; name them from the "
+                "body outwards",
+                g, n, joint, look.joints[n - 1]);
+    }
+    return check_look_constants(g, look);
+}
+
 swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
     const swivel_group_def group = group_at(def, g);
@@ -193,7 +244,9 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
         (joint < -1 || (joint >= 0 && static_cast<std::uint32_t>(joint) >= skeleton.joint_count)))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
                     g, joint, skeleton.joint_count);
-    if (!group.joints) return group.features & SWIVEL_FIT ? check_fit(g, group.fit) : SWIVEL_OK;
+    if (group.features & SWIVEL_FIT) return check_fit(g, group.fit);
+    if (group.features & SWIVEL_LOOK) return check_look(skeleton, g, group.look);
+    if (!group.joints) return SWIVEL_OK;
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
     swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
@@ -211,19 +264,24 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     return fail_in(name, status);
 }
 
-// Limbs hang beside each other: what one turns is above no joint that another turns.
+// Limbs hang beside each other: what one turns is above no joint that another turns. A look may be above limbs, and
+// above looks that come after it.
 swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const TurnedJoints turning(skeleton, group_at(def, g));
+    const swivel_group_def group = group_at(def, g);
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         if (other == g) continue;
-        for (const std::uint32_t joint : TurnedJoints(skeleton, group_at(def, other)))
-            for (const std::uint32_t above : turning)
-                if (is_above(skeleton, above, joint))
+        const swivel_group_def below = group_at(def, other);
+        const bool may_be_above = group.features & SWIVEL_LOOK && (!(below.features & SWIVEL_LOOK) || g < other);
+        for (const std::uint32_t joint : TurnedJoints(skeleton, below))
+            for (const std::uint32_t above : TurnedJoints(skeleton, group))
+                if (is_above(skeleton, above, joint) && !(may_be_above && above != joint))
                     return fail(SWIVEL_INVALID_ARGUMENT,
-                                "group %u turns joint %u, which is %s joint %u of group %u; a body's limbs hang beside "
-                                "each other",
-                                g, above, above == joint ? "also" : "above", joint, other);
+                                "group %u turns joint %u, which is %s joint %u of group %u; %s", g, above,
+                                above == joint ? "also" : "above", joint, other,
+                                group.features & below.features & SWIVEL_LOOK && above != joint
+                                    ? "let the look that is above come first"
+                                    : "a body's limbs hang beside each other, and looks above them");
     }
     return SWIVEL_OK;
 }

@@ -22,13 +22,15 @@ inline swivel_limb_joints joints_of(const swivel_group_def& group)
     return element(group.joints, 0, swivel_default_limb_joints(0, 0, 0));
 }
 
-// The joints that a group's limb turns, an upper one first.
+// The joints that a group's limb or look turns, an upper one first.
 struct TurnedJoints {
     std::uint32_t joint[kMostTurned];
     std::uint32_t count = 0;
 
     TurnedJoints(const swivel_skeleton& skeleton, const swivel_group_def& group)
     {
+        if (group.features & SWIVEL_LOOK)
+            for (; count < group.look.joint_count; ++count) joint[count] = group.look.joints[count];
         if (!group.joints) return;  // no limb
         const swivel_limb_joints limb = joints_of(group);
         if (group.features & SWIVEL_WITH_CLAVICLE)

@@ -18,15 +18,20 @@ std::int32_t mover_of(const swivel_skeleton& skeleton, const TurnedJoints& turne
     while (joint >= 0 && !turned.has(joint)) joint = parent_of(skeleton, static_cast<std::uint32_t>(joint));
     return joint;
 }
-// The same of all groups.
-std::int32_t mover_of(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t joint)
+// The same of all groups, and the group that turns it.
+struct Mover {
+    std::int32_t joint = -1;
+    bool is_look = false;
+    std::uint32_t group = 0;
+};
+Mover mover_of(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::int32_t joint)
 {
-    for (std::uint32_t g = 0; g < def.group_count; ++g) {
-        const TurnedJoints turned(skeleton, group_at(def, g));
-        if (const std::int32_t mover = mover_of(skeleton, turned, static_cast<std::int32_t>(joint)); mover >= 0)
-            return mover;
-    }
-    return -1;
+    for (; joint >= 0; joint = parent_of(skeleton, static_cast<std::uint32_t>(joint)))
+        for (std::uint32_t g = 0; g < def.group_count; ++g) {
+            const swivel_group_def group = group_at(def, g);
+            if (TurnedJoints(skeleton, group).has(joint)) return {joint, (group.features & SWIVEL_LOOK) != 0, g};
+        }
+    return {};
 }
 
 // The place of a needed joint in the list. The root is the parent of those without one.
@@ -64,6 +69,19 @@ RestJoint rest_of(const swivel_skeleton& skeleton, std::uint32_t joint)
     return rest;
 }
 
+// Calls take(joint, mover) for each needed joint that moves with a group's look and is not of it.
+template <class Take>
+void for_each_following(const swivel_crowd_def& def, const swivel_skeleton& skeleton, const swivel_group_def& group,
+                        const Take& take)
+{
+    if (!(group.features & SWIVEL_LOOK)) return;
+    const TurnedJoints turned(skeleton, group);
+    for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+        const auto is = static_cast<std::int32_t>(joint);
+        if (const std::int32_t mover = mover_of(skeleton, turned, is); mover >= 0 && mover != is) take(joint, mover);
+    });
+}
+
 // Each turned joint with its parent and what moves that.
 void plan_turned(const swivel_skeleton& skeleton, const TurnedJoints& turned, PlannedJoints joints, BodyLimb& limb)
 {
@@ -79,13 +97,17 @@ void plan_turned(const swivel_skeleton& skeleton, const TurnedJoints& turned, Pl
 BodySize body_size(const swivel_crowd_def& def)
 {
     const swivel_skeleton skeleton = skeleton_of(def);
-    BodySize size{1, kRootJoint + joint_row_count(false), 0, 0};
+    BodySize size{1, kRootJoint + joint_row_count(false), 0, 0, 0};
     for_each_needed(def, skeleton, [&](std::uint32_t joint) {
         ++size.joint_count;
-        size.row_count += joint_row_count(mover_of(def, skeleton, joint) == static_cast<std::int32_t>(joint));
+        const Mover mover = mover_of(def, skeleton, static_cast<std::int32_t>(joint));
+        size.row_count += joint_row_count(mover.joint == static_cast<std::int32_t>(joint));
     });
     for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
-        size.moved_count += mover_of(def, skeleton, joint) >= 0;
+        size.moved_count += mover_of(def, skeleton, static_cast<std::int32_t>(joint)).joint >= 0;
+    for (std::uint32_t g = 0; g < def.group_count; ++g)
+        for_each_following(def, skeleton, group_at(def, g),
+                           [&](std::uint32_t, std::int32_t) { ++size.following_count; });
     size.first_own_row = size.row_count;
     BodyLimb ignored{};
     for (std::uint32_t g = 0; g < def.group_count; ++g)
@@ -110,12 +132,12 @@ void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
     for (BodyJoint* to = joints + 1; to != end; ++to) {
         const PlannedJoints planned{joints, static_cast<std::uint32_t>(to - joints) + 1};
         const std::uint32_t joint = to->skeleton_joint;
-        const std::int32_t mover = mover_of(def, skeleton, joint);
+        const Mover mover = mover_of(def, skeleton, static_cast<std::int32_t>(joint));
         const RestJoint rest = rest_of(skeleton, joint);
         to->row = row;
         to->parent = row_of(planned, parent_of(skeleton, joint));
-        to->mover = mover < 0 ? 0 : row_of(planned, mover);
-        to->is_turned = mover == static_cast<std::int32_t>(joint);
+        to->mover = mover.joint < 0 || mover.is_look ? 0 : row_of(planned, mover.joint);
+        to->is_turned = mover.joint == static_cast<std::int32_t>(joint);
         to->translation[0] = static_cast<float>(rest.place.at<kE1>());
         to->translation[1] = static_cast<float>(rest.place.at<kE2>());
         to->translation[2] = static_cast<float>(rest.place.at<kE3>());
@@ -124,7 +146,7 @@ void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
 }
 
 BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
-                   PlannedJoints joints, MovedJoint* moved)
+                   PlannedJoints joints)
 {
     BodyLimb limb{};
     if (!group.joints) return limb;
@@ -145,12 +167,29 @@ BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, c
     std::copy(std::begin(hinge.c), std::end(hinge.c), limb.hinge);
     if (group.features & SWIVEL_WITH_CLAVICLE)
         store(normalise(rest_of(skeleton, turned.joint[0]).rotation), limb.clavicle_rest);
+    return limb;
+}
+
+void plan_moved(const swivel_crowd_def& def, const swivel_group_def& group, PlannedJoints joints, BodyLimb& limb,
+                MovedJoint* moved, FollowingJoint* following)
+{
+    const swivel_skeleton skeleton = skeleton_of(def);
+    const TurnedJoints turned(skeleton, group);
+    if (turned.count == 0) return;
     plan_turned(skeleton, turned, joints, limb);
+    limb.is_look = (group.features & SWIVEL_LOOK) != 0;
+    if (const Mover above = mover_of(def, skeleton, parent_of(skeleton, turned.joint[0])); above.joint >= 0)
+        limb.above = row_of(joints, above.joint), limb.above_group = above.group;
     limb.moved = moved;
     for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
-        if (const std::int32_t mover = mover_of(skeleton, turned, static_cast<std::int32_t>(joint)); mover >= 0)
-            moved[limb.moved_count++] = {joint, row(static_cast<std::uint32_t>(mover))};
-    return limb;
+        if (const Mover mover = mover_of(def, skeleton, static_cast<std::int32_t>(joint)); turned.has(mover.joint))
+            moved[limb.moved_count++] = {joint, row_of(joints, mover.joint), mover.is_look ? 0 : limb.above};
+    limb.following = following;
+    for_each_following(def, skeleton, group, [&](std::uint32_t joint, std::int32_t mover) {
+        const auto* const at = std::find(turned.begin(), turned.end(), static_cast<std::uint32_t>(mover));
+        following[limb.following_count++] = {row_of(joints, static_cast<std::int32_t>(joint)),
+                                             static_cast<std::uint32_t>(at - turned.begin())};
+    });
 }
 
 namespace {
@@ -188,6 +227,23 @@ GroundRules ground_rules(const swivel_ground& of)
             spring_rule(of.half)};
 }
 
+LookRules look_rules(const swivel_look& of)
+{
+    LookRules rules{};
+    double left = 0;
+    for (std::uint32_t n = of.joint_count; n-- > 0;) {
+        left += double(of.share[n]);
+        const double cos = of.cos_most[n];  // of the whole angle
+        rules.joint[n] = {static_cast<float>(of.share[n] / left), static_cast<float>(sqrt(0.5 + 0.5 * cos)),
+                          static_cast<float>(sqrt(0.5 - 0.5 * cos))};
+    }
+    rules.fade = {of.cos_none, static_cast<float>(1 / (double(of.cos_full) - of.cos_none)), of.near};
+    const Vector<double> axis = normalise(vector<double>(of.axis[0], of.axis[1], of.axis[2]));
+    for (std::size_t c = 0; c < 3; ++c) rules.eye[c] = of.eye[c], rules.axis[c] = static_cast<float>(axis.c[c]);
+    rules.rate = of.rate;
+    return rules;
+}
+
 // The first group with a feature; there is one.
 swivel_group_def first_with(const swivel_crowd_def& def, swivel_features feature)
 {
@@ -219,6 +275,7 @@ void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, Body
         limb.rest_length = rest_length(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_FIT) : group);
     if (group.features & SWIVEL_WITH_GROUND) limb.ground = ground_rules(group.ground);
     limb.most_move = group.prop.most_move;
+    if (group.features & SWIVEL_LOOK) limb.look = look_rules(group.look);
 }
 
 std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyLimb& limb)

@@ -15,19 +15,23 @@ swivel_status check_bodies(const swivel_crowd_def& def);
 struct BodySize {
     std::uint32_t joint_count, row_count, moved_count;  // needed joints, the root among them; rows of a block
     std::uint32_t first_own_row;                        // the first row behind those of joints
+    std::uint32_t following_count;                      // joints that follow looks, of all groups
 };
 BodySize body_size(const swivel_crowd_def& def);
 // Stores the needed joints of all groups, depth after depth. So those that follow each other seldom wait for each
 // other.
 void plan_joints(const swivel_crowd_def& def, BodyJoint* joints);
-// Gives a group's limb, and stores its moved joints from `moved` on.
+// Gives a group's limb.
 struct PlannedJoints {
     const BodyJoint* joints;
     std::uint32_t count;
 };
 BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
-                   PlannedJoints joints, MovedJoint* moved);
-// Adds the constants of plants, shifts, grounds and props.
+                   PlannedJoints joints);
+// Adds the joints that a group turns and moves; stores the moved and the following ones from here on.
+void plan_moved(const swivel_crowd_def& def, const swivel_group_def& group, PlannedJoints joints, BodyLimb& limb,
+                MovedJoint* moved, FollowingJoint* following);
+// Adds the constants of plants, shifts, grounds, props and looks.
 void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb);
 // Gives a group with these features its rows behind those of joints, from `first` on. Returns the first one after them.
 std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyLimb& limb);

@@ -69,7 +69,6 @@ swivel_status check_group(std::uint32_t g, const swivel_group_def& group)
 {
     if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
     if (const swivel_status status = check_features(g, group.features); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_reserved("group def", group); status != SWIVEL_OK) return status;
     std::uint32_t on_bad_input;  // C lets it be any number
     static_assert(sizeof on_bad_input == sizeof group.on_bad_input);
     std::memcpy(&on_bad_input, &group.on_bad_input, sizeof on_bad_input);

@@ -42,7 +42,7 @@ std::uint32_t body_run_blocks(std::uint32_t row_count)
 struct Layout {
     std::uint32_t block_count = 0, strip_blocks = 0;
     BodySize bodies{};
-    std::uint64_t groups, joints, moved, chosen, urgency, done, workspaces, rows,
+    std::uint64_t groups, joints, moved, following, chosen, urgency, done, workspaces, rows,
         end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def)
@@ -62,7 +62,8 @@ struct Layout {
         groups = aligned(sizeof(swivel_crowd));
         joints = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
         moved = joints + aligned(std::uint64_t{bodies.joint_count} * sizeof(BodyJoint));
-        chosen = moved + aligned(std::uint64_t{bodies.moved_count} * sizeof(MovedJoint));
+        following = moved + aligned(std::uint64_t{bodies.moved_count} * sizeof(MovedJoint));
+        chosen = following + aligned(std::uint64_t{bodies.following_count} * sizeof(FollowingJoint));
         urgency = chosen + aligned(std::uint64_t{mask_word_count(block_count)} * sizeof(std::uint32_t));
         done = urgency + aligned(std::uint64_t{block_count} * sizeof(float));
         workspaces = done + aligned(block_count);
@@ -141,7 +142,7 @@ void rest_in_arm_frame(const Group& group)
 
 // Makes a group whose rows begin at `rows`. The crowd has its joints already.
 void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def, const swivel_crowd& crowd,
-                 std::uint32_t first_block, char* rows, MovedJoint* moved, Group& group)
+                 std::uint32_t first_block, char* rows, Group& group)
 {
     group.first_block = first_block;
     group.block_count = blocks_in(def);
@@ -160,7 +161,7 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
     group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
     if (crowd_def.skeleton) {
         if (def.joints) group.binding = body_binding(crowd_def, def);
-        group.limb = plan_limb(crowd_def, def, group.binding, {crowd.joints, crowd.joint_count}, moved);
+        group.limb = plan_limb(crowd_def, def, group.binding, {crowd.joints, crowd.joint_count});
         group.body_block_floats = std::size_t{crowd.body_row_count} * kLanes;
     } else {
         group.binding = element(&def.binding, 0, swivel_default_binding());
@@ -234,13 +235,18 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     }
     char* rows = base + layout.rows;
     auto* moved = reinterpret_cast<MovedJoint*>(base + layout.moved);
+    auto* following = reinterpret_cast<FollowingJoint*>(base + layout.following);
     std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def of = group_at(def, g);
         Group& group = *new (crowd->groups + g) Group{};
-        place_group(def, of, *crowd, first_block, rows, moved, group);
+        place_group(def, of, *crowd, first_block, rows, group);
+        if (def.skeleton) {
+            plan_moved(def, of, {crowd->joints, crowd->joint_count}, group.limb, moved, following);
+            plan_group(def, of, group.limb);
+        }
         moved += group.limb.moved_count;
-        if (def.skeleton) plan_group(def, of, group.limb);
+        following += group.limb.following_count;
         own_rows = plan_own_rows(of.features, own_rows, group.limb);
         if (!def.skeleton) first_block += blocks_in(of);
         rows += row_bytes(of);

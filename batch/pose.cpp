@@ -72,7 +72,9 @@ swivel_status check_space(const swivel_pose& pose)
 bool needs_time(const swivel_crowd& crowd, const std::uint32_t* groups)
 {
     for (std::uint32_t g = 0; g < crowd.group_count; ++g)
-        if (is_named(groups, g) && crowd.groups[g].features & (SWIVEL_WITH_PLANT | SWIVEL_FIT)) return true;
+        if (is_named(groups, g) &&
+            (crowd.groups[g].features & (SWIVEL_WITH_PLANT | SWIVEL_FIT) || crowd.groups[g].limb.look.rate > 0))
+            return true;
     return false;
 }
 // Where more than the turned joints' rotations go.
@@ -143,7 +145,8 @@ swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups,
     const swivel_status status = check_pose(crowd, given);
     if (status != SWIVEL_OK || !given || full_pose(given).time.data || !needs_time(crowd, groups)) return status;
     return fail(SWIVEL_INVALID_ARGUMENT,
-                "the pose has no time, which plants and shifts need; give the seconds since each body's last solve");
+                "the pose has no time, which plants, shifts and looks with a rate need; give the seconds since each "
+                "body's last solve");
 }
 
 namespace {
@@ -212,12 +215,17 @@ void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& 
     const bool in_body = pose.space == SWIVEL_IN_BODY;
     if (!in_body)
         for (std::uint32_t n = 0; n < limb.turned_count; ++n) writer.write_local(limb.turned[n]);
-    if (in_body || gives_joints(pose)) kernels.move(block, limb);
-    if (in_body)
-        for (std::uint32_t n = 0; n < limb.moved_count; ++n) {
-            kernels.carry(plan, block, limb.moved[n]);
-            writer.write_carried(limb.moved[n].skeleton_joint);
-        }
+    if (!limb.is_look && (in_body || gives_joints(pose))) kernels.move(block, limb);
+    if (in_body) carry_out(kernels, plan, limb, block);
+}
+
+void carry_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block)
+{
+    const PoseWriter writer{*plan.pose, block};
+    for (std::uint32_t n = 0; n < limb.moved_count; ++n) {
+        kernels.carry(plan, block, limb.moved[n]);
+        writer.write_carried(limb.moved[n].skeleton_joint);
+    }
 }
 
 void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBlock& block)
@@ -234,10 +242,15 @@ void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBloc
 
 void stay(const BodyLimb& limb, const BodyBlock& block)
 {
-    for (std::uint32_t n = 0; n < limb.turned_count; ++n)
-        for (std::uint32_t c = 0; c < 7; ++c)  // a rotor and a vector
-            std::fill_n(block.rows + (limb.turned[n].row + kMotionRow + c) * kLanes, std::size_t{kLanes},
-                        c == 3 ? 1.0f : 0.0f);
+    constexpr std::size_t kNumbers = 7;  // a rotor and a vector
+    for (std::uint32_t n = 0; n < limb.turned_count; ++n) {
+        float* const motion = block.rows + (limb.turned[n].row + kMotionRow) * kLanes;
+        if (limb.is_look && limb.above != 0)
+            std::copy_n(block.rows + (limb.above + kMotionRow) * kLanes, kNumbers * kLanes, motion);
+        else
+            for (std::size_t c = 0; c < kNumbers; ++c)
+                std::fill_n(motion + c * kLanes, std::size_t{kLanes}, c == 3 ? 1.0f : 0.0f);
+    }
 }
 
 }  // namespace swivel

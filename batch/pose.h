@@ -24,8 +24,10 @@ inline bool gives_joints(const swivel_pose& pose) { return pose.joint_rotations.
 // These write a block's bodies to the caller's memory: the joints that a group's limb moves; and, once all groups are
 // solved, where all needed joints are.
 void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block);
+// The same of a pose in the body's space, where the limb's own motion is known.
+void carry_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block);
 void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBlock& block);
-// Sets how a limb moves its joints to not at all, for joints_out(): its group is not solved.
+// Sets how a limb or look that is not solved moves its joints: no more than what is above them.
 void stay(const BodyLimb& limb, const BodyBlock& block);
 
 }  // namespace swivel

@@ -56,6 +56,14 @@ SWIVEL_INLINE constexpr Vector<T> turned(const Rotor<T>& q, const Vector<T>& v)
     return v + q.template at<kScalar>() * twice + cross(u, twice);
 }
 
+// A vector of unit length across one of unit length.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> any_across(const Vector<T>& v)
+{
+    const T x = v.template at<kE1>(), y = v.template at<kE2>(), z = v.template at<kE3>();
+    return normalise(select(abs(x) > T(0.5), vector(-y, x, T(0)), vector(T(0), -z, y)));
+}
+
 // local: of any length but zero. Made unit in the product, what rounding leaves does not grow along a chain of joints.
 // translation: in the parent's frame. scale: the joint's own.
 template <class T>

@@ -62,14 +62,6 @@ struct ReachingMoves {
         return way * middle;
     }
 };
-// A vector of unit length across one of unit length.
-template <class T>
-SWIVEL_INLINE constexpr Vector<T> any_across(const Vector<T>& v)
-{
-    const T x = v.template at<kE1>(), y = v.template at<kE2>(), z = v.template at<kE3>();
-    return normalise(select(abs(x) > T(0.5), vector(-y, x, T(0)), vector(T(0), -z, y)));
-}
-
 // The shortest move that is both arms'. Where there is none, the one from which the worse of both misses least.
 //
 // It is one arm's shortest if that is the other's, too. Else it is the point nearest to 0 on the circle in which their

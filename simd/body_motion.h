@@ -22,6 +22,14 @@ struct Motion {
         const JointRows rows = rows_of(block, of, lane);
         return {rows.get_rotor(kMotionRow), rows.get_vector(kShiftRow)};
     }
+    // Of a joint of the skeleton, from where it comes.
+    SWIVEL_INLINE static Motion at(const BodyBlock& block, const MovedJoint& joint, std::uint32_t lane)
+    {
+        const Motion motion = at(block, joint.mover, lane);
+        if (joint.look == 0) return motion;
+        const Motion look = at(block, joint.look, lane);
+        return {motion.turn * look.turn, motion(look.shift)};
+    }
     SWIVEL_INLINE Vector<T> operator()(const Vector<T>& place) const { return turned(turn, place) + shift; }
     // Where nothing moves, so the incoming bits stay.
     SWIVEL_INLINE Mask<T> is_none() const
@@ -72,7 +80,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_rotation(const swivel_pose& pose, co
     const Bodies rotations(block, pose.rotations);
     const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const Motion motion = Motion::at(block, joint.mover, lane);
+        const Motion motion = Motion::at(block, joint, lane);
         const Rotor<T> was = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
         rows_of(block, 0, lane).set_rotor(kOutTurnRow, select(motion.is_none(), was, with_one_nan(motion.turn * was)));
     }
@@ -83,7 +91,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_translation(const swivel_pose& pose,
     const Bodies translations(block, pose.translations);
     const std::size_t at = offset_of(pose.translations, joint.skeleton_joint);
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const Motion motion = Motion::at(block, joint.mover, lane);
+        const Motion motion = Motion::at(block, joint, lane);
         const Vector<T> was = vector_of(load_values<T, 3>(translations.lane + lane, at));
         rows_of(block, 0, lane).set_vector(kOutPlaceRow, select(motion.is_none(), was, with_one_nan(motion(was))));
     }
@@ -96,7 +104,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_matrix(const swivel_pose& pose, cons
     const Bodies matrices(block, pose.rotations);
     const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const Motion motion = Motion::at(block, joint.mover, lane);
+        const Motion motion = Motion::at(block, joint, lane);
         const MatrixParts m = read_parts<Form>(matrices.lane + lane, at);
         const JointRows out = rows_of(block, 0, lane);
         for (std::uint32_t c = 0; c < 4; ++c) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/look_rules.h"
 #include "core/plant_rules.h"
 #include "simd/fields.h"
 
@@ -20,7 +21,8 @@ enum JointRow : std::uint32_t {
     kLocalRow = kScaleRow + 1,   // its rotation, relative to its parent: as it comes, later as it goes
     kAxesRow = kLocalRow + 4,    // of local matrices: the axes in the order of the caller's memory
     kMotionRow = kAxesRow,       // once these are written: the turn that a solve gave it and all below it,
-    kShiftRow = kMotionRow + 4,  // and the place that the root's goes to in it; both in the body's space
+    kShiftRow = kMotionRow + 4,  // and the place that the root's goes to in it; both in the body's space. Of a limb
+                                 // from where looks above it have moved it, of a look from the incoming pose
     kJointRows = kAxesRow + 9
 };
 // What a group's limb hands on from stage to stage, besides the rows of its strip.
@@ -85,20 +87,26 @@ static_assert(std::uint32_t{kOutRows} <= kKeptRow);
 struct BodyJoint {
     std::uint32_t skeleton_joint;  // of the skeleton; of the root it means nothing
     std::uint32_t row, parent;     // the parent comes before it
-    std::uint32_t mover;           // the joint that it moves with: it, or the next one above that is turned; 0: none
-    std::uint32_t is_turned;       // whether a limb turns it, so that its local rotation is needed later
+    std::uint32_t mover;           // the joint of a limb that it moves with: it, or the next one above that is turned.
+                                   // 0: none, or one of a look, which moves the rows themselves
+    std::uint32_t is_turned;       // whether a limb or look turns it, so that its local rotation is needed later
     float translation[3];          // at rest
 };
-// A joint of the skeleton that moves with one that a limb turns.
+// A joint of the skeleton that moves with one that a limb or look turns. look: the mover of the first joint of the
+// limb, by a look; 0: none, or the mover is a look's.
 struct MovedJoint {
-    std::uint32_t skeleton_joint, mover;
+    std::uint32_t skeleton_joint, mover, look;
+};
+// A needed joint that moves with a look: its first row, and the number of the look's joint that moves it.
+struct FollowingJoint {
+    std::uint32_t row, number;
 };
 // A joint that a limb turns. above: the mover of its parent.
 struct TurnedJoint {
     std::uint32_t skeleton_joint, row, parent, above;
 };
 inline constexpr std::uint32_t kMostTurned = 4 + SWIVEL_MOST_TWIST_BONES;
-// The joints of a group's limb, by their first rows.
+// The joints of a group's limb or look, by their first rows.
 struct BodyLimb {
     std::uint32_t parent, shoulder, elbow_parent, elbow, wrist_parent, wrist;
     std::uint32_t twist_bones[SWIVEL_MOST_TWIST_BONES], twist_parents[SWIVEL_MOST_TWIST_BONES];
@@ -106,8 +114,14 @@ struct BodyLimb {
     float clavicle_rest[4], twist_rest[SWIVEL_MOST_TWIST_BONES][4];  // local rotations at rest
     TurnedJoint turned[kMostTurned];                                 // an upper one first
     std::uint32_t turned_count;
-    const MovedJoint* moved;  // these joints and all below them
+    const MovedJoint* moved;  // these joints and all below them, but those that move with another group's
     std::uint32_t moved_count;
+    std::uint32_t above;              // the joint of a look that moves the first of them; 0: none
+    std::uint32_t above_group;        // the group of that
+    const FollowingJoint* following;  // of a look: the needed joints that move with it, but its own
+    std::uint32_t following_count;
+    bool is_look;
+    LookRules look;               // where it is one
     std::uint32_t goal;           // the first row of its goal, where it is sent
     std::uint32_t frame;          // the first row of its frame, where others are linked to it
     std::uint32_t link;           // the first row of the frame that it is linked to

@@ -8,6 +8,8 @@
 #include "core/posed_limb.h"
 #include "simd/fit_stages.h"
 #include "simd/hold_stages.h"
+#include "simd/joint_stages.h"
+#include "simd/look_stages.h"
 #include "simd/plant_stages.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -148,16 +150,9 @@ struct StageBody<Stage::correct> {
         const swivel_binding& b = *s.strip.run.binding;
         const BodyLimb& limb = *s.strip.run.limb;
         const Mask<T> valid = lanes_where<T>(s.good()), kept = kept_lanes(s, valid);
-        const swivel_pose& pose = *s.strip.run.strip.pose;
         s.set_body(kKeptRow, select(kept, T(1), T(0)));
-        const auto store = [&](std::uint32_t joint, const Rotor<T>& solved,
-                               const float(&rest)[4]) SWIVEL_INLINE_LAMBDA {
-            const Rotor<T> was = s.body_rotor(joint + kLocalRow), q = select(valid, solved, broadcast<T>(rest));
-            const T side = select(valid, scalar_product(~was, q), T(1));
-            if (pose.form != SWIVEL_ROTATIONS && pose.space == SWIVEL_LOCAL)
-                turn_axes(s, joint, unit_rotation(select(valid, q * ~was, q)), valid, kept);
-            s.set_body_rotor(joint + kLocalRow, select(kept, was, with_sign_of(side, q)));
-        };
+        const auto store = [&](std::uint32_t joint, const Rotor<T>& solved, const float(&rest)[4])
+                               SWIVEL_INLINE_LAMBDA { set_local(s, joint, solved, broadcast<T>(rest), valid, kept); };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
         const Rotor<T> shoulder = load_result_rotor(s, SWIVEL_SHOULDER);
         store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body_rotor(kUpperFromArmRow),
@@ -181,25 +176,6 @@ private:
     {
         return rotor(s.io.load_result(field, 0), s.io.load_result(field, 1), s.io.load_result(field, 2),
                      s.io.load_result(field, 3));
-    }
-    // Turns the axes of a joint's matrix; those of bad input from the axes of no rotation.
-    template <class S>
-    SWIVEL_INLINE static void turn_axes(const S& s, std::uint32_t joint, const Rotor<typename S::T>& turn,
-                                        const Mask<typename S::T>& valid, const Mask<typename S::T>& kept)
-    {
-        using T = typename S::T;
-        const bool by_rows = s.strip.run.strip.pose->form == SWIVEL_MATRIX_ROWS;
-        const std::uint32_t first = joint + kAxesRow;
-        for (std::uint32_t n = 0; n < 3; ++n) {
-            const auto row = [&](std::uint32_t c)
-                                 SWIVEL_INLINE_LAMBDA { return first + (by_rows ? 3 * c + n : 3 * n + c); };
-            const Vector<T> was = vector(s.body_row(row(0)), s.body_row(row(1)), s.body_row(row(2)));
-            const Vector<T> none = vector(T(n == 0), T(n == 1), T(n == 2));
-            const Vector<T> is = select(kept, was, turned(turn, select(valid, was, none)));
-            s.set_body(row(0), is.template at<kE1>());
-            s.set_body(row(1), is.template at<kE2>());
-            s.set_body(row(2), is.template at<kE3>());
-        }
     }
     // The lanes whose joints stay as they come. Those are of bad input, in groups that keep it and in the body's space,
     // where no rest pose is known. And they are those where no weight asks for more.

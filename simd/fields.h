@@ -19,7 +19,7 @@ inline constexpr swivel_features kTwistBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_
                                                SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 // What every group of bodies has, and what makes one no limb.
 inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
-                                 kNoLimb = SWIVEL_FIT | SWIVEL_PROP;
+                                 kNoLimb = SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK;
 struct FeatureRow {
     swivel_features feature;
     const char* name;
@@ -64,6 +64,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_PROP, "PROP", kOfBodies, ~(kOfBodies | SWIVEL_PROP)},
     {SWIVEL_WITH_GROUND, "WITH_GROUND", SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR},
     {SWIVEL_SENT, "SENT", SWIVEL_BODY},
+    {SWIVEL_LOOK, "LOOK", kOfBodies, ~(kOfBodies | SWIVEL_LOOK)},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
@@ -198,6 +199,8 @@ constexpr FieldRow kFields[] = {
     place(SWIVEL_PROP_PLACE, "prop_place", SWIVEL_PROP, 0, {0, 0, 0}, Start::unknown),
     input(SWIVEL_PROP_TURN, "prop_turn", SWIVEL_PROP, kQuaternion, kIdentity, {}, Start::unknown),
     input(SWIVEL_PROP_SHARE, "prop_share", SWIVEL_PROP, "0 to 1", {0}),
+    place(SWIVEL_LOOK_TARGET, "look_target", SWIVEL_LOOK, 0, {0, 0, 0}, Start::unknown),
+    input(SWIVEL_LOOK_WEIGHT, "look_weight", SWIVEL_LOOK, "0 to 1", {1}),
     {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, "", {0, 0, 0, 1}},
     {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, "", {1, 0}},
     {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, "", {0, 0, 0, 1}},
@@ -217,6 +220,8 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_LIFT, "lift", 3, kCarried, SWIVEL_WITH_GROUND},
     {SWIVEL_HAND_FRAME, "hand_frame", 7, kResult, SWIVEL_WITH_HAND_FRAME, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_PROP_FRAME, "prop_frame", 7, kResult, SWIVEL_PROP, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_SIGHT, "sight", 6, kResult, SWIVEL_LOOK, 0, "", {0, 0, 0, 0, 0, 1}},
+    {SWIVEL_LOOK_LINE, "look_line", 4, kCarried, SWIVEL_LOOK},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 

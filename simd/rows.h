@@ -57,7 +57,7 @@ constexpr std::uint32_t result_row_count(swivel_features features)
 constexpr bool is_frame(swivel_field field)
 {
     return field == SWIVEL_RECORD || field == SWIVEL_GOAL || field == SWIVEL_PROBE || field == SWIVEL_HAND_FRAME ||
-           field == SWIVEL_PROP_FRAME;
+           field == SWIVEL_PROP_FRAME || field == SWIVEL_SIGHT;
 }
 // Rows of words that a field is packed into (swivel_pack). Values of four floats are rotations.
 constexpr std::uint32_t packed_row_count(swivel_features features, swivel_field field)

@@ -21,6 +21,7 @@ enum class Stage : std::uint8_t {
     ground,    // the same on ground as it lies
     span,      // how a body's limb asks it to shift
     fit,       // the shift
+    look,      // how a chain of joints turns to a target
     grasp,     // where a hand has the prop that it holds
     prop,      // where the prop goes
     link,      // the goal on a prop or on another limb's hand
@@ -67,6 +68,7 @@ enum class Pass : std::uint8_t {
     probe,  // of jobs that sample the ground
     ask,    // what limbs ask of the body
     shift,  // the body's answer
+    look,   // what turns before limbs that hang below it
     grasp,  // what hands ask of props
     hold,   // where these go
     solve,
@@ -90,6 +92,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::ground, 0, SWIVEL_WITH_GROUND, 0, Pass::ask},
     {Stage::span, 0, SWIVEL_WITH_FIT, 0, Pass::ask},
     {Stage::fit, 0, SWIVEL_FIT, 0, Pass::shift},
+    {Stage::look, 0, SWIVEL_LOOK, 0, Pass::look},
     {Stage::grasp, 0, SWIVEL_WITH_LINK, 0, Pass::grasp},
     {Stage::prop, 0, SWIVEL_PROP, 0, Pass::hold},
     {Stage::link, 0, SWIVEL_WITH_LINK, 0},

@@ -117,9 +117,11 @@ typedef enum swivel_flag {
     SWIVEL_PLANTED = 1u << 17,       // the point is locked to its support
     SWIVEL_RELEASED = 1u << 18,      // this solve released it
     SWIVEL_BROKE_AWAY = 1u << 19,    // by distance: the animated point is too far from it, though in contact
-    SWIVEL_CUT = 1u << 20,        // a speed too high to be eased away was cut at a lock or release, so the point jumps
+    SWIVEL_CUT = 1u << 20,  // a speed too high to be eased away was cut at a lock or release, so the point jumps
+    SWIVEL_LIMITED_LOOK = 1u << 22,  // a cone of a bone keeps a look from its target
+    SWIVEL_FADED = 1u << 23,      // the target of a look is behind or too near, so the look counts less or not at all
     SWIVEL_BAD_INPUT = 1u << 30,  // an input is not valid or was never given: see swivel_on_bad_input
-    // bits 21 to 29 are kept for later releases and are 0
+    // other bits are kept for later releases and are 0
 } swivel_flag;
 
 // The features of a group: a combination of these bits, fixed at creation. Whatever is off costs neither memory nor
@@ -133,8 +135,9 @@ typedef enum swivel_flag {
 // - HAND_YIELDS needs WITH_EFFECTOR and excludes WITH_AIM. WITH_GROUND needs WITH_PLANT and WITH_EFFECTOR.
 // - WITH_HAND_FRAME and WITH_LINK are of bodies and need WITH_HAND. WITH_LINK excludes WITH_AIM, WITH_PLANT and
 //   WITH_FIT.
-// - A group that is FIT or PROP is no limb: it has none of the other features and names no joints. Calls that need a
-//   limb refuse it.
+// - A group that is FIT, PROP or LOOK is no limb: it has none of the other features, and its joints are null. Calls
+// that
+//   need a limb refuse it.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
 typedef uint64_t swivel_features;
 #define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
@@ -177,6 +180,8 @@ typedef uint64_t swivel_features;
 #define SWIVEL_PROP (UINT64_C(1) << 35)         // the group is a thing that hands hold, not a limb: swivel_prop
 #define SWIVEL_WITH_GROUND (UINT64_C(1) << 36)  // the foot that is planted stands on ground as it lies: swivel_ground
 #define SWIVEL_SENT (UINT64_C(1) << 37)  // its goal is made by the library: WITH_PLANT and WITH_LINK have it themselves
+#define SWIVEL_LOOK \
+    (UINT64_C(1) << 38)  // the group is a chain of joints that turns to a target, not a limb: swivel_look
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
@@ -325,6 +330,11 @@ typedef enum swivel_field {
     // 1, PROP: which hand says where it is, 0..1. At 0, as at the start, the first that is linked to it, at 1 the
     // other; in between both.
     SWIVEL_PROP_SHARE,
+    // 3, LOOK: what to look at, in the space of the targets. NaN, as at the start: nothing, so the chain goes back to
+    // its incoming pose.
+    SWIVEL_LOOK_TARGET,
+    // 1, LOOK: how much of the turn to the target is taken, 0..1. 1 at the start.
+    SWIVEL_LOOK_WEIGHT,
     SWIVEL_INPUT_END,  // one past the last input of this release
 
     // 4: the shoulder's rotation. In the arm frame, or with JOINTS the joint's local one.
@@ -386,6 +396,13 @@ typedef enum swivel_field {
     SWIVEL_HAND_FRAME,
     // 7, PROP: where it is, 3, in the space of the targets, and its rotation in the world, 4.
     SWIVEL_PROP_FRAME,
+    // 6, LOOK: the line of sight after the solve: its start, 3, in the space of the targets, and its direction in the
+    // world, 3, of unit length.
+    SWIVEL_SIGHT,
+    // 4, LOOK: the line that the chain follows, which turns towards the target at the look's rate. From the eye as the
+    // incoming pose has it: the direction in the root's frame, 3, and 1 divided by the distance. Its direction is 0
+    // before the first solve.
+    SWIVEL_LOOK_LINE,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
@@ -643,6 +660,55 @@ static inline swivel_prop swivel_default_prop(void)
     return prop;
 }
 
+enum { SWIVEL_MOST_BONES = 8 };  // of a look
+
+// How a group with SWIVEL_LOOK looks: a chain of 1 to 8 joints, such as spine, neck and head, turns so that a line of
+// sight in the last one meets SWIVEL_LOOK_TARGET. Each joint lies below the one before; joints in between turn along.
+//
+// - From the first to the last, each joint turns by its share of what is left of the turn, and by no more than its cone
+//   allows from its incoming rotation. The last one takes the rest, so it meets the target exactly where its cone
+//   allows. SWIVEL_LOOK_WEIGHT scales the turns.
+// - The turn fades out as the target goes behind: from the angle of cos_full to that of cos_none, between the incoming
+//   line of sight and the line to the target. It also fades as the target comes nearer to the eye than `near`. So
+//   nothing flips, and straight behind the pose is the incoming one.
+// - The line to the target is eased: it turns by at most `rate`, so a new target takes time. It begins at the target.
+//   swivel_reset() lets it begin anew: call it after a teleport.
+//
+// A body's looks come after its shift and before its props and limbs, in the order of their groups. So a limb may hang
+// below a look, as an arm does below the spine: it is solved from where the look has turned its shoulder, and its
+// incoming pose turns along. What is planted or fits asks for its place before. A look may hang below an earlier look,
+// as an eye does below the head: let the head aim the point between the eyes. No look hangs below a limb. One joint is
+// the aim of a turret or a weapon.
+//
+// The flags are REACHED where the line meets the target within 1e-4 rad, LIMITED_LOOK, LIMITED_STEP where the rate
+// holds the line back, and FADED. Bad input keeps the incoming pose and leaves SWIVEL_SIGHT as it was. Source: our own.
+typedef struct swivel_look {
+    uint32_t joint_count;                // 1 to 8
+    uint32_t joints[SWIVEL_MOST_BONES];  // of the skeleton, from the first to the last
+    float share[SWIVEL_MOST_BONES];      // of the turn, of any sum: 0 or more, the last one's more than 0
+    float cos_most[SWIVEL_MOST_BONES];   // cosine of the angle that each joint turns at most, -1..1
+    float eye[3];                        // where the line of sight starts, in the last joint's frame, in its unit
+    float axis[3];                       // where it points, in the last joint's frame, of any length but 0
+    float cos_full, cos_none;            // cosines of angles: cos_full is more than cos_none
+    float near;                          // in the last joint's unit
+    float rate;                          // radians a second; 0: the line is not eased
+} swivel_look;
+
+// No joints yet: shares of 1, cones of 45 degrees, a line along the last joint's z axis. It fades from 96 to 154
+// degrees and nearer than 0.05, and turns by 6 radians a second.
+static inline swivel_look swivel_default_look(void)
+{
+    swivel_look look;
+    int n;
+    memset(&look, 0, sizeof look);
+    for (n = 0; n < SWIVEL_MOST_BONES; ++n) look.share[n] = 1, look.cos_most[n] = 0.70710678f;
+    look.axis[2] = 1;
+    look.cos_full = -0.1f, look.cos_none = -0.9f;
+    look.near = 0.05f;
+    look.rate = 6;
+    return look;
+}
+
 // Limbs that share features and a binding, such as the left arms of one skeleton.
 typedef struct swivel_group_def {
     size_t size;               // sizeof(swivel_group_def), set by swivel_default_group_def()
@@ -659,8 +725,8 @@ typedef struct swivel_group_def {
     // WITH_LINK: the group that this one holds. Its wrist or effector goes to SWIVEL_GRIP on it. It is a PROP; or an
     // earlier group, which is another limb's hand or foot, as the same solve leaves it, after its clamps and limits.
     // Then this group's target and hand are not read. Solve both in one job.
-    uint32_t link;      // UINT32_MAX: none
-    uint32_t reserved;  // 0
+    uint32_t link;     // UINT32_MAX: none
+    swivel_look look;  // LOOK
 } swivel_group_def;
 
 // Plain limbs in the arm frame.
@@ -676,6 +742,7 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
     group.ground = swivel_default_ground();
     group.prop = swivel_default_prop();
     group.link = UINT32_MAX;
+    group.look = swivel_default_look();
     return group;
 }
 

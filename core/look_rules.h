@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// The constants of a look (look.h).
+#pragma once
+
+#include <cstdint>
+
+namespace swivel {
+
+// Of a joint. The turn is held by halves of angles.
+struct LookJoint {
+    float share;                         // of what is left of the turn
+    float cos_half_most, sin_half_most;  // of the cone
+};
+// Where a look fades: by the cosine between the line of sight as it comes and the line to the target; and by distance.
+struct LookFade {
+    float cos_none, per_cos;  // per_cos: 1 / (cos_full - cos_none)
+    float near;
+};
+inline constexpr std::uint32_t kMostLookJoints = 8;
+struct LookRules {
+    LookJoint joint[kMostLookJoints];
+    LookFade fade;
+    float eye[3], axis[3];  // in the last joint's frame; axis: unit
+    float rate;             // radians a second; 0: not eased
+};
+
+}  // namespace swivel

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+//
+// Random bodies that look, with limbs below what turns. And how their joints have turned, by Eigen in double.
+#pragma once
+
+#include "tests/linked_bodies.h"
+
+namespace swivel::test {
+
+using Float6 = std::array<float, 6>;
+
+// A look of one body: its joints as earlier looks have left them, and as they are.
+struct TurnedChain {
+    const LinkedBody& body;
+    const swivel_look& look;
+    std::vector<JointAt> before;
+
+    TurnedChain(const LinkedBody& of, const swivel_look& with) : body(of), look(with)
+    {
+        const std::int32_t above = body.of.skeleton.parents[look.joints[0]];
+        for (std::uint32_t n = 0; n < look.joint_count; ++n) {
+            before.push_back(body.was[look.joints[n]]);
+            if (above < 0) continue;
+            const JointAt &from = body.was[static_cast<std::size_t>(above)],
+                          &to = body.is[static_cast<std::size_t>(above)];
+            const Quaterniond turn = to.rotation * from.rotation.conjugate();
+            before[n] = {turn * before[n].rotation, to.place + turn * (before[n].place - from.place), before[n].scale};
+        }
+    }
+    std::uint32_t last() const { return look.joint_count - 1; }
+    const JointAt& was(std::uint32_t n) const { return before[n]; }
+    const JointAt& is(std::uint32_t n) const { return body.is[look.joints[n]]; }
+    // By which a joint of the chain and all below it have turned, in the world.
+    Quaterniond turn(std::uint32_t n) const { return is(n).rotation * was(n).rotation.conjugate(); }
+    // By which a joint itself has turned, in the world.
+    Quaterniond own_turn(std::uint32_t n) const { return n == 0 ? turn(n) : turn(n) * turn(n - 1).conjugate(); }
+    Vector3d eye(const JointAt& joint) const { return joint.place + joint.rotation * (joint.scale * vec(eye_of())); }
+    Vector3d axis(const JointAt& joint) const { return joint.rotation * vec(axis_of()).normalized(); }
+    // The line of sight once the first `count` joints have turned; those after it come along.
+    Vector3d eye_after(std::uint32_t count) const
+    {
+        if (count == 0) return eye(was(last()));
+        const std::uint32_t n = count - 1;
+        return is(n).place + turn(n) * (eye(was(last())) - was(n).place);
+    }
+    Vector3d axis_after(std::uint32_t count) const
+    {
+        return count == 0 ? axis(was(last())) : Vector3d(turn(count - 1) * axis(was(last())));
+    }
+    Float3 eye_of() const { return {look.eye[0], look.eye[1], look.eye[2]}; }
+    Float3 axis_of() const { return {look.axis[0], look.axis[1], look.axis[2]}; }
+};
+inline double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+inline double angle_of(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
+
+// The way from the root down to a joint's parent.
+inline std::vector<std::uint32_t> way_down(const BodySkeleton& skeleton, std::uint32_t joint)
+{
+    std::vector<std::uint32_t> way;
+    for (std::int32_t at = skeleton.parents[joint]; at >= 0; at = skeleton.parents[static_cast<std::size_t>(at)])
+        way.insert(way.begin(), static_cast<std::uint32_t>(at));
+    return way;
+}
+
+inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> joints)
+{
+    swivel_group_def def = swivel_default_group_def(0);
+    def.features = SWIVEL_LOOK;
+    swivel_look& look = def.look;
+    look.joint_count = static_cast<std::uint32_t>(joints.size());
+    std::copy(joints.begin(), joints.end(), look.joints);
+    for (std::uint32_t n = 0; n < look.joint_count; ++n) {
+        look.share[n] = static_cast<float>(random.below(4) ? random.between(0.1, 3) : 0);
+        look.cos_most[n] = static_cast<float>(random.below(3) ? -1 : std::cos(random.between(0.05, 2)));
+    }
+    look.share[look.joint_count - 1] = static_cast<float>(random.between(0.1, 3));
+    const Float3 eye = floats(Vector3d(random.between(0, 0.1) * random.direction())),
+                 axis = floats(Vector3d(random.spread(0.1, 10) * random.direction()));
+    std::copy(eye.begin(), eye.end(), look.eye);
+    std::copy(axis.begin(), axis.end(), look.axis);
+    look.near = 0.02f;
+    look.rate = 0;
+    return def;
+}
+
+// Bodies with a look in the trunk, some with another below it, and all limbs of theirs.
+struct LookingBodies : LinkedBodies {
+    std::vector<std::uint32_t> looks;  // groups
+
+    LookingBodies(Random& random, std::size_t body_count, const PoseLayout& of)
+        : LinkedBodies(random, {3 + random.below(5), 2 + random.below(2), random.below(2), true, 0, 2}, body_count, of)
+    {
+        std::vector<std::uint32_t> way;  // the longest
+        for (const BodyLimbJoints& limb : skeleton.limbs)
+            if (const std::vector<std::uint32_t> other = way_down(skeleton, limb.shoulder); other.size() > way.size())
+                way = other;
+        const std::uint32_t lowest = way.back();
+        std::erase_if(way, [&](std::uint32_t joint) { return joint != lowest && random.below(4) == 0; });
+        if (way.size() > 8) way.resize(8);
+        const std::size_t first =
+            random.below(2) && way.size() > 1 ? 1 + random.below(std::uint32_t(way.size()) - 1) : way.size();
+        const std::span<const std::uint32_t> all(way);
+        add_look(random, all.first(first));
+        if (first < way.size()) add_look(random, all.subspan(first));
+        for (std::uint32_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
+            const std::uint32_t group = add_limb(limb, SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS);
+            give(group, SWIVEL_TARGET,
+                 [&](std::size_t n) { return random_goal(random, skeleton, bodies[n], limb).target; });
+            give(group, SWIVEL_HAND, [&](std::size_t) { return floats(random.rotation()); });
+            give(group, SWIVEL_WEIGHTS, [&](std::size_t) {
+                const float weight = random.below(2) ? 1.0f : 0.0f;
+                return Float3{weight, weight, weight};
+            });
+        }
+    }
+    void add_look(Random& random, std::span<const std::uint32_t> joints)
+    {
+        const std::uint32_t group = add(look_def(random, joints));
+        looks.push_back(group);
+        const std::uint32_t last = joints.back();
+        give(group, SWIVEL_LOOK_TARGET, [&](std::size_t n) {
+            const std::vector<JointAt> at = joints_at(skeleton, bodies[n]);
+            return floats(Vector3d(vec(bodies[n].root_position) + at[last].place +
+                                   random.spread(0.2, 20) * at[last].scale * random.direction()));
+        });
+    }
+};
+
+}  // namespace swivel::test
