@@ -22,8 +22,8 @@ constexpr std::uint32_t kPosedBodies = 16, kTwins = 8;
 constexpr swivel_features kPosed = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
                           kOtherwise =  // what bodies do in another way, or alone
                           SWIVEL_JOINTS | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
-                          SWIVEL_WITH_FIT | SWIVEL_FIT | SWIVEL_PROP | SWIVEL_WITH_LINK | SWIVEL_WITH_HAND_FRAME |
-                          SWIVEL_SENT | SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+                          SWIVEL_WITH_FIT | SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK | SWIVEL_WITH_LINK |
+                          SWIVEL_WITH_HAND_FRAME | SWIVEL_SENT | SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
 // Nearly straight bones and narrow ranges have few floats, so rounding makes steps of up to about 1e-4.
 constexpr double kSame = 3e-4;
 using Values = std::map<swivel_field, std::vector<float>>;  // of a limb's inputs

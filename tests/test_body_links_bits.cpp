@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: what hands hold depends, in every bit, on their own body alone. It is the same on every instruction set,
-// in every order of bodies, in chunks, on threads, masked and listed, from rows and from frames, in place and
-// elsewhere, in every form of poses, and far from the origin.
+// The promise: what hands hold and where heads look depends, in every bit, on their own body alone. It is the same on
+// every instruction set, in every order of bodies, in chunks, on threads, masked and listed, from rows and from frames,
+// in place and elsewhere, in every form of poses, and far from the origin.
 #include <catch2/catch.hpp>
 
 #include <rapidcheck/catch.h>
@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "tests/holding_bodies.h"
+#include "tests/looking_bodies.h"
 #include "tests/test_isa_scope.h"
 
 namespace {
@@ -92,15 +93,26 @@ LinkedBodies shuffled(const LinkedBodies& of, const std::vector<std::uint32_t>& 
     return to;
 }
 
+// Bodies that hold, or that look.
+LinkedBodies any_bodies(Random& random, std::size_t count)
+{
+    const PoseLayout layout = any_layout(random, false, nullptr);
+    if (random.below(2)) return HoldingBodies(random, count, layout);
+    LookingBodies looking(random, count, layout);
+    for (const std::uint32_t group : looking.looks)
+        looking.groups[group].look.rate = static_cast<float>(random.below(2));
+    return looking;
+}
+
 }  // namespace
 
-TEST_CASE("hands that hold have the same bits on every instruction set")
+TEST_CASE("hands that hold and heads that look have the same bits on every instruction set")
 {
     const IsaScope scope;
     const std::vector<std::string> isas = runnable_isas();
-    rc::prop("whatever they hold", [&](std::uint64_t seed) {
+    rc::prop("whatever they hold or see", [&](std::uint64_t seed) {
         Random random{seed};
-        HoldingBodies bodies(random, 1 + random.below(60), any_layout(random, false, nullptr));
+        LinkedBodies bodies = any_bodies(random, 1 + random.below(60));
         if (random.below(4) == 0) bodies.layout.in_body = &bodies.skeleton;
         HeldBits first;
         for (const std::string& isa : isas) {
@@ -112,11 +124,11 @@ TEST_CASE("hands that hold have the same bits on every instruction set")
     });
 }
 
-TEST_CASE("hands that hold have the same bits in any order, memory and choice")
+TEST_CASE("hands that hold and heads that look have the same bits in any order, memory and choice")
 {
-    rc::prop("whatever they hold", [](std::uint64_t seed) {
+    rc::prop("whatever they hold or see", [](std::uint64_t seed) {
         Random random{seed};
-        HoldingBodies bodies(random, 1 + random.below(60), any_layout(random, false, nullptr));
+        LinkedBodies bodies = any_bodies(random, 1 + random.below(60));
         if (random.below(4) == 0) bodies.layout.in_body = &bodies.skeleton;
         const HeldBits wanted = held_bits(bodies);
         std::vector<std::uint32_t> order(bodies.bodies.size());
@@ -134,11 +146,13 @@ TEST_CASE("hands that hold have the same bits in any order, memory and choice")
     });
 }
 
-TEST_CASE("many hands that hold have the same bits on threads")
+TEST_CASE("many bodies have the same bits on threads")
 {
     Random random{3};
-    const HoldingBodies bodies(random, 2500, any_layout(random, false, nullptr));
-    CHECK((held_bits(bodies) == held_bits(bodies, {.solve = in_chunks})));
+    const HoldingBodies holding(random, 2500, any_layout(random, false, nullptr));
+    CHECK((held_bits(holding) == held_bits(holding, {.solve = in_chunks})));
+    const LookingBodies looking(random, 2500, any_layout(random, false, nullptr));
+    CHECK((held_bits(looking) == held_bits(looking, {.solve = in_chunks})));
 }
 
 TEST_CASE("a prop's place in doubles far from the origin gives the pose of floats near it")

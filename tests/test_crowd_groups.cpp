@@ -39,6 +39,7 @@ constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_I
                               kOfBodies | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK | SWIVEL_SENT | SWIVEL_WITH_HAND_FRAME,
                               kOfBodies | SWIVEL_FIT,
                               kOfBodies | SWIVEL_PROP,
+                              kOfBodies | SWIVEL_LOOK,
 };
 
 bool is_of(const swivel_field_info& field, swivel_features features)

@@ -39,6 +39,7 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
     }
     add_shift();
     take_links(bytes, trunk);
+    if (trunk > 0 && bytes.one_in(2)) take_looks(bytes, trunk);
     if (bytes.one_in(2)) take_constants(bytes);
     if (!bytes.one_in(4)) return;
     is_sound = false;
@@ -77,6 +78,39 @@ void BodyDef::link_to_prop(Bytes& bytes, std::uint32_t trunk, swivel_group_def& 
     swivel_group_def prop = swivel_default_prop_group_def();
     if (bytes.one_in(2)) prop.prop.joint = static_cast<std::int32_t>(bytes.below(trunk + 1)) - 1;
     groups.push_back(prop);  // group is no longer there
+}
+
+// Joints on the way down to one of the trunk look, and those below some of them may look by themselves.
+void BodyDef::take_looks(Bytes& bytes, std::uint32_t trunk)
+{
+    std::vector<std::uint32_t> way;
+    for (auto at = static_cast<std::int32_t>(bytes.below(trunk)); at >= 0; at = parents[static_cast<std::size_t>(at)])
+        if (way.empty() || !bytes.one_in(4)) way.insert(way.begin(), static_cast<std::uint32_t>(at));
+    const auto count = static_cast<std::uint32_t>(way.size()), first = 1 + bytes.below(count);
+    add_look(bytes, way.data(), first);
+    if (first < count) add_look(bytes, way.data() + first, count - first);
+}
+void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
+{
+    const auto number = [&](float least, float most) {
+        return least + (most - least) * static_cast<float>(bytes.below(9)) / 8;
+    };
+    swivel_group_def group = swivel_default_group_def(0);
+    group.features = SWIVEL_LOOK;
+    if (bytes.one_in(2)) group.on_bad_input = SWIVEL_KEEP_POSE;
+    swivel_look& look = group.look;
+    look.joint_count = static_cast<std::uint32_t>(count);
+    for (std::size_t n = 0; n < count; ++n) {
+        look.joints[n] = of[n];
+        look.share[n] = number(n + 1 < count ? 0 : 0.5f, 3);
+        look.cos_most[n] = number(-1, 1);
+    }
+    for (float& x : look.eye) x = number(-0.2f, 0.2f);
+    for (float& x : look.axis) x = number(-1, 1);
+    look.axis[1] += 1.5f;
+    look.near = number(0, 0.5f);
+    look.rate = number(0, 4);
+    groups.push_back(group);
 }
 
 // How limbs stand and bodies shift, in steps from nothing to much.
@@ -142,7 +176,7 @@ void BodyDef::spoil(Bytes& bytes)
     const std::uint32_t joint = bytes.below(joint_count()), any_joint = bytes.below(joint_count() + 2);
     const std::size_t g = bytes.below(static_cast<std::uint32_t>(joints.size()));
     swivel_limb_joints& limb = joints[g];
-    switch (bytes.take<std::uint8_t>() % 16) {
+    switch (bytes.take<std::uint8_t>() % 17) {
         case 0:  // also in a circle
             parents[joint] = static_cast<std::int32_t>(any_joint) - 1;
             break;
@@ -189,6 +223,9 @@ void BodyDef::spoil(Bytes& bytes)
         case 14:
             spoil_link(bytes, groups[g]);
             break;
+        case 15:
+            spoil_look(bytes, groups.back().look);
+            break;
         default:
             groups[g].joints = nullptr;
     }
@@ -217,6 +254,23 @@ void BodyDef::spoil_link(Bytes& bytes, swivel_group_def& group)
             break;
         default:  // that nobody holds
             groups.push_back(swivel_default_prop_group_def());
+    }
+}
+
+// Also of a group that has none.
+void BodyDef::spoil_look(Bytes& bytes, swivel_look& look)
+{
+    switch (bytes.below(3)) {
+        case 0:
+            look.joint_count = bytes.below(12);
+            break;
+        case 1:
+            look.joints[bytes.below(2)] = bytes.one_in(2) ? bytes.below(12) : bytes.take<std::uint32_t>();
+            break;
+        default:
+            *std::array{&look.share[0], &look.cos_most[0], &look.eye[1], &look.axis[1],
+                        &look.cos_full, &look.cos_none,    &look.near,   &look.rate}[bytes.below(8)] =
+                bytes.any_float();
     }
 }
 
@@ -249,8 +303,8 @@ bool BodyDef::is_above(std::uint32_t joint, std::uint32_t below) const
 
 bool BodyDef::is_needed(std::uint32_t joint) const
 {
-    for (std::uint32_t g = 0; g < joints.size(); ++g) {
-        if (is_above(joint, limb_of(g).wrist)) return true;
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+        if (g < joints.size() && is_above(joint, limb_of(g).wrist)) return true;
         for (const std::uint32_t turned : turned_joints(g))
             if (is_above(joint, turned)) return true;
     }
@@ -262,6 +316,8 @@ bool BodyDef::is_needed(std::uint32_t joint) const
 
 std::vector<std::uint32_t> BodyDef::turned_joints(std::uint32_t group) const
 {
+    if (groups[group].features & SWIVEL_LOOK)
+        return {groups[group].look.joints, groups[group].look.joints + groups[group].look.joint_count};
     if (group >= joints.size()) return {};  // shifts and props turn none
     const swivel_limb_joints limb = limb_of(group);
     const swivel_features features = groups[group].features;

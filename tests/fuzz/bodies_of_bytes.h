@@ -44,9 +44,12 @@ private:
     void add_shift();
     void take_links(Bytes& bytes, std::uint32_t trunk);
     void link_to_prop(Bytes& bytes, std::uint32_t trunk, swivel_group_def& group);
+    void take_looks(Bytes& bytes, std::uint32_t trunk);
+    void add_look(Bytes& bytes, const std::uint32_t* joints, std::size_t count);
     void take_constants(Bytes& bytes);
     void spoil(Bytes& bytes);
     void spoil_link(Bytes& bytes, swivel_group_def& group);
+    static void spoil_look(Bytes& bytes, swivel_look& look);
 };
 
 }  // namespace swivel::fuzz

@@ -122,6 +122,19 @@ void check_frame(Reader& reader, swivel_field field, bool is_bad)
     SWIVEL_REQUIRE(is_unit(reader.value.data() + 3, 4, 1e-6) && is_on_its_side(reader.value.data() + 3));
 }
 
+void check_sight(const Session& session, std::uint32_t group, std::uint32_t limb, std::uint32_t flags)
+{
+    constexpr std::uint32_t kOfLooks = SWIVEL_REACHED | SWIVEL_LIMITED_LOOK | SWIVEL_LIMITED_STEP | SWIVEL_FADED;
+    SWIVEL_REQUIRE((flags & ~kOfLooks) == 0 || flags == SWIVEL_BAD_INPUT);
+    if (flags == SWIVEL_BAD_INPUT) return;
+    Reader reader{session, group, limb};
+    reader.read(SWIVEL_SIGHT);
+    for (std::size_t n = 0; n < 3; ++n) SWIVEL_REQUIRE(std::isfinite(reader.value[n]));
+    SWIVEL_REQUIRE(is_unit(reader.value.data() + 3, 3, 1e-5));
+    reader.read(SWIVEL_LOOK_LINE);
+    SWIVEL_REQUIRE(is_unit(reader.value.data(), 3, 1e-5) && reader.value[3] >= 0 && reader.value[3] <= 1e15f);
+}
+
 void check_places(const Session& session, std::uint32_t group, std::uint32_t limb)
 {
     std::array<double, 11> places{};
@@ -144,6 +157,7 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     check_plant(reader);
     check_frame(reader, SWIVEL_PROP_FRAME, false);
     check_frame(reader, SWIVEL_HAND_FRAME, flags == SWIVEL_BAD_INPUT || is_endless(reader));
+    if (has_features(session, group, SWIVEL_LOOK)) return check_sight(session, group, limb, flags);
     if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
         return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_BAD_INPUT);
     check_rotations(reader);

@@ -178,7 +178,10 @@ bool Pose::is_valid(const Session& session, const std::vector<bool>& named) cons
                       place = pose.root_is_double ? 2 * three : three;
     bool needs_time = false;
     for (std::uint32_t group = 0; group < session.group_count; ++group)
-        needs_time = needs_time || (named[group] && has_features(session, group, SWIVEL_WITH_PLANT | SWIVEL_FIT));
+        needs_time =
+            needs_time ||
+            (named[group] && (has_features(session, group, SWIVEL_WITH_PLANT | SWIVEL_FIT) ||
+                              (has_features(session, group, SWIVEL_LOOK) && session.groups[group].look.rate > 0)));
     const auto are_right = [&](const swivel_joint_values& values, std::size_t size, bool is_written) {
         return are_valid(values, size, !is_written, session.bodies->body_count);
     };
