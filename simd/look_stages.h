@@ -30,12 +30,15 @@ struct LookGoal {
         const T given2 = len2(given);
         is_given = given2 == given2;
         s.require(is_share(own_weight) & ((given2 <= T(kHuge2)) | !is_given) & (len2(root_place) <= T(kHuge2)) &
-                  is_within(len2(turn), 0.99, 1.01) & (len2(s.body_vector(last + kPlaceRow)) <= T(kHuge2)) &
                   is_within(scale, kTiny, kHuge));
+        for (std::uint32_t n = 0; n < look.turned_count; ++n)
+            s.require(is_within(len2(s.body_rotor(look.turned[n].row + kTurnRow)), 0.99, 1.01) &
+                      (len2(s.body_vector(look.turned[n].row + kPlaceRow)) <= T(kHuge2)));
         const auto constant = [](const float(&v)[3]) SWIVEL_INLINE_LAMBDA { return vector(T(v[0]), T(v[1]), T(v[2])); };
         sight = {s.body_vector(last + kPlaceRow) + turned(turn, scale * constant(rules.eye)),
                  turned(turn, constant(rules.axis))};
-        target = given - root_place;
+        s.require(len2(sight.eye) <= T(kHuge2));
+        target = select(is_given, given - root_place, sight.eye + sight.axis);
         const Vector<T> to = target - sight.eye;
         const T distance = sqrt(len2(to));
         const Mask<T> leads = is_given & (distance > T(kTiny));

@@ -265,6 +265,7 @@ TEST_CASE("a target straight behind, no weight and no target keep the incoming b
     bodies.crowd.write(SWIVEL_LOOK_WEIGHT, 0, std::span(weights));
     bodies.solve(targets);
     CHECK(std::memcmp(bodies.rotations.data(), before.rotations.data(), 48 * sizeof before.rotations[0]) == 0);
+    for (std::size_t n = 0; n < 48; ++n) CHECK(std::fabs(bodies.line(n).norm() - 1) <= 1e-6);
     for (std::uint32_t n = 0; n < 48; ++n)
         CHECK((bodies.flags(n) & ~(n % 3 == 1 ? SWIVEL_FADED : 0)) == (n % 3 == 2 ? SWIVEL_FADED : 0));
 }

@@ -11,7 +11,7 @@
 namespace swivel::fuzz {
 namespace {
 
-constexpr std::uint32_t kFlags = 2 * SWIVEL_CUT - 1;
+constexpr std::uint32_t kFlags = 2 * SWIVEL_CUT - 1;  // of limbs
 constexpr std::size_t kMostComponents = 28;  // of seven twist bones
 
 double length_of(const float* v, std::size_t count)
@@ -153,11 +153,11 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     reader.read(SWIVEL_FLAGS);
     std::uint32_t flags = 0;
     std::memcpy(&flags, reader.value.data(), sizeof flags);
+    if (has_features(session, group, SWIVEL_LOOK)) return check_sight(session, group, limb, flags);
     SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
     check_plant(reader);
     check_frame(reader, SWIVEL_PROP_FRAME, false);
     check_frame(reader, SWIVEL_HAND_FRAME, flags == SWIVEL_BAD_INPUT || is_endless(reader));
-    if (has_features(session, group, SWIVEL_LOOK)) return check_sight(session, group, limb, flags);
     if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
         return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_BAD_INPUT);
     check_rotations(reader);

@@ -175,6 +175,7 @@ struct TakenJob {
         take_workspace();
         const bool is_part = job.blocks || job.on_this_thread;
         if ((job.limbs || job.priorities) && (is_part || job.mask)) is_valid = false;
+        if (job.probes_only && job.priorities) is_valid = false;
         if (bytes.one_in(64)) {
             job.size = bytes.one_in(2) ? 0 : sizeof job + 1 + bytes.take<std::uint8_t>();
             is_valid = false;
