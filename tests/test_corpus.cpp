@@ -23,7 +23,7 @@ std::uint32_t flags_of(Part part)
     for (const Recipe& recipe : recipes_of(part)) {
         const auto look = [&](Crowd& crowd, const Job& job) {
             crowd.solve(job);
-            for (std::uint32_t group = 0; group < kGroupCount; ++group) {
+            for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
                 for (const std::uint32_t word : read_field(crowd, recipe, Field::flags, group)) flags |= word;
             }
         };
@@ -42,9 +42,10 @@ TEST_CASE("ordinary arms are reached, too far and too near; limbs, bodies and th
     constexpr std::uint32_t reach = kReached | kClampedFar | kClampedNear;
     CHECK(flags_of(Part::ordinary) == reach);
     CHECK(flags_of(Part::hard) == (reach | kSwivelUndefined | kBadInput));
-    CHECK(flags_of(Part::limbs) == (kEveryFlag & ~kPlantFlags));
-    CHECK(flags_of(Part::bodies) == (kEveryFlag & ~kPlantFlags));
-    constexpr std::uint32_t stand = reach | kPlantFlags | kSoftened | kStretched | kBadInput;
+    CHECK(flags_of(Part::limbs) == (kEveryFlag & ~kPlantFlags & ~kLookFlags));
+    CHECK(flags_of(Part::bodies) == (kEveryFlag & ~kPlantFlags & ~kLookFlags));
+    constexpr std::uint32_t stand =
+        reach | kPlantFlags | kLookFlags | kLimitedStep | kSoftened | kStretched | kBadInput;
     CHECK(flags_of(Part::standing) == stand);
 }
 

@@ -16,6 +16,7 @@ struct Binding {
 };
 
 inline constexpr std::uint32_t kGroupCount = 3;
+inline constexpr std::uint32_t kLookCount = 2;  // groups more: the trunk's look, and the eye's
 inline constexpr Binding kBindings[kGroupCount] = {
     {
         {0.1f, 0.7f, 0.7f, 0.1f},

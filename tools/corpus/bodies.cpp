@@ -156,6 +156,7 @@ Skeleton skeleton_of(const Recipe& recipe)
             limb.twist_bones.push_back(static_cast<std::uint32_t>(bone));
         }
     }
+    if (recipe.pose & kLooks) add(2);  // an eye, on the trunk
     turn_round(skeleton);
     return skeleton;
 }

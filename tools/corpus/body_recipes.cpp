@@ -90,6 +90,11 @@ constexpr Recipe kStanding[] = {
              kLink | kHandFrame | kRecord | kClavicle),
     standing("prop", 0x0f52c96ae7b8d341u, kHand | kPoleIncoming | kFit, kTranslations, Holds::prop, kHand | kEffector |
              kPoleIncoming | kCap | kLink | kRecord),
+    standing("looks", 0x4bd27e9360fa815cu, kHand | kPoleIncoming | kFit, kTranslations | kSupports | kLooks),
+    standing("looks-far", 0xe6351fa80cb97d24u, kHand | kEffector | kPoleIncoming | kClavicle, kBetween | kFar | kSupports |
+             kAllJoints | kRests | kLooks),
+    standing("looks-in-body", 0x187f0ae54d9b36c2u, kHand | kPoleIncoming | kFit, kTranslations | kInBody | kLooks,
+             Holds::prop, kHand | kEffector | kPoleIncoming | kLink),
     standing("prop-at-joint", 0xb9837d1f5ec0264au, kHand | kEffector | kPoleIncoming | kGround | kFit, kBetween | kFar |
              kSupports | kRests, Holds::prop_at_joint, kHand | kEffector | kYields | kPoleIncoming | kReach |
              kStep | kLink),

@@ -12,13 +12,6 @@ namespace swivel::corpus {
 
 namespace {
 
-Vector random_vector(Random& random, double size)
-{
-    const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
-    return size * Vector{x, y, z};
-}
-Vector between(const Vector& from, const Vector& to, double share) { return from + share * (to - from); }
-
 Holder holder_of(const Recipe& recipe, std::uint32_t n, const Body& body)
 {
     Holder holder{stream(recipe.seed, 1, Field::motion, Use::value, n), body.root_scale, {}, {}, {}, {}, {}, {}};
@@ -39,13 +32,6 @@ Holder holder_of(const Recipe& recipe, std::uint32_t n, const Body& body)
     }
     return holder;
 }
-
-void put_vector(const Vector& v, float* at)
-{
-    const std::array<float, 3> numbers = floats(v);
-    std::copy(numbers.begin(), numbers.end(), at);
-}
-void put_vector(const Vector& v, double* at) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
 
 // A body's part of all bodies' values.
 template <class Value>

@@ -141,6 +141,8 @@ constexpr FlagName kFlags[] = {
     {kReleased, SWIVEL_RELEASED},
     {kBrokeAway, SWIVEL_BROKE_AWAY},
     {kCut, SWIVEL_CUT},
+    {kLimitedLook, SWIVEL_LIMITED_LOOK},
+    {kFaded, SWIVEL_FADED},
 };
 
 // In the order of enum Order.
@@ -233,6 +235,10 @@ constexpr swivel_ground kGrounds[kGroupCount] = {
     {{-0.1f, 0.02f, 0}, 0.05f, 0, 0.3f, 0},
 };
 constexpr float kMostMoves[] = {1, 0.1f};  // of props, and of those at a joint
+constexpr swivel_look kLooks[kLookCount] = {
+    {2, {}, {0.5f, 2}, {0.9f, 0.3f}, {0.02f, 0.1f, -0.05f}, {0.6f, 0, 0.8f}, 0.5f, -0.8f, 0.4f, 2},
+    {1, {}, {1}, {0.2f}, {0, 0, 0}, {0, 1, 0}, -0.5f, -1, 0, 0},
+};
 
 swivel_features library_features(const Recipe& recipe, std::uint32_t group)
 {
@@ -241,8 +247,9 @@ swivel_features library_features(const Recipe& recipe, std::uint32_t group)
         if (features_of(recipe, group) & name.feature) features |= name.library;
     return features;
 }
-// The groups after the limbs': the shift, and the prop.
+// The groups after the limbs': the shift, the prop, and the looks.
 std::uint32_t prop_group(bool has_shift) { return kGroupCount + (has_shift ? 1 : 0); }
+std::uint32_t look_group(bool has_shift, bool has_prop) { return prop_group(has_shift) + (has_prop ? 1 : 0); }
 
 Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swivel_group_def> groups)
 {
@@ -266,7 +273,7 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
         if (is_holding(recipe, static_cast<std::uint32_t>(g)))
             groups[g].link = has_prop(recipe) ? prop_group(recipe.features & kFit) : 0;
     }
-    swivel_group_def all[kGroupCount + 2];
+    swivel_group_def all[kGroupCount + 2 + kLookCount];
     swivel_group_def* end = std::copy(groups.begin(), groups.end(), all);
     if (recipe.features & kFit) {
         *end = swivel_default_fit_group_def();
@@ -278,6 +285,16 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
         // One of the trunk, which comes last.
         end++->prop = {is_at_joint ? static_cast<std::int32_t>(own.joint_count()) - 2 : -1, kMostMoves[is_at_joint]};
     }
+    for (std::uint32_t n = 0; recipe.pose & corpus::kLooks && n < kLookCount; ++n) {
+        *end = group(body_count, {}, SWIVEL_LOOK);
+        end->on_bad_input = groups[0].on_bad_input;
+        end->look = kLooks[n];
+        // The trunk comes last, from its root on; the eye first.
+        const std::uint32_t spine = own.joint_count() - 2, chest = own.joint_count() - 3;
+        end->look.joints[0] = n == 0 ? spine : 0;
+        end->look.joints[1] = n == 0 ? chest : 0;
+        ++end;
+    }
     swivel_crowd_def def = swivel_default_crowd_def();
     def.skeleton = &skeleton;
     def.body_count = body_count;
@@ -285,6 +302,14 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
     def.group_count = static_cast<std::uint32_t>(end - all);
     def.up[0] = 1, def.up[1] = 3, def.up[2] = -2;
     return Crowd(def);
+}
+
+// The first group with a feature, which one has.
+std::uint32_t group_with(const Crowd& crowd, swivel_features feature)
+{
+    std::uint32_t group = 0;
+    while (!(swivel_group_features(crowd.get(), group) & feature)) ++group;
+    return group;
 }
 
 // Values of bodies; none where they are empty.
@@ -404,11 +429,25 @@ void write_props(Crowd& crowd, const PropRows& props)
     const auto count = static_cast<std::uint32_t>(props.shares.size());
     const auto write = [&](swivel_field field, const std::vector<float>& values) {
         const swivel_in in{values.data(), values.size() / count * sizeof(float)};
-        check(swivel_write(crowd.get(), field, swivel_group_count(crowd.get()) - 1, 0, count, in));
+        check(swivel_write(crowd.get(), field, group_with(crowd, SWIVEL_PROP), 0, count, in));
     };
     if (!props.places.empty()) write(SWIVEL_PROP_PLACE, props.places);
     write(SWIVEL_PROP_TURN, props.turns);
     write(SWIVEL_PROP_SHARE, props.shares);
+}
+
+void write_looks(Crowd& crowd, const std::array<LookRows, kLookCount>& looks)
+{
+    const std::uint32_t first = group_with(crowd, SWIVEL_LOOK);
+    for (std::uint32_t n = 0; n < kLookCount; ++n) {
+        const auto count = static_cast<std::uint32_t>(looks[n].weights.size());
+        const auto write = [&](swivel_field field, const std::vector<float>& values) {
+            const swivel_in in{values.data(), values.size() / count * sizeof(float)};
+            check(swivel_write(crowd.get(), field, first + n, 0, count, in));
+        };
+        if (!looks[n].targets.empty()) write(SWIVEL_LOOK_TARGET, looks[n].targets);
+        write(SWIVEL_LOOK_WEIGHT, looks[n].weights);
+    }
 }
 
 void with_job(Poses& poses, const std::function<void(const Job&)>& take)
@@ -417,7 +456,7 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     const swivel_pose pose = library_pose(poses);
     Job job{.pose = &pose};
     if (!poses.mask.empty()) job.mask = poses.mask;
-    std::array<Frame, kGroupCount + 2> frames;
+    std::array<Frame, kGroupCount + 2 + kLookCount> frames;
     for (std::size_t g = 0; g < kGroupCount; ++g) {
         if (!poses.far_targets[g].empty()) frames[g].in(SWIVEL_TARGET, body_values(poses, poses.far_targets[g]));
         if (!poses.far_poles[g].empty()) frames[g].in(SWIVEL_POLE, body_values(poses, poses.far_poles[g]));
@@ -426,7 +465,11 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     }
     const std::uint32_t prop = prop_group(poses.has_shift);
     if (!poses.far_props.empty()) frames[prop].in(SWIVEL_PROP_PLACE, body_values(poses, poses.far_props));
-    const std::span<Frame> given = std::span(frames).first(prop + (poses.has_prop ? 1 : 0));
+    const std::uint32_t look = look_group(poses.has_shift, poses.has_prop);
+    for (std::uint32_t n = 0; n < kLookCount; ++n)
+        if (!poses.far_look_targets[n].empty())
+            frames[look + n].in(SWIVEL_LOOK_TARGET, body_values(poses, poses.far_look_targets[n]));
+    const std::span<Frame> given = std::span(frames).first(look + (poses.has_looks ? kLookCount : 0));
     if (pose.root_is_double) job.frames = given;
     take(job);
 }

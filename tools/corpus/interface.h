@@ -41,7 +41,7 @@ void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const
 // words have the corpus's bits.
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group);
 
-// Clears what a limb carries. The group after the limbs' is the shift, where there is one.
+// Clears what a limb carries. The groups after the limbs' are the shift, the prop and the looks, where there are any.
 void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb);
 // Changes what a body's limb of one group stands on.
 struct Support {
@@ -55,6 +55,11 @@ struct PropRows {
     std::vector<float> places, turns, shares;
 };
 void write_props(Crowd& crowd, const PropRows& props);
+// What bodies look at, body by body: places, unless they are empty, and weights.
+struct LookRows {
+    std::vector<float> targets, weights;
+};
+void write_looks(Crowd& crowd, const std::array<LookRows, kLookCount>& looks);
 
 // Calls take(job) with a job that solves all, and brings the poses.
 void with_job(Poses& poses, const std::function<void(const Job&)>& take);

@@ -29,10 +29,12 @@ struct Poses {
 
     // Of bodies that stand.
     bool has_shift = false, has_prop = false;  // a group more each
+    bool has_looks = false;                    // and two
     std::vector<float> times, support_positions, support_rotations;
     std::vector<double> far_supports;  // in place of support_positions
     std::vector<double> far_props;     // in place of rows
-    std::vector<std::uint32_t> mask;   // of bodies that are solved; empty: all
+    std::array<std::vector<double>, kLookCount> far_look_targets;
+    std::vector<std::uint32_t> mask;  // of bodies that are solved; empty: all
 
     std::uint32_t rotation_floats() const;
     // What a solve wrote, and what it did not write beside it.

@@ -13,8 +13,8 @@ enum class Part : std::uint8_t {
     hard,      // plain arms of bad numbers, degenerate poles, straight, folded, of every size
     limbs,     // whole limbs: each feature alone, and many together
     bodies,    // poses of bodies go in and out
-    standing,  // bodies over many frames: plants, caps, shifts, ground, and what hands hold; all but the last start
-               // from what the last frame left
+    standing,  // bodies over many frames: plants, caps, shifts, ground and looks, which start from what the last frame
+               // left, and what hands hold
 };
 inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs, Part::bodies, Part::standing};
 constexpr bool is_of_bodies(Part part) { return part == Part::bodies || part == Part::standing; }
@@ -147,9 +147,12 @@ enum Flag : std::uint32_t {
     kReleased = 1u << 19,
     kBrokeAway = 1u << 20,
     kCut = 1u << 21,
+    kLimitedLook = 1u << 22,
+    kFaded = 1u << 23,
     kUnknownFlag = 1u << 31,  // the library set a bit that the corpus does not know
 };
-inline constexpr std::uint32_t kPlantFlags = kPlanted | kReleased | kBrokeAway | kCut, kEveryFlag = (1u << 22) - 1;
+inline constexpr std::uint32_t kPlantFlags = kPlanted | kReleased | kBrokeAway | kCut,
+                               kLookFlags = kLimitedLook | kFaded, kEveryFlag = (1u << 24) - 1;
 
 enum class Order : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
 
@@ -170,6 +173,7 @@ enum PoseFeature : std::uint32_t {
     kInBody = 1u << 9,        // joints are relative to the root, and all below a limb's move with it
     kAllJoints = 1u << 10,    // where all needed joints are comes out, too
     kSupports = 1u << 11,     // what they stand on moves and turns, and is changed now and then
+    kLooks = 1u << 12,        // the trunk looks, and an eye on it
 };
 
 // What limbs hold.

@@ -12,7 +12,6 @@ namespace swivel::corpus {
 namespace {
 
 double between(double from, double to, double share) { return from + share * (to - from); }
-Vector between(const Vector& from, const Vector& to, double share) { return from + share * (to - from); }
 template <class Values>
 void put_between(const Values& from, const Values& to, double share, float* at)
 {
@@ -48,12 +47,6 @@ Vector root_of(const Recipe& recipe, const Body& body)
     return {as_float(x), as_float(y), as_float(z)};
 }
 
-Vector random_vector(Random& random, double size)
-{
-    const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
-    return size * Vector{x, y, z};
-}
-
 Mover mover_of(const Recipe& recipe, std::uint32_t n, const std::array<Body, 2>& poses)
 {
     Mover mover{stream(recipe.seed, 0, Field::motion, Use::value, n), poses[0], poses[1], {}, {}, {}, {}, {}, {}, {}};
@@ -75,16 +68,10 @@ Mover mover_of(const Recipe& recipe, std::uint32_t n, const std::array<Body, 2>&
     return mover;
 }
 
-void put_vector(const Vector& v, float* at)
-{
-    at[0] = static_cast<float>(v.x), at[1] = static_cast<float>(v.y), at[2] = static_cast<float>(v.z);
-}
-void put_vector(const Vector& v, double* at) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
-
 }  // namespace
 
 Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
-    : recipe_(recipe), poses_(make_poses(recipe, body_count, 0))
+    : recipe_(recipe), skeleton_(skeleton_of(recipe)), poses_(make_poses(recipe, body_count, 0))
 {
     const std::vector<Body> from = bodies_of(recipe, body_count, 0), to = bodies_of(recipe, body_count, 1);
     for (std::uint32_t n = 0; n < body_count; ++n) {
@@ -120,6 +107,7 @@ Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
     if (is_far) poses_.far_targets[kGroupCount - 1].resize(std::size_t{3} * body_count);
     rows_.shift_wishes.resize(body_count);
     if (recipe.features & kGround || recipe.holds != Holds::nothing) holding_.emplace(recipe, from, poses_);
+    if (recipe.pose & kLooks) looking_.emplace(recipe, from, poses_);
 }
 
 // Shares, some of them all or nothing; small ones of caps and zones.
@@ -145,6 +133,25 @@ void Standing::write_constants(Crowd& crowd) const
             for (std::size_t n = 2; field == Field::reach && n < values.size(); n += 4) values[n] += 1;  // the stretch
             write_field(crowd, field, group, values);
         }
+}
+
+void Standing::set_joints(std::uint32_t n, double swing)
+{
+    const Mover& mover = movers_[n];
+    Body body = mover.from;
+    for (std::size_t joint = 0; joint < poses_.joint_count; ++joint) {
+        put_between(mover.from.rotations[joint], mover.to.rotations[joint], swing, body.rotations[joint].data());
+        put_between(mover.from.translations[joint], mover.to.translations[joint], swing,
+                    body.translations[joint].data());
+    }
+    if (poses_.is_in_body) body = in_body_space(skeleton_, body);
+    float* rotation = &poses_.rotations[std::size_t{4} * poses_.joint_count * n];
+    for (std::size_t joint = 0; joint < poses_.joint_count; ++joint, rotation += 4)
+        std::copy(body.rotations[joint].begin(), body.rotations[joint].end(), rotation);
+    if (poses_.translations.empty()) return;
+    float* place = &poses_.translations[std::size_t{3} * poses_.joint_count * n];
+    for (std::size_t joint = 0; joint < poses_.joint_count; ++joint, place += 3)
+        std::copy(body.translations[joint].begin(), body.translations[joint].end(), place);
 }
 
 void Standing::set_root(std::uint32_t n, double swing)
@@ -227,18 +234,12 @@ void Standing::move_body(std::uint32_t frame, std::uint32_t n)
     Mover& mover = movers_[n];
     const auto swing = [&](std::size_t k) { return swing_of(mover.starts[k] + frame * mover.speeds[k]); };
     const double pose = swing(0);
-    float* rotation = &poses_.rotations[poses_.rotations.size() / movers_.size() * n];
-    for (std::size_t joint = 0; joint < poses_.joint_count; ++joint, rotation += 4)
-        put_between(mover.from.rotations[joint], mover.to.rotations[joint], pose, rotation);
-    if (!poses_.translations.empty()) {
-        float* place = &poses_.translations[std::size_t{3} * poses_.joint_count * n];
-        for (std::size_t joint = 0; joint < poses_.joint_count; ++joint, place += 3)
-            put_between(mover.from.translations[joint], mover.to.translations[joint], pose, place);
-    }
+    set_joints(n, pose);
     set_root(n, swing(1));
     set_goals(n, pose, pose <= 0 || pose >= 1);
     if (recipe_.pose & kSupports) set_support(n, support_of(n, mover.stands_on, swing(2)));
     if (holding_) holding_->move_body(n, root_now(n), swing(2), poses_);
+    if (looking_) looking_->move_body(n, root_now(n), swing(2), poses_);
     const std::uint32_t kind = mover.random.below(16);
     const double time = mover.random.between(0.004, 0.03);
     poses_.times[n] = static_cast<float>(kind == 0 ? 0 : kind == 1 ? 40 * time : time);
@@ -248,7 +249,7 @@ void Standing::move_body(std::uint32_t frame, std::uint32_t n)
 void Standing::change_carried(std::uint32_t frame, std::uint32_t n, Crowd& crowd)
 {
     Mover& mover = movers_[n];
-    const std::uint32_t group_count = kGroupCount + (poses_.has_shift ? 1 : 0);
+    const std::uint32_t group_count = kGroupCount + (poses_.has_shift ? 1 : 0) + (looking_ ? kLookCount : 0);
     const bool resets = mover.random.below(256) == 0, changes = mover.random.below(64) == 0;
     if (resets) reset_limb(crowd, mover.random.below(group_count), n);
     if (!changes || !(recipe_.pose & kSupports)) return;
@@ -290,6 +291,7 @@ void Standing::go_to(std::uint32_t frame, Crowd& crowd)
     if (!is_far) write_field(crowd, Field::target, kGroupCount - 1, rows_.targets[kGroupCount - 1]);
     if (poses_.has_shift) write_shift_wishes(crowd, rows_.shift_wishes);
     if (holding_) holding_->write(crowd);
+    if (looking_) looking_->write(crowd);
 }
 
 }  // namespace swivel::corpus

@@ -13,6 +13,7 @@
 #include "tools/corpus/bodies.h"
 #include "tools/corpus/holding.h"
 #include "tools/corpus/interface.h"
+#include "tools/corpus/looking.h"
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {
@@ -45,6 +46,7 @@ private:
     };
 
     void move_body(std::uint32_t frame, std::uint32_t body);
+    void set_joints(std::uint32_t body, double swing);
     void set_root(std::uint32_t body, double swing);
     void set_goals(std::uint32_t body, double swing, bool rests);
     Vector root_now(std::uint32_t body) const;
@@ -55,10 +57,12 @@ private:
     void choose(std::uint32_t frame);
 
     const Recipe& recipe_;
+    const Skeleton skeleton_;
     std::vector<Mover> movers_;
     Poses poses_;
     Changes rows_;
     std::optional<Holding> holding_;  // where feet are on ground or something is held
+    std::optional<Looking> looking_;
 };
 
 }  // namespace swivel::corpus

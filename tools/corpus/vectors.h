@@ -30,6 +30,7 @@ inline Vector cross(const Vector& a, const Vector& b)
 }
 inline double length(const Vector& a) { return square_root(dot(a, a)); }
 inline Vector unit(const Vector& a) { return (1 / length(a)) * a; }
+inline Vector between(const Vector& from, const Vector& to, double share) { return from + share * (to - from); }
 
 inline Rotation unit(const Rotation& q)
 {
@@ -60,6 +61,12 @@ inline Vector random_direction(Random& random)
         const double length2 = dot(v, v);
         if (length2 > 0.01 && length2 < 1) return unit(v);
     }
+}
+// Each number from -size to size.
+inline Vector random_vector(Random& random, double size)
+{
+    const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
+    return size * Vector{x, y, z};
 }
 // Of unit length, orthogonal to a unit axis.
 inline Vector random_across(Random& random, const Vector& axis)
@@ -94,6 +101,11 @@ inline std::array<float, 4> floats(const Rotation& q)
 {
     return {static_cast<float>(q.v.x), static_cast<float>(q.v.y), static_cast<float>(q.v.z), static_cast<float>(q.w)};
 }
+inline void put_vector(const Vector& v, float* at)
+{
+    at[0] = static_cast<float>(v.x), at[1] = static_cast<float>(v.y), at[2] = static_cast<float>(v.z);
+}
+inline void put_vector(const Vector& v, double* at) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
 inline Vector vector_of(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 inline Rotation rotation_of(const std::array<float, 4>& q) { return {{q[0], q[1], q[2]}, q[3]}; }
 
