@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a look goes smoothly. No joint turns far for a target that moves little; behind and very near it fades;
+// its line of sight turns at its rate. Checked with angles.
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <numbers>
+
+#include "tests/upright_bodies.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+TEST_CASE("no joint turns by more than four degrees while the target circles the head by one")
+{
+    constexpr int kSteps = 1440;
+    const Upright of;
+    UprightCrowd bodies(of, kSteps);
+    double most = 0;
+    for (const double distance : {0.4, 0.7, 1.5, 5.0})
+        for (const double height : {-0.6, -0.2, 0.0, 0.3})
+            for (const bool is_upright : {false, true}) {  // the circle
+                std::vector<Float3> targets;
+                for (int n = 0; n < kSteps; ++n) {
+                    const double angle = 2 * std::numbers::pi * n / kSteps;
+                    const Vector3d around = is_upright ? Vector3d(height, std::sin(angle), std::cos(angle))
+                                                       : Vector3d(std::sin(angle), height, std::cos(angle));
+                    targets.push_back(floats(Vector3d(of.eye() + distance * around)));
+                }
+                bodies.reset();
+                bodies.solve(targets);
+                for (int n = 0; n < kSteps; ++n)
+                    for (int joint = 0; joint < 4; ++joint)
+                        most = std::max(most, quat(bodies.rotations[n][joint])
+                                                  .angularDistance(quat(bodies.rotations[(n + 1) % kSteps][joint])));
+            }
+    INFO("degrees a degree: " << most * kSteps / (2 * std::numbers::pi));
+    CHECK(most * kSteps / (2 * std::numbers::pi) <= 4);
+}
+
+TEST_CASE("a target straight behind, no weight and no target keep the incoming bits")
+{
+    const Upright of;
+    UprightCrowd bodies(of, 48), before(of, 48);
+    Random random{1};
+    std::vector<Float3> targets;
+    std::vector<float> weights;
+    for (std::size_t n = 0; n < 48; ++n) {
+        for (Float4& q : bodies.rotations[n])
+            q = floats(Quaterniond(Eigen::AngleAxisd(n % 3 == 2 ? 0 : 0.3 * random.unit(), random.direction())));
+        targets.push_back(n % 3 == 0
+                              ? kNoPlace
+                              : floats(Vector3d(of.eye() + random.spread(0.1, 9) * (n % 3 == 1 ? random.direction()
+                                                                                               : Vector3d(0, 0, -1)))));
+        weights.push_back(n % 3 == 1 ? 0.0f : 1.0f);
+    }
+    before.rotations = bodies.rotations;
+    bodies.crowd.write(SWIVEL_LOOK_WEIGHT, 0, std::span(weights));
+    bodies.solve(targets);
+    CHECK(std::memcmp(bodies.rotations.data(), before.rotations.data(), 48 * sizeof before.rotations[0]) == 0);
+    for (std::size_t n = 0; n < 48; ++n) CHECK(std::fabs(bodies.line(n).norm() - 1) <= 1e-6);
+    for (std::uint32_t n = 0; n < 48; ++n)
+        CHECK((bodies.flags(n) & ~(n % 3 == 1 ? SWIVEL_FADED : 0)) == (n % 3 == 2 ? SWIVEL_FADED : 0));
+}
+
+TEST_CASE("a look fades behind, by the angle's cosine, and very near, by the distance")
+{
+    constexpr std::uint32_t kCount = 2000;
+    Upright of;
+    swivel_look& look = of.look.look;
+    look.joint_count = 1, look.joints[0] = 3, look.share[0] = 1, look.cos_most[0] = -1, look.near = 0.3f;
+    std::fill_n(look.eye, 3, 0.0f);
+    UprightCrowd bodies(of, kCount);
+    const Vector3d head(0, 1.57, 0.03), ahead = vec({look.axis[0], look.axis[1], look.axis[2]}).normalized();
+    Random random{4};
+    std::vector<Float3> targets;
+    for (std::uint32_t n = 0; n < kCount; ++n)
+        targets.push_back(floats(Vector3d(head + random.spread(0.02, 3) * random.direction())));
+    bodies.solve(targets);
+    const auto smooth = [](double x) { return x <= 0 ? 0 : x >= 1 ? 1 : x * x * (3 - 2 * x); };
+    int between = 0;
+    for (std::uint32_t n = 0; n < kCount; ++n) {
+        const Vector3d to = vec(targets[n]) - head;
+        const double angle = angle_between(ahead, to),
+                     behind = smooth((std::cos(angle) - double{look.cos_none}) /
+                                     (double{look.cos_full} - double{look.cos_none})),
+                     near = smooth(to.norm() / double{look.near}), weight = behind * near;
+        CAPTURE(n, angle, behind, near);
+        CHECK(std::fabs(angle_between(ahead, bodies.line(n)) - weight * angle) <= 1.1e-3 + 1e-6 / to.norm());
+        CHECK(((bodies.flags(n) & SWIVEL_FADED) != 0) == (weight < 1));
+        between += weight > 0.1 && weight < 0.9 && near < 0.9 && behind < 0.9;
+    }
+    CHECK(between > 20);
+}
+
+TEST_CASE("a line of sight turns at the look's rate, at any frame rate, and comes to rest on its target")
+{
+    Upright of;
+    of.look.look.rate = 3;
+    std::fill_n(of.look.look.cos_most, 4, -1.0f);
+    Random random{2};
+    std::vector<Float3> from, to;
+    for (int n = 0; n < 64; ++n) {
+        const auto ahead = [&] {
+            return floats(
+                Vector3d(of.eye() + random.spread(0.5, 5) * (random.direction() + Vector3d(0, 0, 1.2)).normalized()));
+        };
+        from.push_back(ahead()), to.push_back(n % 8 ? ahead() : kNoPlace);
+    }
+    for (const float frames : {15.0f, 60.0f, 600.0f, 2400.0f}) {
+        UprightCrowd bodies(of, 64);
+        bodies.solve(from, 1 / frames);
+        for (std::uint32_t n = 0; n < 64; ++n) CHECK((bodies.flags(n) & SWIVEL_REACHED));
+        std::vector<Vector3d> was;
+        for (std::size_t n = 0; n < 64; ++n) was.push_back(bodies.line(n));
+        const std::vector<Vector3d> first = was;
+        double most = 0;
+        int waits = 0;
+        for (int frame = 0; frame < 2 * static_cast<int>(frames); ++frame) {
+            bodies.reset();
+            bodies.solve(to, 1 / frames);
+            for (std::size_t n = 0; n < 64; ++n) {
+                const Vector3d is = bodies.line(n);
+                most = std::max(most, angle_between(was[n], is));
+                was[n] = is;
+                waits += (bodies.flags(static_cast<std::uint32_t>(n)) & SWIVEL_LIMITED_STEP) != 0;
+            }
+        }
+        INFO(frames << " frames a second, " << most * frames << " rad/s");
+        CHECK(most <= 2 * 3.0 / frames + 1e-5);  // of the line that is followed, and of its distance
+        CHECK(most >= 0.9 * 3.0 / frames);
+        CHECK(waits > 64);
+        for (std::uint32_t n = 0; n < 64; ++n) {
+            CHECK(bodies.flags(n) == (n % 8 ? SWIVEL_REACHED : 0));
+            if (n % 8 == 0) CHECK((bodies.rotations[n][3] == Float4{0, 0, 0, 1}));
+        }
+    }
+}
+
+TEST_CASE("where time stands still a line of sight stays, and a reset lets it begin anew")
+{
+    Upright of;
+    of.look.look.rate = 1;
+    UprightCrowd bodies(of, 1);
+    bodies.solve({{0, 1.6f, 3}}, 0.1f);
+    const Vector3d was = bodies.line(0);
+    bodies.reset();
+    bodies.solve({{2, 1.6f, 3}}, 0);
+    CHECK(angle_between(was, bodies.line(0)) <= 1e-6);
+    CHECK((bodies.flags(0) & SWIVEL_LIMITED_STEP));
+    bodies.crowd.reset(0);
+    bodies.reset();
+    bodies.solve({{2, 1.6f, 3}}, 0);
+    CHECK((bodies.flags(0) & SWIVEL_REACHED));
+}
