@@ -50,6 +50,7 @@ GOALS = (
     ("plant/*", "bound_plant/*", 1.5),
     ("plant/avx512", "goal_plant/*", 1),
     ("fit/*", "bound_fit/*", 1.5),
+    ("look/*", "bound_look/*", 1.6),
     ("fit/avx512", "goal_fit/*", 1),
     ("bodies_threads/2", "bodies_processes/2", 1.11),  # 0.9 times as fast
     # itself: at most so many times as long
@@ -88,7 +89,7 @@ class Result:
         self.isas = context.get("isas", "").split()
         self.best = self.isas[0] if self.isas else ""
         self.levels = {key.removeprefix("level_of/"): isa for key, isa in context.items() if key.startswith("level_of/")}
-        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production", "bound_forward", "bound_limbs", "bound_plant", "bound_fit")
+        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production", "bound_forward", "bound_limbs", "bound_plant", "bound_fit", "bound_look")
                       for isa in self.isas):
             parts = [self.ns(f"{bound}/{part}") for part in ("divider", "arithmetic")]
             if all(parts):  # the least time that divider and arithmetic allow
@@ -110,11 +111,14 @@ class Result:
                                f"body_stage/{isa}/limbs": whole - forward - goals}
 
     def add_feet(self):
-        """What plants add to a leg, and a shift to a body, as differences of jobs."""
+        """What plants add to a leg, and a shift and a look to a body, as differences of jobs."""
         for isa in self.isas:
             goals, planted, capped, fitted = (self.ns(f"feet/{isa}/{job}") for job in ("goals", "planted", "capped", "fitted"))
             if goals and planted and capped and fitted:
                 self.times |= {f"plant/{isa}": (planted - goals) / 2, f"cap/{isa}": (capped - planted) / 2, f"fit/{isa}": fitted - capped}
+            arms, look = (self.ns(f"looks/{isa}/{job}") for job in ("arms", "look"))
+            if arms and look:
+                self.times[f"look/{isa}"] = look - arms
         self.times |= {"goal_plant/avx512": PLANT_GOAL, "goal_fit/avx512": FIT_GOAL}
 
     def ns(self, name):
@@ -328,13 +332,13 @@ def bodies(result):
 
 
 def feet(result):
-    """What plants and shifts add to legs that have goals anyway."""
+    """What plants and shifts add to legs that have goals anyway, and a look to arms."""
     rows = []
     for isa in result.isas:
-        for own, text in (("plant", "a planted leg"), ("fit", "a shift for two legs")):
+        for own, text in (("plant", "a planted leg"), ("fit", "a shift for two legs"), ("look", "a look of four joints")):
             for other, name in (("bound", "bound of the ports"), ("goal", "the goal")):
                 rows += row(result, [f"{text}, {ISAS[isa]}"], f"{own}/{isa}", f"{other}_{own}/{isa}", name)
-    return Table("Feet: nanoseconds more than legs with goals take",
+    return Table("Feet and looks: nanoseconds more than limbs with goals take",
                  ["work", "swivel", "beside it", "its time", "ratio", "goal, at most", ""], rows)
 
 

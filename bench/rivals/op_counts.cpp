@@ -9,6 +9,7 @@
 #include "bench/rivals/counted.h"
 #include "core/fit.h"
 #include "core/limb.h"
+#include "core/look.h"
 #include "core/plant.h"
 #include "core/posed_limb.h"
 #include "core/solve_arm.h"
@@ -111,6 +112,45 @@ OpCounts count_ops()
     tally = {};
     const swivel::Rotor<Counted> shoulder = swivel::solve_plain(goal).pose.shoulder;
     swivel::with_sign_of(shoulder.at<swivel::kScalar>(), shoulder);
+    return tally;
+}
+
+OpCounts count_look_ops()
+{
+    constexpr int kTurned = 4, kFollowing = 8;
+    const auto place = [](int n) { return vector(0, 1.2 + 0.15 * n, 0.02); };
+    const Rotor<Counted> was = rotor(0.1, 0.05, -0.1, 0.98867), root = rotor(0.1, -0.2, 0.05, 0.97340);
+    const Counted scale(1.1);
+    const swivel::LookJoint joint{0.4f, 0.9f, 0.43589f};
+    tally = {};
+    // The line of sight, the target from it, and the line that is followed.
+    swivel::LineOfSight<Counted> sight{place(3) + swivel::turned(was, scale * vector(0, 0.1, 0.1)),
+                                       swivel::turned(was, vector(0, 0, 1))};
+    const swivel::Vector<Counted> given = vector(3, 2.5, 7) - vector(1, 0.5, 2), to = given - sight.eye;
+    const Counted distance = sqrt(swivel::len2(to)), nearness = Counted(1.0) / distance;
+    const swivel::FollowedLine<Counted> goal{swivel::turned(~root, nearness * to), nearness};
+    const Counted lever = sqrt(swivel::len2(sight.eye - place(0)));
+    const auto step = swivel::followed({vector(0, 0.6, 0.8), Counted(0.2)}, goal, lever, Counted(1.5) * Counted(0.016));
+    const swivel::Vector<Counted> target =
+        sight.eye + (Counted(1.0) / step.line.nearness) * swivel::turned(root, step.line.direction);
+    const Counted weight =
+        Counted(0.9) * swivel::look_weight(sight, target, swivel::LookFade{-0.9f, 1.6f, 0.15f}, scale);
+    // The chain, and the joints' local rotations.
+    Rotor<Counted> sum = swivel::one<Counted>();
+    for (int n = 0; n < kTurned; ++n) {
+        const swivel::Vector<Counted> at = n == 0 ? place(0) : place(n - 1) + swivel::turned(sum, place(n) - place(0));
+        const swivel::LookTurn<Counted> turn = n + 1 < kTurned ? swivel::share_of_look(sight, target, weight, joint)
+                                                               : swivel::rest_of_look(sight, at, target, weight, joint);
+        sight = {at + swivel::turned(turn.turn, sight.eye - at), swivel::turned(turn.turn, sight.axis)};
+        sum = n == 0 ? turn.turn : swivel::unit_rotation(turn.turn * sum);
+        const Rotor<Counted> rotation = sum * was;
+        store(swivel::unit_rotation(~was * rotation), was);
+    }
+    for (int n = 0; n < kFollowing; ++n) {
+        sum* was;
+        place(0) + swivel::turned(sum, place(n) - place(0));
+    }
+    swivel::sees(sight, given);
     return tally;
 }
 

@@ -35,6 +35,8 @@ struct FeetOps {
     OpCounts plant, fit;
 };
 FeetOps count_feet_ops();
+// Those of a look: spine, chest, neck and head turn to a target, eased, and the joints of both arms come along.
+OpCounts count_look_ops();
 
 // The least nanoseconds an arm for a kernel with these operations. The divider works on one root or division at a time.
 // All other operations share the multipliers and adders. Comparisons, selects, loads and stores count as free.
