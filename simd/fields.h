@@ -19,7 +19,7 @@ inline constexpr swivel_features kTwistBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_
                                                SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 // What every group of bodies has, and what makes one no limb.
 inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
-                                 kNoLimb = SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK;
+                                 kNoLimb = SWIVEL_NO_LIMB;
 struct FeatureRow {
     swivel_features feature;
     const char* name;

@@ -180,9 +180,9 @@ typedef uint64_t swivel_features;
 #define SWIVEL_PROP (UINT64_C(1) << 35)         // the group is a thing that hands hold, not a limb: swivel_prop
 #define SWIVEL_WITH_GROUND (UINT64_C(1) << 36)  // the foot that is planted stands on ground as it lies: swivel_ground
 #define SWIVEL_SENT (UINT64_C(1) << 37)  // its goal is made by the library: WITH_PLANT and WITH_LINK have it themselves
-#define SWIVEL_LOOK \
-    (UINT64_C(1) << 38)  // the group is a chain of joints that turns to a target, not a limb: swivel_look
-#define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
+#define SWIVEL_LOOK (UINT64_C(1) << 38)  // the group is joints that turn to a target, not a limb: swivel_look
+#define SWIVEL_NO_LIMB (SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK)  // a group of bodies that is no limb has one of these
+#define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)              // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
 // has its own value of each field. A wish is the swivel that pole, angle and incoming pose ask for.
@@ -769,6 +769,14 @@ static inline swivel_group_def swivel_default_prop_group_def(void)
 {
     swivel_group_def group = swivel_default_body_group_def(NULL);
     group.features = SWIVEL_PROP;
+    return group;
+}
+
+// A chain of joints of each body that looks. Name its joints in `look`.
+static inline swivel_group_def swivel_default_look_group_def(void)
+{
+    swivel_group_def group = swivel_default_body_group_def(NULL);
+    group.features = SWIVEL_LOOK;
     return group;
 }
 

@@ -103,6 +103,21 @@ inline swivel_group_def prop_group(const swivel_prop& prop = swivel_default_prop
     made.prop = prop;
     return made;
 }
+// A chain of joints of each body that looks, from the first to the last, such as spine, neck and head: 1 to 8 of them.
+inline swivel_group_def look_group(std::span<const std::uint32_t> joints,
+                                   const swivel_look& look = swivel_default_look())
+{
+    swivel_group_def made = swivel_default_look_group_def();
+    made.look = look;
+    made.look.joint_count = static_cast<std::uint32_t>(joints.size());
+    std::ranges::copy(joints.first(std::min<std::size_t>(joints.size(), SWIVEL_MOST_BONES)), made.look.joints);
+    return made;
+}
+inline swivel_group_def look_group(std::initializer_list<std::uint32_t> joints,
+                                   const swivel_look& look = swivel_default_look())
+{
+    return look_group(std::span(joints.begin(), joints.size()), look);
+}
 
 // A limb's alignments and bone lengths from its rest pose: swivel_bind(), swivel_bind_joints().
 inline swivel_binding bind(const swivel_chain& chain)
@@ -207,8 +222,10 @@ inline bool is_position(swivel_field field)
 // The numbers in a value of a field, in whichever kind of group has it.
 inline std::uint32_t component_count(swivel_field field)
 {
-    return std::max({swivel_component_count(field, ~(SWIVEL_FIT | SWIVEL_PROP)),
-                     swivel_component_count(field, SWIVEL_FIT), swivel_component_count(field, SWIVEL_PROP)});
+    std::uint32_t most = 0;
+    for (const swivel_features kind : {~SWIVEL_NO_LIMB, SWIVEL_FIT, SWIVEL_PROP, SWIVEL_LOOK})
+        most = std::max(most, swivel_component_count(field, kind));
+    return most;
 }
 
 // Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
@@ -470,7 +487,7 @@ public:
     Crowd(std::initializer_list<const swivel_group_def*> groups) = delete;
     explicit Crowd(const swivel_group_def& group) : Crowd(std::span(&group, 1)) {}
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
-    // Bodies of one skeleton, with a group for each limb, and perhaps for their shift and props. up: see
+    // Bodies of one skeleton, with a group for each limb, and perhaps for their shift, props and looks. up: see
     // swivel_crowd_def.
     Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const swivel_group_def> groups,
           const std::array<float, 3>& up = {0, 1, 0})

@@ -194,7 +194,7 @@ swivel_features body_features_of(Bytes& bytes)
 {
     swivel_feature_info info;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info) && info.feature != SWIVEL_BODY;) ++n;
-    return features_with(info.feature | info.needs, info.excludes | SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK, bytes);
+    return features_with(info.feature | info.needs, info.excludes | SWIVEL_NO_LIMB, bytes);
 }
 
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)

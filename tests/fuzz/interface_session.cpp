@@ -54,7 +54,7 @@ bool has_features(const Session& session, std::uint32_t group, swivel_features f
 
 bool is_known(const Session& session, std::uint32_t group)
 {
-    if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK)) return false;  // which is no limb
+    if (has_features(session, group, SWIVEL_NO_LIMB)) return false;  // which is no limb
     return !session.bodies || has_features(session, group, SWIVEL_WITH_RECORD);
 }
 

@@ -19,7 +19,7 @@ class Documentation(unittest.TestCase):
     def test_programs_run(self):
         text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
         programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertEqual(len(programs), 12)
+        self.assertEqual(len(programs), 13)
         names, printed = {}, io.StringIO()
         with contextlib.redirect_stdout(printed):
             for program in programs:
@@ -62,6 +62,13 @@ class Documentation(unittest.TestCase):
             np.testing.assert_allclose(hands[:, hand], names["stand"] + (x, 1.2, 0.35), atol=1e-4)
             self.assertLess(angles(turned[:, hand], np.array((0, 0, 0, 1.0))).max(), 1e-4)
         np.testing.assert_allclose(names["rifles"][:, :3], names["stand"] + (0, 1.2, 0.35), atol=1e-4)
+
+        self.assertTrue(np.all(names["seen"]))
+        place, turned = forward(names["watching"], names["spine"].translations, root=names["level"], parents=names["spine"].parents)
+        eye = place[:, 2] + rotate(turned[:, 2], np.array((0, 0.08, 0.1)))
+        line, to = rotate(turned[:, 2], np.array((0, 0, 1.0))), names["level"] + (0.8, 1.7, 2.5) - eye
+        self.assertLess((np.linalg.norm(np.cross(line, to), axis=1) / np.linalg.norm(to, axis=1)).max(), 2e-4)  # floats a kilometre off
+        np.testing.assert_allclose(names["sight"][:, 3:], line, atol=1e-5)
 
     def test_the_program_of_bodies_runs(self):
         text = (ROOT / "docs" / "howto" / "bodies.md").read_text(encoding="utf-8")

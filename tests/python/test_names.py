@@ -49,6 +49,8 @@ def crowd_with(features):
     if features & (Feature.PROP | Feature.WITH_LINK):
         hand = swivel.BodyGroup(*LIMBS[0], bend=(0, 0, 1), features=features & ~Feature.PROP | Feature.WITH_HAND | Feature.WITH_LINK, link=1)
         return swivel.Crowd([hand, swivel.PropGroup()], skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=1), int(bool(features & Feature.PROP))
+    if features & Feature.LOOK:
+        return swivel.Crowd(swivel.LookGroup([0]), skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=1), 0
     if features & Feature.SENT:  # which a group gets by itself
         features |= Feature.WITH_PLANT
     return (crowd_of(1, features) if features & Feature.BODY else swivel.Crowd(1, features)), 0
@@ -108,9 +110,10 @@ class Names(unittest.TestCase):
                                   ("swivel_limb_joints", swivel.BodyGroup, {"twist_bone_count"}),
                                   ("swivel_plant", swivel.Plant, set()), ("swivel_fit", swivel.FitGroup, set()),
                                   ("swivel_ground", swivel.Ground, set()), ("swivel_prop", swivel.PropGroup, set()),
+                                  ("swivel_look", swivel.LookGroup, {"joint_count"}),
                                   ("swivel_supports", swivel.Support, set()),
                                   ("swivel_pose", swivel.Pose, {"form", "root_is_double", "results", "translation_results"})):
-            members = set(re.findall(r"(\w+)(?:\[\d+\])?[,;]", body_of("struct", name))) - {"size", "reserved"}
+            members = set(re.findall(r"(\w+)(?:\[\w+\])?[,;]", body_of("struct", name))) - {"size", "reserved"}
             self.assertEqual(members - set(has._fields), others, f"swivel.{has.__name__} beside {name}")
 
     def test_constants_start_as_in_the_header(self):
@@ -145,7 +148,7 @@ class Stub(unittest.TestCase):
         core = sys.modules["swivel._core"]
         names = {node.name for node in STUB.body if public(node)} | {"LANES"}
         self.assertEqual(names, {name for name in vars(core) if name[0] != "_"})
-        self.assertEqual(names | {"BodyGroup", "FitGroup", "Ground", "Group", "Plant", "Pose", "PropGroup", "Skeleton", "Support", "solve"}, set(swivel.__all__))
+        self.assertEqual(names | {"BodyGroup", "FitGroup", "Ground", "Group", "LookGroup", "Plant", "Pose", "PropGroup", "Skeleton", "Support", "solve"}, set(swivel.__all__))
         for node in STUB.body:
             if isinstance(node, ast.ClassDef) and not issubclass(getattr(swivel, node.name), (int, tuple)):
                 wanted = {name for name in vars(getattr(swivel, node.name)) if name[0] != "_"}

@@ -28,8 +28,8 @@ constexpr const char* kCrowdText =
     "binding). Feature.JOINTS needs the binding that bind() gave. features, on_bad_input and the orders are\n"
     "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
     "With a skeleton it is a crowd of body_count bodies, whose groups are BodyGroups: limb i of each is body i's.\n"
-    "A FitGroup among them shifts the bodies, a PropGroup is a thing that hands hold. solve() then takes their pose, "
-    "and on_bad_input None is\n"
+    "A FitGroup among them shifts the bodies, a PropGroup is a thing that hands hold, a LookGroup looks. solve() then\n"
+    "takes their pose, and on_bad_input None is\n"
     "OnBadInput.KEEP_POSE instead of REST_POSE. up, of any length but 0, is the axis of heights and shifts in\n"
     "the root's frame.\n\n"
     "Targets and shoulder positions start as NaN, lengths as the binding's, or NaN: a limb that never gets them has\n"
@@ -124,7 +124,7 @@ swivel_group_def limbless(swivel_group_def def, const char* type, py::handle ent
     }
     return def;
 }
-// A swivel.FitGroup and a swivel.PropGroup.
+// A swivel.FitGroup, a swivel.PropGroup and a swivel.LookGroup.
 swivel_group_def fit_group_of(py::handle entry, const swivel_group_def& usual)
 {
     return limbless(fit_group(fit_of(entry)), "FitGroup", entry, usual);
@@ -132,6 +132,12 @@ swivel_group_def fit_group_of(py::handle entry, const swivel_group_def& usual)
 swivel_group_def prop_group_of(py::handle entry, const swivel_group_def& usual)
 {
     return limbless(prop_group(prop_of(entry)), "PropGroup", entry, usual);
+}
+swivel_group_def look_group_of(py::handle entry, const swivel_group_def& usual)
+{
+    swivel_group_def def = swivel_default_look_group_def();
+    def.look = look_of(entry);
+    return limbless(def, "LookGroup", entry, usual);
 }
 
 // From the lowest to the highest byte of any group's rows. A crowd's memory is one piece, so no array lies in between.
@@ -154,10 +160,10 @@ Memory memory_of(swivel_crowd* crowd)
     return {begin, static_cast<std::size_t>(end - begin)};
 }
 
+constexpr const char* kGroupTypes[] = {"Group", "BodyGroup", "FitGroup", "PropGroup", "LookGroup"};
 std::vector<py::object> entries_of(const py::object& groups)
 {
-    const bool is_one =
-        is_a("Group", groups) || is_a("BodyGroup", groups) || is_a("FitGroup", groups) || is_a("PropGroup", groups);
+    const bool is_one = std::ranges::any_of(kGroupTypes, [&](const char* type) { return is_a(type, groups); });
     if (is_one || is_number(groups) || !py::isinstance<py::iterable>(groups)) return {groups};
     std::vector<py::object> entries;
     for (const py::handle entry : groups) entries.push_back(py::reinterpret_borrow<py::object>(entry));
@@ -180,6 +186,7 @@ HeldCrowd make(const py::object& groups, std::int64_t features, std::int64_t sho
     for (std::size_t n = 0; n < entries.size(); ++n)
         groups_of_crowd.push_back(is_a("FitGroup", entries[n])    ? fit_group_of(entries[n], usual)
                                   : is_a("PropGroup", entries[n]) ? prop_group_of(entries[n], usual)
+                                  : is_a("LookGroup", entries[n]) ? look_group_of(entries[n], usual)
                                   : is_a("BodyGroup", entries[n]) ? body_group_of(entries[n], usual, joints[n])
                                                                   : group_of(entries[n], usual));
     swivel_crowd_def def = swivel_default_crowd_def();

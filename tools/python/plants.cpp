@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "tools/python/plants.h"
 
+#include <pybind11/stl.h>
+
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <vector>
 
+#include "tools/python/arrays.h"
 #include "tools/python/names.h"
 
 namespace py = pybind11;
@@ -24,6 +31,14 @@ Number number_of(const char* of, const char* name, const py::handle& given)
                              (std::is_integral_v<Number> ? "whole " : "") + "number, got " +
                              std::string(py::repr(value)));
     }
+}
+
+// A number for each joint, or one for all.
+void copy_each(const char* name, const py::object& given, std::span<float> to)
+{
+    const Input in = input({name, to.size(), 1, "joints"}, given, py::dtype::of<float>(), true);
+    for (std::size_t n = 0; n < to.size(); ++n)
+        std::memcpy(&to[n], static_cast<const char*>(in.values.data) + n * in.values.stride, sizeof(float));
 }
 
 void require(const char* name, const char* type, const py::object& given)
@@ -70,6 +85,29 @@ swivel_fit fit_of(const py::handle& group)
 swivel_prop prop_of(const py::handle& group)
 {
     return {number_of<std::int32_t>("prop", "joint", group), number_of("prop", "most_move", group)};
+}
+
+swivel_look look_of(const py::handle& group)
+{
+    const auto number = [&](const char* name) { return number_of("look", name, group); };
+    swivel_look made = swivel_default_look();
+    std::vector<std::int64_t> joints;
+    try {
+        joints = group.attr("joints").cast<std::vector<std::int64_t>>();
+    } catch (const py::cast_error&) {
+        throw py::type_error("look.joints: expected numbers of joints, got " +
+                             std::string(py::repr(group.attr("joints"))));
+    }
+    made.joint_count = static_cast<std::uint32_t>(joints.size());
+    const std::size_t count = std::min<std::size_t>(joints.size(), SWIVEL_MOST_BONES);
+    for (std::size_t n = 0; n < count; ++n) made.joints[n] = count_of("look.joints", joints[n]);
+    copy_each("look.share", group.attr("share"), std::span(made.share).first(count));
+    copy_each("look.cos_most", group.attr("cos_most"), std::span(made.cos_most).first(count));
+    copy("look.eye", group.attr("eye"), made.eye);
+    copy("look.axis", group.attr("axis"), made.axis);
+    made.cos_full = number("cos_full"), made.cos_none = number("cos_none");
+    made.near = number("near"), made.rate = number("rate");
+    return made;
 }
 
 SupportArrays supports_of(const char* name, const py::object& given, std::size_t body_count)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How limbs stand, how bodies are shifted for them, what they stand on and hold, as Python gives these. Knows no crowd.
+// How limbs stand, how bodies are shifted for them, what they stand on, hold and look with, as Python gives these. Knows no crowd.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,12 +12,13 @@
 
 namespace swivel::python {
 
-// A swivel.Plant, a swivel.Ground, and the members of a swivel.FitGroup and a swivel.PropGroup. TypeError for what is
-// no number.
+// A swivel.Plant, a swivel.Ground, and the members of a swivel.FitGroup, a swivel.PropGroup and a swivel.LookGroup.
+// TypeError for what is no number.
 swivel_plant plant_of(const pybind11::object& given);
 swivel_ground ground_of(const pybind11::object& given);
 swivel_fit fit_of(const pybind11::handle& group);
 swivel_prop prop_of(const pybind11::handle& group);
+swivel_look look_of(const pybind11::handle& group);
 
 // Supports of some bodies, and the arrays that they view.
 struct SupportArrays {

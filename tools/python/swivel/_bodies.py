@@ -133,6 +133,36 @@ class PropGroup(NamedTuple):
     on_bad_input: Optional[OnBadInput] = None
 
 
+class LookGroup(NamedTuple):
+    """A chain of joints of each body that looks: a line of sight in the last joint meets Field.LOOK_TARGET. One of a Crowd's groups.
+
+    It is no limb, and its one feature is Feature.LOOK. It comes after the shift and before all props and limbs, so limbs may hang below it. An
+    eye is a LookGroup of one joint, after that of the head. Field.SIGHT is where the line then is: its start and its direction.
+
+    joints        1 to 8 of the skeleton, each below the one before, such as spine, neck and head
+    share         (joints,) of what is left of the turn, against those after it; a number: the same of all
+    cos_most      (joints,) cosine of the angle that each turns at most, -1 to 1; a number: the same of all
+    eye           (3,) where the line starts, in the last joint's frame, in its unit
+    axis          (3,) where it points, in the last joint's frame, of any length but 0
+    cos_full      the look fades as the target goes behind: from this cosine between line and target
+    cos_none      to this one, at which the pose stays
+    near          it also fades nearer than this, in the last joint's unit
+    rate          radians a second that the line turns at most; 0: it is not eased, and the pose needs no time
+    on_bad_input  what a body with bad input gets; None: as the crowd says
+    """
+
+    joints: Sequence[int]
+    share: npt.ArrayLike = 1
+    cos_most: npt.ArrayLike = 0.70710678
+    eye: npt.ArrayLike = (0, 0, 0)
+    axis: npt.ArrayLike = (0, 0, 1)
+    cos_full: float = -0.1
+    cos_none: float = -0.9
+    near: float = 0.05
+    rate: float = 6
+    on_bad_input: Optional[OnBadInput] = None
+
+
 class Support(NamedTuple):
     """What planted points stand on, for Crowd.change_support(): a platform, a ladder, the ground.
 
