@@ -694,14 +694,14 @@ typedef struct swivel_look {
     float rate;                          // radians a second; 0: the line is not eased
 } swivel_look;
 
-// No joints yet: shares of 1, cones of 45 degrees, a line along the last joint's z axis. It fades from 96 to 154
+// No joints yet: shares of 1, cones of 46 degrees, a line along the last joint's z axis. It fades from 96 to 154
 // degrees and nearer than 0.05, and turns by 6 radians a second.
 static inline swivel_look swivel_default_look(void)
 {
     swivel_look look;
     int n;
     memset(&look, 0, sizeof look);
-    for (n = 0; n < SWIVEL_MOST_BONES; ++n) look.share[n] = 1, look.cos_most[n] = 0.70710678f;
+    for (n = 0; n < SWIVEL_MOST_BONES; ++n) look.share[n] = 1, look.cos_most[n] = 0.7f;
     look.axis[2] = 1;
     look.cos_full = -0.1f, look.cos_none = -0.9f;
     look.near = 0.05f;

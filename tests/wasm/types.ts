@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The promise: the types of the package for the web allow what works, and refuse what does not. tsc reads this, nothing runs it.
-import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultGround, defaultPlant, Feature, Field, type Fit, type FitGroup, Flag, type Ground, type Group, load, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Prop, type PropGroup, type Support, type Swivel, SwivelError } from 'swivel-wasm';
+import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultGround, defaultPlant, Feature, Field, type Fit, type FitGroup, Flag, type Ground, type Group, load, type Look, type LookGroup, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Prop, type PropGroup, type Support, type Swivel, SwivelError } from 'swivel-wasm';
 
 const swivel: Swivel = await load({ megabytes: 4 });
 const binding: Binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: new Float32Array([0, 0, 1]), bend: [0, 1, 0] });
@@ -18,6 +18,7 @@ const bodies: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], fo
 const plant: Plant = { ...defaultPlant, lock: 0.1, speed: [0.5, 0.7] }, fit: Fit = { drop: 0.2 }, shift: FitGroup = { fit, onBadInput: OnBadInput.KEEP_POSE };
 const standing: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, plant }, shift], up: [0, 0, 1] });
 const ground: Ground = { ...defaultGround, heel: [0, -0.06, -0.06] }, prop: Prop = { joint: 0, mostMove: 0.1 }, rifle: PropGroup = { prop };
+const look: Look = { joints: [0, 1], share: [1, 2], cosMost: 0.5 }, watch: LookGroup = { look };
 const holding: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, features: Feature.WITH_HAND | Feature.WITH_LINK, ground, link: 1 }, rifle] });
 const probed: number = holding.solve({ probesOnly: true });
 const support: Support = { position: new Float64Array(3), rotation: [0, 0, 0, 1] };

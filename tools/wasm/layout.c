@@ -27,6 +27,7 @@ _Static_assert(sizeof(swivel_plant) == 11 * sizeof(float), "groups.ts writes it 
 _Static_assert(sizeof(swivel_fit) == 4 * sizeof(float), "groups.ts writes it as floats");
 _Static_assert(sizeof(swivel_ground) == 7 * sizeof(float), "groups.ts writes it as floats");
 _Static_assert(sizeof(swivel_prop) == 8, "groups.ts writes it as a joint and a float");
+_Static_assert(sizeof(swivel_look) == 35 * 4, "groups.ts writes it as a count, 8 joints and 26 floats");
 
 static void print_features(void)
 {
@@ -95,6 +96,7 @@ static void print_constants(void)
     const swivel_fit fit = swivel_default_fit();
     const swivel_ground ground = swivel_default_ground();
     const swivel_prop prop = swivel_default_prop();
+    const swivel_look look = swivel_default_look();
     printf("\nexport const defaultPlant = {\n");
     CONSTANT(plant, lock), CONSTANT(plant, unlock), CONSTANT(plant, stop), CONSTANT(plant, blend);
     CONSTANT(plant, again), CONSTANT(plant, run), CONSTANT(plant, longest), PAIR(plant, speed), PAIR(plant, height);
@@ -105,6 +107,9 @@ static void print_constants(void)
     RENAMED(ground, heel_clearance, "heelClearance"), RENAMED(ground, cos_most, "cosMost"), CONSTANT(ground, half);
     printf("} as const;\n\nexport const defaultProp = {\n");
     CONSTANT(prop, joint), RENAMED(prop, most_move, "mostMove");
+    printf("} as const;\n\nexport const defaultLook = {\n");
+    RENAMED(look, share[0], "share"), RENAMED(look, cos_most[0], "cosMost"), TRIPLE(look, eye), TRIPLE(look, axis);
+    RENAMED(look, cos_full, "cosFull"), RENAMED(look, cos_none, "cosNone"), CONSTANT(look, near), CONSTANT(look, rate);
     printf("} as const;\n");
 }
 
@@ -134,7 +139,9 @@ static void print_structures(void)
     OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
     OFFSET(swivel_group_def, binding), OFFSET(swivel_group_def, joints), OFFSET(swivel_group_def, plant);
     OFFSET(swivel_group_def, fit), OFFSET(swivel_group_def, ground), OFFSET(swivel_group_def, prop);
-    OFFSET(swivel_group_def, link), END();
+    OFFSET(swivel_group_def, link), OFFSET(swivel_group_def, look), END();
+    BEGIN(swivel_look), OFFSET(swivel_look, joints), OFFSET(swivel_look, share), OFFSET(swivel_look, cos_most);
+    OFFSET(swivel_look, eye), OFFSET(swivel_look, axis), OFFSET(swivel_look, cos_full), END();
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);
     OFFSET(swivel_crowd_def, workspace_count), OFFSET(swivel_crowd_def, groups);
     OFFSET(swivel_crowd_def, skeleton), OFFSET(swivel_crowd_def, body_count), OFFSET(swivel_crowd_def, up), END();
@@ -153,6 +160,7 @@ static void print_structures(void)
     OFFSET(swivel_pose, support_position), OFFSET(swivel_pose, support_rotation), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
+    printf("export const MOST_BONES = %d;\n", SWIVEL_MOST_BONES);
     printf("export const ENTITY_COUNT = %d;\n", SWIVEL_ENTITY_COUNT);
     printf("export const RESULT_END = %d;\n", SWIVEL_RESULT_END);
     printf("export const EXPLANATION_BYTES = %d;\n", SWIVEL_EXPLANATION_BYTES);

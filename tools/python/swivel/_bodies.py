@@ -153,7 +153,7 @@ class LookGroup(NamedTuple):
 
     joints: Sequence[int]
     share: npt.ArrayLike = 1
-    cos_most: npt.ArrayLike = 0.70710678
+    cos_most: npt.ArrayLike = 0.7
     eye: npt.ArrayLike = (0, 0, 0)
     axis: npt.ArrayLike = (0, 0, 1)
     cos_full: float = -0.1

@@ -4,7 +4,7 @@ import { carried, EXPLANATION_BYTES } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
-export type { BodiesGroup, BodyGroup, Fit, FitGroup, Ground, Group, GroupOptions, Plant, Prop, PropGroup } from "./groups.js";
+export type { BodiesGroup, BodyGroup, Fit, FitGroup, Ground, Group, GroupOptions, Look, LookGroup, Plant, Prop, PropGroup } from "./groups.js";
 export type { Limbs } from "./rows.js";
 
 /**

@@ -3,7 +3,7 @@
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
 import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { defaultFit, defaultGround, defaultPlant, defaultProp, Feature, layout, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
+import { defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, layout, MOST_BONES, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
 
 /** What groups of free limbs and of bodies have. */
@@ -80,6 +80,25 @@ export interface Prop {
     /** The most that it moves, in lengths of the first limb that is linked to it. 0: it stays, as a ladder does. */
     mostMove?: number;
 }
+/** How a chain of joints looks, as swivel_look. What is left out is as defaultLook has it. */
+export interface Look {
+    /** 1 to 8 of the skeleton, each below the one before, such as spine, neck and head. */
+    joints: readonly number[];
+    /** Of what is left of the turn, against those after it: of each joint, or one for all. */
+    share?: number | Numbers;
+    /** The cosine of the angle that each turns at most, -1 to 1: of each joint, or one for all. */
+    cosMost?: number | Numbers;
+    /** Where the line of sight starts, and where it points: in the last joint's frame. */
+    eye?: Numbers;
+    axis?: Numbers;
+    /** The look fades as the target goes behind, between these cosines of its angle. At cosNone the pose stays. */
+    cosFull?: number;
+    cosNone?: number;
+    /** It also fades nearer than this, in the last joint's unit. */
+    near?: number;
+    /** Radians a second that the line turns at most. 0: it is not eased. */
+    rate?: number;
+}
 /** The limb of each body that has these joints. */
 export interface BodyGroup extends LimbOptions {
     /** Its features get the number of twistBones, unless they have one. */
@@ -107,6 +126,13 @@ export interface PropGroup {
     onBadInput?: number;
 }
 
+/** A chain of joints of each body that looks at Field.LOOK_TARGET. It has Feature.LOOK and no other, and is no limb. */
+export interface LookGroup {
+    look: Look;
+    /** As BodyGroup's. */
+    onBadInput?: number;
+}
+
 /** The skeleton of all bodies of a crowd, and how many these are. */
 export interface SharedSkeleton {
     skeleton: Skeleton;
@@ -124,6 +150,7 @@ export interface CheckedGroup extends GroupOptions {
     ground?: Ground;
     prop?: Prop;
     link?: number;
+    look?: Look;
 }
 
 function checkedFeatures(features: bigint): bigint {
@@ -150,16 +177,20 @@ function withTwistBones(group: CheckedGroup): CheckedGroup {
     if (group.features & (most * Feature.WITH_TWIST_BONES)) return group;
     return { ...group, features: group.features | (count < most ? count : most) * Feature.WITH_TWIST_BONES };
 }
-/** A group of bodies: a limb of each, their shift, or a thing that they hold. */
-export type BodiesGroup = BodyGroup | FitGroup | PropGroup;
-function isFit(group: BodiesGroup): group is FitGroup { return typeof group === "object" && group !== null && "fit" in group; }
-function isProp(group: BodiesGroup): group is PropGroup { return typeof group === "object" && group !== null && "prop" in group; }
+/** A group of bodies: a limb of each, their shift, a thing that they hold, or a chain that looks. */
+export type BodiesGroup = BodyGroup | FitGroup | PropGroup | LookGroup;
+/** Groups that are no limbs: by the member that names them. */
+const limbless = [["fit", Feature.FIT, "a group of shifts"], ["prop", Feature.PROP, "a prop's group"], ["look", Feature.LOOK, "a group that looks"]] as const;
+const NO_LIMB = Feature.FIT | Feature.PROP | Feature.LOOK;
+function bodyGroup(group: BodiesGroup): Omit<BodyGroup, "joints"> & { features?: bigint } {
+    for (const [member, features, name] of limbless)
+        if (typeof group === "object" && group !== null && member in group) return { ...options(name, group, member as never, "onBadInput"), features };
+    return options("a group of bodies", group as BodyGroup, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link");
+}
 export function bodyGroups(groups: readonly BodiesGroup[], features: bigint, bodyCount: number): CheckedGroup[] {
     const limbCount = whole("bodyCount", bodyCount);
     return checkedList(groups, features, "[{ joints: { shoulder: 1, elbow: 2, wrist: 3 } }]", (group) => {
-        const given = isFit(group) ? { ...options("a group of shifts", group, "fit", "onBadInput"), features: Feature.FIT } :
-            isProp(group) ? { ...options("a prop's group", group, "prop", "onBadInput"), features: Feature.PROP } :
-            options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link");
+        const given = bodyGroup(group);
         return { ...given, onBadInput: given.onBadInput ?? OnBadInput.KEEP_POSE, limbCount };
     }).map(withTwistBones);
 }
@@ -180,20 +211,38 @@ function propBytes(given: Prop): Uint8Array {
     return new Uint8Array(bytes.buffer);
 }
 
+/** A swivel_look's bytes: a count, the joints, and floats: shares, cones, eye, axis, and four numbers. */
+function lookBytes(given: Look): Uint8Array {
+    const look = { ...defaultLook, ...options("look", given as Look & Record<string, unknown>, "joints", ...Object.keys(defaultLook) as (keyof typeof defaultLook)[]) };
+    if (!Array.isArray(look.joints)) refuse(`look.joints is ${shown(look.joints)}; give numbers of joints`);
+    const joints = look.joints.slice(0, MOST_BONES), bytes = new DataView(new ArrayBuffer(layout.swivel_look.bytes));
+    const each = (name: string, value: number | Numbers) =>
+        typeof value === "object" ? Array.from(numbers(name, value, joints.length)) : Array(joints.length).fill(real(name, value));
+    const put = (at: number, values: ArrayLike<number>) => Array.from(values).forEach((x, n) => bytes.setFloat32(at + 4 * n, x, true));
+    bytes.setUint32(0, look.joints.length, true);
+    joints.forEach((joint, n) => bytes.setUint32(layout.swivel_look.joints + 4 * n, whole("look.joints", joint), true));
+    put(layout.swivel_look.share, each("look.share", look.share)), put(layout.swivel_look.cos_most, each("look.cosMost", look.cosMost));
+    put(layout.swivel_look.eye, numbers("look.eye", look.eye, 3)), put(layout.swivel_look.axis, numbers("look.axis", look.axis, 3));
+    const { cosFull, cosNone, near, rate } = look;
+    put(layout.swivel_look.cos_full, Object.entries({ cosFull, cosNone, near, rate }).map(([name, value]) => real(`look.${name}`, value)));
+    return new Uint8Array(bytes.buffer);
+}
+
 /** Makes the library's crowd. Without a skeleton its limbs are free. */
 export function create(memory: Memory, groups: readonly CheckedGroup[], bodies?: SharedSkeleton): number {
     return memory.borrow((borrowed) => {
         const size = layout.swivel_group_def.bytes, list = borrowed.bytes(size * groups.length), crowd = borrowed.bytes(4);
         groups.forEach((group, n) => {
             const { limbCount, features, binding, joints, shoulderOrder = 0, wristOrder = 0, onBadInput = 0 } = group;
-            const { plant = {}, fit = {}, ground = {}, prop = {}, link = 0 } = group;
+            const { plant = {}, fit = {}, ground = {}, prop = {}, link = 0, look } = group;
             const def = new Structure(memory, "swivel_group_def", list + n * size).wide("features", features);
             def.words("limb_count", limbCount).words("on_bad_input", whole("onBadInput", onBadInput));
             def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
             if (binding) def.copy("binding", binding.bytes);
             def.floats("plant", constants("plant", plant, defaultPlant)).floats("fit", constants("fit", fit, defaultFit));
             def.floats("ground", constants("ground", ground, defaultGround)).copy("prop", propBytes(prop)).words("link", whole("link", link));
-            if (bodies && !(features & (Feature.FIT | Feature.PROP))) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
+            if (look) def.copy("look", lookBytes(look));
+            if (bodies && !(features & NO_LIMB)) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
         });
         const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("workspace_count", 1).words("groups", list);
         if (bodies) {

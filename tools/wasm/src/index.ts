@@ -9,10 +9,10 @@ export type { FieldNumber, Numbers } from "./arguments.js";
 export type { Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
 export type { Bodies, BodiesOptions, Comparison, LimbPlaces, PosePart, Support } from "./bodies.js";
 export type {
-    Arc, BodiesGroup, BodyGroup, Crowd, Fit, FitGroup, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Place, Plant, Prop, PropGroup,
+    Arc, BodiesGroup, BodyGroup, Crowd, Fit, FitGroup, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Place, Plant, Prop, PropGroup,
 } from "./crowd.js";
 export {
-    defaultFit, defaultGround, defaultPlant, defaultProp, Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm,
+    defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm,
     PoseSpace, Status, VERSION,
 } from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";
