@@ -13,6 +13,7 @@
 
 #include "batch/explain_ground.h"
 #include "batch/explain_hold.h"
+#include "batch/explain_look.h"
 #include "batch/explain_plant.h"
 #include "batch/forward.h"
 #include "batch/joint_angles.h"
@@ -387,6 +388,8 @@ void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, std
         explain_shift(group, limb, text);
     else if (group.features & SWIVEL_PROP)
         explain_prop(crowd, group, limb, text);
+    else if (group.features & SWIVEL_LOOK)
+        explain_look(group, limb, text);
     else
         explain_limb(crowd, group, limb, text);
 }

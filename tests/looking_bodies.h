@@ -50,8 +50,6 @@ struct TurnedChain {
     Float3 eye_of() const { return {look.eye[0], look.eye[1], look.eye[2]}; }
     Float3 axis_of() const { return {look.axis[0], look.axis[1], look.axis[2]}; }
 };
-inline double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-inline double angle_of(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
 
 // The way from the root down to a joint's parent.
 inline std::vector<std::uint32_t> way_down(const BodySkeleton& skeleton, std::uint32_t joint)
@@ -113,11 +111,11 @@ struct LookingBodies : LinkedBodies {
             });
         }
     }
-    void add_look(Random& random, std::span<const std::uint32_t> joints)
+    void add_look(Random& random, std::span<const std::uint32_t> chain)
     {
-        const std::uint32_t group = add(look_def(random, joints));
+        const std::uint32_t group = add(look_def(random, chain));
         looks.push_back(group);
-        const std::uint32_t last = joints.back();
+        const std::uint32_t last = chain.back();
         give(group, SWIVEL_LOOK_TARGET, [&](std::size_t n) {
             const std::vector<JointAt> at = joints_at(skeleton, bodies[n]);
             return floats(Vector3d(vec(bodies[n].root_position) + at[last].place +

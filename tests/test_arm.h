@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -35,6 +36,10 @@ inline Float4 floats(const Quaterniond& q)
 {
     return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
 }
+
+// In radians.
+inline double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+inline double angle_of(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
 
 // Distance of two rotations as quaternions; q and -q are one.
 inline double distance(const Quaterniond& a, const Quaterniond& b)

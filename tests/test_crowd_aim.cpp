@@ -29,8 +29,6 @@ std::array<float, 5> value_of(const Aim& aim)
     return value;
 }
 
-double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 // How far a point is from a ray.
 double off_ray(const Vector3d& point, const Vector3d& from, const Vector3d& axis)
 {

@@ -1209,9 +1209,10 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // For people and logs: the words may change, and the last digits differ between C libraries. A text that was cut ends
 // in three dots. Of bodies it needs WITH_RECORD. Then it also says why a planted point stands or slides, and what a
 // hand holds. It says how the ground lifts and turns a foot, for a root that is upright. Of a group that is no limb it
-// needs none, and says how the body is shifted, or where the prop is and why. With the hands' records it says how far
-// the prop moved, and how far each hand is from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body
-// `limb`, with a line for each that begins "group 0: ". Takes up to a millisecond for a limb; no allocation.
+// needs none, and says how the body is shifted, where the prop is and why, or by how much a line of sight misses. With
+// the hands' records it says how far the prop moved, and how far each hand is from its grip. With SWIVEL_EVERY_GROUP it
+// says so of all groups of body `limb`, with a line for each that begins "group 0: ". Takes up to a millisecond for a
+// limb; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
