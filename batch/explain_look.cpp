@@ -5,7 +5,7 @@
 
 #include "batch/explain_plant.h"
 #include "batch/limb_value.h"
-#include "core/algebra.h"
+#include "core/joint_frame.h"
 #include "core/bit_cast.h"
 
 namespace swivel {
@@ -49,7 +49,7 @@ struct Look {
     }
     void explain_miss(Text& text) const
     {
-        text.add("The line of sight misses the target by %.4g degrees.", missed());
+        text.add("The line of sight misses the target by %.2f degrees.", missed());
         if (flags & SWIVEL_LIMITED_STEP) text.add(" It turns there at its rate, and is still on its way.");
         if (weight[0] < 1) text.add(" Its look_weight is %.3g.", weight[0]);
         if (flags & SWIVEL_FADED)

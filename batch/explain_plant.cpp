@@ -21,6 +21,7 @@ bool is_bad(const LimbValue& value, swivel_field field)
     switch (field) {
         case SWIVEL_TARGET:
         case SWIVEL_PROP_PLACE:
+        case SWIVEL_LOOK_TARGET:
             return value.length(0, 3) > kMost;
         case SWIVEL_HAND:
         case SWIVEL_PROP_TURN:
@@ -59,6 +60,8 @@ bool is_of_whole_bodies(const Group& group, swivel_field field)
         case SWIVEL_PROP_PLACE:
         case SWIVEL_PROP_TURN:
         case SWIVEL_PROP_SHARE:
+        case SWIVEL_LOOK_TARGET:
+        case SWIVEL_LOOK_WEIGHT:
             return true;
         default:
             return false;

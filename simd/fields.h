@@ -288,6 +288,8 @@ constexpr FlagRow kFlags[] = {
     {SWIVEL_RELEASED, "RELEASED"},
     {SWIVEL_BROKE_AWAY, "BROKE_AWAY"},
     {SWIVEL_CUT, "CUT"},
+    {SWIVEL_LIMITED_LOOK, "LIMITED_LOOK"},
+    {SWIVEL_FADED, "FADED"},
     {SWIVEL_BAD_INPUT, "BAD_INPUT"},
 };
 

@@ -94,7 +94,7 @@ TEST_CASE("docs: a head that looks")
     const std::uint32_t moved = 7;
     for (Character& each : characters) each.looks_at[0] -= 1.5f;
     // [reset]
-    crowd.reset(0, moved, 1);
+    swivel_reset(crowd.get(), 0, moved, 1);
     // [end]
     scene.rest();
     crowd.solve({.frames = {head}, .pose = &pose});
@@ -178,7 +178,7 @@ TEST_CASE("docs: turrets")
     // [turret]
     swivel_look aim = swivel_default_look();
     aim.cos_most[0] = -1;  // all the way round
-    aim.cos_full = -0.999f, aim.cos_none = -1;
+    aim.cos_full = -0.99f, aim.cos_none = -1;
     aim.rate = 0;
     swivel::Crowd turrets(mount, 40, std::array{swivel::look_group({kBarrel}, aim)});
     // [end]
