@@ -389,7 +389,7 @@ void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, std
     else if (group.features & SWIVEL_PROP)
         explain_prop(crowd, group, limb, text);
     else if (group.features & SWIVEL_LOOK)
-        explain_look(group, limb, text);
+        explain_look(crowd, group, limb, text);
     else
         explain_limb(crowd, group, limb, text);
 }

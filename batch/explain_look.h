@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a body looks, and what keeps its line of sight from the target, in words and numbers. It reads what a solve
-// left in rows, and solves nothing.
+// Why a look does or does not meet its target, in words and numbers. It reads what a solve left in rows, and solves
+// nothing.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace swivel {
 
-// A body's look, of a group that is SWIVEL_LOOK.
-void explain_look(const Group& group, std::uint32_t limb, Text& text);
+// A look, of a group that is SWIVEL_LOOK.
+void explain_look(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -1,113 +1,207 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: swivel_explain() says whether a line of sight meets its target, by how many degrees it misses, and why.
+// The promise: swivel_explain() says whether a line of sight meets its target, else by how many degrees it misses and
+// why. All turns here are about the upright axis through the eye, so the angles are known without the library.
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
-#include <string>
 
-#include "tests/upright_bodies.h"
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
 
 using namespace swivel;
 using namespace swivel::test;
 
 namespace {
 
-const Float3 kAhead{0.3f, 1.6f, 3}, kBehind{0.3f, 1.6f, -3}, kUp{0.2f, 5, 0.2f};
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-// One body that looks.
-struct Watcher {
-    UprightCrowd bodies;
+bool has(const std::string& text, const std::string& part)
+{
+    const bool is_there = text.find(part) != std::string::npos;
+    if (!is_there) UNSCOPED_INFO(text);
+    return is_there;
+}
+double number_after(const std::string& text, const std::string& words)
+{
+    const std::size_t at = text.find(words);
+    INFO(text << " lacks " << words);
+    REQUIRE(at != std::string::npos);
+    return std::stod(text.substr(at + words.size()));
+}
 
-    explicit Watcher(const Upright& of) : bodies(of, 1) {}
-    std::string after(const Float3& target, float weight = 1, float time = 0.01f)
+// A spine, a neck and a head, one above the other. The eye is over all of them.
+struct UprightLook {
+    static constexpr std::array<std::int32_t, 3> kParents = {-1, 0, 1};
+    static constexpr std::array<Float3, 3> kOffsets = {{{0, 1, 0}, {0, 0.5f, 0}, {0, 0.2f, 0}}};
+
+    Crowd crowd;
+    std::array<Float4, 3> rotations{};
+    float time = 0.02f;
+
+    explicit UprightLook(const swivel_look& look) : crowd(skeleton(), 1, std::array{group(look)})
     {
-        bodies.reset();
-        bodies.crowd.write(SWIVEL_LOOK_WEIGHT, 0, std::vector<float>{weight});
-        bodies.solve({target}, time);
-        return bodies.crowd.explain(0, 0);
+        rotations.fill({0, 0, 0, 1});
     }
-    // By how many degrees it misses, by forward kinematics.
-    double missed(const Upright& of, const Float3& target)
+    static swivel_look look(std::uint32_t count, double cone)
     {
-        Quaterniond turn = Quaterniond::Identity();
-        Vector3d place = Vector3d::Zero();
-        for (std::size_t n = 0; n < 4; ++n) {
-            place += turn * vec(of.skeleton.translations[n]);
-            turn = turn * quat(bodies.rotations[0][n]);
+        swivel_look made = swivel_default_look();
+        made.joint_count = count;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            made.joints[n] = 3 - count + n;
+            made.cos_most[n] = static_cast<float>(std::cos(cone * kDegree));
         }
-        const swivel_look& look = of.look.look;
-        const Vector3d eye = place + turn * vec(look.eye);
-        return angle_between(turn * vec(look.axis), vec(target) - eye) * 180 / std::numbers::pi;
+        made.rate = 0;
+        return made;
+    }
+    // At an angle from straight ahead, as high as the eye.
+    void aim(double degrees, double distance = 2)
+    {
+        crowd.write_all(
+            SWIVEL_LOOK_TARGET, 0,
+            floats(Vector3d(distance * std::sin(degrees * kDegree), 1.7, distance * std::cos(degrees * kDegree))));
+    }
+    std::string text() const { return crowd.explain(0, 0); }
+    std::string solved(int frames = 1)
+    {
+        for (int n = 0; n < frames; ++n) {
+            std::array<Float4, 3> results = rotations;
+            swivel_pose pose = swivel_default_pose();
+            pose.rotations = {rotations.data(), sizeof rotations, sizeof rotations[0], nullptr};
+            pose.results = {results.data(), sizeof results, sizeof results[0], nullptr};
+            pose.time = {&time, 0};
+            crowd.solve({.pose = &pose});
+        }
+        return text();
+    }
+
+private:
+    static swivel_group_def group(const swivel_look& look)
+    {
+        swivel_group_def def = swivel_default_group_def(0);
+        def.features = SWIVEL_LOOK;
+        def.look = look;
+        return def;
+    }
+    static swivel_skeleton skeleton()
+    {
+        swivel_skeleton made = swivel_default_skeleton();
+        made.parents = stream(kParents);
+        made.translations = stream(kOffsets);
+        made.joint_count = 3;
+        return made;
     }
 };
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-std::string first_sentence(const std::string& text) { return text.substr(0, text.find(" degrees.") + 9); }
 
 }  // namespace
 
-TEST_CASE("explain says that a line of sight meets its target, or that there is nothing to look at")
+TEST_CASE("explain says that a line of sight meets its target, or that there is none")
 {
-    Upright of;
-    Watcher watcher(of);
-    CHECK(watcher.bodies.crowd.explain(0, 0) == "It was never solved, or was reset: the next solve looks at once.");
-    CHECK(watcher.after(kAhead) == "The line of sight meets the target.");
-    watcher.bodies.crowd.reset(0);
-    CHECK(watcher.bodies.crowd.explain(0, 0) == "It was never solved, or was reset: the next solve looks at once.");
-    CHECK(watcher.after(kNoPlace) ==
-          "It has nothing to look at, because look_target is not a number. The joints have their incoming pose.");
-    CHECK(watcher.after(kAhead, 0) == "Its look_weight is 0, so the joints have their incoming pose.");
-    of.look.look.rate = 1;
-    Watcher slow(of);
-    slow.after({2, 1.6f, 3});
-    CHECK(slow.after(kNoPlace) ==
-          "It has nothing to look at, because look_target is not a number. Its line of sight turns back at its rate.");
+    UprightLook of(UprightLook::look(3, 30));
+    CHECK(of.text() == "It was never solved, or was reset: the line that it follows begins at the next target.");
+    CHECK(of.solved() == "It has nothing to look at, so the chain has its incoming pose.");
+    of.aim(20);
+    CHECK(of.solved() == "The line of sight meets its target, 2 from the eye.");
+    // Shares of a third each are 28 degrees, so no cone holds.
+    of.aim(84);
+    CHECK(of.solved() == "The line of sight meets its target, 2 from the eye.");
+    const std::string changed = (of.aim(60), of.text());
+    CHECK(has(changed, "Its target changed since it was solved. "));
+    CHECK(number_after(changed, "The line of sight is ") == Approx(24).epsilon(2e-3));
+    of.crowd.write_all(SWIVEL_LOOK_TARGET, 0, Float3{kNone, kNone, kNone});
+    CHECK(has(of.text(), "Its target changed since it was solved. It has nothing to look at"));
+    CHECK(swivel_reset(of.crowd.get(), 0, 0, 1) == SWIVEL_OK);
+    CHECK(has(of.text(), "or was reset"));
 }
 
-TEST_CASE("explain says by how many degrees a line of sight misses, and why")
+TEST_CASE("explain says which cone holds a line of sight back")
 {
-    Upright of;
-    Watcher watcher(of);
-    const auto check = [&](const std::string& text, const Float3& target, const std::string& why) {
-        INFO(text);
-        CHECK(text.starts_with("The line of sight misses the target by "));
-        CHECK(std::fabs(std::stod(text.substr(39)) - watcher.missed(of, target)) <= 0.006);
-        CHECK(text.substr(first_sentence(text).size()) == why);
-    };
-    of.look.look.cos_most[3] = 0.97f;
-    watcher = Watcher(of);
-    const std::string cone = " A joint turns as far as its cone, cos_most, allows.";
-    check(watcher.after(kUp), kUp, cone);
-    check(watcher.after(kAhead, 0.25f), kAhead, " Its look_weight is 0.25.");
-    const std::string behind = watcher.after(kBehind);
-    check(behind, kBehind, behind.substr(first_sentence(behind).size()));
-    CHECK(has(behind, " The look fades, because the target is behind the incoming line of sight or, at 3.1"));
-    of.look.look.rate = 1;
-    watcher = Watcher(of);
-    watcher.after(kAhead);
-    check(watcher.after({-2, 1.6f, 3}), {-2, 1.6f, 3}, " It turns there at its rate, and is still on its way.");
-    // Nearer to the head than its eye is.
-    of.look.look.rate = 0, of.look.look.joint_count = 1, of.look.look.joints[0] = 3;
-    of.look.look.cos_most[0] = -1, of.look.look.near = 0, of.look.look.eye[0] = 0.2f;
-    of.look.look.cos_full = -0.99f, of.look.look.cos_none = -1;
-    watcher = Watcher(of);
-    const Float3 near{0.1f, 1.6f, 0.1f};
-    check(watcher.after(near), near,
-          " The target is nearer to the last joint than all of the line is, so no turn of that joint meets it.");
+    UprightLook chain(UprightLook::look(3, 20));
+    chain.aim(80);
+    const std::string text = chain.solved();
+    CHECK(number_after(text, "misses its target by ") == Approx(20).epsilon(2e-3));
+    CHECK(has(text, " The cone of joint 2, 20 degrees, holds it back."));
+    chain.crowd.write_all(SWIVEL_LOOK_WEIGHT, 0, std::array{0.9f});
+    CHECK(has(chain.solved(), "With a weight of 0.9 it takes a part of the turn. A cone holds a joint"));
+
+    swivel_look uneven = UprightLook::look(2, 5);
+    uneven.cos_most[1] = -1;
+    UprightLook made_up(uneven);
+    made_up.aim(50);
+    CHECK(has(made_up.solved(), "from the eye. A cone holds a joint of the chain back, and those after it make up"));
+
+    swivel_look offset = UprightLook::look(2, 10);
+    offset.eye[0] = 0.1f;
+    UprightLook aside(offset);
+    aside.aim(70);
+    CHECK(has(aside.solved(), "The cone of joint 2, 10 degrees, holds it back, unless the target is nearer"));
 }
 
-TEST_CASE("explain names bad input of a look, with its range, and says what the joints have then")
+TEST_CASE("explain says that a target is nearer to the last joint than the line of sight comes")
 {
-    Upright of;
-    of.look.on_bad_input = SWIVEL_KEEP_POSE;
-    CHECK(Watcher(of).after({0, 1e16f, 0}).starts_with("Bad input: look_target (0, 1e+16, 0) is out of its range, "));
-    CHECK(Watcher(of).after(kAhead, 1.5f) ==
-          "Bad input: look_weight (1.5) is out of its range, 0 to 1. The joints keep their incoming pose.");
-    CHECK(
-        Watcher(of).after(kAhead, kNan).starts_with("Bad input: look_weight (nan) is not a number; let it be 0 to 1."));
-    of.look.on_bad_input = SWIVEL_REST_POSE;
-    of.look.look.rate = 1;
-    CHECK(Watcher(of).after(kAhead, 1, -1) ==
-          "Bad input: in the pose, its time, the root or a joint was not a number or out of its range. The joints have "
-          "their rest pose.");
+    swivel_look offset = UprightLook::look(1, 180);
+    offset.eye[0] = 0.3f;
+    offset.near = 0, offset.cos_full = -0.9f, offset.cos_none = -1;
+    UprightLook of(offset);
+    of.aim(0, 0.1);
+    CHECK(has(of.solved(), "degrees. The target is nearer to joint 2 than the line of sight comes"));
+    of.aim(0, 0.4);
+    CHECK(has(of.solved(), "meets its target"));
+}
+
+TEST_CASE("explain says by how much the rate holds a line of sight back")
+{
+    swivel_look eased = UprightLook::look(2, 90);
+    eased.rate = 1;
+    UprightLook of(eased);
+    of.aim(0);
+    of.solved();
+    of.aim(40);
+    const std::string text = of.solved(5);
+    const double left = 40 - 5 * 0.02 / kDegree;
+    CHECK(number_after(text, "misses its target by ") == Approx(left).epsilon(3e-3));
+    CHECK(number_after(text, "Its rate of 57.3 degrees a second holds it back by ") == Approx(left).epsilon(3e-3));
+    CHECK(has(of.solved(60), "meets its target"));
+    of.crowd.write_all(SWIVEL_LOOK_TARGET, 0, Float3{kNone, kNone, kNone});
+    CHECK(of.solved() ==
+          "It has nothing to look at, and is on its way back to the incoming pose, by 57.3 degrees a second.");
+    CHECK(of.solved(60) == "It has nothing to look at, so the chain has its incoming pose.");
+}
+
+TEST_CASE("explain says that a target is behind, or that it may be too near")
+{
+    UprightLook of(UprightLook::look(2, 45));
+    of.aim(170);
+    CHECK(has(of.solved(),
+              "misses its target by 170 degrees. The target is behind, more than 154.2 degrees from the "
+              "incoming line, so the look has faded out."));
+    // Two thirds of the way to where it fades out: less than a third of the turn is left.
+    of.aim(140);
+    CHECK(has(of.solved(), "The target is behind, more than 95.74 degrees from the incoming line, so the look fades."));
+    of.aim(30, 0.03);
+    const std::string near = of.solved();
+    CHECK(has(near, "or nearer to the eye than 0.05 of the last joint's unit: it is 0.03 away."));
+    of.aim(30);
+    of.crowd.write_all(SWIVEL_LOOK_WEIGHT, 0, std::array{0.0f});
+    CHECK(has(of.solved(), "misses its target by 30 degrees. Its weight is 0, so the chain has its incoming pose."));
+}
+
+TEST_CASE("explain names the bad input of a look")
+{
+    UprightLook of(UprightLook::look(2, 45));
+    of.aim(10);
+    of.solved();
+    of.crowd.write_all(SWIVEL_LOOK_WEIGHT, 0, std::array{1.5f});
+    CHECK(has(of.solved(), "Bad input: look_weight (1.5) is out of its range"));
+    of.crowd.write_all(SWIVEL_LOOK_WEIGHT, 0, std::array{1.0f});
+    of.crowd.write_all(SWIVEL_LOOK_TARGET, 0, Float3{0, std::numeric_limits<float>::infinity(), 0});
+    CHECK(has(of.solved(), "Bad input: look_target (0, inf, 0) is out of its range"));
+    of.aim(10);
+    of.rotations[2] = {0, 0, 0, kNone};
+    CHECK(has(of.solved(), "Bad input: in the pose, its time, or a rotation"));
+    of.rotations[2] = {0, 0, 0, 1};
+    CHECK(has(of.solved(), "meets its target"));
 }
