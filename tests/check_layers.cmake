@@ -102,9 +102,9 @@ may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h
 may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|slice|strip_rows)[.]h\"")
 may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(body|choose|store)_stages[.]h\"")
 may_include(simd "simd/body_(kernels[.]cpp|motion[.]h|values[.]h)$" "${standard}|\"core/(fit|(joint|matrix)_frame)[.]h\"|\"simd/(body_motion|body_values|kernels|lanes|values)[.]h\"")
-may_include(simd "simd/([a-z]+_stages|sent_rows)[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|fit|goal|hold|limit|plant)_stages|sent_rows|strip)[.]h\"")
+may_include(simd "simd/([a-z]+_stages|sent_rows)[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|fit|goal|hold|joint|limit|look|plant)_stages|sent_rows|strip)[.]h\"")
 may_include(simd "simd/strip[.]h$" "${standard}|\"simd/(slice|stages|strip_rows)[.]h\"")
-may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"core/plant_rules[.]h\"|\"simd/(fields|rows)[.]h\"")
+may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"core/(look|plant)_rules[.]h\"|\"simd/(fields|rows)[.]h\"")
 may_include(simd "simd/values[.]h$" "${standard}|\"simd/lanes[.]h\"")
 may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
 may_include(simd "simd/slice[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
@@ -162,7 +162,7 @@ foreach(folder core simd batch include)
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
   must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/schedule[.]cpp$" "oneTBB is named in batch/schedule.cpp alone")
   # ---- only + - * / sqrt, comparisons, selects and sign bits
-  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/(explain(_ground)?|(joint_)?angles)[.]cpp$"
+  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/(explain(_ground|_look)?|(joint_)?angles)[.]cpp$"
                "no trigonometry here")
   must_not_say(${folder} "[^a-zA-Z_](exp|exp2|log|log2|log10|pow|cbrt)f?[ \t]*[(]" ${nowhere} "not correctly rounded everywhere")
   must_not_say(${folder} "[^a-zA-Z]_*(builtin_)?(fma|fmaf|fms|fnma|rsqrt|reciprocal|mm[0-9]*_rcp[a-z0-9_]*|mm[0-9]*_rsqrt[a-z0-9_]*)[ \t]*[(]"

@@ -12,7 +12,7 @@ namespace swivel::fuzz {
 namespace {
 
 constexpr std::uint32_t kFlags = 2 * SWIVEL_CUT - 1;  // of limbs
-constexpr std::size_t kMostComponents = 28;  // of seven twist bones
+constexpr std::size_t kMostComponents = 28;           // of seven twist bones
 
 double length_of(const float* v, std::size_t count)
 {

@@ -141,8 +141,7 @@ void require_frames(const HeldCrowd& held, const std::vector<std::uint32_t>& gro
                     const py::object& frames)
 {
     const bool has_targets = std::any_of(groups.begin(), groups.end(), [&](std::uint32_t group) {
-        return !(swivel_group_features(held.crowd.get(), group) &
-                 (SWIVEL_SENT | SWIVEL_NO_LIMB));
+        return !(swivel_group_features(held.crowd.get(), group) & (SWIVEL_SENT | SWIVEL_NO_LIMB));
     });
     if (pose.view.root_is_double && has_targets && frames.is_none())
         throw py::value_error(

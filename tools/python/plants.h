@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How limbs stand, how bodies are shifted for them, what they stand on, hold and look with, as Python gives these. Knows no crowd.
+// How limbs stand, how bodies are shifted for them, what they stand on, hold and look with, as Python gives these.
+// Knows no crowd.
 #pragma once
 
 #include <pybind11/pybind11.h>
