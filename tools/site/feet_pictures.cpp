@@ -1,80 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
 // Draws the pictures of docs/howto/feet.md: what swivel itself does with a foot that slides, and with legs that do not
-// reach. With --check it compares them with the files that are there, and writes none.
+// reach.
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
-#include <exception>
-#include <fstream>
 #include <functional>
-#include <iterator>
-#include <string>
-#include <vector>
 
 #include "swivel/swivel.hpp"
+#include "tools/site/picture.h"
 
 namespace {
 
 using Float3 = std::array<float, 3>;
 using Float4 = std::array<float, 4>;
-
-constexpr const char kInk[] = "#22324a", kGrey[] = "#5b6b80", kPale[] = "#a9b4c2", kOrange[] = "#c9761a",
-                     kRed[] = "#b93a2b", kGreen[] = "#23834a";
-
-struct Point {
-    double x, y;
-};
-
-class Picture {
-public:
-    Picture(const char* title, int height)
-    {
-        add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 %d\" font-family=\"DejaVu Sans, Helvetica, "
-            "Arial, sans-serif\">\n  <title>%s</title>\n  <rect width=\"760\" height=\"%d\" rx=\"8\" "
-            "fill=\"#fbfaf5\"/>\n",
-            height, title, height);
-    }
-    void box(Point a, Point b, const char* colour, double opacity)
-    {
-        add("  <rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" opacity=\"%.2f\"/>\n",
-            std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fabs(b.x - a.x), std::fabs(b.y - a.y), colour, opacity);
-    }
-    void line(const std::vector<Point>& points, const char* colour, double width, const char* dash = "")
-    {
-        add("  <path d=\"");
-        for (std::size_t n = 0; n < points.size(); ++n)
-            add("%s%.1f %.1f", n == 0 ? "M" : " L", points[n].x, points[n].y);
-        add("\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\" stroke-linecap=\"round\"",
-            colour, width);
-        if (*dash) add(" stroke-dasharray=\"%s\"", dash);
-        add("/>\n");
-    }
-    void dot(Point at, double radius, const char* colour)
-    {
-        add("  <circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", at.x, at.y, radius, colour);
-    }
-    // anchor: start, middle or end.
-    void text(Point at, const char* words, const char* colour, const char* anchor = "start")
-    {
-        add("  <text x=\"%.1f\" y=\"%.1f\" fill=\"%s\" font-size=\"14\" text-anchor=\"%s\">%s</text>\n", at.x, at.y,
-            colour, anchor, words);
-    }
-    std::string done() const { return text_ + "</svg>\n"; }
-
-private:
-    [[gnu::format(printf, 2, 3)]] void add(const char* format, ...)
-    {
-        char room[512];
-        std::va_list arguments;
-        va_start(arguments, format);
-        std::vsnprintf(room, sizeof room, format, arguments);
-        va_end(arguments);
-        text_ += room;
-    }
-    std::string text_;
-};
 
 // Hips, and a leg of thigh, shin and foot on each side; seen from the side, forwards is +z. Knees go forwards.
 constexpr std::array<std::int32_t, 7> kParents = {-1, 0, 1, 2, 0, 4, 5};
@@ -356,38 +294,11 @@ std::string legs_that_reach()
     return legs.picture.done();
 }
 
-// Writes a picture, or compares it.
-bool take(const std::string& folder, const char* name, const std::string& picture, bool is_check)
-{
-    const std::string path = folder + "/" + name;
-    if (!is_check) return static_cast<bool>(std::ofstream(path) << picture);
-    std::ifstream file(path);
-    if (std::string(std::istreambuf_iterator<char>(file), {}) == picture) return true;
-    std::fprintf(stderr, "%s is not what swivel does; run docs_pictures docs/pictures\n", path.c_str());
-    return false;
-}
-
-int draw(const std::string& folder, bool is_check)
-{
-    bool is_good = take(folder, "feet_plant.svg", locks_and_releases(), is_check);
-    is_good = take(folder, "feet_break.svg", breaks_away(), is_check) && is_good;
-    is_good = take(folder, "feet_reach.svg", legs_that_reach(), is_check) && is_good;
-    return is_good ? 0 : 1;
-}
-
 }  // namespace
 
-int main(int argc, char** argv)
+std::vector<NamedPicture> feet_pictures()
 {
-    const bool is_check = argc == 3 && std::string(argv[1]) == "--check";
-    if (argc != 2 && !is_check) {
-        std::fputs("usage: docs_pictures [--check] FOLDER\n", stderr);
-        return 2;
-    }
-    try {
-        return draw(argv[argc - 1], is_check);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
+    return {{"feet_plant.svg", locks_and_releases()},
+            {"feet_break.svg", breaks_away()},
+            {"feet_reach.svg", legs_that_reach()}};
 }
