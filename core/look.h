@@ -50,21 +50,39 @@ struct LookTurn {
     Rotor<T> turn;  // of unit length
     Mask<T> held;   // by the cone
 };
-// The share of the shortest turn from one direction to another that the cone allows. Both have any length but zero; two
-// that are opposite turn about any axis across them. A share of 0 is no turn, to the bit.
+// Of unit vectors that are not opposite.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> turn_between(const Vector<T>& from, const Vector<T>& to)
+{
+    return normalise(one<T>() + to * from);
+}
+// The shortest turn from one direction to another. Both have any length but zero; two that are opposite turn about any
+// axis across them. Of a turn by 160 degrees or more, rounding leaves less of the axis. So that goes by way of a
+// direction between, by two turns that are well known.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vector<T>& to)
+{
+    const T length = sqrt(len2(from) * len2(to)), sum = length + scalar_product(from, to);
+    const Mask<T> back = !(sum > T(0.0625) * length);
+    const Vector<T> axis = cross(from, to);
+    const T per = T(1) / sqrt(select(back, T(1), len2(axis) + sum * sum));
+    const Rotor<T> turn =
+        rotor(per * axis.template at<kE1>(), per * axis.template at<kE2>(), per * axis.template at<kE3>(), per * sum);
+    if (!any(back)) return turn;
+    const Vector<T> a = (T(1) / sqrt(len2(from))) * from, b = (T(1) / sqrt(len2(to))) * to,
+                    across = b - scalar_product(a, b) * a;
+    const Mask<T> opposite = len2(across) < T(1e-12);
+    const Vector<T> middle = select(opposite, any_across(a), normalise(select(opposite, b, across)));
+    return select(back, turn_between(middle, b) * turn_between(a, middle), turn);
+}
+// Its share that the cone allows. A share of 0 is no turn, to the bit.
 template <class T>
 SWIVEL_INLINE constexpr LookTurn<T> look_turn(const Vector<T>& from, const Vector<T>& to, const T& share,
                                               const LookJoint& joint)
 {
-    const T length = sqrt(len2(from) * len2(to)), sum = length + scalar_product(from, to);
-    const Mask<T> opposite = !(sum > T(1e-6) * length);
-    Vector<T> axis = cross(from, to);
-    // Half the turn is along (axis, sum). Of nearly opposite directions rounding has left little of the sum, so its
-    // length is not taken from that.
-    const T per = T(1) / sqrt(select(opposite, T(1), len2(axis) + sum * sum));
-    if (any(opposite)) axis = select(opposite, any_across((T(1) / sqrt(len2(from))) * from), axis);
-    const T cos_half = select(opposite, T(0), per * sum), part = bent_share(share, cos_half);
-    const Vector<T> sine = (part * per) * axis;
+    const Rotor<T> whole = shortest_turn(from, to);
+    const T cos_half = whole.template at<kScalar>(), part = bent_share(share, cos_half);
+    const Vector<T> sine = part * vector(whole.template at<kI>(), whole.template at<kJ>(), whole.template at<kK>());
     const T cosine = T(1) - part + part * cos_half, sine2 = len2(sine), cosine2 = cosine * cosine;
     const T most = T(joint.cos_half_most), size2 = sine2 + cosine2;
     const Mask<T> held = cosine2 < most * most * size2;

@@ -39,6 +39,37 @@ TEST_CASE("no joint turns by more than four degrees while the target circles the
     CHECK(most * kSteps / (2 * std::numbers::pi) <= 4);
 }
 
+TEST_CASE("a line of sight meets its target to a millionth of a radian, also one nearly behind")
+{
+    constexpr std::uint32_t kCount = 20000;
+    const bool is_one = GENERATE(true, false), is_behind = GENERATE(true, false);
+    Upright of;
+    swivel_look& look = of.look.look;
+    std::fill_n(look.cos_most, 4, -1.0f);
+    if (is_one) look.joint_count = 1, look.joints[0] = 3;
+    look.cos_full = -0.998f, look.cos_none = -1, look.near = 0;
+    UprightCrowd bodies(of, kCount);
+    Random random{7};
+    std::vector<Float3> targets;
+    for (std::uint32_t n = 0; n < kCount; ++n) {
+        const Vector3d line = is_behind ? Vector3d(Vector3d(0, 0, -1) + random.spread(1e-7, 0.3) * random.direction())
+                                        : random.direction();
+        targets.push_back(floats(Vector3d(of.eye() + random.spread(1.2, 20) * line)));
+        for (Float4& q : bodies.rotations[n])
+            if (!is_behind) q = floats(Quaterniond(Eigen::AngleAxisd(0.5 * random.unit(), random.direction())));
+    }
+    bodies.solve(targets);
+    double worst = 0;
+    for (std::uint32_t n = 0; n < kCount; ++n) {
+        if (bodies.flags(n) & SWIVEL_FADED) continue;
+        const auto [eye, axis] = bodies.sight(of, n);
+        worst = std::max(worst, angle_between(axis, vec(targets[n]) - eye));
+    }
+    INFO("radians: " << worst);
+    CHECK(worst > 0);
+    CHECK(worst <= 1e-6);
+}
+
 TEST_CASE("a target straight behind, no weight and no target keep the incoming bits")
 {
     const Upright of;

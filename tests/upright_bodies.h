@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/looking_bodies.h"
 
@@ -53,6 +54,17 @@ struct UprightCrowd {
         pose.time = {&time, 0};
         crowd.write(SWIVEL_LOOK_TARGET, 0, std::span(targets));
         crowd.solve({.pose = &pose});
+    }
+    // Where the line of sight starts and where it points, by forward kinematics.
+    std::pair<Vector3d, Vector3d> sight(const Upright& of, std::size_t n) const
+    {
+        Quaterniond turn = Quaterniond::Identity();
+        Vector3d place = Vector3d::Zero();
+        for (std::size_t joint = 0; joint < 4; ++joint) {
+            place += turn * vec(of.skeleton.translations[joint]);
+            turn = turn * quat(rotations[n][joint]).normalized();
+        }
+        return {place + turn * vec(of.look.look.eye), turn * vec(of.look.look.axis)};
     }
     Vector3d line(std::size_t n)
     {

@@ -16,11 +16,11 @@ inline constexpr std::uint64_t kGoldenDigests[] = {
     0xbdab33c3b85403efu,  // hard
     0x4dc389bb313fc64au,  // limbs
     0x3c060564b7fe0b62u,  // bodies
-    0xaaddbb700d51f9f7u,  // standing
+    0x8ecbae0e878637c8u,  // standing
 };
 
 // The standing part's start, which stands for it under emulators.
-inline constexpr std::uint64_t kGoldenStart = 0xed6f6f1ddaf5677cu;
+inline constexpr std::uint64_t kGoldenStart = 0x779a0ed67d386ae9u;
 
 // Crowd by crowd, so that a failure has a name.
 struct GoldenCrowd {
@@ -174,9 +174,9 @@ inline constexpr GoldenCrowd kGoldenCrowds[] = {
     {Part::standing, "ground-by-motion", 0xbe1ce288c9131daau},
     {Part::standing, "held-hand", 0xa9024c5ad0a8d767u},
     {Part::standing, "prop", 0xd54b141eb5129c4bu},
-    {Part::standing, "looks", 0xf2de1087fc6b12c4u},
-    {Part::standing, "looks-far", 0xb545839cbdbaf9f7u},
-    {Part::standing, "looks-in-body", 0xfc37a28c3b1fbe75u},
+    {Part::standing, "looks", 0x219efa8807bb7119u},
+    {Part::standing, "looks-far", 0xa3f5517f605e34a4u},
+    {Part::standing, "looks-in-body", 0x1e36017959ce22bfu},
     {Part::standing, "prop-at-joint", 0xd359ec2ebfeb0a32u},
 };
 
