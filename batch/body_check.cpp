@@ -203,13 +203,13 @@ swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u, look.cos_full is %g, look.cos_none %g; they are -1 to 1, and cos_full is 0.001 more", g,
                     double(look.cos_full), double(look.cos_none));
-    return check_constants(g, "look", {{"near", look.near, kHuge}, {"rate", look.rate, 1000}});
+    return check_constants(g, "look", {{"fade_distance", look.fade_distance, kHuge}, {"rate", look.rate, 1000}});
 }
 swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const swivel_look& look)
 {
-    if (look.joint_count == 0 || look.joint_count > SWIVEL_MOST_BONES)
+    if (look.joint_count == 0 || look.joint_count > SWIVEL_MOST_LOOK_JOINTS)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
-                    int{SWIVEL_MOST_BONES});
+                    int{SWIVEL_MOST_LOOK_JOINTS});
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         const std::uint32_t joint = look.joints[n];
         if (joint >= skeleton.joint_count)

@@ -237,7 +237,7 @@ LookRules look_rules(const swivel_look& of)
         rules.joint[n] = {static_cast<float>(of.share[n] / left), static_cast<float>(sqrt(0.5 + 0.5 * cos)),
                           static_cast<float>(sqrt(0.5 - 0.5 * cos))};
     }
-    rules.fade = {of.cos_none, static_cast<float>(1 / (double(of.cos_full) - of.cos_none)), of.near};
+    rules.fade = {of.cos_none, static_cast<float>(1 / (double(of.cos_full) - of.cos_none)), of.fade_distance};
     const Vector<double> axis = normalise(vector<double>(of.axis[0], of.axis[1], of.axis[2]));
     for (std::size_t c = 0; c < 3; ++c) rules.eye[c] = of.eye[c], rules.axis[c] = static_cast<float>(axis.c[c]);
     rules.rate = of.rate;

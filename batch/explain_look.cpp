@@ -114,7 +114,7 @@ private:
             text.add(
                 " The look fades, because its target is more than %.4g degrees from the incoming line, or nearer to "
                 "the eye than %.3g of the last joint's unit: it is %.4g away.",
-                full, double{rules.fade.near}, 1 / std::max(line[3], 1e-30));
+                full, double{rules.fade.distance}, 1 / std::max(line[3], 1e-30));
     }
     void explain_rate(bool is_alone, Text& text) const
     {

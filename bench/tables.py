@@ -50,8 +50,8 @@ GOALS = (
     ("plant/*", "bound_plant/*", 1.5),
     ("plant/avx512", "goal_plant/*", 1),
     ("fit/*", "bound_fit/*", 1.5),
-    ("look/*", "bound_look/*", 1.6),
     ("fit/avx512", "goal_fit/*", 1),
+    ("look/*", "bound_look/*", 1.6),
     ("bodies_threads/2", "bodies_processes/2", 1.11),  # 0.9 times as fast
     # itself: at most so many times as long
     ("hard/*/one_in_64", "*", 1.3),

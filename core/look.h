@@ -30,7 +30,7 @@ SWIVEL_INLINE constexpr T look_weight(const LineOfSight<T>& sight, const Vector<
     const Vector<T> to = target - sight.eye;
     const T length = sqrt(len2(to)), cosine = scalar_product(sight.axis, to) / hi(length, T(kTiny));
     return smooth_step((cosine - T(fade.cos_none)) * T(fade.per_cos)) *
-           smooth_step(length / hi(T(fade.near) * unit, T(kTiny)));
+           smooth_step(length / hi(T(fade.distance) * unit, T(kTiny)));
 }
 
 // A share of the angle of a rotation with the cosine of half its angle, cos_half >= 0. It goes from none to the
@@ -56,9 +56,9 @@ SWIVEL_INLINE constexpr Rotor<T> turn_between(const Vector<T>& from, const Vecto
 {
     return normalise(one<T>() + to * from);
 }
-// The shortest turn from one direction to another. Both have any length but zero; two that are opposite turn about any
-// axis across them. Of a turn by 160 degrees or more, rounding leaves less of the axis. So that goes by way of a
-// direction between, by two turns that are well known.
+// The shortest turn from one direction to another, of any lengths. Two that are opposite turn about any axis across
+// them; to or from nothing there is no turn. Of a turn by 160 degrees or more, rounding leaves less of the axis. So
+// that goes by way of a direction between, by two turns that are well known.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vector<T>& to)
 {
@@ -69,11 +69,15 @@ SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vect
     const Rotor<T> turn =
         rotor(per * axis.template at<kE1>(), per * axis.template at<kE2>(), per * axis.template at<kE3>(), per * sum);
     if (!any(back)) return turn;
-    const Vector<T> a = (T(1) / sqrt(len2(from))) * from, b = (T(1) / sqrt(len2(to))) * to,
-                    across = b - scalar_product(a, b) * a;
-    const Mask<T> opposite = len2(across) < T(1e-12);
-    const Vector<T> middle = select(opposite, any_across(a), normalise(select(opposite, b, across)));
-    return select(back, turn_between(middle, b) * turn_between(a, middle), turn);
+    const Mask<T> none = !(length > T(kTiny));
+    const auto direction = [&](const Vector<T>& of)
+                               SWIVEL_INLINE_LAMBDA { return (T(1) / sqrt(select(none, T(1), len2(of)))) * of; };
+    const Vector<T> a = direction(from), b = direction(to), across = b - scalar_product(a, b) * a;
+    const Mask<T> opposite = (len2(across) < T(1e-12)) & !none;
+    const Vector<T> e1 = vector(T(1), T(0), T(0)), e2 = vector(T(0), T(1), T(0)), start = select(none, e1, a),
+                    middle = normalise(select(none, e2, select(opposite, any_across(start), across)));
+    const Rotor<T> way = turn_between(middle, select(none, e1, b)) * turn_between(start, middle);
+    return select(none, one<T>(), select(back, way, turn));
 }
 // Its share that the cone allows. A share of 0 is no turn, to the bit.
 template <class T>
@@ -121,7 +125,7 @@ SWIVEL_INLINE constexpr Mask<T> sees(const LineOfSight<T>& sight, const Vector<T
 }
 
 // The line that a look follows: from the eye as it comes, towards the target. Its direction turns by at most `rate`. So
-// does what a change of the distance turns: `lever` is how far the joints carry the eye, at most.
+// does what a change of the distance turns it by, for an eye that the joints carry by `lever`.
 template <class T>
 struct FollowedLine {
     Vector<T> direction;  // of unit length
@@ -134,7 +138,7 @@ struct FollowedStep {
 };
 inline constexpr double kStill = 1e-6;  // an angle below this is rounding
 // half: half of the most turn of this step, in radians. The turn's half-tangent is half + half^3 / 3, less than
-// tan(half). So it never turns further; it turns 1e-4 less at 0.5 radians. From pi on it turns all the way.
+// tan(half). So it never turns further; at 0.5 radians it turns 3e-4 less. From pi on it turns all the way.
 template <class T>
 SWIVEL_INLINE constexpr FollowedStep<T> followed(const FollowedLine<T>& was, const FollowedLine<T>& goal,
                                                  const T& lever, const T& half)
@@ -145,8 +149,9 @@ SWIVEL_INLINE constexpr FollowedStep<T> followed(const FollowedLine<T>& was, con
     const Vector<T> across = goal.direction - between * was.direction;
     const T across2 = len2(across), sine_between = sqrt(across2);
     const Mask<T> goes = half >= T(1.5707963267948966), known = sine_between > T(kStill);
-    // The sine of what would be left of the way.
-    const Mask<T> turns = (!goes) & (sine_between * cosine - between * sine > T(kStill));
+    // By the sine of what would be left of the way, which is none for opposite directions.
+    const Mask<T> left = (sine_between * cosine - between * sine > T(kStill)) | ((!known) & (between < T(0)));
+    const Mask<T> turns = (!goes) & left;
     const Vector<T> side =
         select(known, (T(1) / select(known, sine_between, T(1))) * across, any_across(was.direction));
     const T most = (half + half) / hi(lever, T(kTiny)), change = goal.nearness - was.nearness;

@@ -15,7 +15,7 @@ struct LookJoint {
 // Where a look fades: by the cosine between the line of sight as it comes and the line to the target; and by distance.
 struct LookFade {
     float cos_none, per_cos;  // per_cos: 1 / (cos_full - cos_none)
-    float near;
+    float distance;
 };
 inline constexpr std::uint32_t kMostLookJoints = 8;
 struct LookRules {

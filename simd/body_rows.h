@@ -106,6 +106,7 @@ struct TurnedJoint {
     std::uint32_t skeleton_joint, row, parent, above;
 };
 inline constexpr std::uint32_t kMostTurned = 4 + SWIVEL_MOST_TWIST_BONES;
+static_assert(kMostLookJoints == SWIVEL_MOST_LOOK_JOINTS && kMostLookJoints <= kMostTurned);
 // The joints of a group's limb or look, by their first rows.
 struct BodyLimb {
     std::uint32_t parent, shoulder, elbow_parent, elbow, wrist_parent, wrist;

@@ -64,7 +64,8 @@ private:
         const FollowedLine<T> goal{line.direction, select(is_given, line.nearness, was.nearness)};
         const T lever = sqrt(len2(sight.eye - s.body_vector(s.strip.run.limb->turned[0].row + kPlaceRow)));
         const FollowedStep<T> step = followed(was, goal, lever, T(0.5f * rules.rate) * time);
-        line = step.line;
+        const Mask<T> stands = has_begun & (time == T(0));  // nothing that is carried changes
+        line = {select(stands, was.direction, step.line.direction), select(stands, was.nearness, step.line.nearness)};
         is_behind = has_begun & step.behind;
         const Vector<T> followed_target =
             sight.eye + (T(1) / hi(line.nearness, T(kTiny))) * turned(root, line.direction);

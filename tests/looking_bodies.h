@@ -76,7 +76,7 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
                  axis = floats(Vector3d(random.spread(0.1, 10) * random.direction()));
     std::copy(eye.begin(), eye.end(), look.eye);
     std::copy(axis.begin(), axis.end(), look.axis);
-    look.near = 0.02f;
+    look.fade_distance = 0.02f;
     look.rate = 0;
     return def;
 }

@@ -28,7 +28,7 @@ PoseLayout random_look_layout(Random& random, const BodySkeleton* in_body = null
 }
 
 struct LookCounts {
-    int bodies = 0, sees = 0, held = 0, faded = 0, kept = 0, reached = 0;
+    int bodies = 0, sees = 0, held = 0, faded = 0, reached = 0;
 };
 
 struct LookStage {

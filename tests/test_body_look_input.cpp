@@ -83,7 +83,7 @@ TEST_CASE("a look that cannot be is refused in one line")
     with([&] { look.eye[2] = 1e16f; }, "look.eye is 0, 0.08, 1e+16; give a place");
     with([&] { look.cos_none = -0.1f; },
          "look.cos_full is -0.1, look.cos_none -0.1; they are -1 to 1, and cos_full is 0.001 more");
-    with([&] { look.near = -1; }, "look.near is -1; it is 0 to");
+    with([&] { look.fade_distance = -1; }, "look.fade_distance is -1; it is 0 to");
     with([&] { look.rate = -1; }, "look.rate is -1; it is 0 to 1000");
     look = good;
     const swivel_group_def twice[] = {of.look, of.look};

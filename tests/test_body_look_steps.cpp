@@ -14,7 +14,7 @@ using namespace swivel::test;
 
 TEST_CASE("no joint turns by more than four degrees while the target circles the head by one")
 {
-    constexpr int kSteps = 1440;
+    constexpr std::size_t kSteps = 1440;
     const Upright of;
     UprightCrowd bodies(of, kSteps);
     double most = 0;
@@ -22,16 +22,16 @@ TEST_CASE("no joint turns by more than four degrees while the target circles the
         for (const double height : {-0.6, -0.2, 0.0, 0.3})
             for (const bool is_upright : {false, true}) {  // the circle
                 std::vector<Float3> targets;
-                for (int n = 0; n < kSteps; ++n) {
-                    const double angle = 2 * std::numbers::pi * n / kSteps;
+                for (std::size_t n = 0; n < kSteps; ++n) {
+                    const double angle = 2 * std::numbers::pi * static_cast<double>(n) / kSteps;
                     const Vector3d around = is_upright ? Vector3d(height, std::sin(angle), std::cos(angle))
                                                        : Vector3d(std::sin(angle), height, std::cos(angle));
                     targets.push_back(floats(Vector3d(of.eye() + distance * around)));
                 }
                 bodies.reset();
                 bodies.solve(targets);
-                for (int n = 0; n < kSteps; ++n)
-                    for (int joint = 0; joint < 4; ++joint)
+                for (std::size_t n = 0; n < kSteps; ++n)
+                    for (std::size_t joint = 0; joint < 4; ++joint)
                         most = std::max(most, quat(bodies.rotations[n][joint])
                                                   .angularDistance(quat(bodies.rotations[(n + 1) % kSteps][joint])));
             }
@@ -47,7 +47,7 @@ TEST_CASE("a line of sight meets its target to a millionth of a radian, also one
     swivel_look& look = of.look.look;
     std::fill_n(look.cos_most, 4, -1.0f);
     if (is_one) look.joint_count = 1, look.joints[0] = 3;
-    look.cos_full = -0.998f, look.cos_none = -1, look.near = 0;
+    look.cos_full = -0.998f, look.cos_none = -1, look.fade_distance = 0;
     UprightCrowd bodies(of, kCount);
     Random random{7};
     std::vector<Float3> targets;
@@ -100,7 +100,7 @@ TEST_CASE("a look fades behind, by the angle's cosine, and very near, by the dis
     constexpr std::uint32_t kCount = 2000;
     Upright of;
     swivel_look& look = of.look.look;
-    look.joint_count = 1, look.joints[0] = 3, look.share[0] = 1, look.cos_most[0] = -1, look.near = 0.3f;
+    look.joint_count = 1, look.joints[0] = 3, look.share[0] = 1, look.cos_most[0] = -1, look.fade_distance = 0.3f;
     std::fill_n(look.eye, 3, 0.0f);
     UprightCrowd bodies(of, kCount);
     const Vector3d head(0, 1.57, 0.03), ahead = vec({look.axis[0], look.axis[1], look.axis[2]}).normalized();
@@ -116,7 +116,7 @@ TEST_CASE("a look fades behind, by the angle's cosine, and very near, by the dis
         const double angle = angle_between(ahead, to),
                      behind = smooth((std::cos(angle) - double{look.cos_none}) /
                                      (double{look.cos_full} - double{look.cos_none})),
-                     near = smooth(to.norm() / double{look.near}), weight = behind * near;
+                     near = smooth(to.norm() / double{look.fade_distance}), weight = behind * near;
         CAPTURE(n, angle, behind, near);
         CHECK(std::fabs(angle_between(ahead, bodies.line(n)) - weight * angle) <= 1.1e-3 + 1e-6 / to.norm());
         CHECK(((bodies.flags(n) & SWIVEL_FADED) != 0) == (weight < 1));
@@ -169,6 +169,23 @@ TEST_CASE("a line of sight turns at the look's rate, at any frame rate, and come
     }
 }
 
+TEST_CASE("a target at the eye or at the last joint turns nothing, and is no number nowhere")
+{
+    const bool is_one = GENERATE(true, false);
+    Upright of;
+    if (is_one) of.look.look.joint_count = 1, of.look.look.joints[0] = 3;
+    for (const float eye : {0.0f, 0.1f})
+        for (const bool at_eye : {true, false}) {
+            std::fill_n(of.look.look.eye, 3, eye);
+            UprightCrowd bodies(of, 2);
+            const Vector3d head(0, 1.57, 0.03), target = head + (at_eye ? eye : 0) * Vector3d::Ones();
+            bodies.solve({floats(target), floats(target)});
+            CHECK(std::isfinite(bodies.line(0).norm()));
+            CHECK(std::isfinite(bodies.line(1).norm()));
+            for (const Float4& q : bodies.rotations[1]) CHECK(std::fabs(quat(q).norm() - 1) <= 1e-6);
+        }
+}
+
 TEST_CASE("where time stands still a line of sight stays, and a reset lets it begin anew")
 {
     Upright of;
@@ -180,6 +197,16 @@ TEST_CASE("where time stands still a line of sight stays, and a reset lets it be
     bodies.solve({{2, 1.6f, 3}}, 0);
     CHECK(angle_between(was, bodies.line(0)) <= 1e-6);
     CHECK((bodies.flags(0) & SWIVEL_LIMITED_STEP));
+    Float4 line{}, kept{};
+    check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_LINE, 0, 0, 1, {&line, sizeof line}));
+    const Vector3d from = of.eye() - Vector3d(0, 0, 1) * (of.eye().z() + 5),
+                   behind = 2 * of.eye() - Vector3d(0, 1.6, 3);
+    for (const Float3& target : {floats(from), floats(behind), Float3{0, 1.6f, 3}, Float3{1e-7f, 1.6f, 3}, kNoPlace}) {
+        bodies.reset();
+        bodies.solve({target}, 0);
+        check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_LINE, 0, 0, 1, {&kept, sizeof kept}));
+        CHECK((kept == line));
+    }
     bodies.crowd.reset(0);
     bodies.reset();
     bodies.solve({{2, 1.6f, 3}}, 0);

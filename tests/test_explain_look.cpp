@@ -144,7 +144,7 @@ TEST_CASE("explain says that a target is nearer to the last joint than the line 
 {
     swivel_look offset = UprightLook::look(1, 180);
     offset.eye[0] = 0.3f;
-    offset.near = 0, offset.cos_full = -0.9f, offset.cos_none = -1;
+    offset.fade_distance = 0, offset.cos_full = -0.9f, offset.cos_none = -1;
     UprightLook of(offset);
     of.aim(0, 0.1);
     CHECK(has(of.solved(), "degrees. The target is nearer to joint 2 than the line of sight comes"));

@@ -118,7 +118,7 @@ typedef enum swivel_flag {
     SWIVEL_RELEASED = 1u << 18,      // this solve released it
     SWIVEL_BROKE_AWAY = 1u << 19,    // by distance: the animated point is too far from it, though in contact
     SWIVEL_CUT = 1u << 20,  // a speed too high to be eased away was cut at a lock or release, so the point jumps
-    SWIVEL_LIMITED_LOOK = 1u << 22,  // a cone of a bone keeps a look from its target
+    SWIVEL_LIMITED_LOOK = 1u << 22,  // a cone holds a joint of a look; those after it may make up for that
     SWIVEL_FADED = 1u << 23,      // the target of a look is behind or too near, so the look counts less or not at all
     SWIVEL_BAD_INPUT = 1u << 30,  // an input is not valid or was never given: see swivel_on_bad_input
     // other bits are kept for later releases and are 0
@@ -136,8 +136,7 @@ typedef enum swivel_flag {
 // - WITH_HAND_FRAME and WITH_LINK are of bodies and need WITH_HAND. WITH_LINK excludes WITH_AIM, WITH_PLANT and
 //   WITH_FIT.
 // - A group that is FIT, PROP or LOOK is no limb: it has none of the other features, and its joints are null. Calls
-// that
-//   need a limb refuse it.
+//   that need a limb refuse it.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
 typedef uint64_t swivel_features;
 #define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
@@ -660,38 +659,41 @@ static inline swivel_prop swivel_default_prop(void)
     return prop;
 }
 
-enum { SWIVEL_MOST_BONES = 8 };  // of a look
+enum { SWIVEL_MOST_LOOK_JOINTS = 8 };  // of a look
 
 // How a group with SWIVEL_LOOK looks: a chain of 1 to 8 joints, such as spine, neck and head, turns so that a line of
 // sight in the last one meets SWIVEL_LOOK_TARGET. Each joint lies below the one before; joints in between turn along.
 //
 // - From the first to the last, each joint turns by its share of what is left of the turn, and by no more than its cone
 //   allows from its incoming rotation. The last one takes the rest, so it meets the target exactly where its cone
-//   allows. SWIVEL_LOOK_WEIGHT scales the turns.
+//   allows. A target nearer to that joint than the line of sight passes cannot be met. SWIVEL_LOOK_WEIGHT scales the
+//   turns.
 // - The turn fades out as the target goes behind: from the angle of cos_full to that of cos_none, between the incoming
-//   line of sight and the line to the target. It also fades as the target comes nearer to the eye than `near`. So
-//   nothing flips, and straight behind the pose is the incoming one.
-// - The line to the target is eased: it turns by at most `rate`, so a new target takes time. It begins at the target.
+//   line of sight and the line to the target. It also fades as the target comes nearer to the eye than `fade_distance`.
+//   So nothing flips, and straight behind the pose is the incoming one.
+// - The line to the target is eased: it turns by at most `rate`, so a new target takes time. A change of the distance
+// may
+//   turn the line of sight by as much again. It begins at the target.
 //   swivel_reset() lets it begin anew: call it after a teleport.
 //
 // A body's looks come after its shift and before its props and limbs, in the order of their groups. So a limb may hang
 // below a look, as an arm does below the spine: it is solved from where the look has turned its shoulder, and its
-// incoming pose turns along. What is planted or fits asks for its place before. A look may hang below an earlier look,
-// as an eye does below the head: let the head aim the point between the eyes. No look hangs below a limb. One joint is
-// the aim of a turret or a weapon.
+// incoming pose turns along. So solve a look in one job with what hangs below it. What is planted or fits asks for its
+// place before. A look may hang below an earlier look, as an eye does below the head: let the head aim the point
+// between the eyes. No look hangs below a limb. One joint is the aim of a turret or a weapon.
 //
 // The flags are REACHED where the line meets the target within 1e-4 rad, LIMITED_LOOK, LIMITED_STEP where the rate
 // holds the line back, and FADED. Bad input keeps the incoming pose and leaves SWIVEL_SIGHT as it was. Source: our own.
 typedef struct swivel_look {
-    uint32_t joint_count;                // 1 to 8
-    uint32_t joints[SWIVEL_MOST_BONES];  // of the skeleton, from the first to the last
-    float share[SWIVEL_MOST_BONES];      // of the turn, of any sum: 0 or more, the last one's more than 0
-    float cos_most[SWIVEL_MOST_BONES];   // cosine of the angle that each joint turns at most, -1..1
-    float eye[3];                        // where the line of sight starts, in the last joint's frame, in its unit
-    float axis[3];                       // where it points, in the last joint's frame, of any length but 0
-    float cos_full, cos_none;            // cosines of angles: cos_full is more than cos_none
-    float near;                          // in the last joint's unit
-    float rate;                          // radians a second; 0: the line is not eased
+    uint32_t joint_count;                      // 1 to 8
+    uint32_t joints[SWIVEL_MOST_LOOK_JOINTS];  // of the skeleton, from the first to the last
+    float share[SWIVEL_MOST_LOOK_JOINTS];      // of the turn, of any sum: 0 or more, the last one's more than 0
+    float cos_most[SWIVEL_MOST_LOOK_JOINTS];   // cosine of the angle that each joint turns at most, -1..1
+    float eye[3];                              // where the line of sight starts, in the last joint's frame, in its unit
+    float axis[3];                             // where it points, in the last joint's frame, of any length but 0
+    float cos_full, cos_none;                  // cosines of angles: cos_full is more than cos_none
+    float fade_distance;                       // in the last joint's unit, 0 to 1e15
+    float rate;                                // radians a second; 0: the line is not eased
 } swivel_look;
 
 // No joints yet: shares of 1, cones of 46 degrees, a line along the last joint's z axis. It fades from 96 to 154
@@ -701,10 +703,10 @@ static inline swivel_look swivel_default_look(void)
     swivel_look look;
     int n;
     memset(&look, 0, sizeof look);
-    for (n = 0; n < SWIVEL_MOST_BONES; ++n) look.share[n] = 1, look.cos_most[n] = 0.7f;
+    for (n = 0; n < SWIVEL_MOST_LOOK_JOINTS; ++n) look.share[n] = 1, look.cos_most[n] = 0.7f;
     look.axis[2] = 1;
     look.cos_full = -0.1f, look.cos_none = -0.9f;
-    look.near = 0.05f;
+    look.fade_distance = 0.05f;
     look.rate = 6;
     return look;
 }
@@ -1004,9 +1006,9 @@ typedef struct swivel_pose {
     // joints in between, and all above. x, y, z, w with w >= 0, and 3 floats. A limb that keeps its pose has them as
     // they come; what is bad in the pose is NaN.
     swivel_joint_values joint_rotations, joint_places;
-    // Of each body, for groups WITH_PLANT or FIT: the seconds since its last solve, 1 float. It must be given where one
-    // of these is solved. 0 changes nothing that has begun to be carried. Less than 0, NaN and more than 1e15 are bad
-    // input.
+    // Of each body, for groups WITH_PLANT, FIT or LOOK with a rate: the seconds since its last solve, 1 float. It must
+    // be given where one of these is solved. 0 changes nothing that has begun to be carried. Less than 0, NaN and more
+    // than 1e15 are bad input.
     swivel_in time;
     // What planted points stand on: a platform, a ladder, or the ground. Null position: at the world's origin. Null
     // rotation: not turned. For the ground give a position near the body, such as the origin of its tile, and change it

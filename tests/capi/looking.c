@@ -49,7 +49,7 @@ static swivel_group_def eye(uint32_t joint)
     swivel_group_def def = swivel_default_look_group_def();
     def.look.joint_count = 1, def.look.joints[0] = joint;
     def.look.cos_most[0] = 0.75f, def.look.cos_full = 0.25f, def.look.cos_none = -0.25f;
-    def.look.near = 0.125f, def.look.rate = 0;
+    def.look.fade_distance = 0.125f, def.look.rate = 0;
     return def;
 }
 

@@ -108,7 +108,7 @@ void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
     for (float& x : look.eye) x = number(-0.2f, 0.2f);
     for (float& x : look.axis) x = number(-1, 1);
     look.axis[1] += 1.5f;
-    look.near = number(0, 0.5f);
+    look.fade_distance = number(0, 0.5f);
     look.rate = number(0, 4);
     groups.push_back(group);
 }
@@ -268,8 +268,8 @@ void BodyDef::spoil_look(Bytes& bytes, swivel_look& look)
             look.joints[bytes.below(2)] = bytes.one_in(2) ? bytes.below(12) : bytes.take<std::uint32_t>();
             break;
         default:
-            *std::array{&look.share[0], &look.cos_most[0], &look.eye[1], &look.axis[1],
-                        &look.cos_full, &look.cos_none,    &look.near,   &look.rate}[bytes.below(8)] =
+            *std::array{&look.share[0], &look.cos_most[0], &look.eye[1],        &look.axis[1],
+                        &look.cos_full, &look.cos_none,    &look.fade_distance, &look.rate}[bytes.below(8)] =
                 bytes.any_float();
     }
 }

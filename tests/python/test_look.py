@@ -23,7 +23,7 @@ REST = np.float32([(0, 0, 0, 1), (0, 0.125, 0, 1), (0, 0, 0, 1), (0, 0, 0, 1), (
                    (0, 0, 0, 1)])
 ARM, BODY, LEFT, RIGHT = range(4)
 CHAIN = LookGroup([SPINE, NECK, HEAD], share=(1, 1, 2), cos_most=(0.96875, 0.875, 0.625), eye=(0, 0.125, 0.125), axis=(0, -0.125, 1), rate=4)
-EYE = LookGroup([LEFT_EYE], cos_most=0.75, cos_full=0.25, cos_none=-0.25, near=0.125, rate=0)
+EYE = LookGroup([LEFT_EYE], cos_most=0.75, cos_full=0.25, cos_none=-0.25, fade_distance=0.125, rate=0)
 
 
 class Lookers:
@@ -61,7 +61,7 @@ class Bodies(unittest.TestCase):
                 self.assertEqual([Lookers().digest()], said)
 
     def test_every_argument_counts(self):
-        others = {"joints": [SPINE, HEAD], "share": 1, "cos_most": 0.5, "eye": (0, 0, 0), "axis": (0, 0, 1), "cos_full": 0.9, "cos_none": -0.5, "near": 2, "rate": 1}
+        others = {"joints": [SPINE, HEAD], "share": 1, "cos_most": 0.5, "eye": (0, 0, 0), "axis": (0, 0, 1), "cos_full": 0.9, "cos_none": -0.5, "fade_distance": 2, "rate": 1}
         chain = CHAIN._replace(joints=[SPINE, HEAD], share=(1, 2), cos_most=(0.96875, 0.625))
         digests = [Lookers(chain if name == "joints" else CHAIN._replace(**{name: other})).digest() for name, other in others.items()]
         self.assertEqual(set(others), set(LookGroup._fields) - {"on_bad_input"})

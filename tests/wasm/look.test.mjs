@@ -13,7 +13,7 @@ const parents = [-1, 0, 1, 2, 3, 3, 1, 6, 7];
 const translations = [[0, 0.875, 0], [0, 0.25, 0], [0, 0.375, 0], [0, 0.125, 0.0625], [0.03125, 0.125, 0.125], [-0.03125, 0.125, 0.125], [0.1875, 0.25, 0], [0.3125, 0, 0], [0.25, 0, 0]];
 const rest = [[0, 0, 0, 1], [0, 0.125, 0, 1], [0, 0, 0, 1], [0, 0, 0, 1], [0, 0, 0, 1], [0, 0, 0, 1], [0, -0.25, -0.25, 1], [0, -0.5, 0, 1], [0, 0, 0, 1]];
 const theLook = { joints: [SPINE, NECK, HEAD], share: [1, 1, 2], cosMost: [0.96875, 0.875, 0.625], eye: [0, 0.125, 0.125], axis: [0, -0.125, 1], rate: 4 };
-const theEye = { cosMost: 0.75, cosFull: 0.25, cosNone: -0.25, near: 0.125, rate: 0 };
+const theEye = { cosMost: 0.75, cosFull: 0.25, cosNone: -0.25, fadeDistance: 0.125, rate: 0 };
 const at = (values, count, n) => [...values.slice(count * n, count * n + count)];
 
 function lookers(look = theLook) {
@@ -61,7 +61,7 @@ test('the bits of C', () => {
 });
 
 test('every argument counts', () => {
-  const others = { share: 1, cosMost: 0.5, eye: [0, 0, 0], axis: [0, 0, 1], cosFull: 0.9, cosNone: -0.5, near: 2, rate: 1 };
+  const others = { share: 1, cosMost: 0.5, eye: [0, 0, 0], axis: [0, 0, 1], cosFull: 0.9, cosNone: -0.5, fadeDistance: 2, rate: 1 };
   assert.deepEqual(Object.keys(others), Object.keys(defaultLook));
   const digests = Object.entries(others).map(([name, other]) => lookers({ ...theLook, [name]: other }).digest());
   digests.push(lookers().digest(), lookers({ ...theLook, joints: [SPINE, HEAD], share: [1, 2], cosMost: [0.96875, 0.625] }).digest());
@@ -86,7 +86,7 @@ test('lines of sight meet the ball', () => {
 });
 
 test('what is wrong with a look is refused in one line', () => {
-  refuses(() => lookers(1), 'look takes joints, share, cosMost, eye, axis, cosFull, cosNone, near, rate, not 1');
+  refuses(() => lookers(1), 'look takes joints, share, cosMost, eye, axis, cosFull, cosNone, fadeDistance, rate, not 1');
   refuses(() => lookers({ ...theLook, cos_most: 1 }), 'not cos_most');
   refuses(() => lookers({}), 'look.joints is undefined; give numbers of joints');
   refuses(() => lookers({ joints: [-1] }), 'look.joints is -1; give a whole number');
@@ -94,7 +94,7 @@ test('what is wrong with a look is refused in one line', () => {
   refuses(() => lookers({ joints: Array(9).fill(HEAD) }), 'group 1, look.joint_count is 9; it is 1 to 8');
   refuses(() => lookers({ ...theLook, share: [1, 2] }), 'look.share has 2 numbers; give 3');
   refuses(() => lookers({ ...theLook, cosMost: '1' }), 'look.cosMost is "1"; give a number');
-  refuses(() => lookers({ ...theLook, near: null }), 'look.near is null; give a number');
+  refuses(() => lookers({ ...theLook, fadeDistance: null }), 'look.fadeDistance is null; give a number');
   refuses(() => lookers({ ...theLook, cosFull: -1 }), 'cos_full is 0.001 more');
   refuses(() => swivel.bodies({ skeleton: { parents: [-1], translations: [0, 0, 0] }, bodyCount: 1, groups: [{ look: { joints: [0] }, link: 0 }] }), 'a group that looks takes look, onBadInput, not link');
 });

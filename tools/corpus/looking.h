@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What bodies look at: targets that go to and fro, one of four always behind. Now and then there is none, it is far
+// What bodies look at: targets that go to and fro on any side. Now and then there is none, it is far
 // away, or a number is spoilt.
 #pragma once
 

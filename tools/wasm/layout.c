@@ -109,7 +109,8 @@ static void print_constants(void)
     CONSTANT(prop, joint), RENAMED(prop, most_move, "mostMove");
     printf("} as const;\n\nexport const defaultLook = {\n");
     RENAMED(look, share[0], "share"), RENAMED(look, cos_most[0], "cosMost"), TRIPLE(look, eye), TRIPLE(look, axis);
-    RENAMED(look, cos_full, "cosFull"), RENAMED(look, cos_none, "cosNone"), CONSTANT(look, near), CONSTANT(look, rate);
+    RENAMED(look, cos_full, "cosFull"), RENAMED(look, cos_none, "cosNone"),
+        RENAMED(look, fade_distance, "fadeDistance"), CONSTANT(look, rate);
     printf("} as const;\n");
 }
 
@@ -160,7 +161,7 @@ static void print_structures(void)
     OFFSET(swivel_pose, support_position), OFFSET(swivel_pose, support_rotation), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
-    printf("export const MOST_BONES = %d;\n", SWIVEL_MOST_BONES);
+    printf("export const MOST_LOOK_JOINTS = %d;\n", SWIVEL_MOST_LOOK_JOINTS);
     printf("export const ENTITY_COUNT = %d;\n", SWIVEL_ENTITY_COUNT);
     printf("export const RESULT_END = %d;\n", SWIVEL_RESULT_END);
     printf("export const EXPLANATION_BYTES = %d;\n", SWIVEL_EXPLANATION_BYTES);

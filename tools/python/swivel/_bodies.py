@@ -146,7 +146,7 @@ class LookGroup(NamedTuple):
     axis          (3,) where it points, in the last joint's frame, of any length but 0
     cos_full      the look fades as the target goes behind: from this cosine between line and target
     cos_none      to this one, at which the pose stays
-    near          it also fades nearer than this, in the last joint's unit
+    fade_distance it also fades nearer than this, in the last joint's unit
     rate          radians a second that the line turns at most; 0: it is not eased, and the pose needs no time
     on_bad_input  what a body with bad input gets; None: as the crowd says
     """
@@ -158,7 +158,7 @@ class LookGroup(NamedTuple):
     axis: npt.ArrayLike = (0, 0, 1)
     cos_full: float = -0.1
     cos_none: float = -0.9
-    near: float = 0.05
+    fade_distance: float = 0.05
     rate: float = 6
     on_bad_input: Optional[OnBadInput] = None
 
@@ -189,7 +189,7 @@ class Pose(NamedTuple):
     out_translations  in the body's space: where translations of moved joints go; None: back to translations
     joint_rotations   (bodies, joints, 4) to write: how joints are turned after the solve, relative to the root
     joint_places      (bodies, joints, 3) to write: where they are then
-    time              (bodies,) seconds since the body's last solve; planted limbs and shifts need it
+    time              (bodies,) seconds since the body's last solve; planted limbs, shifts and looks with a rate need it
     support_position  (bodies, 3) of what planted points stand on, in the world; None: the origin
     support_rotation  (bodies, 4) None: not turned
 

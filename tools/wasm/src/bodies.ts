@@ -70,7 +70,7 @@ const parts = named({
  * Solves write jointRotations, x, y, z, w, and jointPlaces: where the joints that some limb needs are then, relative to the root. Those of
  * others stay NaN. In the body's space they also write translations, or translationResults if these are asked for.
  *
- * Planted limbs and shifts need time: the seconds since each body's last solve. supportPosition and supportRotation are of what planted
+ * Planted limbs, shifts and looks with a rate need time: the seconds since each body's last solve. supportPosition and supportRotation are of what planted
  * points stand on, in the world.
  */
 export type PosePart = keyof typeof parts;

@@ -3,7 +3,7 @@
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
 import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, layout, MOST_BONES, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
+import { defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, layout, MOST_LOOK_JOINTS, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
 
 /** What groups of free limbs and of bodies have. */
@@ -95,7 +95,7 @@ export interface Look {
     cosFull?: number;
     cosNone?: number;
     /** It also fades nearer than this, in the last joint's unit. */
-    near?: number;
+    fadeDistance?: number;
     /** Radians a second that the line turns at most. 0: it is not eased. */
     rate?: number;
 }
@@ -215,7 +215,7 @@ function propBytes(given: Prop): Uint8Array {
 function lookBytes(given: Look): Uint8Array {
     const look = { ...defaultLook, ...options("look", given as Look & Record<string, unknown>, "joints", ...Object.keys(defaultLook) as (keyof typeof defaultLook)[]) };
     if (!Array.isArray(look.joints)) refuse(`look.joints is ${shown(look.joints)}; give numbers of joints`);
-    const joints = look.joints.slice(0, MOST_BONES), bytes = new DataView(new ArrayBuffer(layout.swivel_look.bytes));
+    const joints = look.joints.slice(0, MOST_LOOK_JOINTS), bytes = new DataView(new ArrayBuffer(layout.swivel_look.bytes));
     const each = (name: string, value: number | Numbers) =>
         typeof value === "object" ? Array.from(numbers(name, value, joints.length)) : Array(joints.length).fill(real(name, value));
     const put = (at: number, values: ArrayLike<number>) => Array.from(values).forEach((x, n) => bytes.setFloat32(at + 4 * n, x, true));
@@ -223,8 +223,8 @@ function lookBytes(given: Look): Uint8Array {
     joints.forEach((joint, n) => bytes.setUint32(layout.swivel_look.joints + 4 * n, whole("look.joints", joint), true));
     put(layout.swivel_look.share, each("look.share", look.share)), put(layout.swivel_look.cos_most, each("look.cosMost", look.cosMost));
     put(layout.swivel_look.eye, numbers("look.eye", look.eye, 3)), put(layout.swivel_look.axis, numbers("look.axis", look.axis, 3));
-    const { cosFull, cosNone, near, rate } = look;
-    put(layout.swivel_look.cos_full, Object.entries({ cosFull, cosNone, near, rate }).map(([name, value]) => real(`look.${name}`, value)));
+    const { cosFull, cosNone, fadeDistance, rate } = look;
+    put(layout.swivel_look.cos_full, Object.entries({ cosFull, cosNone, fadeDistance, rate }).map(([name, value]) => real(`look.${name}`, value)));
     return new Uint8Array(bytes.buffer);
 }
 
