@@ -90,7 +90,7 @@ struct LookStage {
             RC_ASSERT(std::fabs(angle_of(turn) - std::min(share * angle, most)) <= 1.1e-3 + rounding);
             if (angle > 0.05 && angle < 2.7 && angle_of(turn) > 0.01)
                 RC_ASSERT(angle_between(turn.w() < 0 ? Vector3d(-turn.vec()) : Vector3d(turn.vec()), axis.cross(to)) <=
-                          (3e-5 + 4 * rounding) / (std::sin(angle) * angle_of(turn)));
+                          (1e-5 + 12 * rounding) / (std::sin(angle) * angle_of(turn)));
         }
     }
     void check_limbs(const LinkedBody& body, LookCounts& counts) const
