@@ -179,7 +179,7 @@ swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& ske
 
 swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
 {
-    char name[16];
+    char name[32];
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         std::snprintf(name, sizeof name, "share[%u]", n);
         if (const swivel_status status = check_constants(g, "look", {{name, look.share[n], 1000}}); status != SWIVEL_OK)
