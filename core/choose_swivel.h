@@ -62,10 +62,32 @@ SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
 // Rooms and cosines that differ by less than this count as equal, so rounding seldom decides.
 inline constexpr double kTie = 1e-6;
 
+// Of candidates, the swivel with the most room. Of equal ones it is the one nearest to the wish, then the first. Each
+// is compared with the best so far: of three, where each is equal to the next one only, the order decides.
+template <class T>
+struct MostRoom {
+    Turned<T> best;
+    T best_room, most;
+
+    SWIVEL_INLINE constexpr MostRoom(const Turned<T>& first, const T& its_room)
+        : best(first), best_room(its_room), most(its_room)
+    {
+    }
+    SWIVEL_INLINE constexpr void consider(const Turned<T>& swivel, const Mask<T>& exists, const T& left)
+    {
+        most = select(exists, hi(left, most), most);
+        // An allowed one never ties with a forbidden one.
+        const T enough = select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));
+        const Mask<T> preferred = (best_room < enough) | (swivel.cos > best.cos + T(kTie));
+        const Mask<T> better = exists & (left >= enough) & preferred;
+        best = select(better, swivel, best);
+        best_room = select(better, left, best_room);
+    }
+};
+
 // The swivel at which the limits have the most room, though this is less than none. The room is the least over lines,
 // and the most over alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
-// are equal. Of equal peaks the one nearest to the wish is taken, then the first. Each is compared with the best so
-// far: of three peaks, where each is equal to the next one only, the order decides.
+// are equal.
 //
 // A box has 16 peaks and 41 pairs of lines. Nearly all are needed: in 1.8 million random cases that one box forbids,
 // each of 37 pairs won at least 7,834 times. The other four are the two ends of one range. They matter only where that
@@ -75,22 +97,14 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& l
 {
     Edge<T> edge[kMostEdges<Boxes>];
     const int count = edges(limits, true, edge);
-    Turned<T> best{T(1), T(0)};
-    T best_room = room(limits, best), most = best_room;
+    const Turned<T> wish{T(1), T(0)};
+    MostRoom<T> found(wish, room(limits, wish));
     struct Candidate {
         Turned<T> swivel;
         Mask<T> exists;
     };
     const auto consider = [&](const Candidate& candidate) SWIVEL_INLINE_LAMBDA {
-        const auto& [swivel, exists] = candidate;
-        const T left = room(limits, swivel);
-        most = select(exists, hi(left, most), most);
-        // An allowed one never ties with a forbidden one.
-        const T enough = select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));
-        const Mask<T> preferred = (best_room < enough) | (swivel.cos > best.cos + T(kTie));
-        const Mask<T> better = exists & (left >= enough) & preferred;
-        best = select(better, swivel, best);
-        best_room = select(better, left, best_room);
+        found.consider(candidate.swivel, candidate.exists, room(limits, candidate.swivel));
     };
     const Mask<T> never = T(1) < T(0);
     for (int n = 0; n < count; ++n) {
@@ -111,7 +125,7 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& l
                 for_both<Boxes>(Candidate{equal.first, exist}, Candidate{equal.second, exist}, consider);
             });
     }
-    return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
+    return {found.best, found.most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 // valid: false where the input is bad, so that nothing is searched for.
 template <class T, int Boxes>

@@ -118,7 +118,7 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/(api|api_solve|api_pose|bodies|pose|share|sized|crowd|describe|digest|explain_text|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/(api_plant|rig|skeleton|body_(check|joints|plan)|angles|budget|check|compare(d_limb)?|explain(_plant)?|forward|joint_angles|one_limb|pack|posed_body)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(api_plant|rig|skeleton|body_(check|joints|plan)|angles|budget|check|compare(d_limb)?|explain(_plant)?|forward|joint_angles|one_limb|pack|posed_body|region(_cones)?)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- lecture: formulas in double and the oracle; it needs no crowd

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// How a reach region is put together, in double: the half-spaces that parts and cuts are made of. It owns the bounds of
+// their number. It knows no swivel.
+#pragma once
+
+#include "core/region.h"
+
+namespace swivel {
+
+struct HalfSpace {
+    Vector<double> axis;  // unit
+    double cosine;
+    bool is_edge;
+};
+
+// A region as it grows. What does not fit is left out, and is_full() then says so.
+class RegionBuilder {
+public:
+    explicit RegionBuilder(const swivel_region& from) : region_(from) {}
+
+    void add(const HalfSpace& half);
+    void end_part();
+    void cut(const HalfSpace& half);
+    bool is_full() const { return full_; }
+    const swivel_region& region() const { return region_; }
+
+private:
+    swivel_region region_;
+    std::uint32_t open_ = 0;  // half-spaces of the part that is not ended yet
+    bool full_ = false;
+};
+
+// Whether a region's numbers are what its header says. function: for the message.
+swivel_status check_region(const char* function, const swivel_region* region);
+
+struct RegionCone {
+    Vector<double> axis;  // unit
+    double angle;
+};
+// The nth of a function's cones.
+swivel_status read_cone(const char* function, std::uint32_t n, const swivel_region_cone& cone, RegionCone& to);
+// The nth of a function's directions, made unit.
+swivel_status read_direction(const char* function, std::uint32_t n, const float* direction, Vector<double>& to);
+// Keeps what was built, or says that it does not fit.
+swivel_status keep(const char* function, const RegionBuilder& builder, swivel_region* region);
+
+// Cones in order, with bridges between neighbours.
+void add_cones(RegionBuilder& builder, const RegionCone* cones, std::uint32_t count, bool closed);
+
+}  // namespace swivel

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+//
+// A reach region: where the upper arm may point. It is a union of parts, each an intersection of half-spaces a . d >=
+// c, less forbidden cones. The room of a direction is the least over a part's half-spaces, and the most over parts. A
+// forbidden cone takes it down to its own. While the arm swivels, each component of the direction goes as a cos phi + b
+// sin phi + c. So each half-space is a line on the circle, as every other limit is (limits.h). Rows keep these nine
+// numbers, and lines are made where they are needed.
+//
+// Sources: cones in order with bridges between them, the kusudamas of E. Gjoni, which Godot has; the search on the
+// circle is our own.
+#pragma once
+
+#include "core/arm.h"
+#include "core/choose_swivel.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+SWIVEL_INLINE constexpr T axis_of(const swivel_half_space& half, int n)
+{
+    return T(half.axis[n]);
+}
+
+// How much room each half-space leaves: room_of(n) is that of the nth.
+template <class T, class RoomOf>
+SWIVEL_INLINE constexpr T room_of_parts(const swivel_region& region, const RoomOf& room_of)
+{
+    T most = T(-4);  // less than any room
+    for (std::uint32_t part = 0; part < region.part_count; ++part) {
+        T least = T(2);
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) least = lo(room_of(n), least);
+        most = hi(least, most);
+    }
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) most = lo(room_of(n), most);
+    return most;
+}
+// Of a unit direction.
+template <class T>
+SWIVEL_INLINE constexpr T room(const swivel_region& region, const Vector<T>& direction)
+{
+    const T x = direction.template at<kE1>(), y = direction.template at<kE2>(), z = direction.template at<kE3>();
+    return room_of_parts<T>(region, [&](std::uint32_t n) SWIVEL_INLINE_LAMBDA {
+        const swivel_half_space& half = region.half_space[n];
+        return axis_of<T>(half, 0) * x + axis_of<T>(half, 1) * y + axis_of<T>(half, 2) * z - T(half.cosine);
+    });
+}
+
+// A direction that turns with the swivel, by its components; and the region that it must stay in.
+template <class T>
+struct RegionOnCircle {
+    const swivel_region* region;
+    OnCircle<T> x, y, z;
+
+    SWIVEL_INLINE constexpr OnCircle<T> line(std::uint32_t n) const
+    {
+        const swivel_half_space& half = region->half_space[n];
+        return axis_of<T>(half, 0) * x + axis_of<T>(half, 1) * y + axis_of<T>(half, 2) * z - constant(T(half.cosine));
+    }
+};
+template <class T>
+SWIVEL_INLINE constexpr T room(const RegionOnCircle<T>& on, const Turned<T>& swivel)
+{
+    return room(*on.region, vector(on.x.at(swivel), on.y.at(swivel), on.z.at(swivel)));
+}
+
+// The nearest end of an allowed arc, where there is one. Room that no lane needs is not looked at.
+template <class T>
+SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const RegionOnCircle<T>& on)
+{
+    Turned<T> best{T(-1), T(0)};
+    T nearest = T(-2);
+    const std::uint32_t count = on.region->first[on.region->part_count];
+    for (std::uint32_t n = 0; n < count; ++n) {
+        if (on.region->half_space[n].is_edge == 0) continue;
+        const Crossings<T> ends = crossings(on.line(n));
+        for (const Turned<T>& end : {ends.first, ends.second}) {
+            const Mask<T> nearer = ends.exist & (end.cos > nearest);
+            if (!any(nearer)) continue;
+            const Mask<T> better = nearer & (room(on, end) >= T(kNoRoom));
+            best = select(better, end, best);
+            nearest = select(better, end.cos, nearest);
+        }
+    }
+    return {best, nearest >= T(-1.5)};
+}
+
+// The swivel at which the region has the most room, though this is less than none. The room peaks where a half-space's
+// line peaks, or where two lines are equal: of one part, of two cuts, or of a part and a cut. Ties go as in
+// choose_swivel.h.
+template <class T>
+SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const RegionOnCircle<T>& on)
+{
+    const swivel_region& region = *on.region;
+    MostRoom<T> found({T(1), T(0)}, room(on, Turned<T>{T(1), T(0)}));
+    const auto consider = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_INLINE_LAMBDA {
+        if (any(exists)) found.consider(swivel, exists, room(on, swivel));
+    };
+    const auto consider_with = [&](std::uint32_t n, std::uint32_t from) {
+        const OnCircle<T> line = on.line(n);
+        for (std::uint32_t m = from; m < n; ++m) {
+            const Crossings<T> equal = crossings(line - on.line(m));
+            consider(equal.first, equal.exist);
+            consider(equal.second, equal.exist);
+        }
+        const T r2 = line.a * line.a + line.b * line.b;
+        const Mask<T> peaks = r2 > T(kFlat2);
+        const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
+        consider({per_r * line.a, per_r * line.b}, peaks);
+        for (std::uint32_t cut = 0; cut < region.cut_count && from > 0; ++cut) {
+            const Crossings<T> equal = crossings(line - on.line(cut));
+            consider(equal.first, equal.exist);
+            consider(equal.second, equal.exist);
+        }
+    };
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) consider_with(n, 0);
+    for (std::uint32_t part = 0; part < region.part_count; ++part)
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n)
+            consider_with(n, region.first[part]);
+    return {found.best, found.most >= T(kNoRoom)};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

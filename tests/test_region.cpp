@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a region of cones in order, bridges, polygons and forbidden cones allows what its definition says. On
+// the swivel's circle no allowed swivel is missed, and none that is nearer. Float decides as double but near a
+// boundary. The other side's region is the mirror image to the bit.
+#include "core/region.h"
+
+#include <catch2/catch.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/formula_arm.h"
+#include "tests/region_oracle.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+constexpr double kNearEdge = 1e-6;  // what rounding of the region's floats may decide otherwise
+
+// 10,000 of a region make a million.
+constexpr int kDirections = 10'000;
+
+TEST_CASE("a region allows the directions that its definition allows, in double and in float")
+{
+    rc::prop("cones in order, polygons and forbidden cones", [](std::uint64_t seed) {
+        Random random{seed};
+        const RandomRegion r = random_region(random);
+        RC_ASSERT(r.good);
+        for (int n = 0; n < kDirections; ++n) {
+            const Vector3d d = random.direction();
+            const double wanted = r.oracle.room(d);
+            const double got = room(r.region, mv<double>(d));
+            const double in_float = double{room(r.region, mv<float>(d))};
+            if (std::fabs(wanted) > kNearEdge) RC_ASSERT((got >= kNoRoom) == (wanted >= 0));
+            if (std::fabs(got - kNoRoom) > kNearEdge) RC_ASSERT((in_float >= kNoRoom) == (got >= kNoRoom));
+            RC_ASSERT(std::fabs(in_float - got) <= kNearEdge);
+        }
+    });
+}
+
+TEST_CASE("the mirrored region has the same room for the mirrored direction, to the bit")
+{
+    rc::prop("any region", [](std::uint64_t seed) {
+        Random random{seed};
+        const RandomRegion r = random_region(random);
+        swivel_region mirrored;
+        RC_ASSERT(swivel_region_mirror(&r.region, &mirrored) == SWIVEL_OK);
+        for (int n = 0; n < 1000; ++n) {
+            Eigen::Vector3f d = random.direction().cast<float>();
+            float one = 0, other = 0;
+            RC_ASSERT(swivel_region_room(&r.region, d.data(), &one) == SWIVEL_OK);
+            d.x() = -d.x();
+            RC_ASSERT(swivel_region_room(&mirrored, d.data(), &other) == SWIVEL_OK);
+            RC_ASSERT(one == other);
+        }
+    });
+}
+
+TEST_CASE("a bridge has no gap from one cone's axis to the other's, and is not empty")
+{
+    rc::prop("two cones apart", [](std::uint64_t seed) {
+        Random random{seed};
+        const DirectionCone one = random_cone(random, 0.02, 0.7);
+        const double other = random.between(0.02, 0.7), apart = one.angle + other + random.between(0.01, 1.5);
+        const Vector3d side = random.across(one.axis);
+        const DirectionCone two{(std::cos(apart) * one.axis + std::sin(apart) * side), other};
+        const swivel_region_cone cones[] = {one.given(), two.given()};
+        swivel_region region = swivel_default_region();
+        RC_ASSERT(swivel_region_add_cones(&region, cones, 2, 0) == SWIVEL_OK);
+        for (int n = 0; n <= 1000; ++n) {
+            const double turn = n * apart / 1000;
+            const Vector3d d = std::cos(turn) * one.axis + std::sin(turn) * side;
+            RC_ASSERT(room(region, mv<double>(d)) >= kNoRoom);
+        }
+        const double between = one.angle + 0.5 * (apart - one.angle - other);  // in neither cone
+        const Vector3d d = std::cos(between) * one.axis + std::sin(between) * side;
+        swivel_region apart_cones = swivel_default_region();
+        for (const swivel_region_cone& cone : cones)
+            RC_ASSERT(swivel_region_add_cones(&apart_cones, &cone, 1, 0) == SWIVEL_OK);
+        RC_ASSERT(room(apart_cones, mv<double>(d)) < 0);
+    });
+}
+
+// The upper arm goes about an axis.
+struct Swing {
+    Vector3d axis, side;
+    double angle;
+
+    Vector3d at(double cos, double sin) const
+    {
+        return std::cos(angle) * axis + std::sin(angle) * (cos * side + sin * axis.cross(side));
+    }
+    template <class T>
+    RegionOnCircle<T> in(const swivel_region& region) const
+    {
+        const Vector3d a = std::sin(angle) * side, b = std::sin(angle) * axis.cross(side), c = std::cos(angle) * axis;
+        const auto on = [&](int n) { return OnCircle<T>{T(a[n]), T(b[n]), T(c[n])}; };
+        return {&region, on(0), on(1), on(2)};
+    }
+};
+Swing random_swing(Random& random)
+{
+    const Vector3d axis = random.direction();
+    return {axis, random.across(axis), random.between(0.02, 1.5)};
+}
+constexpr int kSteps = 20'000;
+
+TEST_CASE("the nearest allowed swivel is found, and none is missed")
+{
+    int found_some = 0, found_none = 0;
+    rc::prop("against a scan of the circle by the definition", [&](std::uint64_t seed) {
+        Random random{seed};
+        const RandomRegion r = random_region(random);
+        const Swing swing = random_swing(random);
+        if (r.oracle.room(swing.at(1, 0)) > -kNearEdge) return;  // the wish is granted
+        const FoundSwivel<double> found = nearest_end(swing.in<double>(r.region));
+        const FoundSwivel<float> in_float = nearest_end(swing.in<float>(r.region));
+        double nearest = -2;
+        for (int n = 0; n <= kSteps / 2 && nearest < -1.5; ++n)
+            for (const double sign : {1.0, -1.0}) {
+                const double turn = 2 * kPi * n / kSteps;
+                if (r.oracle.room(swing.at(std::cos(turn), sign * std::sin(turn))) > 2 * kNearEdge)
+                    nearest = std::cos(turn);
+            }
+        if (nearest > -1.5) {
+            ++found_some;
+            RC_ASSERT(found.allowed);
+            RC_ASSERT(in_float.allowed);
+            RC_ASSERT(found.swivel.cos >= nearest - 1e-12);
+            RC_ASSERT(double{in_float.swivel.cos} >= nearest - 2e-6);
+        } else {
+            ++found_none;
+        }
+        if (found.allowed) RC_ASSERT(r.oracle.room(swing.at(found.swivel.cos, found.swivel.sin)) >= -kNearEdge);
+        if (in_float.allowed)
+            RC_ASSERT(r.oracle.room(swing.at(double{in_float.swivel.cos}, double{in_float.swivel.sin})) >=
+                      -2 * kNearEdge);
+    });
+    CHECK(found_some > 10);
+    CHECK(found_none > 5);
+}
+
+// The room as the header of the interface says it, by the half-spaces themselves.
+double room_by_half_spaces(const swivel_region& region, const Vector3d& d)
+{
+    const auto room_of = [&](std::uint32_t n) {
+        const swivel_half_space& half = region.half_space[n];
+        return Eigen::Vector3f(half.axis).cast<double>().dot(d) - double{half.cosine};
+    };
+    double most = -4;
+    for (std::uint32_t part = 0; part < region.part_count; ++part) {
+        double least = 2;
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) least = std::min(least, room_of(n));
+        most = std::max(most, least);
+    }
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) most = std::min(most, room_of(n));
+    return most;
+}
+
+TEST_CASE("where no swivel is allowed, the one with the most room is found")
+{
+    int forbidden = 0;
+    rc::prop("against a scan of the circle", [&](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < 20; ++n) {
+            const RandomRegion r = random_region(random);
+            const Swing swing = random_swing(random);
+            const FoundSwivel<double> found = least_violation(swing.in<double>(r.region));
+            if (found.allowed) continue;
+            ++forbidden;
+            const double got = room_by_half_spaces(r.region, swing.at(found.swivel.cos, found.swivel.sin));
+            double most = -4;
+            for (int step = 0; step < 2000; ++step) {
+                const double turn = kPi * step / 1000;
+                most = std::max(most, room_by_half_spaces(r.region, swing.at(std::cos(turn), std::sin(turn))));
+            }
+            RC_ASSERT(got >= most - 1.01e-6);  // kTie of core/choose_swivel.h
+            const FoundSwivel<float> in_float = least_violation(swing.in<float>(r.region));
+            const Vector3d float_at = swing.at(double{in_float.swivel.cos}, double{in_float.swivel.sin});
+            RC_ASSERT(room_by_half_spaces(r.region, float_at) >= most - 2e-6);
+        }
+    });
+    CHECK(forbidden > 100);
+}
+
+bool says(swivel_status status, const char* words)
+{
+    return status == SWIVEL_INVALID_ARGUMENT && std::string(swivel_last_error()).find(words) != std::string::npos;
+}
+
+TEST_CASE("what cannot be part of a region is refused, with a line, and changes nothing")
+{
+    swivel_region region = swivel_default_region();
+    const swivel_region_cone cone{{0, 0, 2}, 0.5f}, narrow{{0, 0, 1}, 0.001f}, none{{0, 0, 0}, 0.5f},
+        opposite[] = {{{0, 0, 1}, 0.5f}, {{0, 0, -1}, 0.5f}};
+    CHECK(swivel_region_add_cones(&region, &cone, 1, 0) == SWIVEL_OK);
+    const swivel_region before = region;
+    CHECK(says(swivel_region_add_cones(&region, &narrow, 1, 0), "the angle of cone 0"));
+    CHECK(says(swivel_region_forbid(&region, &none), "has no direction"));
+    CHECK(says(swivel_region_add_cones(&region, opposite, 2, 0), "cones 0 and 1 are opposite"));
+    CHECK(says(swivel_region_add_cones(&region, opposite, 0, 0), "0 cones are not 1 to 24"));
+    const float clockwise[] = {0, 0, 1, 0, 1, 1, 1, 0, 1};
+    CHECK(says(swivel_region_add_polygon(&region, clockwise, 3), "convex polygon"));
+    CHECK(says(swivel_region_add_polygon(&region, clockwise, 2), "2 corners are not 3 to 64"));
+    const std::vector<swivel_region_cone> many(24, cone);
+    CHECK(says(swivel_region_add_cones(&region, many.data(), 24, 0), "more than 64 half-spaces or 24 parts"));
+    CHECK(says(swivel_region_add_cones(nullptr, &cone, 1, 0), "region is null"));
+    CHECK(std::memcmp(&before, &region, sizeof region) == 0);
+    region.half_space[0].axis[2] = 2;
+    float room = 0;
+    CHECK(says(swivel_region_room(&region, cone.axis, &room), "half-space 0 of the region needs a unit axis"));
+}
+
+}  // namespace
