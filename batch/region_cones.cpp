@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Cones in order with bridges between neighbours, and the cones that hold given directions.
+// Cones in order with bridges between neighbours.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -67,7 +67,8 @@ Bridge bridge_of(const RegionCone& one, const RegionCone& two)
 
 // Outside of both circles and between the great circles through each cone's points of touch. Each great circle lies
 // within its cone between these points, and beyond them within the circles. So there is no gap, and nothing but the
-// bridge. This holds where both cones are less than a half-space and the circles meet at the line between the cones.
+// bridge. This holds where the circles meet on the arc between the cones. They do so only if both cones are less than a
+// half-space.
 void add_lune(RegionBuilder& builder, const Bridge& bridge, const Vector<double>& pole)
 {
     for (const Vector<double>& circle : bridge.circle) builder.add({-circle, -std::cos(bridge.angle), true});
@@ -98,8 +99,7 @@ void add_bridge(RegionBuilder& builder, const RegionCone& one, const RegionCone&
     const Bridge bridge = bridge_of(one, two);
     const Vector<double> pole = normalise(cross(one.axis, two.axis));
     const bool meet = cos_between(bridge.circle[0], pole) > std::cos(bridge.angle) + kNoAngle;
-    const bool convex = std::fmax(one.angle, two.angle) < 1.55;  // clearly less than a half-space
-    if (convex && meet)
+    if (meet)
         add_lune(builder, bridge, pole);
     else
         add_triangles(builder, bridge, one, two);

@@ -185,6 +185,50 @@ TEST_CASE("where no swivel is allowed, the one with the most room is found")
     CHECK(forbidden > 100);
 }
 
+// A path of a few arcs, and directions about it.
+TEST_CASE("cones of directions hold each with its margin, and little else")
+{
+    double allowed = 0, wanted = 0, one_cone = 0;
+    rc::prop("directions about a bent path", [&](std::uint64_t seed) {
+        Random random{seed};
+        const double width = random.between(0.05, 0.3), margin = double{float(random.between(0.02, 0.15))};
+        std::vector<float> flat;
+        std::vector<Vector3d> given;
+        Vector3d at = random.direction();
+        const std::uint32_t arcs = 1 + random.below(3);
+        for (std::uint32_t arc = 0; arc < arcs; ++arc) {
+            const Vector3d axis = random.across(at);
+            const double length = random.between(0.2, 1.0);
+            for (int n = 0; n < 100; ++n) {
+                const Vector3d on = Eigen::AngleAxisd(length * random.unit(), axis) * at;
+                const Eigen::Vector3f d = (on + width * random.unit() * random.direction()).cast<float>();
+                flat.insert(flat.end(), {d.x(), d.y(), d.z()});
+                given.push_back(d.cast<double>().normalized());
+            }
+            at = Eigen::AngleAxisd(length, axis) * at;
+        }
+        swivel_region region = swivel_default_region(), single = region;
+        const auto count = static_cast<std::uint32_t>(given.size());
+        RC_ASSERT(swivel_region_add_directions(&region, flat.data(), count, float(margin), 6) == SWIVEL_OK);
+        RC_ASSERT(swivel_region_add_directions(&single, flat.data(), count, float(margin), 1) == SWIVEL_OK);
+        for (const Vector3d& d : given)
+            for (int n = 0; n < 8; ++n) {
+                const Vector3d near = Eigen::AngleAxisd(margin * random.unit(), random.across(d)) * d;
+                RC_ASSERT(room(region, mv<double>(near)) >= kNoRoom);
+            }
+        for (int n = 0; n < 1000; ++n) {
+            const Vector3d d = random.direction();
+            allowed += room(region, mv<double>(d)) >= 0;
+            one_cone += room(single, mv<double>(d)) >= 0;
+            wanted += std::any_of(given.begin(), given.end(),
+                                  [&](const Vector3d& g) { return g.dot(d) >= std::cos(margin); });
+        }
+    });
+    CAPTURE(allowed / wanted, one_cone / wanted);
+    CHECK(allowed < 0.8 * one_cone);
+    CHECK(allowed < 2 * wanted);
+}
+
 bool says(swivel_status status, const char* words)
 {
     return status == SWIVEL_INVALID_ARGUMENT && std::string(swivel_last_error()).find(words) != std::string::npos;

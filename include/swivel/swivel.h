@@ -709,6 +709,35 @@ static inline swivel_look swivel_default_look(void)
     look.fade_distance = 0.05f;
     look.rate = 6;
     return look;
+
+// REACH REGIONS: where the upper arm may point. A region is a union of parts, each an intersection of half-spaces.
+// Forbidden cones are cut out of all parts. Directions are in the arm frame at rest, like SWIVEL_SHOULDER_CONE's axis;
+// swivel_arm_axis() converts those of the character. Start with an empty region, which allows nothing, then add to it
+// and forbid, in any order: swivel_region_add_cones() and the calls after it. A call that fails leaves the region as it
+// was. Any thread; no allocation.
+enum { SWIVEL_MOST_HALF_SPACES = 64, SWIVEL_MOST_REGION_PARTS = 24 };
+
+// The directions whose scalar product with the axis is at least the cosine.
+typedef struct swivel_half_space {
+    float axis[3];     // unit
+    float cosine;      // -1..1
+    uint32_t is_edge;  // 0: its boundary lies within the region or outside, so it bounds nothing; else 1
+} swivel_half_space;
+
+typedef struct swivel_region {
+    size_t size;                                   // sizeof(swivel_region), set by swivel_default_region()
+    uint32_t cut_count;                            // the first half-spaces, which hold for all parts
+    uint32_t part_count;                           // part n is half_space[first[n]] to half_space[first[n + 1] - 1]
+    uint32_t first[SWIVEL_MOST_REGION_PARTS + 1];  // first[0] is cut_count
+    swivel_half_space half_space[SWIVEL_MOST_HALF_SPACES];
+} swivel_region;
+
+static inline swivel_region swivel_default_region(void)
+{
+    swivel_region region;
+    memset(&region, 0, sizeof region);
+    region.size = sizeof region;
+    return region;
 }
 
 // Limbs that share features and a binding, such as the left arms of one skeleton.
@@ -1301,35 +1330,7 @@ SWIVEL_API void swivel_turn(double angle, float turn[2]);
 // for results and for an order that does not exist. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
 
-// REACH REGIONS: where the upper arm may point. A region is a union of parts, each an intersection of half-spaces.
-// Forbidden cones are cut out of all parts. Directions are in the arm frame at rest, like SWIVEL_SHOULDER_CONE's axis;
-// swivel_arm_axis() converts those of the character. Start with an empty region, which allows nothing, then add to it
-// and forbid, in any order. A call that fails leaves the region as it was. Any thread; no allocation.
-enum { SWIVEL_MOST_HALF_SPACES = 64, SWIVEL_MOST_REGION_PARTS = 24 };
-
-// The directions whose scalar product with the axis is at least the cosine.
-typedef struct swivel_half_space {
-    float axis[3];     // unit
-    float cosine;      // -1..1
-    uint32_t is_edge;  // 0: its boundary lies within the region or outside, so it bounds nothing; else 1
-} swivel_half_space;
-
-typedef struct swivel_region {
-    size_t size;                                   // sizeof(swivel_region), set by swivel_default_region()
-    uint32_t cut_count;                            // the first half-spaces, which hold for all parts
-    uint32_t part_count;                           // part n is half_space[first[n]] to half_space[first[n + 1] - 1]
-    uint32_t first[SWIVEL_MOST_REGION_PARTS + 1];  // first[0] is cut_count
-    swivel_half_space half_space[SWIVEL_MOST_HALF_SPACES];
-} swivel_region;
-
-static inline swivel_region swivel_default_region(void)
-{
-    swivel_region region;
-    memset(&region, 0, sizeof region);
-    region.size = sizeof region;
-    return region;
-}
-
+// Reach regions: see swivel_region.
 typedef struct swivel_region_cone {
     float axis[3];  // of any length but zero
     float angle;    // to the axis, at most: 0.01 to pi - 0.01
@@ -1339,15 +1340,15 @@ typedef struct swivel_region_cone {
 // two circles of radius (pi - both angles) / 2 that touch both. No bridge is needed where one cone holds the other, or
 // where both angles are half a turn together. closed: not 0 to bridge the last cone and the first, too. Neighbours may
 // not be opposite. Cones that are no neighbours are not bridged. A cone takes one half-space; a bridge takes four, or
-// eight if it is wide or one of its cones is a half-space or more.
+// eight if its circles do not meet on the arc between the axes.
 SWIVEL_API swivel_status swivel_region_add_cones(swivel_region* region, const swivel_region_cone* cones, uint32_t count,
                                                  uint32_t closed);
 // Adds a convex polygon of 3 corners or more, counter-clockwise as seen from outside. Its sides are arcs of great
 // circles. corners: x, y, z of each, of any length but zero.
 SWIVEL_API swivel_status swivel_region_add_polygon(swivel_region* region, const float* corners, uint32_t count);
-// Adds a region of cones in order that has all these directions and all within `margin` radians of them: what a clip
-// does, and a little more. It has 1 to most_cones cones, 8 at most, as many as make it smallest. Takes as long as some
-// 1e4 looks at each direction. directions: x, y, z of each, of any length but zero.
+// Adds cones in order that hold all these directions, each with `margin` radians around it: what a clip does, and a
+// little more. They are 1 to most_cones, as many as allow least. directions: x, y, z of each, of any length but zero,
+// `count` of them, 1 or more. margin: 0.01 to 1. most_cones: 1 to 6. Takes about 0.05 ms for each.
 SWIVEL_API swivel_status swivel_region_add_directions(swivel_region* region, const float* directions, uint32_t count,
                                                       float margin, uint32_t most_cones);
 // Cuts a cone out of all that is there and will be added.
