@@ -30,23 +30,29 @@ SWIVEL_INLINE constexpr void for_both(const Each& first, const Each& second, con
     }
 }
 
+// Calls take(end, exist) for all places where an allowed arc can end.
+template <class T, int Boxes, class Take>
+SWIVEL_INLINE constexpr void for_each_end(const Limits<T, Boxes>& limits, const Take& take)
+{
+    Edge<T> edge[kMostEdges<Boxes>];
+    const int count = edges(limits, false, edge);
+    for (int n = 0; n < count; ++n) {
+        const Crossings<T> ends = crossings(edge[n].line());
+        const Mask<T> exist = ends.exist & edge[n].live();
+        for_both<Boxes>(ends.first, ends.second, [&](const Turned<T>& end) SWIVEL_INLINE_LAMBDA { take(end, exist); });
+    }
+}
 // The nearest end of an allowed arc, where there is one.
 template <class T, int Boxes>
 SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Limits<T, Boxes>& limits)
 {
-    Edge<T> edge[kMostEdges<Boxes>];
-    const int count = edges(limits, false, edge);
     Turned<T> best{T(-1), T(0)};
     T nearest = T(-2);
-    for (int n = 0; n < count; ++n) {
-        const Crossings<T> ends = crossings(edge[n].line());
-        const Mask<T> exist = ends.exist & edge[n].live();
-        for_both<Boxes>(ends.first, ends.second, [&](const Turned<T>& end) SWIVEL_INLINE_LAMBDA {
-            const Mask<T> better = exist & (end.cos > nearest) & (inlined_room(limits, end) >= T(kNoRoom));
-            best = select(better, end, best);
-            nearest = select(better, end.cos, nearest);
-        });
-    }
+    for_each_end(limits, [&](const Turned<T>& end, const Mask<T>& exist) SWIVEL_INLINE_LAMBDA {
+        const Mask<T> better = exist & (end.cos > nearest) & (inlined_room(limits, end) >= T(kNoRoom));
+        best = select(better, end, best);
+        nearest = select(better, end.cos, nearest);
+    });
     return {best, nearest >= T(-1.5)};
 }
 
@@ -85,27 +91,24 @@ struct MostRoom {
     }
 };
 
-// The swivel at which the limits have the most room, though this is less than none. The room is the least over lines,
-// and the most over alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
+// Calls take(swivel, exists) for all places where the room can peak. It is the least over lines, and the most over
+// alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
 // are equal.
 //
 // A box has 16 peaks and 41 pairs of lines. Nearly all are needed: in 1.8 million random cases that one box forbids,
 // each of 37 pairs won at least 7,834 times. The other four are the two ends of one range. They matter only where that
 // range has no width.
-template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& limits)
+template <class T, int Boxes, class Take>
+SWIVEL_INLINE constexpr void for_each_peak(const Limits<T, Boxes>& limits, const Take& take)
 {
     Edge<T> edge[kMostEdges<Boxes>];
     const int count = edges(limits, true, edge);
-    const Turned<T> wish{T(1), T(0)};
-    MostRoom<T> found(wish, room(limits, wish));
     struct Candidate {
         Turned<T> swivel;
         Mask<T> exists;
     };
-    const auto consider = [&](const Candidate& candidate) SWIVEL_INLINE_LAMBDA {
-        found.consider(candidate.swivel, candidate.exists, room(limits, candidate.swivel));
-    };
+    const auto consider = [&](const Candidate& candidate)
+                              SWIVEL_INLINE_LAMBDA { take(candidate.swivel, candidate.exists); };
     const Mask<T> never = T(1) < T(0);
     for (int n = 0; n < count; ++n) {
         const OnCircle<T> line = edge[n].line();
@@ -125,6 +128,15 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& l
                 for_both<Boxes>(Candidate{equal.first, exist}, Candidate{equal.second, exist}, consider);
             });
     }
+}
+// The swivel at which the limits have the most room, though this is less than none.
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& limits)
+{
+    const Turned<T> wish{T(1), T(0)};
+    MostRoom<T> found(wish, room(limits, wish));
+    for_each_peak(limits, [&](const Turned<T>& swivel, const Mask<T>& exists)
+                              SWIVEL_INLINE_LAMBDA { found.consider(swivel, exists, room(limits, swivel)); });
     return {found.best, found.most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 // valid: false where the input is bad, so that nothing is searched for.

@@ -63,59 +63,103 @@ SWIVEL_INLINE constexpr T room(const RegionOnCircle<T>& on, const Turned<T>& swi
     return room(*on.region, vector(on.x.at(swivel), on.y.at(swivel), on.z.at(swivel)));
 }
 
-// The nearest end of an allowed arc, where there is one. Room that no lane needs is not looked at.
-template <class T>
-SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const RegionOnCircle<T>& on)
+// Calls take(end, exist) for all places where an arc within the region can end.
+template <class T, class Take>
+SWIVEL_INLINE constexpr void for_each_end(const RegionOnCircle<T>& on, const Take& take)
 {
-    Turned<T> best{T(-1), T(0)};
-    T nearest = T(-2);
     const std::uint32_t count = on.region->first[on.region->part_count];
     for (std::uint32_t n = 0; n < count; ++n) {
         if (on.region->half_space[n].is_edge == 0) continue;
         const Crossings<T> ends = crossings(on.line(n));
-        for (const Turned<T>& end : {ends.first, ends.second}) {
-            const Mask<T> nearer = ends.exist & (end.cos > nearest);
-            if (!any(nearer)) continue;
-            const Mask<T> better = nearer & (room(on, end) >= T(kNoRoom));
-            best = select(better, end, best);
-            nearest = select(better, end.cos, nearest);
-        }
+        take(ends.first, ends.exist);
+        take(ends.second, ends.exist);
     }
-    return {best, nearest >= T(-1.5)};
 }
 
-// The swivel at which the region has the most room, though this is less than none. The room peaks where a half-space's
-// line peaks, or where two lines are equal: of one part, of two cuts, or of a part and a cut. Ties go as in
-// choose_swivel.h.
-template <class T>
-SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const RegionOnCircle<T>& on)
+// Calls take(swivel, exists) where two lines are equal.
+template <class T, class Take>
+SWIVEL_INLINE constexpr void for_equal(const OnCircle<T>& x, const OnCircle<T>& y, const Take& take)
+{
+    const Crossings<T> equal = crossings(x - y);
+    take(equal.first, equal.exist);
+    take(equal.second, equal.exist);
+}
+// The same for all places where the region's room can peak: where a half-space's line peaks, or where two lines are
+// equal, of one part, of two cuts, or of a part and a cut.
+template <class T, class Take>
+SWIVEL_INLINE constexpr void for_each_peak(const RegionOnCircle<T>& on, const Take& take)
 {
     const swivel_region& region = *on.region;
-    MostRoom<T> found({T(1), T(0)}, room(on, Turned<T>{T(1), T(0)}));
-    const auto consider = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_INLINE_LAMBDA {
-        if (any(exists)) found.consider(swivel, exists, room(on, swivel));
-    };
-    const auto consider_with = [&](std::uint32_t n, std::uint32_t from) {
+    const auto of = [&](std::uint32_t n, std::uint32_t part_first) {
         const OnCircle<T> line = on.line(n);
-        for (std::uint32_t m = from; m < n; ++m) {
-            const Crossings<T> equal = crossings(line - on.line(m));
-            consider(equal.first, equal.exist);
-            consider(equal.second, equal.exist);
-        }
         const T r2 = line.a * line.a + line.b * line.b;
         const Mask<T> peaks = r2 > T(kFlat2);
         const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
-        consider({per_r * line.a, per_r * line.b}, peaks);
-        for (std::uint32_t cut = 0; cut < region.cut_count && from > 0; ++cut) {
-            const Crossings<T> equal = crossings(line - on.line(cut));
-            consider(equal.first, equal.exist);
-            consider(equal.second, equal.exist);
-        }
+        take(Turned<T>{per_r * line.a, per_r * line.b}, peaks);
+        for (std::uint32_t cut = 0; cut < n && cut < region.cut_count; ++cut) for_equal(line, on.line(cut), take);
+        for (std::uint32_t m = part_first; m < n; ++m) for_equal(line, on.line(m), take);
     };
-    for (std::uint32_t n = 0; n < region.cut_count; ++n) consider_with(n, 0);
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) of(n, n);
     for (std::uint32_t part = 0; part < region.part_count; ++part)
-        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n)
-            consider_with(n, region.first[part]);
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) of(n, region.first[part]);
+}
+
+// An arm's other limits, and the region of its upper arm.
+template <class T, int Boxes>
+struct LimitsInRegion {
+    Limits<T, Boxes> limits;
+    RegionOnCircle<T> region;
+};
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr T room(const LimitsInRegion<T, Boxes>& both, const Turned<T>& swivel)
+{
+    return lo(room(both.limits, swivel), room(both.region, swivel));
+}
+
+// The nearest end of an allowed arc, where there is one. Room that no lane needs is not looked at.
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const LimitsInRegion<T, Boxes>& both)
+{
+    Turned<T> best{T(-1), T(0)};
+    T nearest = T(-2);
+    const auto take = [&](const Turned<T>& end, const Mask<T>& exist) {
+        const Mask<T> nearer = exist & (end.cos > nearest);
+        if (!any(nearer)) return;
+        const Mask<T> better = nearer & (room(both, end) >= T(kNoRoom));
+        best = select(better, end, best);
+        nearest = select(better, end.cos, nearest);
+    };
+    for_each_end(both.limits, take);
+    for_each_end(both.region, take);
+    return {best, nearest >= T(-1.5)};
+}
+
+// The swivel at which there is the most room, though this is less than none. The room can also peak where a line of the
+// region equals one of another limit.
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const LimitsInRegion<T, Boxes>& both)
+{
+    const Turned<T> wish{T(1), T(0)};
+    MostRoom<T> found(wish, room(both, wish));
+    const auto take = [&](const Turned<T>& swivel, const Mask<T>& exists) {
+        if (any(exists)) found.consider(swivel, exists, room(both, swivel));
+    };
+    for_each_peak(both.limits, take);
+    for_each_peak(both.region, take);
+    Edge<T> edge[kMostEdges<Boxes>];
+    const int edge_count = edges(both.limits, true, edge);
+    const std::uint32_t count = both.region.region->first[both.region.region->part_count];
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const OnCircle<T> line = both.region.line(n);
+        for (int m = 0; m < edge_count; ++m) {
+            const auto take_live = [&](const Turned<T>& swivel, const Mask<T>& exists) {
+                take(swivel, exists & edge[m].live());
+            };
+            const OnCircle<T> other = edge[m].line();
+            if (edge[m].front > 0 || edge[m].back > 0) for_equal(line, other, take_live);
+            if (edge[m].front < 0 || edge[m].back < 0) for_equal(line, T(-1) * other, take_live);
+        }
+    }
     return {found.best, found.most >= T(kNoRoom)};
 }
 
