@@ -709,6 +709,7 @@ static inline swivel_look swivel_default_look(void)
     look.fade_distance = 0.05f;
     look.rate = 6;
     return look;
+}
 
 // REACH REGIONS: where the upper arm may point. A region is a union of parts, each an intersection of half-spaces.
 // Forbidden cones are cut out of all parts. Directions are in the arm frame at rest, like SWIVEL_SHOULDER_CONE's axis;
