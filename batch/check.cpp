@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <utility>
 
 #include "batch/body_plan.h"
+#include "batch/region.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/status.h"
@@ -65,6 +67,22 @@ swivel_status check_features(std::uint32_t group, swivel_features features)
     return SWIVEL_OK;
 }
 
+swivel_status check_group_region(std::uint32_t g, const swivel_group_def& group)
+{
+    const bool has = group.features & SWIVEL_WITH_REGION;
+    if (has && !group.region)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_WITH_REGION needs region; give it", g);
+    if (!has && group.region)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has a region, but not SWIVEL_WITH_REGION; add it", g);
+    if (!has) return SWIVEL_OK;
+    char name[24];
+    std::snprintf(name, sizeof name, "group %u", g);
+    if (const swivel_status status = check_region(name, group.region); status != SWIVEL_OK) return status;
+    if (group.region->part_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: the region allows nothing; add cones or a polygon to it", g);
+    return SWIVEL_OK;
+}
+
 swivel_status check_group(std::uint32_t g, const swivel_group_def& group)
 {
     if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
@@ -80,6 +98,7 @@ swivel_status check_group(std::uint32_t g, const swivel_group_def& group)
         if (static_cast<unsigned>(order) > SWIVEL_ZYX)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", g, name,
                         static_cast<int>(order));
+    if (const swivel_status status = check_group_region(g, group); status != SWIVEL_OK) return status;
     return group.features & SWIVEL_JOINTS ? check_binding(g, group.binding, twist_bone_count(group.features))
                                           : SWIVEL_OK;
 }

@@ -42,16 +42,17 @@ std::uint32_t body_run_blocks(std::uint32_t row_count)
 struct Layout {
     std::uint32_t block_count = 0, strip_blocks = 0;
     BodySize bodies{};
-    std::uint64_t groups, joints, moved, following, chosen, urgency, done, workspaces, rows,
+    std::uint64_t groups, regions, joints, moved, following, chosen, urgency, done, workspaces, rows,
         end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def)
     {
-        std::uint64_t bytes = 0;
+        std::uint64_t bytes = 0, region_count = 0;
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
             const swivel_group_def group = group_at(def, g);
             block_count = def.skeleton ? blocks_in(group) : block_count + blocks_in(group);
             bytes += row_bytes(group);
+            region_count += group.features & SWIVEL_WITH_REGION ? 1 : 0;
             if (group.features & kLimbFeatures)
                 strip_blocks = std::max(strip_blocks, std::min(blocks_in(group), kStripBlocks));
         }
@@ -60,7 +61,8 @@ struct Layout {
             strip_blocks = std::min(strip_blocks, body_run_blocks(bodies.row_count));
         }
         groups = aligned(sizeof(swivel_crowd));
-        joints = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
+        regions = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
+        joints = regions + aligned(region_count * sizeof(swivel_region));
         moved = joints + aligned(std::uint64_t{bodies.joint_count} * sizeof(BodyJoint));
         following = moved + aligned(std::uint64_t{bodies.moved_count} * sizeof(MovedJoint));
         chosen = following + aligned(std::uint64_t{bodies.following_count} * sizeof(FollowingJoint));
@@ -234,12 +236,14 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
         crowd->joints = joints;
     }
     char* rows = base + layout.rows;
+    auto* region = reinterpret_cast<swivel_region*>(base + layout.regions);
     auto* moved = reinterpret_cast<MovedJoint*>(base + layout.moved);
     auto* following = reinterpret_cast<FollowingJoint*>(base + layout.following);
     std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def of = group_at(def, g);
         Group& group = *new (crowd->groups + g) Group{};
+        if (of.features & SWIVEL_WITH_REGION) group.region = new (region++) swivel_region(*of.region);
         place_group(def, of, *crowd, first_block, rows, group);
         if (def.skeleton) {
             plan_moved(def, of, {crowd->joints, crowd->joint_count}, group.limb, moved, following);

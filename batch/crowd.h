@@ -25,6 +25,7 @@ struct Group {
     std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows
     float *input, *results;                // rows
     swivel_binding binding;
+    const swivel_region* region;    // with SWIVEL_WITH_REGION: in the arena
     StageList stages[kPassCount];   // of each pass
     BodyLimb limb;                  // if it is of bodies
     std::size_t body_block_floats;  // the same: of a block of bodies in a workspace

@@ -44,11 +44,13 @@ OneLimb::OneLimb(const Group& of) : of_(of), crowd_(nullptr)
 {
     static_assert(block_bytes(free_features(kEveryFeature | SWIVEL_BODY)) + 4096 <= kArenaBytes,
                   "with what stands before");
+    static_assert(sizeof(swivel_crowd) + sizeof(Group) + sizeof(swivel_region) + 4 * 64 <= 4096);
     swivel_group_def alone = swivel_default_group_def(1);
     alone.features = free_features(of.features);
     alone.shoulder_order = of.shoulder_order;
     alone.wrist_order = of.wrist_order;
     alone.binding = of.binding;
+    alone.region = of.region;
     swivel_crowd_def def = swivel_default_crowd_def();
     def.groups = &alone;
     def.group_count = 1;

@@ -39,7 +39,8 @@ SolveRun run_of(const Group& group, GroupBlocks blocks, StripMemory strip, bool 
             &group.stages[static_cast<std::size_t>(Pass::solve)],
             strip,
             &group.limb,
-            group.body_block_floats};
+            group.body_block_floats,
+            group.region};
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "core/choose_swivel.h"
+#include "core/region.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -14,7 +14,9 @@ template <class T>
 struct Arc {
     Turned<T> from, to;  // by the right hand about the line; equal for the whole circle
 };
-inline constexpr int kMostAllowedArcs = 4 * kMostEdges<kMostBoxes>;
+// Each edge of a limit crosses zero twice, and there are two lines where the room is just enough.
+inline constexpr int kMostArcEnds = 4 * (kMostEdges<kMostBoxes> + SWIVEL_MOST_HALF_SPACES);
+inline constexpr int kMostAllowedArcs = kMostArcEnds / 2 + 1;  // those that touch are joined, but the last and first
 template <class T>
 struct AllowedArcs {
     Arc<T> arc[kMostAllowedArcs];
@@ -48,17 +50,35 @@ Turned<T> between(const Turned<T>& a, const Turned<T>& b)
     return {a.cos * half_cos - a.sin * s, a.sin * half_cos + a.cos * s};
 }
 
-template <class T>
-AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
+// Calls take(line) for each line at which allowed arcs can end.
+template <class T, class Take>
+void for_each_edge(const Limits<T>& limits, const Take& take)
 {
     Edge<T> edge[kMostEdges<kMostBoxes>];
-    const int edge_count = edges(limits, false, edge);
-    Turned<T> end[4 * kMostEdges<kMostBoxes>];
+    const int count = edges(limits, false, edge);
+    for (int n = 0; n < count; ++n)
+        if (edge[n].live()) take(edge[n].line());
+}
+template <class T, class Take>
+void for_each_edge(const LimitsInRegion<T, kMostBoxes>& both, const Take& take)
+{
+    for_each_edge(both.limits, take);
+    const swivel_region& region = *both.region.region;
+    for (std::uint32_t n = 0; n < region.first[region.part_count]; ++n)
+        if (region.half_space[n].is_edge != 0) take(both.region.line(n));
+}
+
+// Of a group's limits, with its region or without one.
+template <class T, template <class, int> class Bounds>
+AllowedArcs<T> allowed_arcs(const Bounds<T, kMostBoxes>& limits)
+{
+    Turned<T> end[kMostArcEnds];
     int count = 0;
-    for (int n = 0; n < edge_count; ++n)
+    for_each_edge(limits, [&](const OnCircle<T>& line) {
         for (const T slack : {T(kNoRoom), T(-kNoRoom)})  // where the room is just enough, on either side of an edge
-            if (const Crossings<T> ends = crossings(edge[n].line() - constant(slack)); ends.exist && edge[n].live())
+            if (const Crossings<T> ends = crossings(line - constant(slack)); ends.exist)
                 end[count++] = ends.first, end[count++] = ends.second;
+    });
     std::sort(end, end + count, is_before<T>);
 
     AllowedArcs<T> arcs;

@@ -140,8 +140,8 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& l
     return {found.best, found.most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 // valid: false where the input is bad, so that nothing is searched for.
-template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> choose_swivel(const Limits<T, Boxes>& limits, const Mask<T>& valid)
+template <class T, template <class, int> class Bounds, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> choose_swivel(const Bounds<T, Boxes>& limits, const Mask<T>& valid)
 {
     const Turned<T> wish{T(1), T(0)};
     const Mask<T> granted = (room(limits, wish) >= T(kNoRoom)) | !valid;

@@ -11,15 +11,17 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Which limits a group has, and the axes' orders in its boxes.
+// Which limits a group has, the axes' orders in its boxes, and the region of its upper arms.
 struct LimitUse {
     bool flexion = false, shoulder_cone = false, hand_cone = false, humeral_twist = false, forearm_twist = false,
          hand_twist = false, shoulder_box = false, wrist_box = false;
     EulerOrder shoulder_order = kEulerOrders[0], wrist_order = kEulerOrders[0];
+    const swivel_region* region = nullptr;  // null: none
 
     constexpr bool on_swivel() const
     {
-        return shoulder_cone || hand_cone || humeral_twist || forearm_twist || hand_twist || shoulder_box || wrist_box;
+        return shoulder_cone || hand_cone || humeral_twist || forearm_twist || hand_twist || shoulder_box ||
+               wrist_box || region;
     }
 };
 

@@ -18,6 +18,7 @@
 #include "core/aim.h"
 #include "core/choose_swivel.h"
 #include "core/limb_bones.h"
+#include "core/region.h"
 #include "core/wish.h"
 #include "core/wrist_goal.h"
 #include "core/yielding_hand.h"
@@ -43,6 +44,21 @@ SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T>& limits)
     for (int n = 0; n < limits.limits.box_count; ++n)
         flags = flags | bits_where(room(limits.limits.box[n], wish) < T(kNoRoom), limits.box_flag[n]);
     return flags;
+}
+
+// The swivel that the limits of a group allow; and with a region, those and it. flags: of what the wish breaks.
+template <class T, class Lift>
+SWIVEL_INLINE constexpr FoundSwivel<T> chosen_swivel(const LimbUse& use, const JointLimits<T>& given,
+                                                     const SwivellingArm<T, Lift>& arm, const Mask<T>& valid,
+                                                     Bits<T>& flags)
+{
+    const SwivelLimits<T> limits = swivel_limits(use.limits, given, arm);
+    flags = flags | broken(limits);
+    if (!use.limits.region) return choose_swivel(limits.limits, valid);
+    const RegionOnCircle<T> region = region_limit(arm, use.limits.region);
+    const Turned<T> wish{T(1), T(0)};
+    flags = flags | bits_where(room(region, wish) < T(kNoRoom), SWIVEL_LIMITED_REGION);
+    return choose_swivel(LimitsInRegion<T, kMostBoxes>{limits.limits, region}, valid);
 }
 
 // Aims: what use.aim says, as a constant. wanted: the distance from shoulder to target.
@@ -75,9 +91,8 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     Bits<T> flags = bones.flags | wish.flags | bits_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
     if (use.limits.on_swivel()) {
         const SwivellingArm<T, decltype(bones.lift)> arm{to.line, normal, bones.lift, elbow, wrist.hand};
-        const SwivelLimits<T> limits = swivel_limits(use.limits, goal.limits, arm);
-        const FoundSwivel<T> chosen = choose_swivel(limits.limits, valid);
-        flags = flags | broken(limits) | bits_where(!chosen.allowed, SWIVEL_INFEASIBLE);
+        const FoundSwivel<T> chosen = chosen_swivel(use, goal.limits, arm, valid, flags);
+        flags = flags | bits_where(!chosen.allowed, SWIVEL_INFEASIBLE);
         normal = swivelled(normal, to.line, chosen.swivel);
         if (use.continuity) flags = flags | bits_where(jumps(goal.continuity, normal, to.line), SWIVEL_JUMPED);
     }

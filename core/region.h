@@ -10,8 +10,8 @@
 // circle is our own.
 #pragma once
 
-#include "core/arm.h"
 #include "core/choose_swivel.h"
+#include "core/joint_limits.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -57,6 +57,15 @@ struct RegionOnCircle {
         return axis_of<T>(half, 0) * x + axis_of<T>(half, 1) * y + axis_of<T>(half, 2) * z - constant(T(half.cosine));
     }
 };
+// Where the upper arm points.
+template <class T, class Lift>
+SWIVEL_INLINE constexpr RegionOnCircle<T> region_limit(const SwivellingArm<T, Lift>& arm, const swivel_region* region)
+{
+    const auto bone = sandwich(arm.to_arm, unit<T, kE3>());
+    const auto along = [&](const auto& axis)
+                           SWIVEL_INLINE_LAMBDA { return per_size(arm) * inner(in_line(arm, axis), bone); };
+    return {region, along(unit<T, kE1>()), along(unit<T, kE2>()), along(unit<T, kE3>())};
+}
 template <class T>
 SWIVEL_INLINE constexpr T room(const RegionOnCircle<T>& on, const Turned<T>& swivel)
 {

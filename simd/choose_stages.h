@@ -7,7 +7,7 @@
 
 #include <bit>
 
-#include "core/choose_swivel.h"
+#include "core/region.h"
 #include "simd/strip.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -65,6 +65,22 @@ SWIVEL_INLINE Limits<typename S::T, Boxes> load_limits(const S& s, int line_coun
         [&](int box, int row) SWIVEL_INLINE_LAMBDA { return s.io.load(list.box_field[box], row); });
 }
 
+// The same for where an upper arm with a region points. row(row) loads a row of the strip.
+template <class T, class Row>
+SWIVEL_INLINE RegionOnCircle<T> load_region(const swivel_region* region, const Row& row)
+{
+    const auto line_at = [&](std::uint32_t first) SWIVEL_INLINE_LAMBDA {
+        return OnCircle<T>{row(first), row(first + 1), row(first + 2)};
+    };
+    return {region, line_at(kRegionRows[0]), line_at(kRegionRows[1]), line_at(kRegionRows[2])};
+}
+template <class S>
+SWIVEL_INLINE auto load_region(const S& s)
+{
+    return load_region<typename S::T>(s.strip.run.region,
+                                      [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA { return s.get(row); });
+}
+
 // Lanes of a strip.
 struct LaneList {
     std::uint8_t lane[kStripBlocks * kLanes];
@@ -117,14 +133,45 @@ struct GatheredLimits {
     }
 };
 
+// The same with a region: nine rows more.
+template <class T, int Boxes>
+struct GatheredInRegion {
+    static constexpr std::uint32_t lanes = lane_count<T>;
+    GatheredLimits<T, Boxes> limits;
+    alignas(64) float rows[9 * lanes];
+
+    GatheredInRegion(const Strip& of, const LimitList& list) : limits(of, list) {}
+
+    SWIVEL_INLINE void gather(std::uint32_t to, std::uint32_t lane)
+    {
+        limits.gather(to, lane);
+        float* at = rows + to;
+        for (const std::uint32_t first : kRegionRows)
+            for (std::uint32_t row = first; row < first + 3; ++row, at += lanes)
+                *at = limits.strip.lane(lane)[row * kLanes];
+    }
+    SWIVEL_INLINE LimitsInRegion<T, Boxes> load() const
+    {
+        const auto line_at = [&](std::uint32_t first) SWIVEL_INLINE_LAMBDA {
+            const auto row_at = [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA {
+                return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * lanes + n; });
+            };
+            return OnCircle<T>{row_at(first), row_at(first + 1), row_at(first + 2)};
+        };
+        return {limits.load(), {limits.strip.run.region, line_at(0), line_at(3), line_at(6)}};
+    }
+};
+template <class T, int Boxes, bool InRegion>
+using Gathered = std::conditional_t<InRegion, GatheredInRegion<T, Boxes>, GatheredLimits<T, Boxes>>;
+
 // Searches for some lanes, and writes their swivels. Lanes without an allowed one go to `left`, if there is such a
 // list; else they are infeasible.
-template <class T, int Boxes, class Find>
+template <class T, int Boxes, bool InRegion, class Find>
 SWIVEL_INLINE void search(const Strip& strip, const LimitList& list, const LaneList& of, LaneList* left,
                           const Find& find)
 {
     constexpr std::uint32_t lanes = lane_count<T>;
-    GatheredLimits<T, Boxes> gathered(strip, list);
+    Gathered<T, Boxes, InRegion> gathered(strip, list);
     for (std::uint32_t first = 0; first < of.count; first += lanes) {
         const std::uint32_t count = of.count - first < lanes ? of.count - first : lanes;
         for (std::uint32_t n = 0; n < lanes; ++n) gathered.gather(n, of.lane[first + (n < count ? n : 0)]);
@@ -148,25 +195,26 @@ SWIVEL_INLINE void search(const Strip& strip, const LimitList& list, const LaneL
         }
     }
 }
-template <class T, int Boxes>
+template <class T, int Boxes, bool InRegion>
 SWIVEL_FLATTEN [[gnu::noinline]] void search_end(const Strip& strip, const LimitList& list, const LaneList& of,
                                                  LaneList& left)
 {
-    search<T, Boxes>(strip, list, of, &left,
-                     [](const auto& limits) SWIVEL_INLINE_LAMBDA { return nearest_end(limits); });
+    search<T, Boxes, InRegion>(strip, list, of, &left,
+                               [](const auto& limits) SWIVEL_INLINE_LAMBDA { return nearest_end(limits); });
 }
-template <class T, int Boxes>
+template <class T, int Boxes, bool InRegion>
 SWIVEL_FLATTEN [[gnu::noinline]] void search_least(const Strip& strip, const LimitList& list, const LaneList& of)
 {
-    search<T, Boxes>(strip, list, of, nullptr,
-                     [](const auto& limits) SWIVEL_INLINE_LAMBDA { return least_violation(limits); });
+    search<T, Boxes, InRegion>(strip, list, of, nullptr,
+                               [](const auto& limits) SWIVEL_INLINE_LAMBDA { return least_violation(limits); });
 }
 
 // Lines: how many limits are lines; 0: as many as the group has. The nearest end of an allowed arc of lines is found
 // where the lanes lie. That takes about as long as gathering them.
-template <class T, int Lines, int Boxes>
+template <class T, int Lines, int Boxes, bool InRegion = false>
 SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
 {
+    constexpr bool is_long = Boxes > 0 || InRegion;  // the search for an end
     const LimitList list(strip.run.features);
     LaneList for_end, for_least;
     for_each_slice<T, 0, 0>(strip, [&](const auto& s) SWIVEL_INLINE_LAMBDA {
@@ -181,11 +229,12 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         };
         for (int n = 0; n < line_count; ++n) look(limits.line[n].at(wish), list.line_flag[n]);
         for (int n = 0; n < limits.box_count; ++n) look(room(limits.box[n], wish), list.box_flag[n]);
+        if constexpr (InRegion) look(room(load_region(s), wish), SWIVEL_LIMITED_REGION);
         const Mask<T> granted = least_room >= T(kNoRoom);
         const std::uint32_t forbidden = s.good() & lane_bits(!granted), first = s.block * kLanes + s.lane;
         Turned<T> swivel = wish;
         if (forbidden != 0) {
-            if constexpr (Boxes > 0) {
+            if constexpr (is_long) {
                 for_end.add(first, forbidden);
             } else {
                 const FoundSwivel<T> end = nearest_end(limits);
@@ -197,9 +246,9 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         s.set(kSwivelRow + 1, swivel.sin);
         s.set(kFlagsRow, flags);
     });
-    if constexpr (Boxes > 0)
-        if (for_end.count > 0) search_end<T, Boxes>(strip, list, for_end, for_least);
-    if (for_least.count > 0) search_least<T, Boxes>(strip, list, for_least);
+    if constexpr (is_long)
+        if (for_end.count > 0) search_end<T, Boxes, InRegion>(strip, list, for_end, for_least);
+    if (for_least.count > 0) search_least<T, Boxes, InRegion>(strip, list, for_least);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

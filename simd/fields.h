@@ -65,6 +65,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_GROUND, "WITH_GROUND", SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR},
     {SWIVEL_SENT, "SENT", SWIVEL_BODY},
     {SWIVEL_LOOK, "LOOK", kOfBodies, ~(kOfBodies | SWIVEL_LOOK)},
+    {SWIVEL_WITH_REGION, "WITH_REGION"},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
@@ -288,6 +289,7 @@ constexpr FlagRow kFlags[] = {
     {SWIVEL_RELEASED, "RELEASED"},
     {SWIVEL_BROKE_AWAY, "BROKE_AWAY"},
     {SWIVEL_CUT, "CUT"},
+    {SWIVEL_LIMITED_REGION, "LIMITED_REGION"},
     {SWIVEL_LIMITED_LOOK, "LIMITED_LOOK"},
     {SWIVEL_FADED, "FADED"},
     {SWIVEL_BAD_INPUT, "BAD_INPUT"},

@@ -40,6 +40,7 @@ struct SolveRun {
     StripMemory strip;              // the same
     const BodyLimb* limb;           // if the group is of bodies
     std::size_t body_block_floats;  // the same: from one block to the next in strip.bodies
+    const swivel_region* region;    // with SWIVEL_WITH_REGION
 };
 
 // Bits of the lanes of a slice that are chosen. limb: the slice's first, in the run. All bits are set if there is no
@@ -79,7 +80,7 @@ struct ArmKernels {
 };
 
 // How many arcs of swivels limits can leave: core/allowed_arcs.h has as many.
-inline constexpr std::size_t kMostArcs = 100;
+inline constexpr std::size_t kMostArcs = 179;
 // An arc of swivels: cos and sin of its ends.
 struct ArcEnds {
     float from[2], to[2];

@@ -38,6 +38,8 @@ constexpr StageFunction stage_function()
         return choose < Number, n + 1 < kLineCounts ? n + 1 : 0, 0 > ;
     else if constexpr (stage == Stage::choose_in_box)
         return choose<Number, 0, kMostBoxes>;
+    else if constexpr (stage == Stage::choose_in_region)
+        return choose<Number, 0, kMostBoxes, true>;
     else
         return run_stage<stage, subset(row_of(stage).knows, n)>;
 }
@@ -85,7 +87,10 @@ std::uint32_t store_arcs([[maybe_unused]] const SolveRun& run, [[maybe_unused]] 
         AllowedArcs<float> allowed;
         const LimitList list(run.features);
         for_each_slice<float, 0, 0>(strip, [&](const auto& s) {
-            if (s.good() != 0) allowed = allowed_arcs(load_limits<kMostBoxes>(s, list.line_count, list));
+            if (s.good() == 0) return;
+            const Limits<float> limits = load_limits<kMostBoxes>(s, list.line_count, list);
+            allowed = run.region ? allowed_arcs(LimitsInRegion<float, kMostBoxes>{limits, load_region(s)})
+                                 : allowed_arcs(limits);
         });
         static_assert(std::size(allowed.arc) == kMostArcs);
         const auto count = static_cast<std::uint32_t>(allowed.count);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/joint_limits.h"
+#include "core/region.h"
 #include "simd/goal_stages.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -118,6 +119,17 @@ struct StageBody<Stage::wrist_box> {
     {
         const EulerOrder& order = kEulerOrders[s.strip.run.wrist_order];
         set_box(s, s.has(SWIVEL_WITH_SHOULDER_BOX), SWIVEL_WRIST_BOX, wrist_box_curves(arm_of(s), order));
+    }
+};
+template <>
+struct StageBody<Stage::region> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const auto on = region_limit(arm_of(s), s.strip.run.region);
+        set_line(s, kRegionRows[0], on.x);
+        set_line(s, kRegionRows[1], on.y);
+        set_line(s, kRegionRows[2], on.z);
     }
 };
 

@@ -43,9 +43,11 @@ enum class Stage : std::uint8_t {
     hand_twist,
     shoulder_box,
     wrist_box,
+    region,         // where the upper arm points while it swivels
     choose,         // the swivel that the lines allow
     choose_in_box,  // the same, with boxes
-    store,          // lifts the arm, and stores the results
+    choose_in_region,
+    store,  // lifts the arm, and stores the results
     twist_bones,
     correct,     // a body's joints
     hand_frame,  // where the hand is then
@@ -58,10 +60,12 @@ inline constexpr swivel_features kLineFeatures = SWIVEL_WITH_SHOULDER_CONE | SWI
                                                  SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                                  SWIVEL_WITH_HAND_TWIST;
 inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX;
+// All limits of the swivel.
+inline constexpr swivel_features kSwivelLimits = kLineFeatures | kBoxFeatures | SWIVEL_WITH_REGION;
 
 // What moves a limb even where its weights ask for nothing.
-inline constexpr swivel_features kBoundingFeatures = kLineFeatures | kBoxFeatures | SWIVEL_WITH_FLEXION_LIMIT |
-                                                     SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MOST_SWIVEL;
+inline constexpr swivel_features kBoundingFeatures =
+    kSwivelLimits | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MOST_SWIVEL;
 
 // All groups of a body go through a pass before the first goes through the next one.
 enum class Pass : std::uint8_t {
@@ -114,8 +118,10 @@ inline constexpr StageRow kStages[] = {
     {Stage::hand_twist, 0, SWIVEL_WITH_HAND_TWIST, 0},
     {Stage::shoulder_box, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_BOX, 0},
     {Stage::wrist_box, 0, SWIVEL_WITH_WRIST_BOX, 0},
-    {Stage::choose, 0, kLineFeatures, kBoxFeatures},
-    {Stage::choose_in_box, 0, kBoxFeatures, 0},
+    {Stage::region, SWIVEL_WITH_AIM, SWIVEL_WITH_REGION, 0},
+    {Stage::choose, 0, kLineFeatures, kBoxFeatures | SWIVEL_WITH_REGION},
+    {Stage::choose_in_box, 0, kBoxFeatures, SWIVEL_WITH_REGION},
+    {Stage::choose_in_region, 0, SWIVEL_WITH_REGION, 0},
     {Stage::store, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM, 0, 0},
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},

@@ -56,7 +56,7 @@ struct StageBody<Stage::store> {
         if (s.has(SWIVEL_SENT)) flags = flags | s.body_flags(s.strip.run.limb->goal + kGoalFlagsRow);
         Continuity<T> continuity;
         if (s.has(SWIVEL_WITH_MOST_SWIVEL)) load_continuity(s, continuity);
-        if (s.strip.run.features & (kLineFeatures | kBoxFeatures)) {
+        if (s.strip.run.features & kSwivelLimits) {
             normal = swivelled(normal, line, {s.get(kSwivelRow), s.get(kSwivelRow + 1)});
             if (s.has(SWIVEL_WITH_MOST_SWIVEL))
                 flags = flags | bits_where(jumps(continuity, normal, line), SWIVEL_JUMPED);

@@ -33,6 +33,9 @@ enum StripRow : std::uint32_t {
     kBoxRow = kLimitRow + 3 * kMostLimitLines,  // five curves of three rows for each box
     kStripRows = kBoxRow + 15 * kMostLimitBoxes
 };
+// Where the upper arm points, a line of three rows for each component, once the hand yields no more: in rows that then
+// have no use.
+inline constexpr std::uint32_t kRegionRows[3] = {kWristRow, kPoleRow, kTwistRow};
 // Plain arms that are solved as whole limbs have only the rows before the clavicle's.
 inline constexpr std::size_t kPlainStripFloats = kClavicleRow * kLanes;
 inline constexpr std::size_t kStripBlockFloats = std::size_t{kStripRows} * kLanes;

@@ -118,6 +118,7 @@ typedef enum swivel_flag {
     SWIVEL_RELEASED = 1u << 18,      // this solve released it
     SWIVEL_BROKE_AWAY = 1u << 19,    // by distance: the animated point is too far from it, though in contact
     SWIVEL_CUT = 1u << 20,  // a speed too high to be eased away was cut at a lock or release, so the point jumps
+    SWIVEL_LIMITED_REGION = 1u << 21,  // the upper arm's region forbids the swivel that was wished for
     SWIVEL_LIMITED_LOOK = 1u << 22,  // a cone holds a joint of a look; those after it may make up for that
     SWIVEL_FADED = 1u << 23,      // the target of a look is behind or too near, so the look counts less or not at all
     SWIVEL_BAD_INPUT = 1u << 30,  // an input is not valid or was never given: see swivel_on_bad_input
@@ -180,6 +181,7 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_GROUND (UINT64_C(1) << 36)  // the foot that is planted stands on ground as it lies: swivel_ground
 #define SWIVEL_SENT (UINT64_C(1) << 37)  // its goal is made by the library: WITH_PLANT and WITH_LINK have it themselves
 #define SWIVEL_LOOK (UINT64_C(1) << 38)  // the group is joints that turn to a target, not a limb: swivel_look
+#define SWIVEL_WITH_REGION (UINT64_C(1) << 39)  // the upper arm stays in a region: swivel_group_def's region
 #define SWIVEL_NO_LIMB (SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK)  // a group of bodies that is no limb has one of these
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)              // times the number of twist bones, 1 to 7
 
@@ -759,6 +761,9 @@ typedef struct swivel_group_def {
     // Then this group's target and hand are not read. Solve both in one job.
     uint32_t link;     // UINT32_MAX: none
     swivel_look look;  // LOOK
+    // WITH_REGION: where the upper arm may point, with the elbow straightened at rest. It allows something. Null without
+    // the feature; copied.
+    const swivel_region* region;
 } swivel_group_def;
 
 // Plain limbs in the arm frame.
