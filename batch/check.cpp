@@ -71,7 +71,7 @@ swivel_status check_group_region(std::uint32_t g, const swivel_group_def& group)
 {
     const bool has = group.features & SWIVEL_WITH_REGION;
     if (has && !group.region)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_WITH_REGION needs region; give it", g);
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_WITH_REGION needs a region; give it", g);
     if (!has && group.region)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u has a region, but not SWIVEL_WITH_REGION; add it", g);
     if (!has) return SWIVEL_OK;

@@ -28,23 +28,37 @@ namespace swivel {
 
 namespace {
 
+// A region that allows every direction: its part has no half-spaces.
+constexpr swivel_region kEverywhere = {sizeof(swivel_region), 0, 1, {}, {}};
+
+const char* limit_name(const FlagRow& row) { return row.flag == SWIVEL_LIMITED_REGION ? "region" : name_of(row.limit); }
+
 // A limb that is solved alone. With its strip it takes three fifths of the stack that a call may take. So there is one,
 // which takes the limb again for each question.
 class Probe {
 public:
     Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), one_(of) { take(); }
     // Takes the limb as it is.
-    void take() { one_.take(limb_); }
+    void take()
+    {
+        one_.take(limb_);
+        one_.set_region(of_.region);
+    }
     StripMemory strip() { return {strip_, 1}; }
     LimbPose pose() const { return forward(group(), 0); }
     // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
-    double violation(swivel_field limit) const
+    double violation(const FlagRow& row) const
+    {
+        return (row.flag == SWIVEL_LIMITED_REGION ? outside_own_region() : outside(row.limit)) * 180 / std::numbers::pi;
+    }
+    double outside_own_region() const { return of_.region ? outside_region(arm_rotors(group(), 0), *of_.region) : 0; }
+    double outside(swivel_field limit) const
     {
         float values[kMostComponents] = {};
         const std::uint32_t count = component_count(limit);
         for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
         const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? of_.wrist_order : of_.shoulder_order;
-        return count == 0 ? 0 : outside_limit(arm_rotors(group(), 0), limit, values, order) * 180 / std::numbers::pi;
+        return count == 0 ? 0 : outside_limit(arm_rotors(group(), 0), limit, values, order);
     }
     double missed() const { return distance_missed(group(), 0); }
     double missed_share() const { return residual(group(), 0); }
@@ -102,6 +116,13 @@ public:
         float* const rows = group().input + row_offset(0, 0, field_first_row(group().features, field));
         for (std::uint32_t row = 0; row < component_count(field); ++row)
             rows[row * SWIVEL_LANES] = rows[row * SWIVEL_LANES + 1];
+    }
+    void give_up(const FlagRow& row)
+    {
+        if (row.flag == SWIVEL_LIMITED_REGION)
+            one_.set_region(&kEverywhere);
+        else
+            give_up(row.limit);
     }
     void give_up_all_but(swivel_field kept)
     {
@@ -271,15 +292,15 @@ template <class Act>
 void for_each_limit(const Act& act)
 {
     for (const FlagRow& row : kFlags)
-        if (row.limit != SWIVEL_INPUT_END) act(row);
+        if (row.limit != SWIVEL_INPUT_END || row.flag == SWIVEL_LIMITED_REGION) act(row);
 }
 
 // Whether this limit alone leaves the elbow no place.
-bool forbids_all(Probe& probe, swivel_field limit)
+bool forbids_all(Probe& probe, const FlagRow& limit)
 {
     probe.take();
     for_each_limit([&](const FlagRow& other) {
-        if (other.limit != limit) probe.give_up(other.limit);
+        if (other.flag != limit.flag) probe.give_up(other);
     });
     return probe.solve() & SWIVEL_INFEASIBLE;
 }
@@ -299,9 +320,9 @@ void explain_violations(Probe& probe, Text& text)
     probe.solve();
     bool is_first = true;
     for_each_limit([&](const FlagRow& row) {
-        const double degrees = probe.violation(row.limit);
+        const double degrees = probe.violation(row);
         if (degrees < 0.005) return;  // it would read 0.00
-        text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", name_of(row.limit), degrees);
+        text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", limit_name(row), degrees);
         is_first = false;
     });
     text.add("%s.", is_first ? " Its pose violates none of them by 0.01 degrees" : "");
@@ -314,9 +335,9 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
     Text broken(room[0]), alone(room[1]);
     for_each_limit([&](const FlagRow& row) {
         if (!(flags & row.flag)) return;
-        broken.add("%s%s", broken.is_empty() ? "" : " and ", name_of(row.limit));
-        if (flags & SWIVEL_INFEASIBLE && forbids_all(probe, row.limit))
-            alone.add("%s%s", alone.is_empty() ? "" : " and ", name_of(row.limit));
+        broken.add("%s%s", broken.is_empty() ? "" : " and ", limit_name(row));
+        if (flags & SWIVEL_INFEASIBLE && forbids_all(probe, row))
+            alone.add("%s%s", alone.is_empty() ? "" : " and ", limit_name(row));
     });
     if (broken.is_empty()) return;
     const bool is_step = flags & SWIVEL_LIMITED_STEP;  // limits then forbid the place where the step ends
@@ -330,7 +351,7 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
         return;
     }
     probe.take();
-    for_each_limit([&](const FlagRow& row) { probe.give_up(row.limit); });
+    for_each_limit([&](const FlagRow& row) { probe.give_up(row); });
     probe.solve();
     text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
              is_step ? "the step takes the elbow," : "the elbow was wished", room[0],

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/joint_limits.h"
+#include "core/region.h"
 
 namespace swivel {
 
@@ -96,6 +96,16 @@ double outside_limit(const ArmRotors& arm, swivel_field limit, const float* valu
         default:
             return 0;
     }
+}
+
+double outside_region(const ArmRotors& arm, const swivel_region& region)
+{
+    const Vector<double> bone = sandwich(arm.shoulder, vector(0.0, 0.0, 1.0));
+    return -room_of_parts<double>(region, [&](std::uint32_t n) {
+        const swivel_half_space& half = region.half_space[n];
+        const Vector<double> axis = vector<double>(half.axis[0], half.axis[1], half.axis[2]);
+        return -outside_cone(axis, bone, double{half.cosine});
+    });
 }
 
 JointAngles joint_angles(const ArmRotors& arm, swivel_euler_order shoulder_order, swivel_euler_order wrist_order,

@@ -18,6 +18,8 @@ public:
     // Takes a limb, its results too. Of a body it must have SWIVEL_WITH_RECORD.
     void take(std::uint32_t limb);
     const Group& group() const { return crowd_->groups[0]; }
+    // From now on, where the upper arm may point.
+    void set_region(const swivel_region* region) { crowd_->groups[0].region = region; }
 
 private:
     void take_record(std::uint32_t limb);

@@ -119,8 +119,9 @@ struct LimitsInRegion {
     Limits<T, Boxes> limits;
     RegionOnCircle<T> region;
 };
+// It is long, and a function of its own.
 template <class T, int Boxes>
-SWIVEL_INLINE constexpr T room(const LimitsInRegion<T, Boxes>& both, const Turned<T>& swivel)
+SWIVEL_FLATTEN [[gnu::noinline]] constexpr T room(const LimitsInRegion<T, Boxes>& both, const Turned<T>& swivel)
 {
     return lo(room(both.limits, swivel), room(both.region, swivel));
 }
