@@ -89,6 +89,23 @@ struct RegionOracle {
     }
 };
 
+// The room as the header of the interface says it, by the half-spaces themselves.
+inline double room_by_half_spaces(const swivel_region& region, const Eigen::Vector3d& d)
+{
+    const auto room_of = [&](std::uint32_t n) {
+        const swivel_half_space& half = region.half_space[n];
+        return Eigen::Vector3f(half.axis).cast<double>().dot(d) - double{half.cosine};
+    };
+    double most = -4;
+    for (std::uint32_t part = 0; part < region.part_count; ++part) {
+        double least = 2;
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) least = std::min(least, room_of(n));
+        most = std::max(most, least);
+    }
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) most = std::min(most, room_of(n));
+    return most;
+}
+
 struct RandomRegion {
     RegionOracle oracle;
     swivel_region region = swivel_default_region();

@@ -165,23 +165,6 @@ TEST_CASE("the nearest allowed swivel is found, and none is missed")
     CHECK(found_none > 5);
 }
 
-// The room as the header of the interface says it, by the half-spaces themselves.
-double room_by_half_spaces(const swivel_region& region, const Vector3d& d)
-{
-    const auto room_of = [&](std::uint32_t n) {
-        const swivel_half_space& half = region.half_space[n];
-        return Eigen::Vector3f(half.axis).cast<double>().dot(d) - double{half.cosine};
-    };
-    double most = -4;
-    for (std::uint32_t part = 0; part < region.part_count; ++part) {
-        double least = 2;
-        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) least = std::min(least, room_of(n));
-        most = std::max(most, least);
-    }
-    for (std::uint32_t n = 0; n < region.cut_count; ++n) most = std::min(most, room_of(n));
-    return most;
-}
-
 TEST_CASE("where no swivel is allowed, the one with the most room is found")
 {
     int forbidden = 0;
