@@ -117,6 +117,12 @@ struct StripSlice {
     // Bits of its lanes.
     SWIVEL_INLINE std::uint32_t good() const { return strip.good[block] >> lane & kEvery; }
     SWIVEL_INLINE std::uint32_t chosen() const { return strip.chosen[block] >> lane & kEvery; }
+    // Of those that are limbs, and no padding.
+    SWIVEL_INLINE std::uint32_t limbs() const
+    {
+        const std::size_t first = std::size_t{strip.block[block]} * kLanes + lane, end = strip.run.padding;
+        return first + lane_count<T> <= end ? kEvery : first < end ? (1u << (end - first)) - 1 : 0;
+    }
     // Lanes with an input that is not valid are bad from now on.
     SWIVEL_INLINE void require(const Mask<T>& valid) const
     {

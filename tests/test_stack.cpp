@@ -131,7 +131,7 @@ void run_questions(const Crowd& crowd, const std::string& name, Most& most)
 {
     for (std::uint32_t limb = 0; limb < swivel_group_limb_count(crowd.get(), 0); limb += 7) {
         char text[4096];
-        swivel_arc arcs[100];
+        swivel_arc arcs[200];
         std::uint32_t count;
         most.take(name + ", explain", [&] { swivel_explain(crowd.get(), 0, limb, text, sizeof text); });
         most.take(name + ", allowed arcs",
@@ -200,6 +200,36 @@ TEST_CASE("hands that hold, and what explains them, take at most 32 KiB of stack
     INFO(jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
     CHECK(jobs.bytes <= kPromised);
     CHECK(questions.bytes <= kPromised);
+}
+
+TEST_CASE("limbs that keep a region and all other limits take at most 32 KiB of stack")
+{
+    const IsaScope scope;
+    const swivel_region_cone cones[] = {{{1, 0, 0.2f}, 0.3f}, {{0, 1, 0.2f}, 0.2f}, {{-1, 0.2f, 0}, 0.1f}};
+    swivel_region region = swivel_default_region();
+    check(swivel_region_add_cones(&region, cones, 3, 0));
+    check(swivel_region_forbid(&region, cones + 1));
+    swivel_group_def def =
+        group(100, SWIVEL_WITH_HAND | SWIVEL_WITH_REGION | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST |
+                       SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST |
+                       SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_MOST_SWIVEL);
+    def.region = &region;
+    Random random{9};
+    for (const std::string& isa : runnable_isas()) {
+        swivel_use_isa(isa.c_str());
+        Crowd crowd(def);
+        crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+        for (std::uint32_t n = 0; n < 100; ++n) {
+            const Float3 target = floats(Eigen::Vector3d(random.between(0.5, 1.9) * random.direction()));
+            crowd.write(SWIVEL_TARGET, 0, std::span(&target, 1), n);
+        }
+        Most jobs, questions;
+        run_jobs(crowd, nullptr, "limbs in a region", jobs);
+        run_questions(crowd, "limbs in a region", questions);
+        INFO(isa << ": " << jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
+        CHECK(jobs.bytes <= kPromised);
+        CHECK(questions.bytes <= kPromised);
+    }
 }
 
 TEST_CASE("jobs run on threads of 64 KiB, also on oneTBB's own")

@@ -210,6 +210,7 @@ typedef uint64_t swivel_features;
 // - The wrist comes first. If no swivel keeps all limits, the solver takes the one that violates them least, and flags
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
 //   the target, lower its weight or use WITH_CLAVICLE.
+// - A region (WITH_REGION) is one more limit of the upper arm, the same for all limbs of the group.
 // - Limits take precedence over SWIVEL_MOST_SWIVEL, and that over the wish.
 //
 // RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0; with WITH_INCOMING it has the sign nearer to
