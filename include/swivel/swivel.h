@@ -119,7 +119,7 @@ typedef enum swivel_flag {
     SWIVEL_BROKE_AWAY = 1u << 19,    // by distance: the animated point is too far from it, though in contact
     SWIVEL_CUT = 1u << 20,  // a speed too high to be eased away was cut at a lock or release, so the point jumps
     SWIVEL_LIMITED_REGION = 1u << 21,  // the upper arm's region forbids the swivel that was wished for
-    SWIVEL_LIMITED_LOOK = 1u << 22,  // a cone holds a joint of a look; those after it may make up for that
+    SWIVEL_LIMITED_LOOK = 1u << 22,    // a cone holds a joint of a look; those after it may make up for that
     SWIVEL_FADED = 1u << 23,      // the target of a look is behind or too near, so the look counts less or not at all
     SWIVEL_BAD_INPUT = 1u << 30,  // an input is not valid or was never given: see swivel_on_bad_input
     // other bits are kept for later releases and are 0
@@ -762,8 +762,8 @@ typedef struct swivel_group_def {
     // Then this group's target and hand are not read. Solve both in one job.
     uint32_t link;     // UINT32_MAX: none
     swivel_look look;  // LOOK
-    // WITH_REGION: where the upper arm may point, with the elbow straightened at rest. It allows something. Null without
-    // the feature; copied.
+    // WITH_REGION: where the upper arm may point, with the elbow straightened at rest. It allows something. Null
+    // without the feature; copied.
     const swivel_region* region;
 } swivel_group_def;
 
