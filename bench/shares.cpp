@@ -38,9 +38,10 @@ void copy_limb(const swivel_rows& from, std::size_t source, const swivel_rows& t
 
 Held held_of(std::uint32_t flags)
 {
-    constexpr std::uint32_t swivel_limits =
-        SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_HUMERAL_TWIST | SWIVEL_LIMITED_SHOULDER_BOX |
-        SWIVEL_LIMITED_HAND_CONE | SWIVEL_LIMITED_FOREARM_TWIST | SWIVEL_LIMITED_HAND_TWIST | SWIVEL_LIMITED_WRIST_BOX;
+    constexpr std::uint32_t swivel_limits = SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_HUMERAL_TWIST |
+                                            SWIVEL_LIMITED_SHOULDER_BOX | SWIVEL_LIMITED_HAND_CONE |
+                                            SWIVEL_LIMITED_FOREARM_TWIST | SWIVEL_LIMITED_HAND_TWIST |
+                                            SWIVEL_LIMITED_WRIST_BOX | SWIVEL_LIMITED_REGION;
     return flags & SWIVEL_INFEASIBLE ? Held::infeasible : flags & swivel_limits ? Held::limited : Held::free;
 }
 

@@ -24,7 +24,7 @@ public:
 
 private:
     std::vector<Limb> limbs_ = random_limbs(65536);
-    std::map<std::pair<std::uint32_t, std::size_t>, swivel::Crowd> crowds_;
+    std::map<std::pair<swivel_features, std::size_t>, swivel::Crowd> crowds_;
 };
 
 struct Suite {
@@ -59,6 +59,7 @@ void add_hard(Suite& suite);
 void add_reading(Suite& suite);
 void add_features(Suite& suite);
 void add_limits(Suite& suite);
+void add_regions(Suite& suite);
 void add_production(Suite& suite);
 void add_bodies(Suite& suite);
 void add_feet(Suite& suite);

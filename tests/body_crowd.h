@@ -8,12 +8,15 @@
 
 namespace swivel::test {
 
-inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count)
+// region: of all limbs, with SWIVEL_WITH_REGION.
+inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count,
+                        const swivel_region* region = nullptr)
 {
     std::vector<swivel_limb_joints> joints;
     for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
     std::vector<swivel_group_def> groups;
     for (const swivel_limb_joints& each : joints) groups.push_back(body_group(each, features));
+    for (swivel_group_def& group : groups) group.region = features & SWIVEL_WITH_REGION ? region : nullptr;
     return Crowd(skeleton.view(), body_count, groups);
 }
 

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "tests/body_crowd.h"
+#include "tests/region_oracle.h"
 #include "tests/test_whole_limb.h"
 
 namespace {
@@ -204,16 +205,22 @@ struct Twins {
     Random& random;
     const swivel_features features = random_features(random);
     const BodySkeleton skeleton = random_body_skeleton(random, {1 + random.below(8), 2, random.below(3), false});
+    const RandomRegion region = random_region(random);
     std::vector<Body> bodies;
-    Crowd crowd = body_crowd(skeleton, features & ~kPosed, kPosedBodies),
-          free = Crowd({group(kPosedBodies * kTwins, free_features(features)),
-                        group(kPosedBodies*kTwins, free_features(features))});
+    Crowd crowd = body_crowd(skeleton, features & ~kPosed, kPosedBodies, &region.region),
+          free = Crowd({free_group(), free_group()});
     std::vector<bool> is_between;  // limbs that are neither straight nor bent, or against nothing
 
     explicit Twins(Random& from) : random(from)
     {
         for (std::uint32_t n = 0; n < kPosedBodies; ++n)
             bodies.push_back(random_body(random, skeleton, {true, true, true}));
+    }
+    swivel_group_def free_group() const
+    {
+        swivel_group_def made = group(kPosedBodies * kTwins, free_features(features));
+        if (features & SWIVEL_WITH_REGION) made.region = &region.region;
+        return made;
     }
     void write()
     {

@@ -120,9 +120,12 @@ std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs)
     return arms;
 }
 
-swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs)
+swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs,
+                         const swivel_region* region)
 {
-    swivel::Crowd crowd({swivel::group(static_cast<std::uint32_t>(arm_count), binding(), features)});
+    swivel_group_def def = swivel::group(static_cast<std::uint32_t>(arm_count), binding(), features);
+    def.region = region;
+    swivel::Crowd crowd({def});
 
     std::vector<Limb> given(limbs.begin(),
                             limbs.begin() + static_cast<std::ptrdiff_t>(std::min(limbs.size(), arm_count)));

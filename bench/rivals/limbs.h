@@ -43,7 +43,9 @@ void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count);
 void write_limits(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, double width);
 
 // A crowd of one group with all inputs written; limbs repeat where the crowd is larger than they are.
-swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs);
+// region: for SWIVEL_WITH_REGION.
+swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs,
+                         const swivel_region* region = nullptr);
 // Bytes of rows, in and out, that a solve of one arm touches.
 std::size_t row_bytes(swivel_features features);
 // Arms whose rows are at home in a level of memory, one of kMemoryLevels; whole blocks.

@@ -36,6 +36,55 @@ TEST_CASE("docs: cones")
     CHECK(distance(wrist[0], Float3{0.25f, 0.15f, 0.25f}) < 1e-6);
 }
 
+TEST_CASE("docs: regions")
+{
+    // [region]
+    swivel::Region region;
+    region.add_cones({{{0, 0.3f, 1}, 0.7f}, {{0, 1, 0.4f}, 0.5f}});
+    region.forbid({{0.8f, 0, 1}, 0.4f});  // where the chest is
+    swivel_group_def arms = swivel::group(1, SWIVEL_WITH_REGION);
+    arms.region = &region.get();
+    swivel::Crowd crowd({arms});
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    std::array<Double3, 1> elbow;
+    crowd.elbows(0, elbow);
+    const Eigen::Vector3f to = vec(elbow[0]).cast<float>();
+    CHECK(region.room({to.x(), to.y(), to.z()}) >= -1e-6f);
+    CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_REGION));
+}
+
+TEST_CASE("docs: a region of a clip")
+{
+    const Eigen::Vector3f z = Eigen::Vector3f::UnitZ();
+    const Eigen::Quaternionf parent_from_arm(0.8f, 0.6f, 0, 0),
+        upper_from_arm(0.6f, 0, 0, 0.8f);
+    std::vector<Eigen::Quaternionf> clip;
+    for (int n = 0; n < 50; ++n)
+        clip.emplace_back(Eigen::AngleAxisf(
+            0.03f * static_cast<float>(n), Eigen::Vector3f(1, 2, 3).normalized()));
+    // [clip]
+    // Where the upper arm points, from the shoulder joint's local rotation.
+    const auto pointing = [&](const Eigen::Quaternionf& local) {
+        const Eigen::Vector3f direction =
+            parent_from_arm.conjugate() * (local * (upper_from_arm * z));
+        return Float3{direction.x(), direction.y(), direction.z()};
+    };
+    std::vector<Float3> directions;
+    for (const Eigen::Quaternionf& local : clip) directions.push_back(pointing(local));
+    swivel::Region region;
+    const auto margin = static_cast<float>(swivel::degrees(5));
+    region.add_directions(directions, margin, 4);
+    // [end]
+    for (const Float3& direction : directions) {
+        CHECK(region.room(direction) > 0);
+        CHECK(region.room({-direction[0], -direction[1], -direction[2]}) < 0);
+        CHECK(region.mirrored().room({-direction[0], direction[1], direction[2]}) ==
+              region.room(direction));
+    }
+}
+
 TEST_CASE("docs: twists")
 {
     // [twist]

@@ -36,6 +36,7 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
         groups[g].shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
         groups[g].wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
         if (bytes.one_in(2)) groups[g].on_bad_input = SWIVEL_REST_POSE;
+        give_region(bytes, groups[g]);
     }
     add_shift();
     take_links(bytes, trunk);

@@ -197,6 +197,28 @@ swivel_features body_features_of(Bytes& bytes)
     return features_with(info.feature | info.needs, info.excludes | SWIVEL_NO_LIMB, bytes);
 }
 
+void give_region(Bytes& bytes, swivel_group_def& group)
+{
+    static const std::vector<swivel_region> regions = [] {
+        std::vector<swivel_region> made(16, swivel_default_region());
+        Random random{16};
+        const auto cone = [&] {
+            return swivel_region_cone{{random.share(), random.share(), random.share()},
+                                      0.05f + std::abs(random.share())};
+        };
+        for (swivel_region& region : made) {
+            const swivel_region_cone cones[] = {cone(), cone(), cone()};
+            const float corners[9] = {1, 0.1f * random.share(), 0, 0, 1, 0.1f * random.share(), 0, 0, 1};
+            swivel_region_add_cones(&region, cones, 1 + random.below(3), random.below(2));
+            if (random.below(2)) swivel_region_add_polygon(&region, corners, 3);
+            if (random.below(2)) swivel_region_forbid(&region, &cones[random.below(3)]);
+        }
+        return made;
+    }();
+    if (group.features & SWIVEL_WITH_REGION)
+        group.region = &regions[bytes.below(static_cast<std::uint32_t>(regions.size()))];
+}
+
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
 {
     std::vector<swivel_group_def> groups(1 + bytes.take<std::uint8_t>() % 3);
@@ -208,6 +230,7 @@ std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
         group.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
         if (bytes.one_in(2)) group.on_bad_input = SWIVEL_KEEP_POSE;
         group.binding = binding_of({bytes.take<std::uint16_t>()});
+        give_region(bytes, group);
     }
     return groups;
 }

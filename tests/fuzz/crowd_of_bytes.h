@@ -16,6 +16,9 @@ swivel_features features_of(Bytes& bytes);
 // The same of bodies' limbs.
 swivel_features body_features_of(Bytes& bytes);
 
+// A region for a group that has the feature: of cones, a polygon and forbidden cones.
+void give_region(Bytes& bytes, swivel_group_def& group);
+
 // Each group has features and a sound binding of its own, and 1 to most_limbs limbs.
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs);
 

@@ -42,7 +42,7 @@ function featureSets(isBodys) {
   const all = Object.entries(featureRules).map(([name, rule]) => ({ bit: Feature[name], ...rule }));
   const withAll = (features) => all.reduce((found, { bit, needs }) => (found & bit ? found | needs : found), features);
   const withNeeds = (features) => withAll(withAll(features));  // a need has needs of its own
-  const ofNoLimb = Feature.FIT | Feature.PROP | Feature.SENT;  // the last is not given, but had
+  const ofNoLimb = Feature.FIT | Feature.PROP | Feature.SENT | Feature.WITH_REGION;  // the last two have no fields
   const rules = all.filter(({ bit }) => !(bit & ofNoLimb) && (isBodys ? !(Feature.JOINTS & bit) : !(withNeeds(bit) & Feature.BODY)));
   const fits = (features) => rules.every(({ bit, excludes }) => !(features & bit && features & excludes));
   const sets = [];

@@ -61,6 +61,7 @@ constexpr Recipe kBodies[] = {
          Form::rotations, 3),
     body("in-body-all-joints", 0xd5664a18991e0412u, kHand | kClavicle, kRoots | kBetween | kInBody | kAllJoints,
          Form::columns),
+    body("region", 0x7d2ec1950bf8a463u, kHand | kHandCone | kRegion, kTranslations | kRoots | kInBody),
     body("record", 0x6360defb29d0059du, kHand | kReach | kStep | kRecord, kTranslations | kScales | kRoots |
          kBetween),
     body("record-aim-clavicle", 0xa4ce2b48d1cfb335u, kAim | kClavicle | kRecord, kRoots),

@@ -51,6 +51,7 @@ constexpr FeatureName kFeatures[] = {
     {kGround, SWIVEL_WITH_GROUND},
     {kLink, SWIVEL_WITH_LINK},
     {kHandFrame, SWIVEL_WITH_HAND_FRAME},
+    {kRegion, SWIVEL_WITH_REGION},
 };
 
 struct FieldName {
@@ -143,6 +144,7 @@ constexpr FlagName kFlags[] = {
     {kCut, SWIVEL_CUT},
     {kLimitedLook, SWIVEL_LIMITED_LOOK},
     {kFaded, SWIVEL_FADED},
+    {kLimitedRegion, SWIVEL_LIMITED_REGION},
 };
 
 // In the order of enum Order.
@@ -239,6 +241,18 @@ constexpr swivel_look kLooks[kLookCount] = {
     {2, {}, {0.5f, 2}, {0.9f, 0.3f}, {0.02f, 0.1f, -0.05f}, {0.6f, 0, 0.8f}, 0.5f, -0.8f, 0.4f, 2},
     {1, {}, {1}, {0.2f}, {0, 0, 0}, {0, 1, 0}, -0.5f, -1, 0, 0},
 };
+
+// A forbidden cone; two cones; and what lies in three half-spaces. Where upper arms may point, half of the sphere.
+constexpr swivel_region kUpperArms = {sizeof(swivel_region),
+                                      1,
+                                      3,
+                                      {1, 2, 3, 6},
+                                      {{{0.28f, 0, -0.96f}, -0.9f, 1},
+                                       {{0.6f, 0, 0.8f}, 0.5f, 1},
+                                       {{-0.48f, 0.6f, 0.64f}, 0.4f, 1},
+                                       {{0, 0.6f, -0.8f}, 0.3f, 1},
+                                       {{1, 0, 0}, -0.2f, 1},
+                                       {{0, -0.8f, -0.6f}, -0.6f, 1}}};
 
 swivel_features library_features(const Recipe& recipe, std::uint32_t group)
 {
@@ -358,6 +372,7 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
         groups[g] = group(limb_counts[g], library_binding(kBindings[g]), library_features(recipe, g));
         groups[g].shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
         groups[g].wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
+        if (groups[g].features & SWIVEL_WITH_REGION) groups[g].region = &kUpperArms;
     }
     if (is_of_bodies(recipe.part)) return create_bodies(recipe, limb_counts[0], groups);
     return Crowd(groups);

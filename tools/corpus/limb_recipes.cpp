@@ -28,6 +28,9 @@ constexpr Recipe kLimbs[] = {
     {limbs, "shoulder-box-yxz", 0xd68c20053f91ed95u, kShoulderBox, 0, Order::yxz, Order::xyz},
     {limbs, "shoulder-box-zxy", 0x5f4e45815c00d3d2u, kShoulderBox, 0, Order::zxy, Order::xyz},
     {limbs, "shoulder-box-zyx", 0x86f4f14cc599fac7u, kShoulderBox, 0, Order::zyx, Order::xyz},
+    {limbs, "region", 0x3c70d5a9e1f8264bu, kRegion},
+    {limbs, "region-limits", 0x91e4b86d0a57cf32u, kWorld | kJoints | kHand | kEffector | kStep | kShoulderCone |
+     kHumeralTwist | kShoulderBox | kForearmTwist | kWristBox | kRegion, 0, Order::yxz, Order::zxy},
     {limbs, "hand-cone", 0xd2e06b36b9ea43d4u, kHand | kHandCone},
     {limbs, "forearm-twist", 0xb2a57e606d09cf94u, kHand | kForearmTwist},
     {limbs, "hand-twist", 0x8d1eac030bab1534u, kHand | kHandTwist},

@@ -54,6 +54,7 @@ enum Feature : std::uint64_t {
     kGround = 1ull << 31,
     kLink = 1ull << 32,
     kHandFrame = 1ull << 33,
+    kRegion = 1ull << 34,
 };
 
 // Random numbers of a field depend on its number here.
@@ -149,10 +150,11 @@ enum Flag : std::uint32_t {
     kCut = 1u << 21,
     kLimitedLook = 1u << 22,
     kFaded = 1u << 23,
+    kLimitedRegion = 1u << 24,
     kUnknownFlag = 1u << 31,  // the library set a bit that the corpus does not know
 };
 inline constexpr std::uint32_t kPlantFlags = kPlanted | kReleased | kBrokeAway | kCut,
-                               kLookFlags = kLimitedLook | kFaded, kEveryFlag = (1u << 24) - 1;
+                               kLookFlags = kLimitedLook | kFaded, kEveryFlag = (1u << 25) - 1;
 
 enum class Order : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
 

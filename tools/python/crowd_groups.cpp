@@ -50,18 +50,23 @@ swivel_features features_of(std::int64_t features)
     return static_cast<swivel_features>(features);
 }
 
+bool is_a(const char* type, py::handle object) { return py::isinstance(object, package(type)); }
+
 // What a group says of itself beside its limbs; what is None stays. py::cast_error for what is no number.
 void set_options(swivel_group_def& def, py::handle features, py::handle on_bad_input, py::handle shoulder_order,
-                 py::handle wrist_order)
+                 py::handle wrist_order, py::handle region)
 {
     using Number = std::optional<std::int64_t>;
     if (const auto given = features.cast<Number>()) def.features = features_of(*given);
     if (const auto given = on_bad_input.cast<Number>()) def.on_bad_input = on_bad_input_of(*given);
     if (const auto given = shoulder_order.cast<Number>()) def.shoulder_order = order_of(*given);
     if (const auto given = wrist_order.cast<Number>()) def.wrist_order = order_of(*given);
+    if (region.is_none()) return;
+    if (!is_a("Region", region))
+        throw py::type_error("region: expected a Region, got " + std::string(py::repr(region)));
+    def.region = &region.cast<const Region&>().get();  // of the entry, which outlives the call
+    def.features |= SWIVEL_WITH_REGION;
 }
-
-bool is_a(const char* type, py::handle object) { return py::isinstance(object, package(type)); }
 
 [[noreturn]] void refuse(const char* expected, py::handle entry)
 {
@@ -73,7 +78,7 @@ bool is_a(const char* type, py::handle object) { return py::isinstance(object, p
 swivel_group_def group_of(py::handle entry, const swivel_group_def& usual)
 {
     constexpr const char kExpected[] = "a number of limbs, (number of limbs, binding) or a Group";
-    constexpr std::size_t kMemberCount = 6;
+    constexpr std::size_t kMemberCount = 7;
     const bool is_tuple = py::isinstance<py::tuple>(entry);
     const auto given = is_tuple ? py::reinterpret_borrow<py::tuple>(entry) : py::make_tuple(entry);
     if (given.size() < 1 || given.size() > kMemberCount || !is_number(given[0])) refuse(kExpected, entry);
@@ -82,7 +87,7 @@ swivel_group_def group_of(py::handle entry, const swivel_group_def& usual)
     def.limb_count = count_of("limb count", given[0].cast<std::int64_t>());
     try {
         if (!member(1).is_none()) def.binding = member(1).cast<swivel_binding>();
-        set_options(def, member(2), member(3), member(4), member(5));
+        set_options(def, member(2), member(3), member(4), member(5), member(6));
     } catch (const py::cast_error&) {
         refuse(kExpected, entry);
     }
@@ -100,7 +105,7 @@ swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, 
                            entry.attr("twist_bones").cast<std::vector<std::int64_t>>(), entry.attr("bend"));
         def.link = count_of("link", number("link"));
         set_options(def, entry.attr("features"), entry.attr("on_bad_input"), entry.attr("shoulder_order"),
-                    entry.attr("wrist_order"));
+                    entry.attr("wrist_order"), entry.attr("region"));
     } catch (const py::cast_error&) {
         refuse("whole numbers in a BodyGroup", entry);
     }
@@ -118,7 +123,7 @@ swivel_group_def limbless(swivel_group_def def, const char* type, py::handle ent
 {
     def.on_bad_input = usual.on_bad_input;
     try {
-        set_options(def, py::none(), entry.attr("on_bad_input"), py::none(), py::none());
+        set_options(def, py::none(), entry.attr("on_bad_input"), py::none(), py::none(), py::none());
     } catch (const py::cast_error&) {
         refuse(("a member of OnBadInput in a " + std::string(type)).c_str(), entry);
     }

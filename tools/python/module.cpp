@@ -21,6 +21,7 @@ PYBIND11_MODULE(_core, module)
     translate_errors();
     add_enums(module);
     add_bindings(module);
+    add_regions(module);
     CrowdClass crowd(module, "Crowd");
     crowd.attr("__module__") = "swivel";  // what the package shows is the package's, also in help() and errors
     add_creation(crowd);

@@ -78,5 +78,6 @@ struct NamedPicture {
     const char* name;  // of the file
     std::string text;
 };
-std::vector<NamedPicture> feet_pictures();  // docs/howto/feet.md
-std::vector<NamedPicture> look_pictures();  // docs/howto/look.md
+std::vector<NamedPicture> feet_pictures();    // docs/howto/feet.md
+std::vector<NamedPicture> look_pictures();    // docs/howto/look.md
+std::vector<NamedPicture> region_pictures();  // docs/howto/limits.md

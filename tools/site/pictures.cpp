@@ -32,7 +32,7 @@ int main(int argc, char** argv)
     }
     try {
         bool is_good = true;
-        for (const auto& pictures : {feet_pictures(), look_pictures()})
+        for (const auto& pictures : {feet_pictures(), look_pictures(), region_pictures()})
             for (const NamedPicture& picture : pictures) is_good = take(argv[argc - 1], picture, is_check) && is_good;
         return is_good ? 0 : 1;
     } catch (const std::exception& error) {

@@ -27,6 +27,7 @@ _Static_assert(sizeof(swivel_plant) == 11 * sizeof(float), "groups.ts writes it 
 _Static_assert(sizeof(swivel_fit) == 4 * sizeof(float), "groups.ts writes it as floats");
 _Static_assert(sizeof(swivel_ground) == 7 * sizeof(float), "groups.ts writes it as floats");
 _Static_assert(sizeof(swivel_prop) == 8, "groups.ts writes it as a joint and a float");
+_Static_assert(sizeof(swivel_region_cone) == 4 * sizeof(float), "region.ts writes it as floats");
 _Static_assert(sizeof(swivel_look) == 35 * 4, "groups.ts writes it as a count, 8 joints and 26 floats");
 
 static void print_features(void)
@@ -140,7 +141,8 @@ static void print_structures(void)
     OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
     OFFSET(swivel_group_def, binding), OFFSET(swivel_group_def, joints), OFFSET(swivel_group_def, plant);
     OFFSET(swivel_group_def, fit), OFFSET(swivel_group_def, ground), OFFSET(swivel_group_def, prop);
-    OFFSET(swivel_group_def, link), OFFSET(swivel_group_def, look), END();
+    OFFSET(swivel_group_def, link), OFFSET(swivel_group_def, look), OFFSET(swivel_group_def, region), END();
+    BEGIN(swivel_region), END();
     BEGIN(swivel_look), OFFSET(swivel_look, joints), OFFSET(swivel_look, share), OFFSET(swivel_look, cos_most);
     OFFSET(swivel_look, eye), OFFSET(swivel_look, axis), OFFSET(swivel_look, cos_full), END();
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);

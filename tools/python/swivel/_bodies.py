@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ._core import EulerOrder, OnBadInput, PoseSpace
+from ._core import EulerOrder, OnBadInput, PoseSpace, Region
 
 
 class Skeleton(NamedTuple):
@@ -82,6 +82,7 @@ class BodyGroup(NamedTuple):
     plant           for Feature.WITH_PLANT
     ground          for Feature.WITH_GROUND
     link            for Feature.WITH_LINK: the number of the group that it holds, a PropGroup or an earlier BodyGroup
+    region          where the upper limb may point; it brings Feature.WITH_REGION
     """
 
     shoulder: int
@@ -96,6 +97,7 @@ class BodyGroup(NamedTuple):
     plant: Plant = Plant()
     ground: Ground = Ground()
     link: int = 0
+    region: Optional[Region] = None
 
 
 class FitGroup(NamedTuple):

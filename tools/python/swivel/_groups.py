@@ -2,7 +2,7 @@
 """What a crowd is made of."""
 from typing import NamedTuple, Optional
 
-from ._core import Binding, EulerOrder, OnBadInput
+from ._core import Binding, EulerOrder, OnBadInput, Region
 
 
 class Group(NamedTuple):
@@ -14,6 +14,7 @@ class Group(NamedTuple):
     on_bad_input    what a limb with bad input gets
     shoulder_order  of Field.SHOULDER_BOX
     wrist_order     of Field.WRIST_BOX
+    region          where the upper arms may point; it brings Feature.WITH_REGION
     """
 
     limb_count: int
@@ -22,3 +23,4 @@ class Group(NamedTuple):
     on_bad_input: Optional[OnBadInput] = None
     shoulder_order: Optional[EulerOrder] = None
     wrist_order: Optional[EulerOrder] = None
+    region: Optional[Region] = None

@@ -5,6 +5,7 @@ import { Numbers, numbers, options, real, refuse, shown, whole } from "./argumen
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
 import { defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, layout, MOST_LOOK_JOINTS, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
+import { Region } from "./region.js";
 
 /** What groups of free limbs and of bodies have. */
 interface LimbOptions {
@@ -13,6 +14,8 @@ interface LimbOptions {
     /** Orders of the Euler angles of SHOULDER_BOX and WRIST_BOX, from Order. Left out: XYZ. */
     shoulderOrder?: number;
     wristOrder?: number;
+    /** Where the upper arms may point. It brings Feature.WITH_REGION. */
+    region?: Region;
 }
 /** Limbs that share features and a binding, as swivel_group_def. */
 export interface GroupOptions extends LimbOptions {
@@ -160,14 +163,19 @@ function checkedFeatures(features: bigint): bigint {
 function checkedList<Each>(groups: readonly Each[], features: bigint, such: string, check: (group: Each) => GroupOptions): CheckedGroup[] {
     checkedFeatures(features);
     if (!Array.isArray(groups)) refuse(`groups is ${shown(groups)}; give a list, such as ${such}`);
-    return groups.map(check).map((group) => ({ ...group, features: group.features === undefined ? features : checkedFeatures(group.features) }));
+    return groups.map(check).map((group) => {
+        const own = group.features === undefined ? features : checkedFeatures(group.features);
+        if (group.region === undefined) return { ...group, features: own };
+        if (!(group.region instanceof Region)) refuse(`region is ${shown(group.region)}; give what region() made`);
+        return { ...group, features: own | Feature.WITH_REGION };
+    });
 }
 
 /** features: of groups that give none. */
 export function freeGroups(groups: readonly Group[], features: bigint): CheckedGroup[] {
     return checkedList(groups, features, "[1000]", (group) => {
         const given = typeof group === "number" ? { limbCount: group } :
-            options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput");
+            options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput", "region");
         return { ...given, limbCount: whole("limbCount", given.limbCount) };
     });
 }
@@ -185,7 +193,7 @@ const NO_LIMB = Feature.FIT | Feature.PROP | Feature.LOOK;
 function bodyGroup(group: BodiesGroup): Omit<BodyGroup, "joints"> & { features?: bigint } {
     for (const [member, features, name] of limbless)
         if (typeof group === "object" && group !== null && member in group) return { ...options(name, group, member as never, "onBadInput"), features };
-    return options("a group of bodies", group as BodyGroup, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link");
+    return options("a group of bodies", group as BodyGroup, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link", "region");
 }
 export function bodyGroups(groups: readonly BodiesGroup[], features: bigint, bodyCount: number): CheckedGroup[] {
     const limbCount = whole("bodyCount", bodyCount);
@@ -234,7 +242,7 @@ export function create(memory: Memory, groups: readonly CheckedGroup[], bodies?:
         const size = layout.swivel_group_def.bytes, list = borrowed.bytes(size * groups.length), crowd = borrowed.bytes(4);
         groups.forEach((group, n) => {
             const { limbCount, features, binding, joints, shoulderOrder = 0, wristOrder = 0, onBadInput = 0 } = group;
-            const { plant = {}, fit = {}, ground = {}, prop = {}, link = 0, look } = group;
+            const { plant = {}, fit = {}, ground = {}, prop = {}, link = 0, look, region } = group;
             const def = new Structure(memory, "swivel_group_def", list + n * size).wide("features", features);
             def.words("limb_count", limbCount).words("on_bad_input", whole("onBadInput", onBadInput));
             def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
@@ -242,6 +250,7 @@ export function create(memory: Memory, groups: readonly CheckedGroup[], bodies?:
             def.floats("plant", constants("plant", plant, defaultPlant)).floats("fit", constants("fit", fit, defaultFit));
             def.floats("ground", constants("ground", ground, defaultGround)).copy("prop", propBytes(prop)).words("link", whole("link", link));
             if (look) def.copy("look", lookBytes(look));
+            if (region) def.words("region", region.put(borrowed));
             if (bodies && !(features & NO_LIMB)) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
         });
         const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("workspace_count", 1).words("groups", list);

@@ -16,6 +16,7 @@ export {
     PoseSpace, Status, VERSION,
 } from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";
+export type { Region, RegionCone } from "./region.js";
 export type { Entity, Swivel } from "./swivel.js";
 
 /** Makes a solver in a memory of its own. */

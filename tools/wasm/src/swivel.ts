@@ -6,6 +6,7 @@ import { Crowd } from "./crowd.js";
 import { freeGroups, Group } from "./groups.js";
 import { ENTITY_COUNT, layout } from "./layout.js";
 import { Memory, vector } from "./memory.js";
+import { Region } from "./region.js";
 
 /** One entity of the lecture's five steps, as swivel_entity: 32 coefficients, whose blades bladeName() names. */
 export interface Entity {
@@ -31,6 +32,8 @@ export class Swivel {
     bodies(given: BodiesOptions): Bodies<Float32Array | Float64Array> { return new Bodies(this.memory, given); }
     bind(chain: Chain): Binding { return bind(this.memory, chain); }
     bindJoints(skeleton: Skeleton, joints: LimbJoints): Binding { return bindJoints(this.memory, skeleton, joints); }
+    /** A region that is empty: add to it what upper arms may do. */
+    region(): Region { return new Region(this.memory); }
 
     /** A range of angles in radians, for twists and, three at a time, boxes. */
     range(least: number, most: number): Float32Array {
