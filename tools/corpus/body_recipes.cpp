@@ -5,7 +5,7 @@ namespace swivel::corpus {
 
 namespace {
 
-constexpr Recipe body(const char* name, std::uint64_t seed, std::uint32_t features, std::uint32_t pose,
+constexpr Recipe body(const char* name, std::uint64_t seed, std::uint64_t features, std::uint32_t pose,
                       Form form = Form::rotations, std::uint32_t twist_bones = 0)
 {
     return {Part::bodies, name, seed, features, twist_bones, Order::yxz, Order::zxy, form, pose};
