@@ -99,6 +99,7 @@ SolvedLimb<float> solved(const Inputs& in, swivel_features features, const corpu
     limits.shoulder_order = kEulerOrders[static_cast<int>(recipe.shoulder_order)];
     limits.wrist_order = kEulerOrders[static_cast<int>(recipe.wrist_order)];
     limits.shoulder_box = has(SWIVEL_WITH_SHOULDER_BOX);
+    if (has(SWIVEL_WITH_REGION)) limits.region = &corpus::upper_arms();
     limits.wrist_box = has(SWIVEL_WITH_WRIST_BOX);
     for (std::uint32_t n = 0; n < 3; ++n) {
         if (limits.shoulder_box) goal.limits.shoulder_box[n] = in.range_of(SWIVEL_SHOULDER_BOX, 4 * n);
