@@ -60,6 +60,10 @@ public:
         const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? of_.wrist_order : of_.shoulder_order;
         return count == 0 ? 0 : outside_limit(arm_rotors(group(), 0), limit, values, order);
     }
+    double middle_angle() const
+    {
+        return joint_angles(arm_rotors(group(), 0), of_.shoulder_order, of_.wrist_order, 0).shoulder[1];
+    }
     double missed() const { return distance_missed(group(), 0); }
     double missed_share() const { return residual(group(), 0); }
     // Of both bones, as they count.
@@ -305,6 +309,18 @@ bool forbids_all(Probe& probe, const FlagRow& limit)
     return probe.solve() & SWIVEL_INFEASIBLE;
 }
 
+// Where the middle angle of a box is a right angle, the other two turn about one axis. Near it they change fast.
+void explain_pole(Probe& probe, Text& text)
+{
+    probe.take();
+    const double degrees = 90 - std::fabs(probe.middle_angle()) * 180 / std::numbers::pi;
+    if (degrees > 15) return;
+    text.add(
+        " It is %.0f degrees from the pole of shoulder_box, near which the allowed place may jump: another "
+        "shoulder_order has its pole elsewhere.",
+        degrees);
+}
+
 // By how many degrees the elbow of one pose is turned from that of another, about the line to the wrist.
 double swivel_between(const LimbPose& a, const LimbPose& b)
 {
@@ -313,11 +329,9 @@ double swivel_between(const LimbPose& a, const LimbPose& b)
     return std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)) * 180 / std::numbers::pi;
 }
 
-// How far the place that violates all limits least is outside of each.
-void explain_violations(Probe& probe, Text& text)
+// How far the probe's pose is outside of each limit.
+void explain_violations(const Probe& probe, Text& text)
 {
-    probe.take();
-    probe.solve();
     bool is_first = true;
     for_each_limit([&](const FlagRow& row) {
         const double degrees = probe.violation(row);
@@ -328,8 +342,8 @@ void explain_violations(Probe& probe, Text& text)
     text.add("%s.", is_first ? " Its pose violates none of them by 0.01 degrees" : "");
 }
 
-// solved: the pose that the limb has.
-void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, Text& text)
+// solved: the pose that the limb has. step_wins: whether the step is taken after the limits.
+void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, bool step_wins, Text& text)
 {
     char room[2][200];
     Text broken(room[0]), alone(room[1]);
@@ -340,15 +354,22 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
             alone.add("%s%s", alone.is_empty() ? "" : " and ", limit_name(row));
     });
     if (broken.is_empty()) return;
-    const bool is_step = flags & SWIVEL_LIMITED_STEP;  // limits then forbid the place where the step ends
+    const bool is_step = flags & SWIVEL_LIMITED_STEP && !step_wins;  // limits then forbid the place where the step ends
     if (flags & SWIVEL_INFEASIBLE) {
         text.add(" No place of the elbow keeps %s%s: the one that violates them least is taken.",
                  !alone.is_empty() ? ""
                  : is_step         ? "all limits at once, as the step's end breaks "
                                    : "all limits at once, as the wish breaks ",
                  alone.is_empty() ? room[0] : room[1]);
-        explain_violations(probe, text);
-        return;
+        probe.take();
+        if (!step_wins) probe.solve();
+        return explain_violations(probe, text);
+    }
+    if (flags & SWIVEL_LIMITED_STEP && step_wins) {
+        text.add(" Where the elbow was wished it breaks %s. It goes to the nearest place that keeps all limits.",
+                 room[0]);
+        probe.take();
+        return explain_violations(probe, text);
     }
     probe.take();
     for_each_limit([&](const FlagRow& row) { probe.give_up(row); });
@@ -390,9 +411,13 @@ void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t l
     if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
     if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
     explain_reach(probe, flags, text);
-    explain_limits(probe, probe.pose(), flags, text);
+    const bool step_wins = group.features & SWIVEL_STEP_WINS;
+    explain_limits(probe, probe.pose(), flags, step_wins, text);
+    if (flags & SWIVEL_LIMITED_SHOULDER_BOX) explain_pole(probe, text);
     if (flags & SWIVEL_JUMPED)
         text.add(" Joint limits turn the swivel further than a step may.");
+    else if (flags & SWIVEL_LIMITED_STEP && step_wins)
+        text.add(" It is on its way there: the next solve goes one step further.");
     else if (flags & SWIVEL_LIMITED_STEP)
         text.add(
             " The wish is further than one step from where the elbow is: the next solve goes as far as step and limits "

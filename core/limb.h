@@ -94,8 +94,10 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
         const FoundSwivel<T> chosen = chosen_swivel(use, goal.limits, arm, valid, flags);
         flags = flags | bits_where(!chosen.allowed, SWIVEL_INFEASIBLE);
         normal = swivelled(normal, to.line, chosen.swivel);
-        if (use.continuity) flags = flags | bits_where(jumps(goal.continuity, normal, to.line), SWIVEL_JUMPED);
+        if (use.continuity && !use.step_wins)
+            flags = flags | bits_where(jumps(goal.continuity, normal, to.line), SWIVEL_JUMPED);
     }
+    if (use.step_wins) normal = last_step(goal.continuity, normal, to.line, flags);
     const Rotor<T> shoulder = lifted(to.line, normal, bones.lift);
 
     SolvedLimb<T> pose;

@@ -13,7 +13,7 @@ enum class Wish { pole, normal, incoming };  // what says where the elbow goes
 // What a group uses.
 struct LimbUse {
     bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false, cap = false,
-         continuity = false, aim = false, yields = false;
+         continuity = false, step_wins = false, aim = false, yields = false;
     Wish wish = Wish::pole;
     LimitUse limits;
 };

@@ -119,6 +119,15 @@ SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& sta
     const Vector<T> stepped = state.most.cos * previous + copysign(state.most.sin, side) * cross(line, previous);
     return {select(limited, stepped, wish), limited};
 }
+// Where the step wins: the normal that the limits leave, no further from the previous one than the frame's most swivel.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> last_step(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line,
+                                            Bits<T>& flags)
+{
+    const SteppedNormal<T> step = stepped_normal(state, normal, line);
+    flags = flags | bits_where(step.limited, SWIVEL_LIMITED_STEP);
+    return step.normal;
+}
 // Whether the normal that the limits leave is further from the previous one than the frame's most swivel.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line)
@@ -127,7 +136,8 @@ SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T
     return has_previous & is_beyond(previous, normal, line, state.most, 1e-6);
 }
 
-// The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows.
+// The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows. Where
+// the step wins, the limits come first.
 template <class T>
 struct LimbNormal {
     Vector<T> normal;  // unit
@@ -138,7 +148,7 @@ SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const Limb
 {
     const WishedNormal<T> wish = wished_normal(use, goal, line);
     LimbNormal<T> limb{wish.normal, bits_where(wish.undefined, SWIVEL_SWIVEL_UNDEFINED)};
-    if (use.continuity) {
+    if (use.continuity && !use.step_wins) {
         const SteppedNormal<T> step = stepped_normal(goal.continuity, limb.normal, line);
         limb = {step.normal, limb.flags | bits_where(step.limited, SWIVEL_LIMITED_STEP)};
     }

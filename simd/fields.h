@@ -66,6 +66,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_SENT, "SENT", SWIVEL_BODY},
     {SWIVEL_LOOK, "LOOK", kOfBodies, ~(kOfBodies | SWIVEL_LOOK)},
     {SWIVEL_WITH_REGION, "WITH_REGION"},
+    {SWIVEL_STEP_WINS, "STEP_WINS", SWIVEL_WITH_MOST_SWIVEL},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;

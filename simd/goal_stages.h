@@ -26,6 +26,7 @@ SWIVEL_INLINE LimbUse use_of(const S& s)
     use.reach = s.has(SWIVEL_WITH_REACH);
     use.cap = s.has(SWIVEL_WITH_CAP);
     use.continuity = s.has(SWIVEL_WITH_MOST_SWIVEL);
+    use.step_wins = s.has(SWIVEL_STEP_WINS);
     use.aim = s.has(SWIVEL_WITH_AIM);
     use.yields = s.has(SWIVEL_HAND_YIELDS);
     use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;

@@ -58,9 +58,10 @@ struct StageBody<Stage::store> {
         if (s.has(SWIVEL_WITH_MOST_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & kSwivelLimits) {
             normal = swivelled(normal, line, {s.get(kSwivelRow), s.get(kSwivelRow + 1)});
-            if (s.has(SWIVEL_WITH_MOST_SWIVEL))
+            if (s.has(SWIVEL_WITH_MOST_SWIVEL) && !s.has(SWIVEL_STEP_WINS))
                 flags = flags | bits_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
         }
+        if (s.has(SWIVEL_STEP_WINS)) normal = last_step(continuity, normal, line, flags);
         const Rotor<T> shoulder = lifted(line, normal, lift_of(s));
         const T cos_half = s.get(kFlexionRow), sin_half = s.get(kFlexionRow + 1);
         const T cos = select(results.valid, cos_half, T(1)), sin = select(results.valid, sin_half, T(0));

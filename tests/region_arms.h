@@ -45,7 +45,7 @@ struct RegionArms {
     {
         swivel_group_def def = group(static_cast<std::uint32_t>(arms.size()), features | more);
         def.shoulder_order = orders[0], def.wrist_order = orders[1];
-        def.region = &region.region;
+        if (features & SWIVEL_WITH_REGION) def.region = &region.region;
         Crowd made(def);
         for (std::uint32_t n = 0; n < arms.size(); ++n) write(made, n);
         return made;

@@ -256,6 +256,8 @@ TEST_CASE("crowd bounds: what does not go together is refused")
                           "c.toml:3: limb.arms.weights.pole: means nothing beside limb.arms.pole.kind");
     stage.require_refused("[limb.arms]\npriority = 2\n",
                           "c.toml:2: limb.arms.priority: means nothing without budget.blocks");
+    stage.require_refused("[limb.arms]\nswivel.step_wins = true\n",
+                          "c.toml:2: limb.arms.swivel.step_wins: means nothing without most_deg_per_second");
     stage.require_refused("[limb.legs]\nhand = true\n", "c.toml:1: limb.legs: no such limb is solved");
     stage.require_refused("[budget]\nblocks = 1\n[limb.left_arm]\nhand = false\n",
                           "c.toml: budget.blocks: limbs that share a budget");

@@ -79,6 +79,7 @@ SolvedLimb<float> solved(const Inputs& in, swivel_features features, const corpu
     }
     if ((use.continuity = has(SWIVEL_WITH_MOST_SWIVEL)))
         goal.continuity = {in.vector_of(SWIVEL_NORMAL), in.turned_of(SWIVEL_MOST_SWIVEL)};
+    use.step_wins = has(SWIVEL_STEP_WINS);
     if ((use.aim = has(SWIVEL_WITH_AIM))) {
         goal.aim = {in.vector_of(SWIVEL_AIM), in(SWIVEL_AIM, 3), in(SWIVEL_AIM, 4)};
         good = good && is_unit2(len2(goal.aim.axis));

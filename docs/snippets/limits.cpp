@@ -40,8 +40,8 @@ TEST_CASE("docs: regions")
 {
     // [region]
     swivel::Region region;
-    region.add_cones({{{0, 0.3f, 1}, 0.7f}, {{0, 1, 0.4f}, 0.5f}});
-    region.forbid({{0.8f, 0, 1}, 0.4f});  // where the chest is
+    region.add_cones({{{0, 0.3f, 1}, 0.5f}, {{1, 0, 0.4f}, 0.5f}});
+    region.forbid({{-0.8f, 0, 1}, 0.4f});  // where the chest is
     swivel_group_def arms = swivel::group(1, SWIVEL_WITH_REGION);
     arms.region = &region.get();
     swivel::Crowd crowd({arms});
@@ -174,6 +174,24 @@ TEST_CASE("docs: allowed arcs")
     // [end]
     REQUIRE(shown.size() == 1);
     CHECK(shown[0][0] != shown[0][1]);
+}
+
+TEST_CASE("docs: limits that do not pop")
+{
+    // [step wins]
+    swivel::Crowd crowd({swivel::group(
+        1, SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_STEP_WINS)});
+    // 540 degrees a second, at 60 frames a second.
+    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, swivel::turn(swivel::degrees(9)));
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.6));
+    crowd.solve();
+    CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE |
+                              SWIVEL_LIMITED_STEP));
+    for (int frame = 0; frame < 20; ++frame) crowd.solve();
+    CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE));
 }
 
 TEST_CASE("docs: limits in the character's axes")

@@ -111,7 +111,9 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_FOREARM_TWIST = 1u << 11,
     SWIVEL_LIMITED_HAND_TWIST = 1u << 12,
     SWIVEL_LIMITED_WRIST_BOX = 1u << 13,
-    SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's
+    // The swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's. With STEP_WINS the one that limits
+    // leave is, so the elbow may still be outside of them.
+    SWIVEL_LIMITED_STEP = 1u << 14,
     SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
     SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
     SWIVEL_PLANTED = 1u << 17,       // the point is locked to its support
@@ -182,6 +184,8 @@ typedef uint64_t swivel_features;
 #define SWIVEL_SENT (UINT64_C(1) << 37)  // its goal is made by the library: WITH_PLANT and WITH_LINK have it themselves
 #define SWIVEL_LOOK (UINT64_C(1) << 38)  // the group is joints that turn to a target, not a limb: swivel_look
 #define SWIVEL_WITH_REGION (UINT64_C(1) << 39)  // the upper arm stays in a region: swivel_group_def's region
+// SWIVEL_MOST_SWIVEL takes precedence over limits: the elbow goes to where they allow it as fast as that lets it.
+#define SWIVEL_STEP_WINS (UINT64_C(1) << 43)
 #define SWIVEL_NO_LIMB (SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK)  // a group of bodies that is no limb has one of these
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)              // times the number of twist bones, 1 to 7
 
@@ -211,7 +215,7 @@ typedef uint64_t swivel_features;
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
 //   the target, lower its weight or use WITH_CLAVICLE.
 // - A region (WITH_REGION) is one more limit of the upper arm, the same for all limbs of the group.
-// - Limits take precedence over SWIVEL_MOST_SWIVEL, and that over the wish.
+// - Limits take precedence over SWIVEL_MOST_SWIVEL, and that over the wish. With STEP_WINS the step comes first.
 //
 // RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0; with WITH_INCOMING it has the sign nearer to
 // the incoming one. At w = 0 the first of x, y, z that is not zero is positive. Equal inputs give equal bits on every

@@ -14,8 +14,8 @@ namespace swivel::corpus {
 inline constexpr std::uint64_t kGoldenDigests[] = {
     0x1c18711c60d19dbbu,  // ordinary
     0xbdab33c3b85403efu,  // hard
-    0x4dc389bb313fc64au,  // limbs
-    0x3c060564b7fe0b62u,  // bodies
+    0x22232aecf5886c06u,  // limbs
+    0x3046461eb69f2b59u,  // bodies
     0x08572cff9909d9abu,  // standing
 };
 
@@ -96,6 +96,10 @@ inline constexpr GoldenCrowd kGoldenCrowds[] = {
     {Part::limbs, "shoulder-box-yxz", 0xdf425712ab6a8cf9u},
     {Part::limbs, "shoulder-box-zxy", 0x55c5e7316dc3a76au},
     {Part::limbs, "shoulder-box-zyx", 0x933d772894794b06u},
+    {Part::limbs, "region", 0xfd47368a2e80acc1u},
+    {Part::limbs, "region-limits", 0xb084e2c312b1a363u},
+    {Part::limbs, "step-wins", 0x88a8fff90b2ac4a5u},
+    {Part::limbs, "step-wins-limits", 0x09175467d77b00d0u},
     {Part::limbs, "hand-cone", 0x60291bf4bfd00c70u},
     {Part::limbs, "forearm-twist", 0x895e626ae754cdf8u},
     {Part::limbs, "hand-twist", 0x1325b55dd9915d23u},
@@ -163,6 +167,7 @@ inline constexpr GoldenCrowd kGoldenCrowds[] = {
     {Part::bodies, "in-body-columns3", 0x382c2240f88f80f7u},
     {Part::bodies, "all-joints", 0xa07cff9f6643a3d5u},
     {Part::bodies, "in-body-all-joints", 0x892c5f09dfbf7a64u},
+    {Part::bodies, "region", 0x855bd9b560c44cbdu},
     {Part::bodies, "record", 0x883129f2dc796deeu},
     {Part::bodies, "record-aim-clavicle", 0x29bea7f6e429d177u},
     {Part::bodies, "set-everything", 0xf40cbad297b99514u},

@@ -52,6 +52,7 @@ constexpr FeatureName kFeatures[] = {
     {kLink, SWIVEL_WITH_LINK},
     {kHandFrame, SWIVEL_WITH_HAND_FRAME},
     {kRegion, SWIVEL_WITH_REGION},
+    {kStepWins, SWIVEL_STEP_WINS},
 };
 
 struct FieldName {

@@ -31,6 +31,9 @@ constexpr Recipe kLimbs[] = {
     {limbs, "region", 0x3c70d5a9e1f8264bu, kRegion},
     {limbs, "region-limits", 0x91e4b86d0a57cf32u, kWorld | kJoints | kHand | kEffector | kStep | kShoulderCone |
      kHumeralTwist | kShoulderBox | kForearmTwist | kWristBox | kRegion, 0, Order::yxz, Order::zxy},
+    {limbs, "step-wins", 0xa6015f3c8d9e72b4u, kStep | kStepWins},
+    {limbs, "step-wins-limits", 0x5ec9072ab1f3d846u, kHand | kAngle | kStep | kStepWins | kShoulderCone | kShoulderBox |
+     kWristBox, 0, Order::yxz, Order::zxy},
     {limbs, "hand-cone", 0xd2e06b36b9ea43d4u, kHand | kHandCone},
     {limbs, "forearm-twist", 0xb2a57e606d09cf94u, kHand | kForearmTwist},
     {limbs, "hand-twist", 0x8d1eac030bab1534u, kHand | kHandTwist},

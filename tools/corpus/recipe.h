@@ -55,6 +55,7 @@ enum Feature : std::uint64_t {
     kLink = 1ull << 32,
     kHandFrame = 1ull << 33,
     kRegion = 1ull << 34,
+    kStepWins = 1ull << 35,
 };
 
 // Random numbers of a field depend on its number here.

@@ -70,6 +70,9 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
                fmt::format("has no length, so no direction, and {} in line {} wants one; write [x, y, z], not all of "
                            "them 0",
                            s.pole_kind->key, s.pole_kind->line));
+    if (s.step_wins && s.step_wins->value && !s.most_swivel_deg_per_frame && !s.most_swivel_deg_per_second)
+        refuse(file, *s.step_wins,
+               "means nothing without most_deg_per_second or most_deg_per_frame; give that, or take this out");
     if (s.priority && !file.budget_blocks)
         refuse(file, *s.priority, "means nothing without budget.blocks; give that, or take this out");
 }

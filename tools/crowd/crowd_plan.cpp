@@ -153,6 +153,7 @@ struct Planner {
             most_deg = std::min(180.0, frame_time * from.most_swivel_deg_per_second->value);
         if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)
             put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(kRadians * most_deg));
+        if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
     }
 
     void limits()

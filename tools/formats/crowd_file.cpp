@@ -123,6 +123,7 @@ void read_swivel(TomlTable table, LimbSettings& to)
     to.most_swivel_deg_per_second = table.number("most_deg_per_second", 0, 1e6);
     if (to.most_swivel_deg_per_frame && to.most_swivel_deg_per_second)
         table.fail("most_deg_per_second", "most_deg_per_frame is given, too; keep one of them");
+    to.step_wins = table.flag("step_wins");
     table.finish();
 }
 
@@ -203,7 +204,7 @@ auto members(Settings& s)
     return std::tie(s.joints, s.bend, s.target_point, s.target_offset, s.hand, s.effector, s.aim, s.clavicle_share,
                     s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight, s.pole_weight,
                     s.soft_far, s.soft_near, s.least_distance, s.most_stretch, s.most_swivel_deg_per_frame,
-                    s.most_swivel_deg_per_second, s.flexion_deg, s.humeral_twist_deg, s.forearm_twist_deg,
+                    s.most_swivel_deg_per_second, s.step_wins, s.flexion_deg, s.humeral_twist_deg, s.forearm_twist_deg,
                     s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.twist_bones, s.priority);
 }
 

@@ -57,6 +57,7 @@ struct LimbSettings {
     Maybe<double> soft_far, soft_near, least_distance;                    // shares of the limb's length
     Maybe<double> most_stretch;                                           // 1 to 1000
     Maybe<double> most_swivel_deg_per_frame, most_swivel_deg_per_second;  // at most one of them
+    Maybe<bool> step_wins;
 
     Maybe<NumberRange> flexion_deg, humeral_twist_deg, forearm_twist_deg;
     Maybe<ConeLimit> shoulder_cone, hand_cone;
