@@ -136,8 +136,8 @@ SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T
     return has_previous & is_beyond(previous, normal, line, state.most, 1e-6);
 }
 
-// The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows. Where
-// the step wins, the limits come first.
+// The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows.
+// Where the step wins, the limits come first.
 template <class T>
 struct LimbNormal {
     Vector<T> normal;  // unit

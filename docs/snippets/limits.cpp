@@ -62,8 +62,8 @@ TEST_CASE("docs: a region of a clip")
         upper_from_arm(0.6f, 0, 0, 0.8f);
     std::vector<Eigen::Quaternionf> clip;
     for (int n = 0; n < 50; ++n)
-        clip.emplace_back(Eigen::AngleAxisf(
-            0.03f * static_cast<float>(n), Eigen::Vector3f(1, 2, 3).normalized()));
+        clip.emplace_back(Eigen::AngleAxisf(0.03f * static_cast<float>(n),
+                                            Eigen::Vector3f(1, 2, 3).normalized()));
     // [clip]
     // Where the upper arm points, from the shoulder joint's local rotation.
     const auto pointing = [&](const Eigen::Quaternionf& local) {
@@ -178,7 +178,7 @@ TEST_CASE("docs: allowed arcs")
 
 TEST_CASE("docs: limits that do not pop")
 {
-    // [step wins]
+    // [wins]
     swivel::Crowd crowd({swivel::group(
         1, SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_STEP_WINS)});
     // 540 degrees a second, at 60 frames a second.
@@ -188,8 +188,8 @@ TEST_CASE("docs: limits that do not pop")
     crowd.solve();
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.6));
     crowd.solve();
-    CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE |
-                              SWIVEL_LIMITED_STEP));
+    CHECK(flags_of(crowd) ==
+          (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_STEP));
     for (int frame = 0; frame < 20; ++frame) crowd.solve();
     CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE));
 }

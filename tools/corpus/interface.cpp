@@ -366,8 +366,6 @@ swivel_pose library_pose(Poses& poses)
 
 }  // namespace
 
-const swivel_region& upper_arms() { return kUpperArms; }
-
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
 {
     swivel_group_def groups[kGroupCount];

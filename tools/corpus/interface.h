@@ -19,9 +19,6 @@ namespace swivel::corpus {
 
 using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
-// Where upper arms with kRegion may point.
-const swivel_region& upper_arms();
-
 // An empty crowd of three groups with the bindings of bindings.h, or of bodies, of which each group has a limb.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
 LimbCounts limb_counts(const Crowd& crowd);

@@ -13,19 +13,6 @@ using Float3 = std::array<float, 3>;
 constexpr double kPi = 3.141592653589793, kRadius = 150;
 constexpr Point kMiddle{200, 190};
 
-// An arm that swings, reaches up, and comes back.
-std::vector<Float3> clip()
-{
-    std::vector<Float3> made;
-    for (int n = 0; n < 240; ++n) {
-        const double t = 2 * kPi * n / 240, x = 0.95 * std::sin(t), y = 0.85 * std::cos(t) * std::sin(0.5 * t);
-        const double z = 1 - 0.9 * std::sin(0.5 * t) * std::sin(0.5 * t), length = std::hypot(x, y, z);
-        made.push_back(
-            {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)});
-    }
-    return made;
-}
-
 // The sphere as a disc, on which equal areas are equal: +z is its middle, -z its rim.
 Point shown(const Float3& d)
 {
@@ -37,6 +24,17 @@ Float3 direction(double x, double y)
 {
     const double far2 = x * x + y * y, z = 1 - 2 * far2, scale = 2 * std::sqrt(std::fmax(0, 1 - far2));
     return {static_cast<float>(scale * x), static_cast<float>(scale * y), static_cast<float>(z)};
+}
+
+// An arm that reaches up, out to the side and down, and sways on its way.
+std::vector<Float3> clip()
+{
+    std::vector<Float3> made;
+    for (int n = 0; n <= 240; ++n) {
+        const double turn = (80 - 230.0 * n / 240) * kPi / 180, far = 0.55 + 0.05 * std::sin(n / 8.0);
+        made.push_back(direction(far * std::cos(turn), far * std::sin(turn)));
+    }
+    return made;
 }
 
 // Runs of allowed directions, and the share of all directions that they are.
@@ -83,7 +81,7 @@ std::string around_a_clip()
     };
     char line[80];
     legend(120, kOrange, "where the clip's upper arm points");
-    std::snprintf(line, sizeof line, "the region, 5 degrees wider: %.0f %% of all directions", some);
+    std::snprintf(line, sizeof line, "the region: %.0f %% of all directions", some);
     legend(160, kGreen, line);
     std::snprintf(line, sizeof line, "one cone around it: %.0f %%", one);
     legend(200, kPale, line);
