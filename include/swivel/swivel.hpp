@@ -110,7 +110,7 @@ inline swivel_group_def look_group(std::span<const std::uint32_t> joints,
     swivel_group_def made = swivel_default_look_group_def();
     made.look = look;
     made.look.joint_count = static_cast<std::uint32_t>(joints.size());
-    std::ranges::copy(joints.first(std::min<std::size_t>(joints.size(), SWIVEL_MOST_LOOK_JOINTS)), made.look.joints);
+    std::copy_n(joints.begin(), std::min<std::size_t>(joints.size(), SWIVEL_MOST_LOOK_JOINTS), made.look.joints);
     return made;
 }
 inline swivel_group_def look_group(std::initializer_list<std::uint32_t> joints,
