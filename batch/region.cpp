@@ -145,9 +145,9 @@ swivel_status swivel_region_add_polygon(swivel_region* region, const float* corn
     const FloatEnv env;
     constexpr const char* kCall = "swivel_region_add_polygon";
     if (const swivel_status status = check_region(kCall, region); status != SWIVEL_OK) return status;
-    if (!corners) return fail(SWIVEL_INVALID_ARGUMENT, "%s: corners is null", kCall);
     if (count < 3 || count > SWIVEL_MOST_HALF_SPACES)
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u corners are not 3 to %d", kCall, count, SWIVEL_MOST_HALF_SPACES);
+    if (!corners) return fail(SWIVEL_INVALID_ARGUMENT, "%s: corners is null", kCall);
     Vector<double> corner[SWIVEL_MOST_HALF_SPACES];
     for (std::uint32_t n = 0; n < count; ++n)
         if (const swivel_status status = read_direction(kCall, n, corners + 3 * n, corner[n]); status != SWIVEL_OK)

@@ -140,8 +140,8 @@ swivel_status swivel_region_add_directions(swivel_region* region, const float* d
     const FloatEnv env(margin);
     constexpr const char* kCall = "swivel_region_add_directions";
     if (const swivel_status status = check_region(kCall, region); status != SWIVEL_OK) return status;
-    if (!directions) return fail(SWIVEL_INVALID_ARGUMENT, "%s: directions is null", kCall);
     if (count < 1) return fail(SWIVEL_INVALID_ARGUMENT, "%s: there are no directions", kCall);
+    if (!directions) return fail(SWIVEL_INVALID_ARGUMENT, "%s: directions is null", kCall);
     if (!(margin >= 0.01f && margin <= 1))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the margin, %g, is not in 0.01 to 1", kCall, double{margin});
     if (most_cones < 1 || most_cones > kMostCones)
