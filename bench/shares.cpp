@@ -54,11 +54,11 @@ Notes shares_of(const swivel::Crowd& crowd)
     return {{"limited", counts[1] / all}, {"infeasible", counts[2] / all}};
 }
 
-Pool make_pool(swivel_features features, const std::string& isa)
+Pool make_pool(swivel_features features, const std::string& isa, const swivel_region* region)
 {
     constexpr std::uint32_t part = 8192;
     const std::vector<Limb> limbs = random_limbs(3 * part);
-    Pool pool{features, make_crowd(features, limbs.size(), limbs), {}};
+    Pool pool{features, region, make_crowd(features, limbs.size(), limbs, region), {}};
     // Limits as bodies have them, and narrower ones, which more limbs cannot keep.
     write_limits(pool.crowd, part, part, 0.6);
     write_limits(pool.crowd, 2 * part, part, 0.3);
@@ -79,7 +79,8 @@ std::shared_ptr<swivel::Crowd> mixed_crowd(const Pool& pool, std::size_t arm_cou
     Random random;
     for (std::size_t n = arm_count; n > 1; --n) std::swap(kinds[n - 1], kinds[random(n)]);
 
-    const auto crowd = std::make_shared<swivel::Crowd>(make_crowd(pool.features, arm_count, random_limbs(arm_count)));
+    const auto crowd =
+        std::make_shared<swivel::Crowd>(make_crowd(pool.features, arm_count, random_limbs(arm_count), pool.region));
     const swivel_rows from = swivel_input_rows(pool.crowd.get(), 0), to = swivel_input_rows(crowd->get(), 0);
     for (std::size_t n = 0; n < arm_count; ++n) {
         const std::vector<std::uint32_t>& limbs = pool.limbs[static_cast<std::size_t>(kinds[n])];

@@ -22,13 +22,14 @@ Held held_of(std::uint32_t flags);
 // The shares of limbs that are limited and infeasible, by the flags of the last solve.
 Notes shares_of(const swivel::Crowd& crowd);
 
-// Solved limbs of every kind.
+// Solved limbs of every kind. region: for SWIVEL_WITH_REGION, must outlive it.
 struct Pool {
     swivel_features features;
+    const swivel_region* region;
     swivel::Crowd crowd;
     std::array<std::vector<std::uint32_t>, 3> limbs;  // by kind
 };
-Pool make_pool(swivel_features features, const std::string& isa);
+Pool make_pool(swivel_features features, const std::string& isa, const swivel_region* region = nullptr);
 
 // Crowds of limbs from the pool: this share is of that kind, the others are free. They are in no order.
 std::shared_ptr<swivel::Crowd> mixed_crowd(const Pool& pool, std::size_t arm_count, Held kind, double share);

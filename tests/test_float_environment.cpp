@@ -251,6 +251,37 @@ void stand(const CallInputs& in, Record& to)
     swivel_crowd_destroy(crowd);
 }
 
+// A region of any cones, corners and directions, and limbs that keep it.
+void keep_region(const CallInputs& in, Record& to)
+{
+    const float* const values = in.values.data();
+    swivel_region region = swivel_default_region(), other = region;
+    swivel_region_cone cones[3];
+    for (std::size_t n = 0; n < 3; ++n)
+        cones[n] = {{values[4 * n], values[4 * n + 1], values[4 * n + 2]}, std::fabs(values[4 * n + 3])};
+    const auto add = [&](swivel_status status, const swivel_region& made) {
+        to.add(status), to.add(made.first), to.add(made.half_space);
+    };
+    add(swivel_region_add_cones(&region, cones, 3, 1), region);
+    add(swivel_region_add_polygon(&region, values + 12, 3), region);
+    add(swivel_region_add_directions(&region, values + 21, 10, 0.05f, 4), region);
+    add(swivel_region_forbid(&region, cones), region);
+    add(swivel_region_mirror(&region, &other), other);
+    float room = 0;
+    to.add(swivel_region_room(&region, values + 51, &room)), to.add(room);
+    swivel_group_def group = group_of(1);
+    group.features = SWIVEL_WITH_REGION;
+    group.region = &region;
+    const swivel_crowd_def def = def_of(group);
+    swivel_crowd* crowd = nullptr;
+    to.add(swivel_crowd_create(&def, &crowd));
+    if (!crowd) return;
+    to.add(swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, 1, {values + 54, 0}));
+    to.add(swivel_write(crowd, SWIVEL_TARGET, 0, 0, 1, {values + 56, 0}));
+    to.add(swivel_solve(crowd, nullptr)), to.add(swivel_digest(crowd));
+    swivel_crowd_destroy(crowd);
+}
+
 void write_far(const CallInputs& in, Record& to)
 {
     Crowd crowd = crowd_of(0, kLimbs);
@@ -278,6 +309,7 @@ constexpr Calls kCalls[] = {
     {"bindings and defs", 200, bind_limbs},
     {"a crowd", 30, use_crowd},
     {"a body that stands", 200, stand},
+    {"regions", 200, keep_region},
     {"doubles", 200, write_far},
     {"swivel_verify", 1, verify},
 };

@@ -11,8 +11,8 @@
 namespace swivel::fuzz {
 namespace {
 
-constexpr std::uint32_t kFlags = 2 * SWIVEL_CUT - 1;  // of limbs
-constexpr std::size_t kMostComponents = 28;           // of seven twist bones
+constexpr std::uint32_t kFlags = (2 * SWIVEL_CUT - 1) | SWIVEL_LIMITED_REGION;  // of limbs
+constexpr std::size_t kMostComponents = 28;                                     // of seven twist bones
 
 double length_of(const float* v, std::size_t count)
 {
