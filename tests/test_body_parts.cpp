@@ -80,10 +80,12 @@ TEST_CASE("twist bones of bodies")
         const Vector3d fore = (was[joints.wrist].place - was[joints.elbow].place).normalized(),
                        upper = (was[joints.elbow].place - was[joints.shoulder].place).normalized();
         RC_PRE(fore.cross(upper).norm() > 0.1);  // floats know the roll of a straight limb only so well
+        // The bone's joint and the elbow's may each be off by what rounding of a short or nearly straight limb costs.
+        const double rounding = kBound + 2 * LimbAt(solved.skeleton, solved.body, was, joints).joint_bound();
         for (std::uint32_t n = 0; n < bones; ++n) {
             const Quaterniond wanted(AngleAxisd(angle * (n + 1) / (bones + 1), fore));
             const double off = solved.turn(joints.twist_bones[n], joints.elbow).angularDistance(wanted);
-            RC_ASSERT(off <= (2 * (n + 1) == bones + 1 ? kBound : 0.0022 + kBound));  // a half is exact
+            RC_ASSERT(off <= (2 * (n + 1) == bones + 1 ? rounding : 0.0022 + rounding));  // a half is exact
         }
     });
     rc::prop("keep what they have beside a twist, and move with the forearm", [=](std::uint64_t seed) {
