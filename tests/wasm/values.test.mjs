@@ -42,7 +42,7 @@ function featureSets(isBodys) {
   const all = Object.entries(featureRules).map(([name, rule]) => ({ bit: Feature[name], ...rule }));
   const withAll = (features) => all.reduce((found, { bit, needs }) => (found & bit ? found | needs : found), features);
   const withNeeds = (features) => withAll(withAll(features));  // a need has needs of its own
-  const ofNoLimb = Feature.FIT | Feature.PROP | Feature.SENT | Feature.WITH_REGION;  // the last two have no fields
+  const ofNoLimb = Feature.FIT | Feature.PROP | Feature.LOOK | Feature.SENT | Feature.WITH_REGION;  // the last two have no fields
   const rules = all.filter(({ bit }) => !(bit & ofNoLimb) && (isBodys ? !(Feature.JOINTS & bit) : !(withNeeds(bit) & Feature.BODY)));
   const fits = (features) => rules.every(({ bit, excludes }) => !(features & bit && features & excludes));
   const sets = [];
@@ -54,10 +54,10 @@ function featureSets(isBodys) {
 
 test('every field has its own place in frames', () => {
   const binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] });
-  const skeleton = { parents: [-1, 0, 1, 2, 2, 2, 2], translations: new Array(7).fill([0, 0, 1]).flat() };
+  const skeleton = { parents: [-1, 0, 1, 2, 2, 2, 2, -1], translations: new Array(8).fill([0, 0, 1]).flat() };
   const bodies = (features) => {
     const joints = { shoulder: 1, elbow: 2, wrist: 3, bend: [0, 1, 0], twistBones: features & Feature.WITH_TWIST_BONES ? [4, 5, 6] : [] };
-    const others = [...(features & Feature.WITH_FIT ? [{ fit: {} }] : []), ...(features & Feature.WITH_LINK ? [{ prop: {} }] : [])];
+    const others = [...(features & Feature.WITH_FIT ? [{ fit: {} }] : []), { look: { joints: [7] } }, ...(features & Feature.WITH_LINK ? [{ prop: {} }] : [])];
     const crowd = swivel.bodies({ skeleton, bodyCount: 20, groups: [{ joints, features, onBadInput: OnBadInput.REST_POSE, link: others.length }, ...others] });
     crowd.pose('time');
     return crowd;
