@@ -111,15 +111,16 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_FOREARM_TWIST = 1u << 11,
     SWIVEL_LIMITED_HAND_TWIST = 1u << 12,
     SWIVEL_LIMITED_WRIST_BOX = 1u << 13,
-    // The swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's. With STEP_WINS the one that limits
+    // The swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's. With STEP_WINS the one that
+    // limits
     // leave is, so the elbow may still be outside of them.
     SWIVEL_LIMITED_STEP = 1u << 14,
-    SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
-    SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
-    SWIVEL_PLANTED = 1u << 17,       // the point is locked to its support
-    SWIVEL_RELEASED = 1u << 18,      // this solve released it
-    SWIVEL_BROKE_AWAY = 1u << 19,    // by distance: the animated point is too far from it, though in contact
-    SWIVEL_CUT = 1u << 20,  // a speed too high to be eased away was cut at a lock or release, so the point jumps
+    SWIVEL_INFEASIBLE = 1u << 15,  // no swivel is within the limits: this one violates them least
+    SWIVEL_JUMPED = 1u << 16,      // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
+    SWIVEL_PLANTED = 1u << 17,     // the point is locked to its support
+    SWIVEL_RELEASED = 1u << 18,    // this solve released it
+    SWIVEL_BROKE_AWAY = 1u << 19,  // by distance: the animated point is too far from it, though in contact
+    SWIVEL_CUT = 1u << 20,         // a speed too high to be eased away was cut at a lock or release, so the point jumps
     SWIVEL_LIMITED_REGION = 1u << 21,  // the upper arm's region forbids the swivel that was wished for
     SWIVEL_LIMITED_LOOK = 1u << 22,    // a cone holds a joint of a look; those after it may make up for that
     SWIVEL_FADED = 1u << 23,      // the target of a look is behind or too near, so the look counts less or not at all
