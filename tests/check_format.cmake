@@ -5,8 +5,8 @@ find_program(CLANG_FORMAT NAMES clang-format clang-format-14)
 if(NOT CLANG_FORMAT)
   message(FATAL_ERROR "clang-format is missing; install the Debian package clang-format")
 endif()
-file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/core/* ${SOURCE}/simd/* ${SOURCE}/batch/* ${SOURCE}/tools/*
-     ${SOURCE}/bench/* ${SOURCE}/tests/* ${SOURCE}/examples/* ${SOURCE}/docs/*)
+file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/include/* ${SOURCE}/core/* ${SOURCE}/simd/* ${SOURCE}/batch/*
+     ${SOURCE}/lecture/* ${SOURCE}/tools/* ${SOURCE}/bench/* ${SOURCE}/tests/* ${SOURCE}/examples/* ${SOURCE}/docs/*)
 list(FILTER files INCLUDE REGEX "[.](h|hpp|c|cpp)$")
 list(FILTER files EXCLUDE REGEX "node_modules/|/build/")
 list(LENGTH files count)

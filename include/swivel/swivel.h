@@ -111,9 +111,8 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_FOREARM_TWIST = 1u << 11,
     SWIVEL_LIMITED_HAND_TWIST = 1u << 12,
     SWIVEL_LIMITED_WRIST_BOX = 1u << 13,
-    // The swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's. With STEP_WINS the one that
-    // limits
-    // leave is, so the elbow may still be outside of them.
+    // The swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's. With STEP_WINS it is the swivel
+    // that limits leave, so the elbow may still be outside of them.
     SWIVEL_LIMITED_STEP = 1u << 14,
     SWIVEL_INFEASIBLE = 1u << 15,  // no swivel is within the limits: this one violates them least
     SWIVEL_JUMPED = 1u << 16,      // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
