@@ -125,7 +125,7 @@ double room_of(const std::vector<DirectionCone>& cones, const Vector3d& d)
     for (const DirectionCone& cone : cones) least = std::min(least, cone.room(d));
     return least;
 }
-constexpr int kSteps = 20'000;
+constexpr int kSteps = 100'000;
 
 TEST_CASE("the nearest allowed swivel is found, and none is missed")
 {
