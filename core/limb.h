@@ -80,12 +80,12 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     WristGoal<T> wrist = wrist_goal(use, goal);
     const WristLine<T> to = wrist_line(wrist.place);
     const auto bones = bones_for<Aims>(use, goal, wrist.hand, to.wanted);
+    const LimbNormal<T> wish = limb_normal(use, goal, wrist.hand, to.line);
     if (use.yields) {
         const T upper = bones.stretch * goal.arm.upper, fore = bones.stretch * goal.arm.fore;
         const Vector<T> achieved = bent_reach(upper, fore, bones.cos_half) * to.line;
         wrist.hand = yielding_hand(wrist.hand, goal.effector, wrist.place - achieved, upper + fore);
     }
-    const LimbNormal<T> wish = limb_normal(use, goal, to.line);
     const Hinge<T> elbow = hinge(bones.cos_half, -bones.sin_half);
     Vector<T> normal = wish.normal;
     Bits<T> flags = bones.flags | wish.flags | bits_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);

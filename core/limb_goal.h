@@ -8,7 +8,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-enum class Wish { pole, normal, incoming };  // what says where the elbow goes
+enum class Wish { pole, normal, incoming, hand };  // what says where the elbow goes
 
 // What a group uses.
 struct LimbUse {

@@ -56,9 +56,9 @@ SWIVEL_INLINE constexpr Rotor<T> turn_between(const Vector<T>& from, const Vecto
 {
     return normalise(one<T>() + to * from);
 }
-// The shortest turn from one direction to another, of any lengths. Two that are opposite turn about any axis across
-// them; to or from nothing there is no turn. Of a turn by 160 degrees or more, rounding leaves less of the axis. So
-// that goes by way of a direction between, by two turns that are well known.
+// The shortest turn from one direction to another. Their lengths are any whose product is more than kTiny. Two that are
+// opposite turn about any axis across them; to or from nothing there is no turn. Of a turn by 160 degrees or more,
+// rounding leaves less of the axis. So that goes by way of a direction between, by two turns that are well known.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vector<T>& to)
 {
@@ -146,7 +146,9 @@ SWIVEL_INLINE constexpr FollowedStep<T> followed(const FollowedLine<T>& was, con
     const T tangent = half + half * half * half * T(1.0 / 3), per = T(1) / (T(1) + tangent * tangent);
     const T cosine = (T(1) - tangent * tangent) * per, sine = (tangent + tangent) * per;
     const T between = scalar_product(was.direction, goal.direction);
-    const Vector<T> across = goal.direction - between * was.direction;
+    // Twice: of directions that are nearly opposite, rounding leaves some of the first in the rest.
+    const Vector<T> rest = goal.direction - between * was.direction,
+                    across = rest - scalar_product(rest, was.direction) * was.direction;
     const T across2 = len2(across), sine_between = sqrt(across2);
     const Mask<T> goes = half >= T(1.5707963267948966), known = sine_between > T(kStill);
     // By the sine of what would be left of the way, which is none for opposite directions.

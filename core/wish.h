@@ -23,14 +23,34 @@ SWIVEL_INLINE constexpr Mv<T, S> scaled(const Mv<T, S>& m)
     return per_power_of_two(hi(length1(m), T(kTiny))) * m;
 }
 
+// From a hand that its wrist does not bend, the direction back along the forearm: it serves as a pole. Source: our own.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> behind(const Rotor<T>& hand)
+{
+    return -sandwich(scaled(hand), unit<T, kE3>());
+}
+// The sine of 20 degrees. The nearer a hand points along the line than this, the more the incoming normal counts.
+inline constexpr double kSureHand = 0.342;
+
+// With an incoming normal, which exists in some lanes: a normal by the hand, and so much of the incoming one as it
+// lacks.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> faded(const Vector<T>& by_hand, const Vector<T>& was, const Mask<T>& exists,
+                                        const T& hand_length)
+{
+    const T lacks = hi(T(kSureHand) * hand_length - sqrt(len2(by_hand)), T(0));
+    return by_hand + select(exists, lacks / sqrt(select(exists, len2(was), T(1))), T(0)) * was;
+}
+
 // The normal of the swivel plane that the goal wishes for, across the line.
 template <class T>
 struct WishedNormal {
     Vector<T> normal;  // unit
     Mask<T> undefined;
 };
+// hand: as blended, for Wish::hand.
 template <class T>
-SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const LimbGoal<T>& goal,
+SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
                                                       const Vector<T>& line)
 {
     // Whether a direction of this squared length says where the elbow goes. Its part across the line is then the
@@ -48,9 +68,10 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
     Vector<T> normal = was;  // of any length until the end
     Mask<T> says = was_off, kept = was_off;
     if (use.wish != Wish::incoming) {
-        const Vector<T> pole = scaled(goal.arm.pole);
-        normal = across(use.wish == Wish::pole ? cross(line, pole) : pole, line);
-        says = is_off(normal, len2(pole)) & (len2(goal.arm.pole) >= T(kTiny2));
+        const Vector<T> given = use.wish == Wish::hand ? behind(hand) : goal.arm.pole, pole = scaled(given);
+        normal = across(use.wish == Wish::normal ? pole : cross(line, pole), line);
+        if (use.wish == Wish::hand && use.incoming) normal = faded(normal, was, was_off, sqrt(len2(pole)));
+        says = is_off(normal, len2(pole)) & (len2(given) >= T(kTiny2));
     }
     const Mask<T> undefined = !says;
     if (any(undefined)) {  // the stand-ins, the best last
@@ -137,16 +158,17 @@ SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T
 }
 
 // The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows.
-// Where the step wins, the limits come first.
+// Where the step wins, the limits come first. hand: as blended, for Wish::hand.
 template <class T>
 struct LimbNormal {
     Vector<T> normal;  // unit
     Bits<T> flags;
 };
 template <class T>
-SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const LimbGoal<T>& goal, const Vector<T>& line)
+SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
+                                                  const Vector<T>& line)
 {
-    const WishedNormal<T> wish = wished_normal(use, goal, line);
+    const WishedNormal<T> wish = wished_normal(use, goal, hand, line);
     LimbNormal<T> limb{wish.normal, bits_where(wish.undefined, SWIVEL_SWIVEL_UNDEFINED)};
     if (use.continuity && !use.step_wins) {
         const SteppedNormal<T> step = stepped_normal(goal.continuity, limb.normal, line);

@@ -84,7 +84,7 @@ private:
         // What is sent does not depend on the root's place, which is bad input even so.
         if (is_sent) s.require(len2(s.body_vector(kRootRow)) <= T(kHuge2));
         s.set_vector(kWristRow, per_scale * seen.back(target - root - shoulder));
-        if constexpr (!S::is(SWIVEL_POLE_INCOMING)) {
+        if (has_pole(s)) {
             const Vector<T> pole = s.io.load_vector(SWIVEL_POLE);
             s.require(len2(pole) <= T(kHuge2));
             s.set_vector(kPoleRow,

@@ -117,7 +117,7 @@ SWIVEL_INLINE void wish_for_normal(const S& s, const LimbUse& use, const Laid<ty
 {
     using T = typename S::T;
     LimbGoal<T> goal;
-    if (use.wish != Wish::incoming) {
+    if (has_pole(s)) {
         goal.arm.pole = s.goal_vector(s.has(SWIVEL_WORLD), kPoleRow, SWIVEL_POLE);
         s.require(len2(goal.arm.pole) <= T(kHuge2));
     }
@@ -131,7 +131,8 @@ SWIVEL_INLINE void wish_for_normal(const S& s, const LimbUse& use, const Laid<ty
         load_continuity(s, goal.continuity);
         s.require(is_valid(goal.continuity));
     }
-    const LimbNormal<T> found = limb_normal(use, goal, laid.line);
+    const Rotor<T> hand = use.wish == Wish::hand ? s.get_rotor(kHandRow) : one<T>();
+    const LimbNormal<T> found = limb_normal(use, goal, hand, laid.line);
     s.set_vector(kNormalRow, found.normal);
     s.set(kFlagsRow, laid.flags | found.flags);
 }

@@ -20,6 +20,9 @@ inline constexpr swivel_features kTwistBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_
 // What every group of bodies has, and what makes one no limb.
 inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
                                  kNoLimb = SWIVEL_NO_LIMB;
+// What says where elbows go, of which a group has one; a pole that is a point has none of these.
+inline constexpr swivel_features kPoles =
+    SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND;
 struct FeatureRow {
     swivel_features feature;
     const char* name;
@@ -29,12 +32,12 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WORLD, "WORLD"},
     {SWIVEL_JOINTS, "JOINTS"},
     {SWIVEL_WITH_HAND, "WITH_HAND"},
-    {SWIVEL_POLE_DIRECTION, "POLE_DIRECTION", SWIVEL_WORLD, SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING},
+    {SWIVEL_POLE_DIRECTION, "POLE_DIRECTION", SWIVEL_WORLD, kPoles & ~SWIVEL_POLE_DIRECTION},
     {SWIVEL_WITH_EFFECTOR, "WITH_EFFECTOR", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_ANGLE, "WITH_ANGLE"},
-    {SWIVEL_POLE_NORMAL, "POLE_NORMAL", 0, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_INCOMING},
+    {SWIVEL_POLE_NORMAL, "POLE_NORMAL", 0, kPoles & ~SWIVEL_POLE_NORMAL},
     {SWIVEL_WITH_INCOMING, "WITH_INCOMING"},
-    {SWIVEL_POLE_INCOMING, "POLE_INCOMING", SWIVEL_WITH_INCOMING, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL},
+    {SWIVEL_POLE_INCOMING, "POLE_INCOMING", SWIVEL_WITH_INCOMING, kPoles & ~SWIVEL_POLE_INCOMING},
     {SWIVEL_WITH_WEIGHTS, "WITH_WEIGHTS", SWIVEL_WITH_INCOMING},
     {SWIVEL_WITH_REACH, "WITH_REACH"},
     {SWIVEL_WITH_MOST_SWIVEL, "WITH_MOST_SWIVEL"},
@@ -67,6 +70,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_LOOK, "LOOK", kOfBodies, ~(kOfBodies | SWIVEL_LOOK)},
     {SWIVEL_WITH_REGION, "WITH_REGION"},
     {SWIVEL_STEP_WINS, "STEP_WINS", SWIVEL_WITH_MOST_SWIVEL},
+    {SWIVEL_POLE_HAND, "POLE_HAND", SWIVEL_WITH_HAND, (kPoles & ~SWIVEL_POLE_HAND) | SWIVEL_WITH_AIM},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
@@ -157,7 +161,7 @@ constexpr float kAnyRange[] = {1, 0, -1, 0};  // its middle 0, half its width pi
 constexpr float kAnyRanges[] = {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0};
 constexpr FieldRow kFields[] = {
     place(SWIVEL_TARGET, "target", 0, 0, {0, 0, 2}, Start::unknown),
-    place(SWIVEL_POLE, "pole", 0, SWIVEL_POLE_INCOMING, {0, -1, 0}, Start::neutral),
+    place(SWIVEL_POLE, "pole", 0, SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND, {0, -1, 0}, Start::neutral),
     input(SWIVEL_LENGTHS, "lengths", 0, "0 or 1e-15 to 1e15 each", {1, 1}, {}, Start::unknown),
     place(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, SWIVEL_BODY, {0, 0, 0}, Start::unknown),
     unless_posed(input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion, kIdentity)),

@@ -29,14 +29,23 @@ SWIVEL_INLINE LimbUse use_of(const S& s)
     use.step_wins = s.has(SWIVEL_STEP_WINS);
     use.aim = s.has(SWIVEL_WITH_AIM);
     use.yields = s.has(SWIVEL_HAND_YIELDS);
-    use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
+    use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming
+               : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal
+               : s.has(SWIVEL_POLE_HAND)   ? Wish::hand
+                                           : Wish::pole;
     use.limits.flexion = s.has(SWIVEL_WITH_FLEXION_LIMIT);
     return use;
+}
+// Whether the caller gives a pole; and whether it is a point.
+template <class S>
+SWIVEL_INLINE bool has_pole(const S& s)
+{
+    return !s.has(SWIVEL_POLE_INCOMING) && !s.has(SWIVEL_POLE_HAND);
 }
 template <class S>
 SWIVEL_INLINE bool pole_is_point(const S& s)
 {
-    return !s.has(SWIVEL_POLE_DIRECTION) && !s.has(SWIVEL_POLE_NORMAL) && !s.has(SWIVEL_POLE_INCOMING);
+    return has_pole(s) && !s.has(SWIVEL_POLE_DIRECTION) && !s.has(SWIVEL_POLE_NORMAL);
 }
 // Whether its joints have frames of their own.
 template <class S>
@@ -107,7 +116,7 @@ struct StageBody<Stage::see> {
     {
         using T = typename S::T;
         const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
-        const Vector<T> pole = s.has(SWIVEL_POLE_INCOMING) ? vector(T(0), T(0), T(0)) : s.io.load_vector(SWIVEL_POLE);
+        const Vector<T> pole = has_pole(s) ? s.io.load_vector(SWIVEL_POLE) : vector(T(0), T(0), T(0));
         const ParentFrame<T> parent = s.io.load_parent();
         s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
         // The arm frame goes with the parent.
@@ -179,7 +188,7 @@ struct StageBody<Stage::clavicle> {
             clavicle_turn(ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
         const Turn<T> back = turn_by(~turn);
         s.set_vector(kWristRow, back(target) - bone);
-        if (!s.has(SWIVEL_POLE_INCOMING)) {
+        if (has_pole(s)) {
             const Vector<T> pole = s.get_vector(kPoleRow);
             s.set_vector(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
         }

@@ -83,7 +83,7 @@ struct RowPlan {
 
 // The features with the most rows that a block can have.
 inline constexpr swivel_features kEveryFeature =
-    ~(SWIVEL_POLE_INCOMING | SWIVEL_BODY | SWIVEL_PLANT_BY_MOTION | kNoLimb);
+    ~(SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_BODY | SWIVEL_PLANT_BY_MOTION | kNoLimb);
 static_assert([] {
     for (const FieldRow& row : kFields)
         if (field_row_count(kEveryFeature | row.needs, row.field) == 0) return false;

@@ -88,7 +88,7 @@ struct StageRow {
     Pass pass = Pass::solve;
 };
 inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_AIM,
-                                 kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL,
+                                 kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_POLE_HAND,
                                  kSpecial = kSpecialBones | kSpecialWish;
 inline constexpr StageRow kStages[] = {
     {Stage::probe, 0, SWIVEL_WITH_GROUND, 0, Pass::probe},

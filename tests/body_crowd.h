@@ -42,7 +42,7 @@ inline void write_goals(Crowd& crowd, const BodyGoals& goals)
                                {first, sizeof(BodyGoal)}));
         };
         write(SWIVEL_TARGET, &all[0].target);
-        if (!(features & SWIVEL_POLE_INCOMING)) write(SWIVEL_POLE, &all[0].pole);
+        if (swivel_field_row_count(crowd.get(), g, SWIVEL_POLE)) write(SWIVEL_POLE, &all[0].pole);
         if (features & SWIVEL_WITH_HAND) write(SWIVEL_HAND, &all[0].hand);
     }
 }

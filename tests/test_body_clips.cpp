@@ -7,56 +7,13 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tests/body_crowd.h"
-#include "tests/gltf_clip.h"
-#include "tests/shared_figures.h"
-#include "tools/formats/bvh.h"
-#include "tools/rig/limbs.h"
+#include "tests/clip_bodies.h"
 
 namespace {
 
 using namespace swivel;
 using namespace swivel::test;
 using formats::Clip;
-
-std::vector<tools::Limb> limbs_of(const Clip& clip, const Words& options)
-{
-    tools::LimbChoice choice;
-    choice.kinds = "all";
-    for (std::size_t n = 0; n < options.size(); n += 2)
-        (options[n] == "--arm" ? choice.arms : choice.legs)
-            .push_back(tools::limb_of_option(options[n + 1], options[n]));
-    std::vector<tools::Limb> limbs;
-    for (const tools::LimbFinding& found : bind_limbs(clip, choose_joints(clip, {}, choice), choice).findings)
-        if (found.limb) limbs.push_back(*found.limb);
-    return limbs;
-}
-
-// A clip's skeleton, and each of its frames.
-struct ClipBodies {
-    BodySkeleton skeleton;
-    std::vector<Body> frames;
-
-    ClipBodies(const Clip& clip, const Words& options = {}) : frames(clip.frame_count)
-    {
-        for (const formats::Joint& joint : clip.joints) {
-            skeleton.parents.push_back(joint.parent);
-            skeleton.rotations.push_back(floats(joint.rest_rotation));
-            skeleton.translations.push_back(floats(joint.offset));
-        }
-        for (const tools::Limb& limb : limbs_of(clip, options)) {
-            const auto joint = [&](std::size_t n) { return static_cast<std::uint32_t>(limb.joints[n]); };
-            skeleton.limbs.push_back({joint(0), joint(1), joint(2), floats(limb.bend), {}});
-        }
-        for (std::size_t frame = 0; frame < frames.size(); ++frame)
-            for (std::size_t n = 0; n < clip.joints.size(); ++n) {
-                const auto scale = static_cast<float>(local_pose(clip, frame, n).scale);
-                frames[frame].rotations.push_back(floats(clip.rotation[frame * clip.joints.size() + n]));
-                frames[frame].translations.push_back(floats(local_translation(clip, frame, n)));
-                frames[frame].scales.push_back({scale, scale, scale});
-            }
-    }
-};
 
 // Two ways to leave elbows where they come: to give no pole, and to give one without weight.
 constexpr swivel_features kOwnElbows[] = {SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING,
@@ -109,27 +66,12 @@ double turn_to(const std::vector<Body>& frames, std::size_t n, std::uint32_t joi
 
 }  // namespace
 
-TEST_CASE("untouched goals give back every frame of the shared clips")
+TEST_CASE("untouched goals give back every frame of the shared clips and figures' animations")
 {
-    for (const char* name : kSharedClips)
-        if (const fs::path path = find_or_warn(name); !path.empty()) {
-            INFO(name);
-            solve_back(formats::read_bvh(path).clip, 4);
-        }
-}
-
-TEST_CASE("untouched goals give back every frame of the shared figures' animations")
-{
-    for (const SharedFigure& file : kSharedFigures) {
-        const fs::path path = find_or_warn(file.name);
-        if (path.empty()) continue;
-        for (int n = 0; n < std::max(file.animations, 1); ++n) {
-            INFO(file.name << ", animation " << n);
-            formats::GltfChoice choice;
-            if (file.animations > 0) choice.animation = std::to_string(n);
-            solve_back(read_clip(path, choice).clip, file.limbs, file.options);
-        }
-    }
+    for_each_shared_clip([](const std::string& name, const Clip& clip, std::size_t limb_count, const Words& options) {
+        INFO(name);
+        solve_back(clip, limb_count, options);
+    });
 }
 
 TEST_CASE("a clip's own wrists turn no joint of a limb between two frames as the clip does not")

@@ -119,6 +119,30 @@ TEST_CASE("where the elbow goes")
         goal.incoming = incoming_of<float>(pose);
         RC_ASSERT(off(solve(use, goal).hinge, across.normalized()) <= 1e-5);
     });
+    for_arms("where the wrist of a hand is not bent, whatever its roll", [](Random& random, const Arm& arm) {
+        LimbUse use;
+        use.hand = true, use.wish = Wish::hand;
+        const Vector3d fore = arm.wrist - arm.elbow(), line = arm.wrist.normalized();
+        const double sine = fore.cross(line).norm() / fore.norm();
+        if (sine < 0.01) return;
+        const Quaterniond hand = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), fore) *
+                                 Eigen::AngleAxisd(random.between(-kPi, kPi), Vector3d::UnitZ());
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        goal.hand = mv<float>(Quaterniond(random.spread(0.1, 10) * hand.coeffs()));
+        RC_ASSERT(off(solve(use, goal).hinge, arm.normal()) <= 1e-6 / sine + 3e-6);
+        // The incoming pose counts within 20 degrees of the line, and alone along it.
+        use.incoming = true;
+        const Incoming pose = random_incoming(random);
+        const Vector3d hinge = pose.shoulder * Vector3d::UnitX(), across = hinge - hinge.dot(line) * line;
+        if (across.norm() < 0.05) return;
+        goal.incoming = incoming_of<float>(pose);
+        const Vector3d want =
+            (sine * arm.normal() + std::max(std::sin(20 * kPi / 180) - sine, 0.0) * across.normalized());
+        if (want.norm() < 0.01) return;
+        RC_ASSERT(off(solve(use, goal).hinge, want.normalized()) <= 1e-3);
+        goal.hand = mv<float>(Quaterniond::FromTwoVectors(Vector3d::UnitZ(), line));
+        RC_ASSERT(off(solve(use, goal).hinge, across.normalized()) <= 1e-4);
+    });
     for_arms("where the pole does not say: the incoming pose, or the previous normal first",
              [](Random& random, const Arm& arm) {
                  LimbUse use;

@@ -73,7 +73,7 @@ private:
     static Vector3d shortened(const Vector3d& v, double most) { return v.norm() > most ? most / v.norm() * v : v; }
 };
 
-PlantRules random_rules(Random& random)
+PlantRules random_turn_rules(Random& random)
 {
     swivel_plant plant = swivel_default_plant();
     plant.stop = static_cast<float>(random.between(0.05, 0.4));
@@ -87,7 +87,7 @@ template <class T, class Look>
 void for_each_turn(std::uint64_t seed, const Look& look)
 {
     Random random{seed};
-    const PlantRules rules = random_rules(random);
+    const PlantRules rules = random_turn_rules(random);
     const Way way(random);
     const double per_second = random.spread(20, 500);
     PlantMachine machine(rules);

@@ -51,8 +51,11 @@ SolvedLimb<float> solved(const Inputs& in, swivel_features features, const corpu
     LimbGoal<float> goal{};
     goal.arm = {in.vector_of(SWIVEL_TARGET), vector(0.0f, 0.0f, 0.0f), in(SWIVEL_LENGTHS, 0), in(SWIVEL_LENGTHS, 1)};
     bool good = true;
-    use.wish = has(SWIVEL_POLE_INCOMING) ? Wish::incoming : has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
-    if (use.wish != Wish::incoming) goal.arm.pole = in.vector_of(SWIVEL_POLE);
+    use.wish = has(SWIVEL_POLE_INCOMING) ? Wish::incoming
+               : has(SWIVEL_POLE_NORMAL) ? Wish::normal
+               : has(SWIVEL_POLE_HAND)   ? Wish::hand
+                                         : Wish::pole;
+    if (use.wish == Wish::pole || use.wish == Wish::normal) goal.arm.pole = in.vector_of(SWIVEL_POLE);
     if ((use.hand = has(SWIVEL_WITH_HAND))) {
         goal.hand = in.rotor_of(SWIVEL_HAND);
         good = good && is_orientation(goal.hand);

@@ -54,6 +54,20 @@ TEST_CASE("docs: pole normals")
     check_side(elbow_of(crowd), Eigen::Vector3d(1, 0, -1).cross(vec(target)));
 }
 
+TEST_CASE("docs: the hand as the pole")
+{
+    // [hand]
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_HAND | SWIVEL_POLE_HAND)});
+    // The hand points to the side, so the forearm comes from the other.
+    crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0.6f, 0, 0.8f});
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    const Eigen::Vector3d hand =
+        Eigen::Quaterniond(0.8, 0, 0.6, 0) * Eigen::Vector3d::UnitZ();
+    check_side(elbow_of(crowd), -hand);
+}
+
 TEST_CASE("docs: swivel angle")
 {
     // [angle]

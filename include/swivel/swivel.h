@@ -98,8 +98,10 @@ typedef enum swivel_flag {
     // The target is too far or too near. The wrist is at the nearest point that bones and limits allow.
     SWIVEL_CLAMPED_FAR = 1u << 3,
     SWIVEL_CLAMPED_NEAR = 1u << 4,
-    // The pole does not say where the elbow goes. It has no length, or it is on the line to the target: the sine of the
-    // angle between them is below 1e-3. Or the target is on the shoulder. The last solve's normal (WITH_MOST_SWIVEL)
+    // The pole, or with POLE_HAND the hand, does not say where the elbow goes. It has no length, or it is on the line
+    // to
+    // the target: the sine of the angle between them is below 1e-3. Or the target is on the shoulder. The last solve's
+    // normal (WITH_MOST_SWIVEL)
     // then says it, or the incoming pose. If neither does, the arm frame's x axis is the normal, or else its y axis.
     SWIVEL_SWIVEL_UNDEFINED = 1u << 5,
     SWIVEL_LIMITED_FLEXION = 1u << 6,  // the elbow's flexion limit keeps the wrist from the target
@@ -114,7 +116,8 @@ typedef enum swivel_flag {
     // The swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's. With STEP_WINS it is the swivel
     // that limits leave, so the elbow may still be outside of them.
     SWIVEL_LIMITED_STEP = 1u << 14,
-    SWIVEL_INFEASIBLE = 1u << 15,  // no swivel is within the limits: this one violates them least
+    // No swivel is within the limits. This one violates them least; with STEP_WINS it may be on its way there.
+    SWIVEL_INFEASIBLE = 1u << 15,
     SWIVEL_JUMPED = 1u << 16,      // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
     SWIVEL_PLANTED = 1u << 17,     // the point is locked to its support
     SWIVEL_RELEASED = 1u << 18,    // this solve released it
@@ -130,9 +133,9 @@ typedef enum swivel_flag {
 // The features of a group: a combination of these bits, fixed at creation. Whatever is off costs neither memory nor
 // time. SWIVEL_WITH_F adds the field F. SWIVEL_WITH_INCOMING adds the three fields of the incoming pose.
 // - POLE_DIRECTION and WITH_CLAVICLE need WORLD. POLE_INCOMING and WITH_WEIGHTS need WITH_INCOMING. WITH_EFFECTOR,
-//   WITH_TWIST_BONES and limits of the hand need WITH_HAND. At most one of the three kinds of pole is given.
-// - WITH_AIM excludes WITH_WEIGHTS, WITH_REACH, WITH_FLEXION_LIMIT, limits of the hand, WITH_PLANT, WITH_CAP and
-//   WITH_FIT. WITH_CAP excludes WITH_REACH.
+//   WITH_TWIST_BONES, POLE_HAND and limits of the hand need WITH_HAND. At most one of the four POLE_ features is given.
+// - WITH_AIM excludes POLE_HAND, WITH_WEIGHTS, WITH_REACH, WITH_FLEXION_LIMIT, limits of the hand, WITH_PLANT,
+//   WITH_CAP and WITH_FIT. WITH_CAP excludes WITH_REACH.
 // - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION
 //   need WITH_PLANT. WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
 // - HAND_YIELDS needs WITH_EFFECTOR and excludes WITH_AIM. WITH_GROUND needs WITH_PLANT and WITH_EFFECTOR.
@@ -186,11 +189,15 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_REGION (UINT64_C(1) << 39)  // the upper arm stays in a region: swivel_group_def's region
 // SWIVEL_MOST_SWIVEL takes precedence over limits: the elbow goes to where they allow it as fast as that lets it.
 #define SWIVEL_STEP_WINS (UINT64_C(1) << 43)
+// No poles: the wished hand says where elbows go. The elbow lies where it would if the wrist were not bent. Within 20
+// degrees of the line from shoulder to wrist a hand hardly says it. WITH_INCOMING, the incoming pose fades in there,
+// and along the line it alone counts.
+#define SWIVEL_POLE_HAND (UINT64_C(1) << 44)
 #define SWIVEL_NO_LIMB (SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK)  // a group of bodies that is no limb has one of these
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)              // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
-// has its own value of each field. A wish is the swivel that pole, angle and incoming pose ask for.
+// has its own value of each field. A wish is the swivel that pole, hand, angle and incoming pose ask for.
 //
 // VALID INPUT. A limb with any value that is not valid gets SWIVEL_BAD_INPUT, and its rest pose or the pose it had: see
 // swivel_on_bad_input. No other limb changes by a bit. The magnitude of positions and poles is at most 1e15, in the
@@ -228,7 +235,7 @@ typedef enum swivel_field {
     SWIVEL_TARGET = 0,
     // 3: a point that the elbow leans towards, in the space of the target. With POLE_DIRECTION it is a direction. With
     // POLE_NORMAL it is the normal of the swivel plane: cross(line from shoulder to wrist, direction to the elbow's
-    // side). Not with POLE_INCOMING.
+    // side). Not with POLE_INCOMING and POLE_HAND.
     SWIVEL_POLE,
     // 2: upper arm and forearm, before the parent's scale. Each is 0 or 1e-15..1e15. If one is shorter than 1e-7 of the
     // other, the elbow counts as straight.
@@ -1004,8 +1011,8 @@ typedef struct swivel_joint_values {
 //   as that: L1 and L2 are the bones, L their sum, b the bend. Where all weights are 0, and the group has no limit,
 //   soft reach or step, the incoming bits stay.
 // - With POLE_INCOMING the swivel plane's normal stays the incoming one, made perpendicular to the new line from
-//   shoulder to wrist. Without it poles must be written. Lengths that are written count instead of the pose's. Joints
-//   in between stay as they are posed.
+//   shoulder to wrist. Without it and POLE_HAND poles must be written. Lengths that are written count instead of the
+//   pose's. Joints in between stay as they are posed.
 // - Results in rows are the arm's: SHOULDER, ELBOW and WRIST as without JOINTS. Limits bound these, not the joints.
 // - Twist bones turn from their incoming rotations. Bone i of n turns by i / (n + 1) of how far the hand's twist
 //   changes. A limb whose joints name twist bones gets the feature by itself.
@@ -1355,11 +1362,12 @@ typedef struct swivel_region_cone {
 SWIVEL_API swivel_status swivel_region_add_cones(swivel_region* region, const swivel_region_cone* cones, uint32_t count,
                                                  uint32_t closed);
 // Adds a convex polygon of 3 corners or more, counter-clockwise as seen from outside. Its sides are arcs of great
-// circles. corners: x, y, z of each, of any length but zero.
+// circles. corners: x, y, z of each, of any length but zero; no corner may be equal or opposite to the next.
 SWIVEL_API swivel_status swivel_region_add_polygon(swivel_region* region, const float* corners, uint32_t count);
 // Adds cones in order that hold all these directions, each with `margin` radians around it: what a clip does, and a
 // little more. They are 1 to most_cones, as many as allow least. directions: x, y, z of each, of any length but zero,
-// `count` of them, 1 or more. margin: 0.01 to 1. most_cones: 1 to 6. Takes about 0.05 ms for each.
+// `count` of them, 1 or more. margin: 0.01 to 1. most_cones: 1 to 6. Directions for which it finds no such cones,
+// as two that are opposite, are refused. Takes about 0.05 ms for each direction.
 SWIVEL_API swivel_status swivel_region_add_directions(swivel_region* region, const float* directions, uint32_t count,
                                                       float margin, uint32_t most_cones);
 // Cuts a cone out of all that is there and will be added.

@@ -31,6 +31,8 @@ constexpr Recipe kBodies[] = {
     body("pole-incoming", 0x0b0084f7de574f6du, kHand | kPoleIncoming, kTranslations | kRoots | kBetween),
     body("pole-normal-angle", 0x88b065e74dd5a9ecu, kPoleNormal | kAngle, kRoots),
     body("pole-direction", 0x373020538dcceab0u, kPoleDirection, kRoots, Form::rows),
+    body("pole-hand", 0x29c7f04be81d6a35u, kHand | kPoleHand | kAngle | kClavicle, kTranslations | kRoots | kBetween |
+         kFar),
     body("weights", 0x187e81ac2c112e79u, kWeights, kTranslations | kRoots),
     body("weights-hand-pole-incoming", 0x2d4cc06b3a1290fcu, kHand | kWeights | kPoleIncoming, kRoots | kBetween,
          Form::columns3),

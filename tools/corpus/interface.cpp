@@ -53,6 +53,7 @@ constexpr FeatureName kFeatures[] = {
     {kHandFrame, SWIVEL_WITH_HAND_FRAME},
     {kRegion, SWIVEL_WITH_REGION},
     {kStepWins, SWIVEL_STEP_WINS},
+    {kPoleHand, SWIVEL_POLE_HAND},
 };
 
 struct FieldName {
@@ -64,7 +65,7 @@ struct FieldName {
 // In the order of enum Field.
 constexpr FieldName kFields[] = {
     {Field::target, SWIVEL_TARGET, 3},
-    {Field::pole, SWIVEL_POLE, 3, 0, kPoleIncoming},
+    {Field::pole, SWIVEL_POLE, 3, 0, kPoleIncoming | kPoleHand},
     {Field::lengths, SWIVEL_LENGTHS, 2},
     {Field::parent_position, SWIVEL_SHOULDER_POSITION, 3, kWorld},
     {Field::parent_rotation, SWIVEL_PARENT_ROTATION, 4, kWorld},

@@ -15,6 +15,9 @@ constexpr Recipe kLimbs[] = {
     {limbs, "incoming", 0x2e0126319a72180du, kIncoming},
     {limbs, "incoming-hand", 0xfed5ce26af1ac6dau, kHand | kIncoming},
     {limbs, "pole-incoming", 0xcc31d7b90ff191f0u, kIncoming | kPoleIncoming},
+    {limbs, "pole-hand", 0x6b1d90e7f3c2485au, kHand | kPoleHand},
+    {limbs, "pole-hand-incoming", 0x84f2a6c50d3e197bu, kWorld | kJoints | kHand | kEffector | kIncoming | kPoleHand |
+     kWeights | kStep, 0, Order::yxz, Order::zxy},
     {limbs, "weights", 0xf768f221a91b4e9du, kIncoming | kWeights},
     {limbs, "weights-hand", 0x4a66b263ab8474ccu, kHand | kIncoming | kWeights},
     {limbs, "reach", 0xc689c846b6b81ec6u, kReach},

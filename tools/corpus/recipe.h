@@ -56,6 +56,7 @@ enum Feature : std::uint64_t {
     kHandFrame = 1ull << 33,
     kRegion = 1ull << 34,
     kStepWins = 1ull << 35,
+    kPoleHand = 1ull << 36,
 };
 
 // Random numbers of a field depend on its number here.

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise of the look's formulas, in float: the shortest turn carries one direction to the other, a share of it is
+// that share of the angle, a cone holds it, the last joint brings the line of sight to the target, and a followed line
+// turns no further than it may. Eigen judges, by angles.
+#include "core/look.h"
+
+#include <catch2/catch.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/formula_arm.h"
+#include "tests/limit_oracle.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+// 2,000 of a seed make 200,000.
+constexpr int kTurns = 2000;
+
+double angle_from_to(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double turn_angle(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
+// Any angle between them is as likely as any other, and some are nearly half a turn.
+Vector3d beside(Random& random, const Vector3d& direction)
+{
+    const double angle = random.below(4) == 0 ? kPi - random.spread(1e-7, 0.1) : random.between(0, kPi);
+    return std::cos(angle) * direction.normalized() + std::sin(angle) * random.across(direction.normalized());
+}
+LookJoint joint_of(double share, double most)
+{
+    return {float(share), float(std::cos(0.5 * most)), float(std::sin(0.5 * most))};
+}
+
+TEST_CASE("the shortest turn carries a direction to another, whatever the two are and however long")
+{
+    rc::prop("any two", [](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < kTurns; ++n) {
+            const Vector3d from = random.direction(), to = beside(random, from);
+            const Vector<float> a = mv<float>(Vector3d(random.spread(1e-7, 1e7) * from)),
+                                b = mv<float>(Vector3d(random.spread(1e-7, 1e7) * to));
+            const Quaterniond turn = eigen(shortest_turn(a, b));
+            RC_ASSERT(std::fabs(turn.norm() - 1) <= 1e-6);
+            RC_ASSERT(angle_from_to(turn.normalized() * eigen(a), eigen(b)) <= 2e-6);
+            RC_ASSERT(std::fabs(turn_angle(turn) - angle_from_to(eigen(a), eigen(b))) <= 2e-6);
+        }
+    });
+    const Vector<float> none = vector(0.0f, 0.0f, 0.0f), some = vector(1.0f, 2.0f, 3.0f);
+    for (const Rotor<float>& turn : {shortest_turn(none, some), shortest_turn(some, none), shortest_turn(none, none)})
+        CHECK(eigen(turn).coeffs() == Quaterniond::Identity().coeffs());
+}
+
+TEST_CASE("a share of a turn is that share of its angle, within 0.06 degrees, and a cone holds it")
+{
+    double worst = 0;
+    rc::prop("any turn, share and cone", [&](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < kTurns; ++n) {
+            const Vector3d from = random.direction(), to = beside(random, from);
+            const double share = random.below(4) == 0 ? 0.5 * random.below(3) : random.unit(),
+                         most = random.between(0, 3);
+            const LookTurn<float> turn = look_turn(mv<float>(from), mv<float>(to), float(share), joint_of(1, most));
+            const Quaterniond got = eigen(turn.turn);
+            const double whole = angle_from_to(from, to), angle = turn_angle(got), wanted = share * whole;
+            RC_ASSERT(std::fabs(got.norm() - 1) <= 1e-6);
+            RC_ASSERT(angle <= most + 2e-6);
+            if (std::fabs(wanted - most) > 2e-3) RC_ASSERT(turn.held == (wanted > most));
+            if (turn.held) {
+                RC_ASSERT(std::fabs(angle - most) <= 2e-6);
+            } else {
+                worst = std::max(worst, std::fabs(angle - wanted));
+                if (share == 0) RC_ASSERT(got.coeffs() == Quaterniond::Identity().coeffs());
+                if (share == 0.5 || share == 1) RC_ASSERT(std::fabs(angle - wanted) <= 2e-6);
+            }
+            // It turns about the axis of the whole.
+            if (whole > 0.01 && whole < kPi - 0.01 && angle > 0.01)
+                RC_ASSERT(angle_from_to(got.vec(), from.cross(to)) <= 1e-4);
+        }
+    });
+    CAPTURE(worst * 180 / kPi);
+    CHECK(worst <= 0.06 * kPi / 180 + 1e-6);
+}
+
+TEST_CASE("the last joint brings the line of sight to its target")
+{
+    rc::prop("an eye beside the joint, targets further away than it", [](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < kTurns; ++n) {
+            const Vector3d place = random.spread(0.01, 10) * random.direction(),
+                           eye = place + random.spread(0.01, 0.3) * random.direction(), axis = random.direction();
+            const Vector3d target = place + random.spread(0.4, 1e6) * random.direction();
+            const LookTurn<float> turn = rest_of_look(LineOfSight<float>{mv<float>(eye), mv<float>(axis)},
+                                                      mv<float>(place), mv<float>(target), 1.0f, joint_of(1, kPi));
+            const Quaterniond q = eigen(turn.turn).normalized();
+            const auto rounded = [](const Vector3d& v) { return Vector3d(v.cast<float>().cast<double>()); };
+            const Vector3d at = rounded(place), is = at + q * (rounded(eye) - at), to = rounded(target) - is;
+            RC_ASSERT(!turn.held);
+            RC_ASSERT(angle_from_to(q * rounded(axis), to) <= 2e-6 + 2e-7 * place.norm() / to.norm());
+        }
+    });
+}
+
+TEST_CASE("a followed line turns by what it may, and stops at its goal")
+{
+    rc::prop("lines of any directions and distances", [](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < kTurns; ++n) {
+            const Vector3d was = random.direction(), goal = beside(random, was);
+            const double most = random.spread(1e-4, 1), lever = random.spread(0.05, 1), way = angle_from_to(was, goal);
+            const FollowedLine<float> from{mv<float>(was), float(random.spread(1e-3, 2))},
+                to{mv<float>(goal), float(random.spread(1e-3, 2))};
+            const FollowedStep<float> step = followed(from, to, float(lever), float(0.5 * most));
+            const Vector3d is = eigen(step.line.direction);
+            const double turned = angle_from_to(was, is), left = angle_from_to(is, goal);
+            const double nearer = double{step.line.nearness} - double{from.nearness},
+                         change = double{to.nearness} - double{from.nearness};
+            RC_ASSERT(std::fabs(is.norm() - 1) <= 1e-6);
+            RC_ASSERT(turned <= most + 2e-6);
+            // The half-tangent lacks 2 half^5 / 15 and what follows.
+            RC_ASSERT(turned >= std::min(way, most - 0.3 * std::pow(0.5 * most, 5)) - 4e-6);
+            RC_ASSERT(turned + left <= way + 4e-6);  // on the shortest way
+            RC_ASSERT(std::fabs(nearer) <= most / lever * (1 + 1e-6) + 1e-6);
+            RC_ASSERT(nearer * change >= 0);
+            RC_ASSERT(step.behind || (left <= 4e-6 && step.line.nearness == to.nearness));
+            // From half a turn of half an angle on, it goes all the way.
+            const FollowedStep<float> all = followed(from, to, float(lever), 1.6f);
+            RC_ASSERT(!all.behind);
+            RC_ASSERT(eigen(all.line.direction) == eigen(to.direction));
+        }
+    });
+}
+
+TEST_CASE("a look counts from none behind to all ahead, and less very near")
+{
+    const LookFade fade{-0.9f, 1 / 0.8f, 0.05f};
+    rc::prop("any target", [&](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < kTurns; ++n) {
+            const Vector3d axis = random.direction(), to = random.spread(1e-3, 1e3) * beside(random, axis);
+            const double unit = random.spread(0.1, 10);
+            const auto smooth = [](double x) {
+                x = std::clamp(x, 0.0, 1.0);
+                return x * x * (3 - 2 * x);
+            };
+            const double cosine = axis.dot(to.normalized());
+            const float got = look_weight(LineOfSight<float>{vector(0.0f, 0.0f, 0.0f), mv<float>(axis)}, mv<float>(to),
+                                          fade, float(unit));
+            RC_ASSERT(std::fabs(double{got} - smooth((cosine + 0.9) / 0.8) * smooth(to.norm() / (0.05 * unit))) <=
+                      2e-6);
+        }
+    });
+}
+
+}  // namespace
