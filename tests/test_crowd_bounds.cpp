@@ -104,6 +104,49 @@ TEST_CASE("crowd bounds: limits are kept wherever a swivel can, those for both s
                   box({{2, 0, 1}, {degrees(-10, 15), degrees(-180, 180), degrees(-180, 180)}}, true));
 }
 
+TEST_CASE("crowd bounds: regions are kept, those for both sides mirrored on the right one")
+{
+    const CrowdStage stage;
+    const std::string cones = "cones = [{axis = [0.3, 0.2, 0.6], opening_deg = 74}]\n";
+    require_limit(stage, 0, "[limb.left_arm.limits.region]\n" + cones, SWIVEL_LIMITED_REGION,
+                  cone({0.3, 0.2, 0.6}, 74, false));
+    require_limit(stage, 1, "[limb.arms.limits.region]\n" + cones, SWIVEL_LIMITED_REGION,
+                  cone({-0.3, 0.2, 0.6}, 74, false));
+    const std::string polygon = "polygons = [{corners = [[1, 0.2, -0.5], [-0.6, 1, -0.3], [0, -0.3, 1]]}]\n";
+    for (const std::size_t arm : {0u, 1u})
+        require_limit(stage, arm, "[limb.arms.limits.region]\n" + polygon, SWIVEL_LIMITED_REGION,
+                      [=](const Quaterniond& shoulder, const Quaterniond&) {
+                          Vector3d d = shoulder * kBone;
+                          if (arm == 1) d.x() = -d.x();
+                          const Vector3d corner[] = {{1, 0.2, -0.5}, {-0.6, 1, -0.3}, {0, -0.3, 1}};
+                          double out = -1;
+                          for (int n = 0; n < 3; ++n)
+                              out = std::max(out, -corner[n].cross(corner[(n + 1) % 3]).normalized().dot(d));
+                          return out;
+                      });
+    const Violation forbidden = cone({-1, 0.1, 0.1}, 30, false);
+    require_limit(stage, 0,
+                  "[limb.left_arm.limits.region]\ncones = [{opening_deg = 170}]\n"
+                  "forbidden = [{axis = [-1, 0.1, 0.1], opening_deg = 30}]\n",
+                  SWIVEL_LIMITED_REGION, [=](const auto& shoulder, const auto& wrist) {
+                      return std::max(-forbidden(shoulder, wrist), cone(kBone, 170, false)(shoulder, wrist));
+                  });
+}
+
+TEST_CASE("crowd bounds: a region about where the clip's arm points allows the clip, and not all else")
+{
+    const CrowdStage stage;
+    const std::string region = "[limb.arms.limits.region]\nclip_margin_deg = 3\n";
+    const auto limited = [&](const std::string& toml, const std::string& limb) {
+        const auto rows = stage.rows(toml, limb);
+        return std::ranges::count_if(rows, [](const PoseLine& row) { return row.flags & SWIVEL_LIMITED_REGION; });
+    };
+    for (const std::string limb : {"left_arm", "right_arm"}) {
+        CHECK(limited(region, limb) == 0);
+        CHECK(limited(region + "[limb.arms.target]\noffset = [0, 6, 3]\n", limb) > 5);
+    }
+}
+
 TEST_CASE("crowd bounds: the elbow's flexion")
 {
     const CrowdStage stage;
@@ -254,6 +297,18 @@ TEST_CASE("crowd bounds: what does not go together is refused")
         "c.toml:3: limb.arms.pole.fixed: means nothing beside limb.arms.pole.kind = \"incoming\" in line 2");
     stage.require_refused("[limb.arms]\npole.kind = \"incoming\"\nweights.pole = 0.5\n",
                           "c.toml:3: limb.arms.weights.pole: means nothing beside limb.arms.pole.kind");
+    stage.require_refused("[limb.arms.pole]\nkind = \"hand\"\nfixed = [1, 0, 0]\n",
+                          "c.toml:3: limb.arms.pole.fixed: means nothing beside limb.arms.pole.kind = \"hand\"");
+    stage.require_refused("[limb.arms]\nhand = false\npole.kind = \"hand\"\n",
+                          "c.toml:3: limb.arms.pole.kind: means nothing beside limb.arms.hand = false in line 2");
+    stage.require_refused("[limb.arms]\naim = {axis = [0, 0, 1], flexion_deg = 3}\npole.kind = \"hand\"\n",
+                          "c.toml:2: limb.arms.aim: means nothing beside limb.arms.pole.kind = \"hand\"");
+    stage.require_refused(
+        "\n[limb.arms.limits.region]\ncones = [{opening_deg = 3}, {axis = [0, 0, -1], opening_deg = 3}]\n",
+        "c.toml:2: limb.arms.limits.region.cones: cones 0 and 1 are opposite; give one on the way");
+    stage.require_refused(
+        "[limb.arms.limits.region]\npolygons = [{corners = [[1, 0, 0], [0, 0, 1], [0, 1, 0]]}]\n",
+        "limb.arms.limits.region.polygons[0]: corner 2 is outside of the side from 0 to 1; give a convex polygon");
     stage.require_refused("[limb.arms]\npriority = 2\n",
                           "c.toml:2: limb.arms.priority: means nothing without budget.blocks");
     stage.require_refused("[limb.arms]\nswivel.step_wins = true\n",

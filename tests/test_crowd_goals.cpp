@@ -185,7 +185,7 @@ TEST_CASE("crowd file: kinds of poles")
     const PlainMotion directed = stage.motion(pole + "\"direction\"" + vector),
                       normal = stage.motion(pole + "\"normal\"" + vector),
                       point = stage.motion(pole + "\"point\"" + vector),
-                      incoming = stage.motion(pole + "\"incoming\"\n"),
+                      incoming = stage.motion(pole + "\"incoming\"\n"), by_hand = stage.motion(pole + "\"hand\"\n"),
                       turned = stage.motion("[limb.left_arm.pole]\nangle_deg = 40\n");
     const Vector3d hinge = stage.axes(0).in_joint.col(0);
     for_bent(stage, left, [&](std::size_t frame) {
@@ -202,6 +202,10 @@ TEST_CASE("crowd file: kinds of poles")
         CHECK(off(plane(normal), fixed) < 0.02);
         const Matrix3d upper = pose_of(stage.clip, frame)[static_cast<std::size_t>(left.shoulder)].rotation;
         CHECK(off(plane(incoming), upper * hinge) < 0.02);
+        // All joints' axes are parallel at rest. Beyond 20 degrees from the line, the hand alone counts.
+        const Vector3d hand = pose_of(stage.clip, frame)[static_cast<std::size_t>(left.wrist)].rotation *
+                              stage.clip.joint(left.wrist).offset.normalized();
+        if (angle_between(line, hand) > 20.1) CHECK(off(plane(by_hand), hand.cross(line)) < 0.02);
         CHECK(angle_about(line, plane_normal(from), plane(turned)) == Approx(40).margin(0.02));
     });
 }

@@ -33,6 +33,9 @@ const bindingBytes = (b) => Buffer.concat([
   floats(b.parent_from_arm, b.upper_from_arm, b.elbow_parent_from_arm, b.fore_from_arm, b.wrist_parent_from_arm, b.shoulder_rest,
     b.elbow_rest, b.wrist_rest, b.lengths),
   words(b.twist_bone_count), floats(b.twist_parent_from_arm, b.twist_from_arm)]);
+const regionBytes = ({ first, half_spaces: halfSpaces }) => Buffer.concat([
+  words(first[0], first.length - 1, ...first, ...Array(25 - first.length).fill(0)),
+  ...halfSpaces.map(({ axis, cosine, is_edge: isEdge }) => Buffer.concat([floats(axis, [cosine]), words(isEdge)])), Buffer.alloc(20 * (64 - halfSpaces.length))]);
 const planBytes = (p) => Buffer.concat([doubles(p.target_point, p.target_offset, p.effector, p.pole_fixed),
   words(p.has_target_point, p.has_pole_fixed, p.pole, p.hand_is_local, p.is_mirrored, 0)]);
 
@@ -109,7 +112,7 @@ async function proveState({ root, read }) {
 // ---- crowds
 
 const TWIST_BONES = 15n * Feature.WITH_TWIST_BONES; // a number of four bits
-const SHARED = Feature.WITH_HAND | Feature.WITH_AIM | Feature.POLE_DIRECTION | Feature.POLE_NORMAL | Feature.POLE_INCOMING | TWIST_BONES;
+const SHARED = Feature.WITH_HAND | Feature.WITH_AIM | Feature.POLE_DIRECTION | Feature.POLE_NORMAL | Feature.POLE_INCOMING | Feature.POLE_HAND | Feature.WITH_REGION | TWIST_BONES;
 
 /** The limbs as groups of crowds: each joins the first crowd that takes it. */
 function crowdsOf(limbs) {
@@ -117,7 +120,8 @@ function crowdsOf(limbs) {
   for (const [index, limb] of limbs.entries()) {
     const features = BigInt(limb.features);
     const agrees = (crowd, box, order) => (crowd.features & features & box) === 0n || crowd[order] === limb[order];
-    let crowd = crowds.find((each) => (each.features & SHARED) === (features & SHARED) &&
+    const stepsAlike = (crowd) => (crowd.features & features & Feature.WITH_MOST_SWIVEL) === 0n || ((crowd.features ^ features) & Feature.STEP_WINS) === 0n;
+    let crowd = crowds.find((each) => (each.features & SHARED) === (features & SHARED) && stepsAlike(each) &&
       agrees(each, Feature.WITH_SHOULDER_BOX, 'shoulder_order') && agrees(each, Feature.WITH_WRIST_BOX, 'wrist_order'));
     if (!crowd) crowds.push(crowd = { features: 0n, shoulder_order: limb.shoulder_order, wrist_order: limb.wrist_order, limbs: [] });
     if (features & Feature.WITH_SHOULDER_BOX) crowd.shoulder_order = limb.shoulder_order;
@@ -141,7 +145,9 @@ class Column {
     this.crowds = crowdsOf(attrs.limbs).map((made) => {
       const { shoulder_order: shoulderOrder, wrist_order: wristOrder } = made;
       const bindingOf = (limb) => new Binding(new Uint8Array(bindingBytes(attrs.limbs[limb].binding)));
-      const crowd = this.swivel.crowd(made.limbs.map((limb) => ({ limbCount: this.count, binding: bindingOf(limb), shoulderOrder, wristOrder })), made.features);
+      const regionOf = ({ region }) => (region ? { region: this.swivel.region(new Uint8Array(regionBytes(region))) } : {});
+      const crowd = this.swivel.crowd(made.limbs.map((limb) => (
+        { limbCount: this.count, binding: bindingOf(limb), shoulderOrder, wristOrder, ...regionOf(attrs.limbs[limb]) })), made.features);
       made.limbs.forEach((limb, group) => { this.limbs[limb] = this.makeLimb(attrs.limbs[limb], cache.sources[limb], crowd, group); });
       return crowd;
     });

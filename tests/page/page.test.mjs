@@ -44,6 +44,11 @@ pole.kind = "direction"
 target.offset = [0, 4, 3]
 reach = { soft_far = 0.1, most_stretch = 1.4 }
 `],
+  'regions, and elbows that follow hands': [['--characters', '30', '--frames', '300'], `[limb.all]
+target.offset = [0, 4, 3]
+pole.kind = "hand"
+limits.region = { cones = [{ opening_deg = 40 }, { axis = [0, 1, 0.3], opening_deg = 50 }], clip_margin_deg = 5 }
+`],
   'aiming hands': [['--characters', '30', '--frames', '300'], `[limb.all]
 aim = { axis = [0, 1, 0], flexion_deg = 60 }
 effector = [0, 0.5, 0.2]

@@ -131,20 +131,57 @@ goal_plan goals_of(const Json& json)
     return goals;
 }
 
+Json json_of(const swivel_region& region)
+{
+    Json half_spaces = Json::array();
+    for (std::uint32_t n = 0; n < region.first[region.part_count]; ++n) {
+        const swivel_half_space& half = region.half_space[n];
+        half_spaces.push_back({{"axis", half.axis}, {"cosine", half.cosine}, {"is_edge", half.is_edge}});
+    }
+    return {{"first", std::vector(region.first, region.first + region.part_count + 1)},
+            {"half_spaces", std::move(half_spaces)}};
+}
+
+// The solver checks what it says.
+swivel_region region_of(const Json& json)
+{
+    swivel_region region = swivel_default_region();
+    const Json &first = json.at("first"), &half_spaces = json.at("half_spaces");
+    if (first.empty() || first.size() > std::size(region.first) || half_spaces.size() > std::size(region.half_space))
+        throw std::invalid_argument("a region has too many parts, or none");
+    region.part_count = static_cast<std::uint32_t>(first.size() - 1);
+    for (std::size_t n = 0; n < first.size(); ++n) {
+        const std::int64_t at = first[n].is_number_integer() ? first[n].get<std::int64_t>() : -1;
+        if (at < 0 || at > static_cast<std::int64_t>(half_spaces.size()))
+            throw std::invalid_argument("a region's part starts at no half-space");
+        region.first[n] = static_cast<std::uint32_t>(at);
+    }
+    region.cut_count = region.first[0];
+    for (std::size_t n = 0; n < half_spaces.size(); ++n) {
+        swivel_half_space& half = region.half_space[n];
+        get(half_spaces[n].at("axis"), half.axis);
+        half_spaces[n].at("cosine").get_to(half.cosine);
+        half.is_edge = yes_or_no(half_spaces[n], "is_edge");
+    }
+    return region;
+}
+
 Json json_of(const CachedLimb& limb)
 {
     const LimbSetup& setup = limb.setup;
     Json fixed = Json::array();
     for (const FixedField& each : setup.fields) fixed.push_back({{"field", each.field}, {"value", each.value}});
-    return {{"name", formats::limb_word(limb.name)},
-            {"joints", limb.joints},
-            {"features", setup.features},
-            {"shoulder_order", setup.shoulder_order},
-            {"wrist_order", setup.wrist_order},
-            {"priority", setup.priority},
-            {"binding", json_of(setup.binding)},
-            {"goals", json_of(setup.goals)},
-            {"fixed", std::move(fixed)}};
+    Json json{{"name", formats::limb_word(limb.name)},
+              {"joints", limb.joints},
+              {"features", setup.features},
+              {"shoulder_order", setup.shoulder_order},
+              {"wrist_order", setup.wrist_order},
+              {"priority", setup.priority},
+              {"binding", json_of(setup.binding)},
+              {"goals", json_of(setup.goals)},
+              {"fixed", std::move(fixed)}};
+    if (setup.region) json["region"] = json_of(*setup.region);
+    return json;
 }
 
 CachedLimb limb_of(const Json& json)
@@ -167,6 +204,7 @@ CachedLimb limb_of(const Json& json)
         fixed.field = one_of(each, "field", SWIVEL_CLAVICLE_TURN);
         each.at("value").get_to(fixed.value);
     }
+    if (json.contains("region")) setup.region = region_of(json.at("region"));
     return limb;
 }
 

@@ -57,6 +57,9 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
     if (s.hand && !s.hand->value)
         refuse_beside(s.hand, " = false", s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
                       s.wrist_box, s.twist_bones, s.aim);
+    const bool by_hand = s.pole_kind && s.pole_kind->value == PoleKind::hand;
+    if (by_hand) refuse_beside(s.pole_kind, " = \"hand\"", s.pole_fixed, s.aim);
+    if (by_hand && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.pole_kind);
     if (s.aim)
         refuse_beside(s.aim, "", s.position_weight, s.hand_weight, s.pole_weight, s.soft_far, s.soft_near,
                       s.least_distance, s.most_stretch, s.flexion_deg, s.hand_cone, s.forearm_twist_deg, s.hand_twist,

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tools/crowd/crowd_checks.h"
+#include "tools/crowd/region_plan.h"
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
 
@@ -98,11 +99,12 @@ struct Planner {
         if (plan.pole == PoleKind::direction) plan.features |= SWIVEL_POLE_DIRECTION;
         if (plan.pole == PoleKind::normal) plan.features |= SWIVEL_POLE_NORMAL;
         if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING;
+        if (plan.pole == PoleKind::hand) plan.features |= SWIVEL_POLE_HAND | SWIVEL_WITH_INCOMING;
         if (from.pole_angle_deg)
             put(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, turn(kRadians * from.pole_angle_deg->value),
                 from.pole_angle_deg->mirrored);
         plan.follows_pole = !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg &&
-                            plan.pole != PoleKind::incoming;
+                            plan.pole != PoleKind::incoming && plan.pole != PoleKind::hand;
     }
 
     void aim()
@@ -248,6 +250,10 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
         planner.reach();
         planner.swivel(clip.frame_time);
         planner.limits();
+        if (settings.region) {
+            planner.plan.features |= SWIVEL_WITH_REGION;
+            planner.plan.region = region_of(*file, *settings.region, clip, limbs[n]);
+        }
         plan.limbs[n] = std::move(planner.plan);
     }
     return plan;
@@ -259,7 +265,7 @@ std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan&
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         const LimbPlan& limb = plan.limbs[n];
         setups.push_back({limbs[n].bound, limb.features, limb.shoulder_order, limb.wrist_order, limb.fields,
-                          limb.priority, goal_plan_of(limb, limbs[n])});
+                          limb.priority, goal_plan_of(limb, limbs[n]), limb.region});
     }
     return setups;
 }

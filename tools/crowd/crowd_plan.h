@@ -19,6 +19,7 @@ struct LimbPlan {
     swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
     swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
     std::vector<FixedField> fields;
+    std::optional<swivel_region> region;
 
     std::optional<Eigen::Vector3d> target_point;              // in the world of a character that stands at the origin
     Eigen::Vector3d target_offset = Eigen::Vector3d::Zero();  // added to targets; world axes

@@ -14,7 +14,8 @@ namespace {
 
 // Features that a crowd has for all its limbs or for none; the others are at rest where a limb does not use them.
 constexpr swivel_features kShared = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL |
-                                    SWIVEL_POLE_INCOMING | SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+                                    SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_WITH_REGION |
+                                    SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
 
 // A crowd in the making.
 struct Draft {
@@ -23,8 +24,9 @@ struct Draft {
 
     bool takes(const LimbSetup& limb) const
     {
-        const auto both = [&](swivel_features box) { return (shape.features & limb.features & box) != 0; };
+        const auto both = [&](swivel_features feature) { return (shape.features & limb.features & feature) != 0; };
         return (shape.features & kShared) == (limb.features & kShared) &&
+               (!both(SWIVEL_WITH_MOST_SWIVEL) || !((shape.features ^ limb.features) & SWIVEL_STEP_WINS)) &&
                (!both(SWIVEL_WITH_SHOULDER_BOX) || shape.shoulder_order == limb.shoulder_order) &&
                (!both(SWIVEL_WITH_WRIST_BOX) || shape.wrist_order == limb.wrist_order);
     }
@@ -59,13 +61,17 @@ LimbCrowds::LimbCrowds(std::span<const LimbSetup> limbs, std::uint32_t character
         while (d < drafts.size() && !drafts[d].takes(limb)) ++d;
         if (d == drafts.size()) drafts.push_back({{limb.features, limb.shoulder_order, limb.wrist_order}, {}});
         places_.push_back({d, static_cast<std::uint32_t>(drafts[d].groups.size())});
-        drafts[d].add(limb, group(characters, limb.binding, 0));
+        swivel_group_def of_limb = group(characters, limb.binding, 0);
+        if (limb.region) of_limb.region = &*limb.region;
+        drafts[d].add(limb, of_limb);
         priorities_.push_back(limb.priority);
     }
     if (budget_blocks_ > 0 && drafts.size() > 1)
-        throw formats::InputError(file,
-                                  "budget.blocks: limbs that share a budget must have the same pole.kind, hand, aim, "
-                                  "twist_bones and order of each box; make them equal, or take the budget out");
+        throw formats::InputError(
+            file,
+            "budget.blocks: limbs that share a budget must have the same pole.kind, hand, aim, twist_bones, "
+            "step_wins and order of each box, and either all or none have a region; make them "
+            "equal, or take the budget out");
     for (Draft& draft : drafts) {
         crowds_.push_back(draft.make());
         shapes_.push_back(draft.shape);

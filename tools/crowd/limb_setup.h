@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct LimbSetup {
     std::vector<FixedField> fields;
     float priority;
     goal_plan goals;
+    std::optional<swivel_region> region;  // with SWIVEL_WITH_REGION
 
     bool has(swivel_features feature) const { return (features & feature) != 0; }
     unsigned twist_bone_count() const
@@ -39,6 +41,13 @@ inline std::span<char> bytes_behind_size(swivel_binding& binding)
 {
     return {reinterpret_cast<char*>(binding.parent_from_arm),
             reinterpret_cast<char*>(binding.twist_from_arm + SWIVEL_MOST_TWIST_BONES)};
+}
+
+// The same of a region.
+inline std::span<char> bytes_behind_size(swivel_region& region)
+{
+    return {reinterpret_cast<char*>(&region.cut_count),
+            reinterpret_cast<char*>(region.half_space + SWIVEL_MOST_HALF_SPACES)};
 }
 
 }  // namespace swivel::tools

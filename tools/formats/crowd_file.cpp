@@ -14,7 +14,7 @@ namespace {
 constexpr double kMostPriority = 1e15;  // above it the solver counts no further
 constexpr std::array<std::string_view, 9> kSelectors = {"all",      "arms",      "legs",     "left",     "right",
                                                         "left_arm", "right_arm", "left_leg", "right_leg"};
-constexpr std::array<std::string_view, 4> kPoleKinds = {"point", "direction", "normal", "incoming"};
+constexpr std::array<std::string_view, 5> kPoleKinds = {"point", "direction", "normal", "incoming", "hand"};
 constexpr std::array<std::string_view, 6> kOrders = {"XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX"};
 constexpr std::array<std::string_view, 3> kLimbKinds = {"arms", "legs", "all"};
 constexpr NumberRange kFree = {-180, 180};
@@ -52,10 +52,10 @@ T needed(const TomlTable& table, std::string_view key, const Maybe<T>& value)
 
 const Eigen::Vector3d kAlong = {0, 0, 1};  // the resting limb
 
-Maybe<ConeLimit> read_cone(TomlTable table)
+Maybe<ConeLimit> read_cone(TomlTable table, double least = 0, double most = 180)
 {
     const auto axis = table.axis("axis");
-    const auto opening_deg = table.number("opening_deg", 0, 180);
+    const auto opening_deg = table.number("opening_deg", least, most);
     table.finish();
     return given_by(table, ConeLimit{axis ? axis->value : kAlong, needed(table, "opening_deg", opening_deg)});
 }
@@ -89,6 +89,38 @@ Maybe<BoxLimit> read_box(TomlTable table)
     table.finish();
     if (table.is_there() && !any) table.fail("", "limits nothing; give x_deg, y_deg or z_deg, or leave the table out");
     return given_by(table, box);
+}
+
+// Those of a region are neither a point nor all directions.
+std::vector<ConeLimit> read_cones(const std::vector<TomlTable>& tables)
+{
+    std::vector<ConeLimit> cones;
+    for (const TomlTable& table : tables) cones.push_back(read_cone(table, 0.6, 179.4)->value);
+    return cones;
+}
+
+Maybe<RegionLimit> read_region(TomlTable table)
+{
+    RegionLimit region;
+    region.cones = read_cones(table.tables("cones"));
+    region.forbidden = read_cones(table.tables("forbidden"));
+    for (TomlTable polygon : table.tables("polygons")) {
+        const auto corners = polygon.vectors("corners");
+        polygon.finish();
+        region.polygons.push_back(needed(polygon, "corners", corners));
+    }
+    if (const auto closed = table.flag("closed")) region.closed = closed->value;
+    const auto margin = table.number("clip_margin_deg", 1, 57);
+    const auto count = table.whole("clip_cones", 1, 6);
+    table.finish();
+    if (region.closed && region.cones.size() < 3) table.fail("closed", "means nothing with fewer than three cones");
+    if (count && !margin)
+        table.fail("clip_cones", "means nothing without clip_margin_deg; give that, or take this out");
+    if (margin) region.clip_margin_deg = margin->value;
+    if (count) region.clip_cones = static_cast<int>(count->value);
+    if (table.is_there() && region.cones.empty() && region.polygons.empty() && !margin)
+        table.fail("", "allows nothing; give cones, polygons or clip_margin_deg, or leave the table out");
+    return given_by(table, std::move(region));
 }
 
 void read_pole(TomlTable table, LimbSettings& to)
@@ -137,6 +169,7 @@ void read_limits(TomlTable table, LimbSettings& to)
     to.forearm_twist_deg = angles(table, "forearm_twist_deg");
     to.hand_twist = read_twist(table.table("hand_twist"));
     to.wrist_box = read_box(table.table("wrist_box"));
+    to.region = read_region(table.table("region"));
     table.finish();
 }
 
@@ -205,7 +238,8 @@ auto members(Settings& s)
                     s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight, s.pole_weight,
                     s.soft_far, s.soft_near, s.least_distance, s.most_stretch, s.most_swivel_deg_per_frame,
                     s.most_swivel_deg_per_second, s.step_wins, s.flexion_deg, s.humeral_twist_deg, s.forearm_twist_deg,
-                    s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.twist_bones, s.priority);
+                    s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.region, s.twist_bones,
+                    s.priority);
 }
 
 void merge(LimbSettings& to, const LimbSettings& from, bool mirrored)

@@ -16,7 +16,7 @@
 
 namespace swivel::formats {
 
-enum class PoleKind : std::uint8_t { point, direction, normal, incoming };
+enum class PoleKind : std::uint8_t { point, direction, normal, incoming, hand };
 enum class EulerOrder : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
 
 struct ConeLimit {
@@ -30,6 +30,16 @@ struct TwistLimit {
 struct BoxLimit {
     EulerOrder order = EulerOrder::xyz;
     std::array<NumberRange, 3> about_deg;  // x, y, z, whatever the order
+};
+
+// Where an upper bone may point, in the frame of the resting limb.
+struct RegionLimit {
+    std::vector<ConeLimit> cones;  // in order, with bridges between neighbours
+    bool closed = false;           // a bridge from the last cone to the first, too
+    std::vector<std::vector<Eigen::Vector3d>> polygons;
+    std::vector<ConeLimit> forbidden;
+    double clip_margin_deg = 0;  // about where the clip's own bone points; 0: that does not count
+    int clip_cones = 4;          // at most as many are made of it
 };
 
 struct AimGoal {
@@ -63,6 +73,7 @@ struct LimbSettings {
     Maybe<ConeLimit> shoulder_cone, hand_cone;
     Maybe<TwistLimit> hand_twist;
     Maybe<BoxLimit> shoulder_box, wrist_box;
+    Maybe<RegionLimit> region;
 
     Maybe<std::int64_t> twist_bones;  // 0 to 7
     Maybe<double> priority;           // 0 to 1e15

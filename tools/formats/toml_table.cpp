@@ -195,14 +195,30 @@ Maybe<NumberRange> TomlTable::range(std::string_view key, double least, double m
     return given(key, NumberRange{ends[0], ends[1]});
 }
 
+Eigen::Vector3d TomlTable::vector_of(std::string_view key, const toml::node& node, std::string_view wanted) const
+{
+    const std::vector<double> xyz = numbers_of(key, node, 3, wanted);
+    const double length = std::hypot(xyz[0], xyz[1], xyz[2]);
+    if (!(length <= kMaxNorm)) fail(key, fmt::format("is {:g} long; at most {:g} can be solved", length, kMaxNorm));
+    return {xyz[0], xyz[1], xyz[2]};
+}
+
 Maybe<Eigen::Vector3d> TomlTable::vector(std::string_view key)
 {
     const toml::node* const node = find(key);
     if (!node) return std::nullopt;
-    const std::vector<double> xyz = numbers_of(key, *node, 3, "[x, y, z], three numbers");
-    const double length = std::hypot(xyz[0], xyz[1], xyz[2]);
-    if (!(length <= kMaxNorm)) fail(key, fmt::format("is {:g} long; at most {:g} can be solved", length, kMaxNorm));
-    return given(key, Eigen::Vector3d(xyz[0], xyz[1], xyz[2]));
+    return given(key, vector_of(key, *node, "[x, y, z], three numbers"));
+}
+
+Maybe<std::vector<Eigen::Vector3d>> TomlTable::vectors(std::string_view key)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    constexpr std::string_view kWanted = "a list of [x, y, z], three numbers each";
+    if (!node->is_array()) fail_type(key, *node, kWanted);
+    std::vector<Eigen::Vector3d> values;
+    for (const toml::node& each : *node->as_array()) values.push_back(vector_of(key, each, kWanted));
+    return given(key, std::move(values));
 }
 
 Maybe<Eigen::Vector3d> TomlTable::axis(std::string_view key)
@@ -219,9 +235,29 @@ TomlTable TomlTable::table(std::string_view key)
 {
     const toml::node* const node = find(key);
     if (node && !node->is_table()) fail_type(key, *node, fmt::format("a table, [{}]", whole_key(key)));
+    return inner(whole_key(key), node);
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key)
+{
+    const toml::node* const node = find(key);
+    std::vector<TomlTable> all;
+    if (!node) return all;
+    constexpr std::string_view kWanted = "a list of tables, [{...}, {...}]";
+    if (!node->is_array()) fail_type(key, *node, kWanted);
+    for (const toml::node& each : *node->as_array()) {
+        if (!each.is_table()) fail_type(key, each, kWanted);
+        all.push_back(inner(fmt::format("{}[{}]", whole_key(key), all.size()), &each));
+    }
+    return all;
+}
+
+// node: null where it is not there.
+TomlTable TomlTable::inner(std::string key, const toml::node* node) const
+{
     TomlTable inner;
     inner.path_ = path_;
-    inner.key_ = whole_key(key);
+    inner.key_ = std::move(key);
     if (node) {
         inner.table_ = node->as_table();
         inner.line_ = std::max<std::size_t>(node->source().begin.line, 1);

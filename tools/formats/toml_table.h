@@ -53,8 +53,12 @@ public:
     Maybe<Eigen::Vector3d> vector(std::string_view key);  // of a length up to 1e15
     Maybe<Eigen::Vector3d> axis(std::string_view key);    // the same, made unit; zero is refused
 
+    Maybe<std::vector<Eigen::Vector3d>> vectors(std::string_view key);  // a list of them, of any number
+
     // A table within; an empty one where it is not there, so that its keys are asked for all the same.
     TomlTable table(std::string_view key);
+    // The tables of a list, such as [{...}, {...}]; none where it is not there.
+    std::vector<TomlTable> tables(std::string_view key);
     bool is_there() const { return line_ > 0; }
     std::size_t line() const { return line_; }
     const std::string& key() const { return key_; }
@@ -76,6 +80,8 @@ private:
     void require_within(std::string_view key, Number value, Number least, Number most, std::string_view wanted) const;
     const toml::array& array_of(std::string_view key, const toml::node& node, std::size_t count,
                                 std::string_view wanted) const;
+    Eigen::Vector3d vector_of(std::string_view key, const toml::node& node, std::string_view wanted) const;
+    TomlTable inner(std::string key, const toml::node* node) const;
     std::vector<double> numbers_of(std::string_view key, const toml::node& node, std::size_t count,
                                    std::string_view wanted) const;
     template <class T>

@@ -66,6 +66,10 @@ Json json_of_limb(const CachedLimb& limb, const LimbCrowds::Place& place)
              {"priority", setup.priority},
              {"fixed", Json::array()},
              {"joints", limb.joints}};
+    if (setup.region) {
+        swivel_region region = *setup.region;
+        out["region"] = base64_of(std::span<const char>(bytes_behind_size(region)));
+    }
     for (const FixedField& fixed : setup.fields)
         out["fixed"].push_back({{"field", fixed.field}, {"value", fixed.value}});
     return out;

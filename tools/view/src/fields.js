@@ -50,7 +50,8 @@ export function makeCrowds(swivel, shapes, limbs, characters) {
         shapes.forEach((shape, index) => {
             const its = limbs.filter((limb) => limb.crowdIndex === index);
             const { shoulder_order: shoulderOrder, wrist_order: wristOrder } = shape;
-            const groups = its.map(({ binding }) => ({ limbCount: characters.length, binding, shoulderOrder, wristOrder }));
+            const groups = its.map(({ binding, region }) =>
+                ({ limbCount: characters.length, binding, shoulderOrder, wristOrder, ...(region ? { region: swivel.region(region) } : {}) }));
             made.push(swivel.crowd(groups, featuresFor(shape, its)));
             its.forEach((limb) => writeFields(made[index], limb, characters));
         });

@@ -7,10 +7,10 @@ import { ConeGeometry, Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 import { CONE } from "./colours.js";
 import { checkbox, element, section } from "./dom.js";
 import { clear, dashes, disc, handle, sphere, surface, tube } from "./marks.js";
-import { Feature, rotationOf } from "./stage.js";
+import { Feature, flagNames, rotationOf } from "./stage.js";
 import { saidOf } from "./words.js";
 
-const FORBIDDEN = "#e0433b", HAND_CONE = "#ffb3da";
+const FORBIDDEN = "#e0433b", UNKNOWN = "#98a2b0", HAND_CONE = "#ffb3da";
 
 /** name: of the switch and of the group that is drawn. colours: as they are drawn. */
 const OVERLAYS = [
@@ -40,10 +40,15 @@ function circleOf({ wrist, along, upper, fore }) {
     const distance = Math.max(wrist.length(), 1e-9), at = (upper ** 2 - fore ** 2 + distance ** 2) / (2 * distance);
     return { centre: along.clone().multiplyScalar(at), radius: Math.sqrt(Math.max(0, upper ** 2 - at ** 2)) };
 }
-/** Where the elbow would go by the pole alone: at right angles to the line. */
+/** Whether a pole says where the elbow would go, or the elbow is there. */
+function isWishKnown(stage, { limb, character }) {
+    const isPole = (stage.featuresOf(limb) & (Feature.POLE_INCOMING | Feature.POLE_HAND)) === 0n;
+    return isPole || !flagNames(stage.flags(limb, character)).some((name) => /^(LIMITED_(?!FLEXION)|INFEASIBLE)/.test(name));
+}
+/** Where the elbow would go by the pole alone, or without one where it is: at right angles to the line. */
 export function wishOf(stage, { limb }, { pole, elbow, along }) {
     const features = stage.featuresOf(limb), isNormal = (features & Feature.POLE_NORMAL) !== 0n;
-    const wish = (features & Feature.POLE_INCOMING) !== 0n ? elbow.clone() : isNormal ? pole.clone().cross(along) : pole.clone();
+    const wish = (features & (Feature.POLE_INCOMING | Feature.POLE_HAND)) !== 0n ? elbow.clone() : isNormal ? pole.clone().cross(along) : pole.clone();
     return wish.addScaledVector(along, -wish.dot(along)).normalize();
 }
 
@@ -54,11 +59,12 @@ const draw = {
     circle(group, geometry, { stage, selection, thickness }) {
         const { centre, radius } = circleOf(geometry), wish = wishOf(stage, selection, geometry);
         const side = geometry.along.clone().cross(wish), steps = 96;
-        const allowed = allowedAngles(stage.arcs(selection.limb, selection.character));
+        const allowed = allowedAngles(stage.arcs(selection.limb, selection.character)), isKnown = isWishKnown(stage, selection);
+        const colour = (angle) => (!isKnown ? UNKNOWN : allowed(angle) ? "#43c463" : FORBIDDEN);
         const at = (angle) => centre.clone().addScaledVector(wish, radius * Math.cos(angle)).addScaledVector(side, radius * Math.sin(angle));
         for (let n = 0; n < steps; ++n) {
             const from = 2 * Math.PI * n / steps, to = 2 * Math.PI * (n + 1) / steps;
-            group.add(tube(at(from), at(to), thickness, allowed((from + to) / 2) ? "#43c463" : FORBIDDEN));
+            group.add(tube(at(from), at(to), thickness, colour((from + to) / 2)));
         }
     },
     plane(group, { elbow, wrist, along }) {

@@ -60,7 +60,7 @@ export class Stage {
         const inputsAt = this.memory.allocate(4 * INPUT.count * this.characters.length);
         return {
             index, name: limb.name, mirrored: limb.mirrored, joints: limb.joints, group: limb.group, crowdIndex: limb.crowd,
-            binding: new Binding(bytesOf(limb.binding)), effector: limb.effector, priority: limb.priority,
+            binding: new Binding(bytesOf(limb.binding)), region: limb.region && bytesOf(limb.region), effector: limb.effector, priority: limb.priority,
             fixed: fixedOf(limb.fixed),
             own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away
             shift: NO_SHIFT,  // of everyone's goals, as solved, for a character of size 1
@@ -139,7 +139,7 @@ export class Stage {
     /** Poles may be points or directions; a direction is shown at the end of the limb. */
     poleIsPoint(limb) { return (this.featuresOf(limb) & Feature.POLE_DIRECTION) === 0n; }
     isPoint(limb, part) { return part === "target" || this.poleIsPoint(limb); }
-    hasPole(limb) { return (this.featuresOf(limb) & (Feature.POLE_NORMAL | Feature.POLE_INCOMING)) === 0n; }
+    hasPole(limb) { return (this.featuresOf(limb) & (Feature.POLE_NORMAL | Feature.POLE_INCOMING | Feature.POLE_HAND)) === 0n; }
     featuresOf(limb) { return this.crowdOf(limb).features(limb.group); }
     toWorld(limb, character, relative, part = "target") {
         const origin = this.origin(limb, character);

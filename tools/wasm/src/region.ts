@@ -32,8 +32,11 @@ export class Region {
     /** @internal */
     readonly bytes = new Uint8Array(layout.swivel_region.bytes);
     /** @internal */
-    constructor(private readonly memory: Memory) {
+    constructor(private readonly memory: Memory, behindSize: Uint8Array = new Uint8Array()) {
+        const wanted = this.bytes.length - 4;
+        if (behindSize.length > 0 && behindSize.length !== wanted) refuse(`a region has ${wanted} bytes behind its size, not ${behindSize.length}`);
         new Uint32Array(this.bytes.buffer)[0] = this.bytes.length;
+        this.bytes.set(behindSize, 4);
     }
 
     /** Adds cones in order, with a bridge between neighbours. closed: bridges the last and the first, too. */

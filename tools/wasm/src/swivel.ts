@@ -32,8 +32,8 @@ export class Swivel {
     bodies(given: BodiesOptions): Bodies<Float32Array | Float64Array> { return new Bodies(this.memory, given); }
     bind(chain: Chain): Binding { return bind(this.memory, chain); }
     bindJoints(skeleton: Skeleton, joints: LimbJoints): Binding { return bindJoints(this.memory, skeleton, joints); }
-    /** A region that is empty: add to it what upper arms may do. */
-    region(): Region { return new Region(this.memory); }
+    /** A region that is empty: add to it what upper arms may do. Or one from its bytes behind its size, as the command stores them. */
+    region(behindSize?: Uint8Array): Region { return new Region(this.memory, behindSize); }
 
     /** A range of angles in radians, for twists and, three at a time, boxes. */
     range(least: number, most: number): Float32Array {
