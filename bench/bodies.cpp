@@ -5,7 +5,7 @@
 // its stages take. Last come two threads, and beside them two processes with crowds of their own.
 #include <algorithm>
 
-#include "bench/rivals/bodies.h"
+#include "bench/body_pose.h"
 #include "bench/rivals/level.h"
 #include "bench/suite.h"
 #include "bench/team.h"
@@ -35,16 +35,10 @@ public:
 private:
     swivel::Crowd make(std::size_t count)
     {
-        swivel_skeleton skeleton = swivel_default_skeleton();
-        skeleton.parents = {kBodyParents, sizeof kBodyParents[0]};
-        skeleton.translations = {kBodyOffsets, sizeof kBodyOffsets[0]};
-        skeleton.joint_count = kBodyJoints;
-        std::array<swivel_limb_joints, kBodyLimbs> joints;
+        const swivel_skeleton skeleton = body_skeleton();
+        const auto joints = body_limbs();
         std::vector<swivel_group_def> groups;
         for (std::size_t limb = 0; limb < kBodyLimbs; ++limb) {
-            const BodyChain& chain = kBodyChains[limb];
-            joints[limb] = swivel_default_limb_joints(chain.first, chain.middle, chain.last);
-            std::ranges::copy(chain.bend, joints[limb].bend);
             groups.push_back(swivel::body_group(joints[limb], SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING));
             BodyGoal& goal = bodies[0].goals[limb];
             fields_[limb] = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The bound of the ports, measured like everything else: for an arm of P, a production limb, two stages of a
-// body, a planted foot, the shift of a body, and a look.
+// body, a planted foot, the shift of a body, a look, and character C.
 // One loop has its roots and divisions, another its multiplications and additions. No operation waits for another. The
 // longer time is the bound.
 #include "bench/rivals/probe.h"
@@ -33,7 +33,7 @@ void add_bounds(Suite& suite)
     const OpCounts production = count_production_ops();
     const BodyOps body = count_body_ops();
     const FeetOps feet = count_feet_ops();
-    const OpCounts look = count_look_ops();
+    const OpCounts look = count_look_ops(), character = count_character_ops();
     for (const std::string& isa : suite.isas) {
         add_bound("bound", suite.ops, isa);
         add_bound("bound_production", production, isa);
@@ -42,6 +42,7 @@ void add_bounds(Suite& suite)
         add_bound("bound_plant", feet.plant, isa);
         add_bound("bound_fit", feet.fit, isa);
         add_bound("bound_look", look, isa);
+        add_bound("bound_character", character, isa);
     }
 }
 

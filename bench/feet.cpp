@@ -6,7 +6,7 @@
 // prop. At last come all.
 #include <algorithm>
 
-#include "bench/rivals/bodies.h"
+#include "bench/body_pose.h"
 #include "bench/suite.h"
 
 namespace bench {
@@ -40,17 +40,12 @@ constexpr Cast kCasts[] = {
 struct Walkers {
     std::vector<BodyCharacter> bodies = random_bodies(kBodies), results = bodies;
     float time = 1.0f / 60;
-    swivel_pose pose = swivel_default_pose();
+    swivel_pose pose = body_pose(bodies[0], results[0], sizeof(BodyCharacter), time);
     std::array<std::uint32_t, kBodyLimbs> group = {};  // of each limb
     swivel::Crowd crowd;
 
     explicit Walkers(const Cast& cast) : crowd(make(cast))
     {
-        pose.rotations = {bodies[0].rotations, sizeof(BodyCharacter), sizeof bodies[0].rotations[0], nullptr};
-        pose.results = {results[0].rotations, sizeof(BodyCharacter), sizeof results[0].rotations[0], nullptr};
-        pose.root_position = {bodies[0].root_place, sizeof(BodyCharacter)};
-        pose.root_rotation = {bodies[0].root_rotation, sizeof(BodyCharacter)};
-        pose.time = {&time, 0};
         if (cast.has_arms) write_arms(cast.hold);
         if (cast.has_legs) write_legs(cast.legs);
     }
@@ -58,18 +53,11 @@ struct Walkers {
 private:
     swivel::Crowd make(const Cast& cast)
     {
-        swivel_skeleton skeleton = swivel_default_skeleton();
-        skeleton.parents = {kBodyParents, sizeof kBodyParents[0]};
-        skeleton.translations = {kBodyOffsets, sizeof kBodyOffsets[0]};
-        skeleton.joint_count = kBodyJoints;
-        std::array<swivel_limb_joints, kBodyLimbs> joints;
+        const auto joints = body_limbs();
         std::vector<swivel_group_def> groups;
         for (std::size_t limb = 0; limb < kBodyLimbs; ++limb) {
             const bool is_leg = limb >= 2;
             if (!(is_leg ? cast.has_legs : cast.has_arms)) continue;
-            const BodyChain& chain = kBodyChains[limb];
-            joints[limb] = swivel_default_limb_joints(chain.first, chain.middle, chain.last);
-            std::ranges::copy(chain.bend, joints[limb].bend);
             const bool is_linked = !is_leg && (cast.hold == Hold::prop || (cast.hold == Hold::hand && limb == 0));
             group[limb] = static_cast<std::uint32_t>(groups.size());
             groups.push_back(swivel::body_group(joints[limb], kEvery | (is_leg      ? cast.legs | SWIVEL_WITH_EFFECTOR
@@ -87,7 +75,7 @@ private:
             groups.push_back(swivel_default_prop_group_def());
         }
         if (cast.legs & SWIVEL_WITH_FIT) groups.push_back(swivel::fit_group());
-        return swivel::Crowd(skeleton, kBodies, groups);
+        return swivel::Crowd(body_skeleton(), kBodies, groups);
     }
     void write_goals(std::size_t limb)
     {

@@ -97,6 +97,7 @@ int run(int argc, char** argv)
     add_feet(suite);
     add_looks(suite);
     add_regions(suite);
+    add_character(suite);
     add_choice(suite);
     add_frames(suite);
     add_calls(suite);

@@ -64,6 +64,7 @@ void add_production(Suite& suite);
 void add_bodies(Suite& suite);
 void add_feet(Suite& suite);
 void add_looks(Suite& suite);
+void add_character(Suite& suite);
 void add_choice(Suite& suite);
 void add_frames(Suite& suite);
 void add_calls(Suite& suite);

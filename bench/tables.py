@@ -23,6 +23,7 @@ NOISE = 1.03  # ratios nearer to 1 decide nothing
 CALL_GOAL = 150  # nanoseconds that a call may take beside its kernel
 BODY_GOAL = 110  # nanoseconds of a body with AVX-512
 PLANT_GOAL, FIT_GOAL = 4.5, 2  # nanoseconds of a planted leg, and of a body's shift for two legs, with AVX-512
+CHARACTER_GOAL = 200  # nanoseconds of character C with AVX-512
 LOOP = "loop_trig/*"  # a goal only where the bound of the ports allows it
 # The goals of release 0.2, as ratios of two benchmarks; the first that fits a row is its goal. They were set before that release was
 # written, on 2026-11-22, by a run of the former library on a virtual EPYC (Zen 4, g++ 12.2, one thread). With AVX-512 a plain arm took
@@ -52,6 +53,8 @@ GOALS = (
     ("fit/*", "bound_fit/*", 1.5),
     ("fit/avx512", "goal_fit/*", 1),
     ("look/*", "bound_look/*", 1.6),
+    ("character/*/all", "bound_character/*", 1.5),
+    ("character/avx512/all", "goal_character/*", 1),
     ("bodies_threads/2", "bodies_processes/2", 1.11),  # 0.9 times as fast
     # itself: at most so many times as long
     ("hard/*/one_in_64", "*", 1.3),
@@ -89,7 +92,8 @@ class Result:
         self.isas = context.get("isas", "").split()
         self.best = self.isas[0] if self.isas else ""
         self.levels = {key.removeprefix("level_of/"): isa for key, isa in context.items() if key.startswith("level_of/")}
-        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production", "bound_forward", "bound_limbs", "bound_plant", "bound_fit", "bound_look")
+        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production", "bound_forward", "bound_limbs", "bound_plant", "bound_fit", "bound_look",
+                                                               "bound_character")
                       for isa in self.isas):
             parts = [self.ns(f"{bound}/{part}") for part in ("divider", "arithmetic")]
             if all(parts):  # the least time that divider and arithmetic allow
@@ -119,7 +123,8 @@ class Result:
             arms, look = (self.ns(f"looks/{isa}/{job}") for job in ("arms", "look"))
             if arms and look:
                 self.times[f"look/{isa}"] = look - arms
-        self.times |= {"goal_plant/avx512": PLANT_GOAL, "goal_fit/avx512": FIT_GOAL}
+        self.times |= {"goal_plant/avx512": PLANT_GOAL, "goal_fit/avx512": FIT_GOAL,
+                       "goal_character/avx512": CHARACTER_GOAL}
 
     def ns(self, name):
         return self.times.get(name)
@@ -175,6 +180,7 @@ def rivals(result):
             rows += row(result, [work, ISAS[isa]], own, f"frame_glm/{level}", "glm, one arm at a time", rival=True)
     for isa in result.isas:
         rows += row(result, ["bodies", ISAS[isa]], f"bodies/{isa}", f"bodies_glm/{result.level_of(isa)}", "glm, one body at a time", rival=True)
+        rows += row(result, ["characters", ISAS[isa]], f"character/{isa}/all", f"character_glm/{result.level_of(isa)}", "glm, one at a time", rival=True)
     return Table("Beside rivals: nanoseconds an arm or a body, and how many times as fast swivel is",
                  ["work", "CPU level", "swivel", "rival", "its time", "ratio", "goal, at least", ""], rows)
 
@@ -342,6 +348,19 @@ def feet(result):
                  ["work", "swivel", "beside it", "its time", "ratio", "goal, at most", ""], rows)
 
 
+def character(result):
+    """Character C, its parts, and the sum of what bounds them."""
+    rows = []
+    for isa in result.isas:
+        for part in ("legs", "look", "arms"):
+            if ns := result.ns(f"character/{isa}/{part}"):
+                rows.append([f"{part} alone, {ISAS[isa]}", number(ns), *["–"] * 4, ""])
+        for other, name in ((f"bound_character/{isa}", "its stages' bounds"), (f"goal_character/{isa}", "the goal")):
+            rows += row(result, [f"a character, {ISAS[isa]}"], f"character/{isa}/all", other, name)
+    return Table("Characters: nanoseconds a character, and how many times as long swivel takes",
+                 ["work", "swivel", "beside it", "its time", "ratio", "goal, at most", ""], rows)
+
+
 def threads(result):
     """How many times as fast several threads are as one."""
     rows = []
@@ -374,7 +393,7 @@ def summary(result):
 
 
 TABLES = {"rivals": rivals, "limits": limits, "itself": itself, "calls": calls, "held": held, "memory": memory, "features": features,
-          "production": production, "bodies": bodies, "feet": feet, "threads": threads, "summary": summary}
+          "production": production, "bodies": bodies, "feet": feet, "character": character, "threads": threads, "summary": summary}
 
 
 def arm(result):

@@ -83,7 +83,8 @@ class Scripts(unittest.TestCase):
               "bound/avx512/divider": 1.3, "bound/avx512/arithmetic": 1.2, "bound/avx2/divider": 0.9, "bound/avx2/arithmetic": 1.0,
               "bodies/avx512": 130.0, "bodies_one_limb/avx512": 49.0, "bodies_from_rows/avx512": 110.0, "bodies/copy": 10.0, "bodies_glm/v4": 660.0,
               "bound_forward/avx512/divider": 0.1, "bound_forward/avx512/arithmetic": 11.0, "bound_limbs/avx512/divider": 60.0,
-              "bound_limbs/avx512/arithmetic": 44.0, "bodies_threads/2": 66.0, "bodies_processes/2": 60.0}
+              "bound_limbs/avx512/arithmetic": 44.0, "bodies_threads/2": 66.0, "bodies_processes/2": 60.0, "character/avx512/legs": 120.0, "character/avx512/all": 260.0,
+              "bound_character/avx512/divider": 200.0, "bound_character/avx512/arithmetic": 150.0, "character_glm/v4": 1300.0}
         document = result(ns)
         document["context"] |= {"isas": "avx512 avx2", "level_of/v4": "avx512", "level_of/v3": "avx2"}
         run = self.run_script("tables.py", self.file("few.json", document))
@@ -104,6 +105,10 @@ class Scripts(unittest.TestCase):
                          ("four limbs, joints out, AVX-512: 68%", "88.0", "bound of the ports", "60.0"): ["1.47", "–"],
                          ("all, AVX-512", "130", "both bounds and a copy", "81.0", "1.60"): ["1.5", "missed"],
                          ("all, AVX-512", "130", "the goal", "110", "1.18"): ["1", "missed"],
+                         ("legs alone, AVX-512", "120", "–", "–"): ["–", "–"],
+                         ("a character, AVX-512", "260", "its stages' bounds", "200", "1.30"): ["1.5", "kept"],
+                         ("a character, AVX-512", "260", "the goal", "200", "1.30"): ["1", "missed"],
+                         ("characters", "AVX-512", "260", "glm, one at a time", "1300"): ["5.0", "–"],
                          ("all, two threads", "66.0", "two processes side by side", "60.0", "1.10"): ["1.11", "kept"]}.items():
             self.assertEqual(rows.get(row), end, run.stdout)
         self.assertNotIn("whole frame", run.stdout)  # it was not measured

@@ -9,48 +9,45 @@ namespace bench {
 
 namespace {
 
-using Vec = std::array<double, 3>;
-using Quat = std::array<double, 4>;
-
-Vec cross(const Vec& a, const Vec& b)
+BodyVec cross(const BodyVec& a, const BodyVec& b)
 {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vec turned(const Quat& q, const Vec& v)
+BodyQuat product(const BodyQuat& a, const BodyQuat& b)
 {
-    const Vec u = {q[0], q[1], q[2]};
-    Vec t = cross(u, v);
-    for (double& x : t) x *= 2;
-    const Vec second = cross(u, t);
-    return {v[0] + q[3] * t[0] + second[0], v[1] + q[3] * t[1] + second[1], v[2] + q[3] * t[2] + second[2]};
-}
-Quat product(const Quat& a, const Quat& b)
-{
-    const Vec v = cross({a[0], a[1], a[2]}, {b[0], b[1], b[2]});
+    const BodyVec v = cross({a[0], a[1], a[2]}, {b[0], b[1], b[2]});
     return {a[3] * b[0] + b[3] * a[0] + v[0], a[3] * b[1] + b[3] * a[1] + v[1], a[3] * b[2] + b[3] * a[2] + v[2],
             a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
+BodyQuat quat_of(const float (&q)[4]) { return {q[0], q[1], q[2], q[3]}; }
 
-Quat quat_of(const float (&q)[4]) { return {q[0], q[1], q[2], q[3]}; }
+}  // namespace
 
-// Where the joints are in the world.
-std::array<Vec, kBodyJoints> places_of(const BodyCharacter& body)
+BodyVec turned(const BodyQuat& q, const BodyVec& v)
 {
-    std::array<Vec, kBodyJoints> place;
-    std::array<Quat, kBodyJoints> turn;
+    const BodyVec u = {q[0], q[1], q[2]};
+    BodyVec t = cross(u, v);
+    for (double& x : t) x *= 2;
+    const BodyVec second = cross(u, t);
+    return {v[0] + q[3] * t[0] + second[0], v[1] + q[3] * t[1] + second[1], v[2] + q[3] * t[2] + second[2]};
+}
+
+BodyFrames frames_of(const BodyCharacter& body)
+{
+    BodyFrames frames;
+    auto& [place, turn] = frames;
     for (std::size_t n = 0; n < kBodyJoints; ++n) {
         const std::int32_t parent = kBodyParents[n];
         const auto above = static_cast<std::size_t>(parent < 0 ? 0 : parent);
-        const Quat from = parent < 0 ? quat_of(body.root_rotation) : turn[above];
-        const Vec start = parent < 0 ? Vec{body.root_place[0], body.root_place[1], body.root_place[2]} : place[above];
-        const Vec step = turned(from, {kBodyOffsets[n][0], kBodyOffsets[n][1], kBodyOffsets[n][2]});
+        const BodyQuat from = parent < 0 ? quat_of(body.root_rotation) : turn[above];
+        const BodyVec start =
+            parent < 0 ? BodyVec{body.root_place[0], body.root_place[1], body.root_place[2]} : place[above];
+        const BodyVec step = turned(from, {kBodyOffsets[n][0], kBodyOffsets[n][1], kBodyOffsets[n][2]});
         for (std::size_t c = 0; c < 3; ++c) place[n][c] = start[c] + step[c];
         turn[n] = product(from, quat_of(body.rotations[n]));
     }
-    return place;
+    return frames;
 }
-
-}  // namespace
 
 std::vector<BodyCharacter> random_bodies(std::size_t count)
 {
@@ -67,10 +64,10 @@ std::vector<BodyCharacter> random_bodies(std::size_t count)
         for (auto& q : body.rotations) turn(q, 0.25);
         turn(body.root_rotation, 1);
         for (float& x : body.root_place) x = static_cast<float>(between(-3, 3));
-        const auto place = places_of(body);
+        const auto place = frames_of(body).place;
         for (std::size_t limb = 0; limb < kBodyLimbs; ++limb) {
             // A tenth of a metre from where the limb ends, on the side of its root.
-            const Vec &last = place[kBodyChains[limb].last], &first = place[kBodyChains[limb].first];
+            const BodyVec &last = place[kBodyChains[limb].last], &first = place[kBodyChains[limb].first];
             for (std::size_t c = 0; c < 3; ++c)
                 body.goals[limb].target[c] =
                     static_cast<float>(last[c] + 0.2 * (first[c] - last[c]) + between(-0.05, 0.05));
@@ -84,9 +81,9 @@ double worst_miss(const std::vector<BodyCharacter>& bodies)
 {
     double worst = 0;
     for (const BodyCharacter& body : bodies) {
-        const auto place = places_of(body);
+        const auto place = frames_of(body).place;
         for (std::size_t limb = 0; limb < kBodyLimbs; ++limb) {
-            const Vec& last = place[kBodyChains[limb].last];
+            const BodyVec& last = place[kBodyChains[limb].last];
             double miss2 = 0;
             for (std::size_t c = 0; c < 3; ++c) miss2 += std::pow(last[c] - body.goals[limb].target[c], 2);
             worst = std::max(worst, std::sqrt(miss2));

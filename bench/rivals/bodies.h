@@ -39,6 +39,15 @@ struct BodyCharacter {
 
 // Poses like those of a walking crowd, with goals that the limbs reach.
 std::vector<BodyCharacter> random_bodies(std::size_t count);
+// Where the joints of a body are in the world, in double.
+using BodyVec = std::array<double, 3>;
+using BodyQuat = std::array<double, 4>;  // x, y, z, w
+BodyVec turned(const BodyQuat& q, const BodyVec& v);
+struct BodyFrames {
+    std::array<BodyVec, kBodyJoints> place;
+    std::array<BodyQuat, kBodyJoints> turn;
+};
+BodyFrames frames_of(const BodyCharacter& body);
 // How far the worst hand or foot is from its goal, in metres, by forward kinematics in double.
 double worst_miss(const std::vector<BodyCharacter>& bodies);
 

@@ -39,6 +39,7 @@ const Level level{SWIVEL_LEVEL_NAME,
                   solve_single,
                   solve_frame,
                   solve_bodies,
+                  solve_characters,
                   touch_frame,
                   kOzzFlags,
                   kSolveFrameOzz};

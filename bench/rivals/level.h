@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/rivals/arms.h"
-#include "bench/rivals/bodies.h"
+#include "bench/rivals/character.h"
 #include "bench/rivals/frames.h"
 
 namespace bench {
@@ -39,6 +39,7 @@ struct Level {
     void (*solve_single)(const SingleArm* arms, SinglePose* poses, std::size_t count);
     void (*solve_frame)(const FrameView& frame);                     // one arm at a time, too
     void (*solve_bodies)(BodyCharacter* bodies, std::size_t count);  // one body at a time
+    void (*solve_characters)(const Character* in, Character* out, CharacterState* states, std::size_t count);
     void (*touch_frame)(const FrameView& frame);  // reads and writes the same fields, and solves nothing
     const char* ozz_flags;                        // null, and so is the next one: built without SWIVEL_OZZ_DIR
     void (*solve_frame_ozz)(const FrameView& frame, const OzzView& given);
@@ -58,6 +59,7 @@ void solve_loop_roots(const Arms& arms, Poses& poses);
 void solve_single(const SingleArm* arms, SinglePose* poses, std::size_t count);
 void solve_frame(const FrameView& frame);
 void solve_bodies(BodyCharacter* bodies, std::size_t count);
+void solve_characters(const Character* in, Character* out, CharacterState* states, std::size_t count);
 void touch_frame(const FrameView& frame);
 void solve_frame_ozz(const FrameView& frame, const OzzView& given);
 

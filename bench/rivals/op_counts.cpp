@@ -1,109 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// The only file beside counted.h that looks inside the library: it runs the formula itself, on numbers that count.
+// It looks inside the library, as body_op_counts.cpp does: it runs the formula itself, on numbers that count.
 #include "bench/rivals/op_counts.h"
 
 #include <stdexcept>
 
-#include "bench/rivals/bodies.h"
-#include "bench/rivals/counted.h"
-#include "core/fit.h"
+#include "bench/rivals/counted_values.h"
 #include "core/limb.h"
-#include "core/look.h"
-#include "core/plant.h"
-#include "core/posed_limb.h"
 #include "core/solve_arm.h"
-#include "core/space.h"
-#include "core/spring.h"
 
 namespace bench {
 
 namespace {
 
-using swivel::Rotor;
-
-swivel::Vector<Counted> vector(double x, double y, double z)
-{
-    return swivel::vector(Counted(x), Counted(y), Counted(z));
-}
-Rotor<Counted> rotor(double x, double y, double z, double w)
-{
-    return swivel::rotor(Counted(x), Counted(y), Counted(z), Counted(w));
-}
 // With one of a binding's rotations on either side.
 template <class Rotation>
 Rotor<Counted> between(const Rotation& q)
 {
     return rotor(0.1, 0.2, 0.3, 0.9) * q * rotor(0.2, 0.3, 0.1, 0.9);
 }
-// A joint's rotation as it is stored: on the incoming one's side.
-void store(const Rotor<Counted>& local, const Rotor<Counted>& incoming)
-{
-    swivel::with_sign_of(swivel::scalar_product(~incoming, local), local);
-}
-
-using Frame = swivel::JointFrame<Counted>;
-using Frames = std::array<Frame, kBodyJoints>;
-
-// Forward kinematics of the joints that some limb needs. Joints have no scales of their own.
-Frames counted_frames(const Frame& root)
-{
-    std::array<bool, kBodyJoints> is_needed{};
-    for (const BodyChain& chain : kBodyChains)
-        for (auto n = static_cast<std::int32_t>(chain.last); n >= 0; n = kBodyParents[n])
-            is_needed[static_cast<std::size_t>(n)] = true;
-    Frames frames;
-    for (std::size_t n = 0; n < kBodyJoints; ++n) {
-        if (!is_needed[n]) continue;
-        const std::int32_t parent = kBodyParents[n];
-        const float(&offset)[3] = kBodyOffsets[n];
-        frames[n] =
-            swivel::joint_frame(parent < 0 ? root : frames[static_cast<std::size_t>(parent)],
-                                rotor(0.1, 0.05, -0.1, 0.98867), vector(offset[0], offset[1], offset[2]), Counted(1.0));
-    }
-    return frames;
-}
-
-// A target in the world that the limb reaches, as it is given: not counted.
-swivel::Vector<Counted> target_of(const Frames& frames, const BodyChain& chain, const swivel::Vector<Counted>& root)
-{
-    const OpCounts before = tally;
-    const swivel::Vector<Counted>&first = frames[chain.first].place, &last = frames[chain.last].place;
-    const swivel::Vector<Counted> target = root + last + Counted(0.2) * (first - last);
-    tally = before;
-    return target;
-}
-
-// Its stages, from `posed` to `correct` (simd/stages.h).
-void count_body_limb(const Frames& frames, const BodyChain& chain)
-{
-    const Rotor<Counted> of_binding = rotor(0.1, 0.2, 0.3, 0.92736), local = rotor(0.1, 0.05, -0.1, 0.98867);
-    const swivel::Vector<Counted> root = vector(1, 2, 3), target = target_of(frames, chain, root);
-    const Frame &parent = frames[static_cast<std::size_t>(kBodyParents[chain.first])], &shoulder = frames[chain.first],
-                &elbow = frames[chain.middle], &wrist = frames[chain.last];
-    const Counted per_scale = Counted(1.0) / parent.scale;
-    const swivel::SeenLimb<Counted> seen = swivel::seen_limb<swivel::BendNormal::own>(
-        swivel::PosedLimb<Counted>{parent.rotation, shoulder.rotation, shoulder.place, elbow.place, wrist.place},
-        of_binding, vector(1, 0, 0), Counted(0.0) < Counted(0.0));
-    const Rotor<Counted> upper_from_arm = ~shoulder.rotation * seen.frames.upper,
-                         fore_from_arm = ~elbow.rotation * seen.frames.fore;
-    swivel::LimbUse use;
-    use.hand = use.incoming = true;
-    use.wish = swivel::Wish::incoming;
-    swivel::LimbGoal<Counted> goal;
-    goal.arm = {per_scale * seen.back(target - root - shoulder.place), vector(0, 0, 0),
-                per_scale * seen.bones.upper_length, per_scale * seen.bones.fore_length};
-    goal.hand = ~seen.arm * rotor(0.3, 0.2, 0.1, 0.9) * ~of_binding;
-    goal.incoming = {seen.model.upper, seen.model.upper, seen.model.upper};  // of which the first is used
-    const swivel::SolvedLimb<Counted> solved = swivel::solve_limb<false>(use, goal, Counted(0.0) <= Counted(0.0));
-
-    store(of_binding * solved.arm.shoulder * ~upper_from_arm, local);
-    store(upper_from_arm * swivel::elbow_rotor(solved.arm) * ~fore_from_arm, local);
-    store(fore_from_arm * solved.wrist * of_binding, local);
-    if (solved.arm.flags.value != SWIVEL_REACHED)
-        throw std::logic_error("the body's limb that is counted is not an ordinary one");
-}
-
 }  // namespace
 
 OpCounts count_ops()
@@ -112,45 +27,6 @@ OpCounts count_ops()
     tally = {};
     const swivel::Rotor<Counted> shoulder = swivel::solve_plain(goal).pose.shoulder;
     swivel::with_sign_of(shoulder.at<swivel::kScalar>(), shoulder);
-    return tally;
-}
-
-OpCounts count_look_ops()
-{
-    constexpr int kTurned = 4, kFollowing = 8;
-    const auto place = [](int n) { return vector(0, 1.2 + 0.15 * n, 0.02); };
-    const Rotor<Counted> was = rotor(0.1, 0.05, -0.1, 0.98867), root = rotor(0.1, -0.2, 0.05, 0.97340);
-    const Counted scale(1.1);
-    const swivel::LookJoint joint{0.4f, 0.9f, 0.43589f};
-    tally = {};
-    // The line of sight, the target from it, and the line that is followed.
-    swivel::LineOfSight<Counted> sight{place(3) + swivel::turned(was, scale * vector(0, 0.1, 0.1)),
-                                       swivel::turned(was, vector(0, 0, 1))};
-    const swivel::Vector<Counted> given = vector(3, 2.5, 7) - vector(1, 0.5, 2), to = given - sight.eye;
-    const Counted distance = sqrt(swivel::len2(to)), nearness = Counted(1.0) / distance;
-    const swivel::FollowedLine<Counted> goal{swivel::turned(~root, nearness * to), nearness};
-    const Counted lever = sqrt(swivel::len2(sight.eye - place(0)));
-    const auto step = swivel::followed({vector(0, 0.6, 0.8), Counted(0.2)}, goal, lever, Counted(1.5) * Counted(0.016));
-    const swivel::Vector<Counted> target =
-        sight.eye + (Counted(1.0) / step.line.nearness) * swivel::turned(root, step.line.direction);
-    const Counted weight =
-        Counted(0.9) * swivel::look_weight(sight, target, swivel::LookFade{-0.9f, 1.6f, 0.15f}, scale);
-    // The chain, and the joints' local rotations.
-    Rotor<Counted> sum = swivel::one<Counted>();
-    for (int n = 0; n < kTurned; ++n) {
-        const swivel::Vector<Counted> at = n == 0 ? place(0) : place(n - 1) + swivel::turned(sum, place(n) - place(0));
-        const swivel::LookTurn<Counted> turn = n + 1 < kTurned ? swivel::share_of_look(sight, target, weight, joint)
-                                                               : swivel::rest_of_look(sight, at, target, weight, joint);
-        sight = {at + swivel::turned(turn.turn, sight.eye - at), swivel::turned(turn.turn, sight.axis)};
-        sum = n == 0 ? turn.turn : swivel::unit_rotation(turn.turn * sum);
-        const Rotor<Counted> rotation = sum * was;
-        store(swivel::unit_rotation(~was * rotation), was);
-    }
-    for (int n = 0; n < kFollowing; ++n) {
-        sum* was;
-        place(0) + swivel::turned(sum, place(n) - place(0));
-    }
-    swivel::sees(sight, given);
     return tally;
 }
 
@@ -180,56 +56,6 @@ OpCounts count_production_ops()
     if (solved.arm.flags.value != SWIVEL_REACHED)
         throw std::logic_error("the production limb that is counted is not an ordinary one");
     return tally;
-}
-
-BodyOps count_body_ops()
-{
-    BodyOps ops;
-    tally = {};
-    const Frames frames =
-        counted_frames({swivel::unit_rotation(rotor(0.1, -0.2, 0.05, 0.97340)), vector(0, 0, 0), Counted(1.1)});
-    ops.forward = tally;
-    tally = {};
-    for (const BodyChain& chain : kBodyChains) count_body_limb(frames, chain);
-    ops.limbs = tally;
-    return ops;
-}
-
-FeetOps count_feet_ops()
-{
-    const auto no = [] { return Counted(0.0) < Counted(0.0); };
-    const swivel::PlantRules rules{0.12f, 0.24f, 0.06f, 0, 0.1f, 0.2f, 0.017f, 3.6f, 4, 10, 10, 0.6f, 0.8f, 0.1f, 0.1f};
-    const Rotor<Counted> foot = rotor(0.1, 0.05, -0.1, 0.98867);
-    swivel::PlantState<Counted> state{
-        vector(0.1, 0, 0.2), vector(0.01, 0, 0.02), vector(0.1, 0, 0.1), Counted(0.15), no(), no(), no(), no()};
-    FeetOps ops;
-    tally = {};
-    const swivel::Vector<Counted> place = vector(0.1, 0.9, 0.1) +
-                                          Counted(1.1) * swivel::turned(foot, vector(0, -0.05, 0.1)),
-                                  from = vector(1, 0, 2);
-    const swivel::PlantInput<Counted> in{place + from, no(), Counted(1.0 / 60), Counted(0.85) * Counted(1.1)};
-    const swivel::Planted<Counted> planted = swivel::plant(state, in, rules);
-    swivel::len2(planted.target - from);
-    ops.plant = tally;
-
-    tally = {};
-    swivel::ShiftSpan<Counted> span{Counted(-1.0), Counted(1.0), Counted(0.0) <= Counted(0.0)};
-    const swivel::Vector<Counted> up = swivel::turned(foot, vector(0, 1, 0));
-    for (int leg = 0; leg < 2; ++leg) {
-        const swivel::Vector<Counted> upper = vector(0.1, -0.4, 0.1), fore = vector(0, -0.4, -0.1),
-                                      from_wrist = Counted(1.1) * swivel::turned(foot, vector(0, -0.05, 0.1));
-        const Counted bones = sqrt(swivel::len2(upper)) + sqrt(swivel::len2(fore));
-        const swivel::Cap<Counted> cap{Counted(0.01), Counted(0.0), Counted(0.0), sqrt(swivel::len2(upper + fore))};
-        const Counted reach = swivel::capped_reach(cap, bones, bones).far;
-        span = span & swivel::shift_span(from_wrist + vector(0.1, 0.8, 0.1) - vector(0, 0.1, 0), up, reach);
-    }
-    const auto fitted = swivel::fitted_shift(span, Counted(0.0), Counted(0.08), Counted(0.04));
-    const auto spring = swivel::sprung(swivel::Spring<Counted>{Counted(0.01), Counted(0.1)}, fitted.shift,
-                                       Counted(1.0 / 60), swivel::spring_rule(0.1f));
-    const swivel::Vector<Counted> shift = spring.at * up;
-    swivel::len2(shift);
-    ops.fit = tally;
-    return ops;
 }
 
 }  // namespace bench

@@ -16,6 +16,12 @@ struct OpCounts {
     int selects = 0;      // and all else that moves bits: signs, masks, flags
 
     int flops() const { return roots + divisions + multiplications + additions; }
+    OpCounts& operator+=(const OpCounts& more)
+    {
+        roots += more.roots, divisions += more.divisions, multiplications += more.multiplications;
+        additions += more.additions, comparisons += more.comparisons, selects += more.selects;
+        return *this;
+    }
 };
 
 // Operations of problem P, as kernels do it, on an ordinary arm: solve_arm() and the choice of the quaternion's sign.
@@ -37,6 +43,9 @@ struct FeetOps {
 FeetOps count_feet_ops();
 // Those of a look: spine, chest, neck and head turn to a target, eased, and the joints of both arms come along.
 OpCounts count_look_ops();
+// The sum over the stages of character C (character.h): all joints, two planted feet on ground, the body's shift, the
+// look, the rifle's arm, the one that holds its grip, and the legs.
+OpCounts count_character_ops();
 
 // The least nanoseconds an arm for a kernel with these operations. The divider works on one root or division at a time.
 // All other operations share the multipliers and adders. Comparisons, selects, loads and stores count as free.

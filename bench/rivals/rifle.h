@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+//
+// What swivel needs of character C's rifle.
+#pragma once
+
+#include "swivel/swivel.h"
+
+namespace bench {
+
+// Where its arm may point: kArmCones (character.h).
+const swivel_region& rifle_region();
+
+}  // namespace bench
