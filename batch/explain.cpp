@@ -1,146 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Solves the limb again, in a crowd of its own on the stack. To find a bad input, or what a limit did, it replaces the
-// input by a value that asks for nothing. If that input is the cause, the limb is then good, or goes where it was
-// wished to. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
+// Solves the limb again, in a crowd of its own on the stack (explain_probe.h), and says in words what it meets.
 #include "batch/explain.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <initializer_list>
-#include <numbers>
 
 #include "batch/explain_ground.h"
 #include "batch/explain_hold.h"
+#include "batch/explain_limits.h"
 #include "batch/explain_look.h"
 #include "batch/explain_plant.h"
-#include "batch/forward.h"
-#include "batch/joint_angles.h"
-#include "batch/one_limb.h"
-#include "batch/solve.h"
-#include "core/bit_cast.h"
+#include "batch/explain_probe.h"
 #include "core/limb_goal.h"
-#include "simd/dispatch.h"
-#include "simd/rows.h"
 
 namespace swivel {
 
 namespace {
-
-// A region that allows every direction: its part has no half-spaces.
-constexpr swivel_region kEverywhere = {sizeof(swivel_region), 0, 1, {}, {}};
-
-const char* limit_name(const FlagRow& row) { return row.flag == SWIVEL_LIMITED_REGION ? "region" : name_of(row.limit); }
-
-// A limb that is solved alone. With its strip it takes three fifths of the stack that a call may take. So there is one,
-// which takes the limb again for each question.
-class Probe {
-public:
-    Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), one_(of) { take(); }
-    // Takes the limb as it is.
-    void take()
-    {
-        one_.take(limb_);
-        one_.set_region(of_.region);
-    }
-    StripMemory strip() { return {strip_, 1}; }
-    LimbPose pose() const { return forward(group(), 0); }
-    // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
-    double violation(const FlagRow& row) const
-    {
-        return (row.flag == SWIVEL_LIMITED_REGION ? outside_own_region() : outside(row.limit)) * 180 / std::numbers::pi;
-    }
-    double outside_own_region() const { return of_.region ? outside_region(arm_rotors(group(), 0), *of_.region) : 0; }
-    double outside(swivel_field limit) const
-    {
-        float values[kMostComponents] = {};
-        const std::uint32_t count = component_count(limit);
-        for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
-        const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? of_.wrist_order : of_.shoulder_order;
-        return count == 0 ? 0 : outside_limit(arm_rotors(group(), 0), limit, values, order);
-    }
-    double middle_angle() const
-    {
-        return joint_angles(arm_rotors(group(), 0), of_.shoulder_order, of_.wrist_order, 0).shoulder[1];
-    }
-    double missed() const { return distance_missed(group(), 0); }
-    double missed_share() const { return residual(group(), 0); }
-    // Of both bones, as they count.
-    double length() const { return length_of(group(), 0); }
-    bool is(swivel_field field, std::initializer_list<float> wanted) const
-    {
-        std::uint32_t c = 0;
-        for (const float x : wanted)
-            if (component_count(field) == 0 || value(field, c++) != x) return false;
-        return true;
-    }
-    std::uint32_t component_count(swivel_field field) const { return field_row_count(group().features, field); }
-    float value(swivel_field field, std::uint32_t component) const
-    {
-        return group().input[row_offset(0, 0, field_first_row(group().features, field) + component)];
-    }
-
-    std::uint32_t flags() const
-    {
-        const std::size_t at = std::size_t{field_first_row(group().features, SWIVEL_FLAGS)} * SWIVEL_LANES;
-        return bit_cast<std::uint32_t>(group().results[at]);
-    }
-    // Solves the limb and gives its flags.
-    std::uint32_t solve()
-    {
-        solve_group(find_isa("scalar")->kernels, group(), {0, 1}, strip());
-        return flags();
-    }
-    // Whether these are the results that the limb has.
-    bool has_bits_of_limb() const
-    {
-        for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
-            const std::size_t theirs = row_offset(limb_, of_.result_row_count, row), ours = row_offset(0, 0, row);
-            if (std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0) return false;
-        }
-        return true;
-    }
-    // The same as the caller gave it: a body's limb is seen otherwise.
-    std::uint32_t given_count(swivel_field field) const { return field_row_count(of_.features, field); }
-    float given(swivel_field field, std::uint32_t component) const
-    {
-        return of_.input[row_offset(limb_, of_.input_row_count, field_first_row(of_.features, field) + component)];
-    }
-    bool is_of_body() const { return of_.features & SWIVEL_BODY; }
-    // Whether a body's pose gave the field, and not the caller.
-    bool is_posed(swivel_field field) const
-    {
-        if (!is_of_body()) return false;
-        return row_of(field).excludes & SWIVEL_BODY || (field == SWIVEL_LENGTHS && std::isnan(given(field, 0)));
-    }
-    // Makes the field ask for nothing. It gets the padding's value, from an ordinary arm without limits.
-    void give_up(swivel_field field)
-    {
-        float* const rows = group().input + row_offset(0, 0, field_first_row(group().features, field));
-        for (std::uint32_t row = 0; row < component_count(field); ++row)
-            rows[row * SWIVEL_LANES] = rows[row * SWIVEL_LANES + 1];
-    }
-    void give_up(const FlagRow& row)
-    {
-        if (row.flag == SWIVEL_LIMITED_REGION)
-            one_.set_region(&kEverywhere);
-        else
-            give_up(row.limit);
-    }
-    void give_up_all_but(swivel_field kept)
-    {
-        for (const FieldRow& row : kFields)
-            if (row.kind == SWIVEL_FIELD_INPUT && row.field != kept) give_up(row.field);
-    }
-
-private:
-    const Group& group() const { return one_.group(); }
-    alignas(64) float strip_[kStripBlockFloats];
-    const Group& of_;
-    std::uint32_t limb_;
-    OneLimb one_;
-};
 
 // The lengths of a field's axis and pairs that must be 1 and are not.
 void explain_lengths(const Probe& probe, swivel_field field, Text& text)
@@ -286,97 +161,12 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
         text.add("The target is reached, to within %.2g of the limb's length.", solved.missed_share());
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
     if (flags & SWIVEL_SWIVEL_UNDEFINED)
-        text.add(" The pole does not say where the elbow goes: it is of no length or on the target's line.");
+        text.add(solved.has(SWIVEL_POLE_HAND)
+                     ? " The hand does not say where the elbow goes: it points along the target's line, or that has no "
+                       "length."
+                     : " The pole does not say where the elbow goes: it is of no length or on the target's line.");
     for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND})
         if (solved.is(field, {0, 0, 0, 1})) text.add(" Its %s is the identity, as limbs start.", name_of(field));
-}
-
-// Calls act(row) for each limit of the swivel.
-template <class Act>
-void for_each_limit(const Act& act)
-{
-    for (const FlagRow& row : kFlags)
-        if (row.limit != SWIVEL_INPUT_END || row.flag == SWIVEL_LIMITED_REGION) act(row);
-}
-
-// Whether this limit alone leaves the elbow no place.
-bool forbids_all(Probe& probe, const FlagRow& limit)
-{
-    probe.take();
-    for_each_limit([&](const FlagRow& other) {
-        if (other.flag != limit.flag) probe.give_up(other);
-    });
-    return probe.solve() & SWIVEL_INFEASIBLE;
-}
-
-// Where the middle angle of a box is a right angle, the other two turn about one axis. Near it they change fast.
-void explain_pole(Probe& probe, Text& text)
-{
-    probe.take();
-    const double degrees = 90 - std::fabs(probe.middle_angle()) * 180 / std::numbers::pi;
-    if (degrees > 15) return;
-    text.add(
-        " It is %.0f degrees from the pole of shoulder_box, near which the allowed place may jump: another "
-        "shoulder_order has its pole elsewhere.",
-        degrees);
-}
-
-// By how many degrees the elbow of one pose is turned from that of another, about the line to the wrist.
-double swivel_between(const LimbPose& a, const LimbPose& b)
-{
-    const Vector<double> n = cross(a.wrist - a.shoulder, a.elbow - a.shoulder),
-                         m = cross(b.wrist - b.shoulder, b.elbow - b.shoulder);
-    return std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)) * 180 / std::numbers::pi;
-}
-
-// How far the probe's pose is outside of each limit.
-void explain_violations(const Probe& probe, Text& text)
-{
-    bool is_first = true;
-    for_each_limit([&](const FlagRow& row) {
-        const double degrees = probe.violation(row);
-        if (degrees < 0.005) return;  // it would read 0.00
-        text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", limit_name(row), degrees);
-        is_first = false;
-    });
-    text.add("%s.", is_first ? " Its pose violates none of them by 0.01 degrees" : "");
-}
-
-// solved: the pose that the limb has. step_wins: whether the step is taken after the limits.
-void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, bool step_wins, Text& text)
-{
-    char room[2][200];
-    Text broken(room[0]), alone(room[1]);
-    for_each_limit([&](const FlagRow& row) {
-        if (!(flags & row.flag)) return;
-        broken.add("%s%s", broken.is_empty() ? "" : " and ", limit_name(row));
-        if (flags & SWIVEL_INFEASIBLE && forbids_all(probe, row))
-            alone.add("%s%s", alone.is_empty() ? "" : " and ", limit_name(row));
-    });
-    if (broken.is_empty()) return;
-    const bool is_step = flags & SWIVEL_LIMITED_STEP && !step_wins;  // limits then forbid the place where the step ends
-    if (flags & SWIVEL_INFEASIBLE) {
-        text.add(" No place of the elbow keeps %s%s: the one that violates them least is taken.",
-                 !alone.is_empty() ? ""
-                 : is_step         ? "all limits at once, as the step's end breaks "
-                                   : "all limits at once, as the wish breaks ",
-                 alone.is_empty() ? room[0] : room[1]);
-        probe.take();
-        if (!step_wins) probe.solve();
-        return explain_violations(probe, text);
-    }
-    if (flags & SWIVEL_LIMITED_STEP && step_wins) {
-        text.add(" Where the elbow was wished it breaks %s. It goes to the nearest place that keeps all limits.",
-                 room[0]);
-        probe.take();
-        return explain_violations(probe, text);
-    }
-    probe.take();
-    for_each_limit([&](const FlagRow& row) { probe.give_up(row); });
-    probe.solve();
-    text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
-             is_step ? "the step takes the elbow," : "the elbow was wished", room[0],
-             swivel_between(solved, probe.pose()));
 }
 
 // Of a body's limb, which is solved from a record, so that its last digits differ: whether these are one pose. The
@@ -411,17 +201,7 @@ void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t l
     if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
     if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
     explain_reach(probe, flags, text);
-    const bool step_wins = group.features & SWIVEL_STEP_WINS;
-    explain_limits(probe, probe.pose(), flags, step_wins, text);
-    if (flags & SWIVEL_LIMITED_SHOULDER_BOX) explain_pole(probe, text);
-    if (flags & SWIVEL_JUMPED)
-        text.add(" Joint limits turn the swivel further than a step may.");
-    else if (flags & SWIVEL_LIMITED_STEP && step_wins)
-        text.add(" It is on its way there: the next solve goes one step further.");
-    else if (flags & SWIVEL_LIMITED_STEP)
-        text.add(
-            " The wish is further than one step from where the elbow is: the next solve goes as far as step and limits "
-            "allow.");
+    explain_limits(probe, flags_were, flags, text);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace swivel {
 
 namespace {
 
-constexpr double kLeastAngle = 0.01, kMostAngle = 3.14159265358979 - 0.01;
 constexpr double kSlack = 1e-6;  // angles and sides that were floats once
 
 swivel_half_space stored(const HalfSpace& half)
@@ -95,19 +94,21 @@ swivel_status check_region(const char* function, const swivel_region* region)
     return SWIVEL_OK;
 }
 
-swivel_status read_direction(const char* function, std::uint32_t n, const float* direction, Vector<double>& to)
+swivel_status read_direction(const char* function, const char* noun, std::uint32_t n, const float* direction,
+                             Vector<double>& to)
 {
     const auto [x, y, z] = std::array<double, 3>{direction[0], direction[1], direction[2]};
     const double length = std::hypot(x, y, z);
     if (!(length > 0) || !std::isfinite(length))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: direction %u, (%g, %g, %g), has no direction", function, n, x, y, z);
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s: %s %u, (%g, %g, %g), has no direction", function, noun, n, x, y, z);
     to = vector(x / length, y / length, z / length);
     return SWIVEL_OK;
 }
 
 swivel_status read_cone(const char* function, std::uint32_t n, const swivel_region_cone& cone, RegionCone& to)
 {
-    if (const swivel_status status = read_direction(function, n, cone.axis, to.axis); status != SWIVEL_OK)
+    if (const swivel_status status = read_direction(function, "the axis of cone", n, cone.axis, to.axis);
+        status != SWIVEL_OK)
         return status;
     to.angle = double{cone.angle};
     if (!(to.angle >= kLeastAngle - kSlack && to.angle <= kMostAngle + kSlack))
@@ -150,7 +151,8 @@ swivel_status swivel_region_add_polygon(swivel_region* region, const float* corn
     if (!corners) return fail(SWIVEL_INVALID_ARGUMENT, "%s: corners is null", kCall);
     Vector<double> corner[SWIVEL_MOST_HALF_SPACES];
     for (std::uint32_t n = 0; n < count; ++n)
-        if (const swivel_status status = read_direction(kCall, n, corners + 3 * n, corner[n]); status != SWIVEL_OK)
+        if (const swivel_status status = read_direction(kCall, "corner", n, corners + 3 * n, corner[n]);
+            status != SWIVEL_OK)
             return status;
     RegionBuilder builder(*region);
     for (std::uint32_t n = 0; n < count; ++n) {
@@ -190,7 +192,8 @@ swivel_status swivel_region_room(const swivel_region* region, const float direct
     if (!direction || !room)
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: %s is null", kCall, direction ? "room" : "direction");
     Vector<double> unit;
-    if (const swivel_status status = read_direction(kCall, 0, direction, unit); status != SWIVEL_OK) return status;
+    if (const swivel_status status = read_direction(kCall, "direction", 0, direction, unit); status != SWIVEL_OK)
+        return status;
     *room = static_cast<float>(swivel::room(*region, unit));
     return SWIVEL_OK;
 }

@@ -34,18 +34,22 @@ private:
 // Whether a region's numbers are what its header says. function: for the message.
 swivel_status check_region(const char* function, const swivel_region* region);
 
+constexpr double kLeastAngle = 0.01, kMostAngle = 3.14159265358979 - 0.01;
 struct RegionCone {
     Vector<double> axis;  // unit
-    double angle;
+    double angle;         // kLeastAngle to kMostAngle
 };
 // The nth of a function's cones.
 swivel_status read_cone(const char* function, std::uint32_t n, const swivel_region_cone& cone, RegionCone& to);
-// The nth of a function's directions, made unit.
-swivel_status read_direction(const char* function, std::uint32_t n, const float* direction, Vector<double>& to);
+// The nth of a function's directions, made unit. noun: what the message calls it.
+swivel_status read_direction(const char* function, const char* noun, std::uint32_t n, const float* direction,
+                             Vector<double>& to);
 // Keeps what was built, or says that it does not fit.
 swivel_status keep(const char* function, const RegionBuilder& builder, swivel_region* region);
 
-// Cones in order, with bridges between neighbours.
+// The first of cones in order that is opposite to its next neighbour, so that no bridge is between them; count: none.
+std::uint32_t first_opposite(const RegionCone* cones, std::uint32_t count, bool closed);
+// Cones in order, with bridges between neighbours. None are opposite.
 void add_cones(RegionBuilder& builder, const RegionCone* cones, std::uint32_t count, bool closed);
 
 }  // namespace swivel

@@ -105,7 +105,17 @@ void add_bridge(RegionBuilder& builder, const RegionCone& one, const RegionCone&
         add_triangles(builder, bridge, one, two);
 }
 
+// The neighbours of cones in order: the nth and its next one.
+std::uint32_t neighbour_count(std::uint32_t count, bool closed) { return closed && count > 2 ? count : count - 1; }
+
 }  // namespace
+
+std::uint32_t first_opposite(const RegionCone* cones, std::uint32_t count, bool closed)
+{
+    for (std::uint32_t n = 0; n < neighbour_count(count, closed); ++n)
+        if (are_opposite(cones[n], cones[(n + 1) % count])) return n;
+    return count;
+}
 
 void add_cones(RegionBuilder& builder, const RegionCone* cones, std::uint32_t count, bool closed)
 {
@@ -113,8 +123,8 @@ void add_cones(RegionBuilder& builder, const RegionCone* cones, std::uint32_t co
         builder.add({cones[n].axis, std::cos(cones[n].angle), true});
         builder.end_part();
     }
-    for (std::uint32_t n = 0; n + 1 < count; ++n) add_bridge(builder, cones[n], cones[n + 1]);
-    if (closed && count > 2) add_bridge(builder, cones[count - 1], cones[0]);
+    for (std::uint32_t n = 0; n < neighbour_count(count, closed); ++n)
+        add_bridge(builder, cones[n], cones[(n + 1) % count]);
 }
 
 }  // namespace swivel
@@ -131,11 +141,9 @@ swivel_status swivel_region_add_cones(swivel_region* region, const swivel_region
     RegionCone read[SWIVEL_MOST_REGION_PARTS];
     for (std::uint32_t n = 0; n < count; ++n)
         if (const swivel_status status = read_cone(kCall, n, cones[n], read[n]); status != SWIVEL_OK) return status;
-    const std::uint32_t bridge_count = closed && count > 2 ? count : count - 1;
-    for (std::uint32_t n = 0; n < bridge_count; ++n)
-        if (const std::uint32_t next = (n + 1) % count; are_opposite(read[n], read[next]))
-            return fail(SWIVEL_INVALID_ARGUMENT, "%s: cones %u and %u are opposite; give one on the way", kCall, n,
-                        next);
+    if (const std::uint32_t n = first_opposite(read, count, closed != 0); n < count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s: cones %u and %u are opposite; give one on the way", kCall, n,
+                    (n + 1) % count);
     RegionBuilder builder(*region);
     add_cones(builder, read, count, closed != 0);
     return keep(kCall, builder, region);

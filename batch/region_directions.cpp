@@ -23,7 +23,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kMostCones = 6;
 constexpr int kRounds = 20;        // of moving centres; more change little
-constexpr int kHalvings = 200;     // of the way to the farthest direction: within 1 / 200 of the smallest cone
+constexpr int kSteps = 200;        // towards the farthest direction: within 1 / 200 of the smallest cone
 constexpr int kAreaPoints = 4096;  // an area is told to 2 % of the sphere's sixteenth
 
 // Directions are read as they are needed, so their number is not bound.
@@ -78,30 +78,38 @@ void move_to_middles(const Directions& directions, Centres& centres)
         for (std::uint32_t n = 0; n < centres.count; ++n) centres.at[n] = unit_or(sum[n], centres.at[n]);
     }
 }
-// The smallest cone about each centre's directions, and the margin. The axis goes a smaller and smaller part of the way
-// to the direction that is farthest.
-void enclose(const Directions& directions, const Centres& centres, double margin, RegionCone (&cones)[kMostCones])
-{
-    Vector<double> middle[kMostCones];
-    double least[kMostCones];
-    std::copy_n(centres.at, kMostCones, middle);
-    for (int step = 1; step <= kHalvings + 1; ++step) {
-        Vector<double> farthest[kMostCones];
-        std::fill_n(least, kMostCones, 2.0);
+// Of each centre's directions, the one that is farthest from the middle.
+struct Farthest {
+    Vector<double> at[kMostCones] = {};
+    double cos[kMostCones] = {2, 2, 2, 2, 2, 2};  // 2: the centre has no direction
+
+    Farthest(const Directions& directions, const Centres& centres, const Vector<double> (&middle)[kMostCones])
+    {
         for (std::uint32_t n = 0; n < directions.count; ++n) {
             const Vector<double> d = directions.at(n);
             const std::uint32_t of = centres.nearest(d);
-            if (const double cos = scalar_product(normalise(middle[of]), d); cos < least[of])
-                least[of] = cos, farthest[of] = d;
+            if (const double now = scalar_product(middle[of], d); now < cos[of]) cos[of] = now, at[of] = d;
         }
-        if (step > kHalvings) break;
-        for (std::uint32_t n = 0; n < centres.count; ++n)
-            if (least[n] <= 1) middle[n] = middle[n] + (1.0 / (step + 1)) * (farthest[n] - middle[n]);
     }
-    for (std::uint32_t n = 0; n < centres.count; ++n) {
-        const double angle = std::acos(std::clamp(least[n], -1.0, 1.0)) + margin;
-        cones[n] = {unit_or(middle[n], centres.at[n]), std::clamp(angle, 0.01, kPi - 0.01)};
+};
+// The smallest cone about each centre's directions, and the margin. The middle goes a smaller and smaller part of the
+// way to the direction that is farthest. A cone may be wider than a region's may.
+void enclose(const Directions& directions, const Centres& centres, double margin, RegionCone (&cones)[kMostCones])
+{
+    Vector<double> middle[kMostCones] = {}, axes[kMostCones] = {};
+    std::copy_n(centres.at, centres.count, middle);
+    std::copy_n(centres.at, centres.count, axes);
+    for (int step = 1; step <= kSteps; ++step) {
+        const Farthest farthest(directions, centres, axes);
+        for (std::uint32_t n = 0; n < centres.count; ++n) {
+            if (farthest.cos[n] > 1.5) continue;
+            middle[n] = middle[n] + (1.0 / (step + 1)) * (farthest.at[n] - middle[n]);
+            axes[n] = unit_or(middle[n], centres.at[n]);
+        }
     }
+    const Farthest farthest(directions, centres, axes);
+    for (std::uint32_t n = 0; n < centres.count; ++n)
+        cones[n] = {axes[n], std::fmax(std::acos(std::clamp(farthest.cos[n], -1.0, 1.0)) + margin, kLeastAngle)};
 }
 // The order in which the way from axis to axis is shortest.
 void put_in_order(RegionCone (&cones)[kMostCones], std::uint32_t count)
@@ -114,9 +122,15 @@ void put_in_order(RegionCone (&cones)[kMostCones], std::uint32_t count)
             way += std::acos(std::clamp(scalar_product(cones[order[n]].axis, cones[order[n + 1]].axis), -1.0, 1.0));
         if (way < shortest) shortest = way, std::copy_n(order, kMostCones, best);
     } while (std::next_permutation(order, order + count));
-    RegionCone ordered[kMostCones];
+    RegionCone ordered[kMostCones] = {};
     for (std::uint32_t n = 0; n < count; ++n) ordered[n] = cones[best[n]];
     std::copy_n(ordered, count, cones);
+}
+// Whether they are cones of a region, and bridges fit between them.
+bool are_allowed(const RegionCone (&cones)[kMostCones], std::uint32_t count)
+{
+    return std::none_of(cones, cones + count, [](const RegionCone& cone) { return cone.angle > kMostAngle; }) &&
+           first_opposite(cones, count, false) == count;
 }
 // How many of many directions, spread evenly, a region allows.
 int area(const swivel_region& region)
@@ -148,21 +162,22 @@ swivel_status swivel_region_add_directions(swivel_region* region, const float* d
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u cones are not 1 to %u", kCall, most_cones, kMostCones);
     Vector<double> unit;
     for (std::uint32_t n = 0; n < count; ++n)
-        if (const swivel_status status = read_direction(kCall, n, directions + std::size_t{3} * n, unit);
+        if (const swivel_status status = read_direction(kCall, "direction", n, directions + std::size_t{3} * n, unit);
             status != SWIVEL_OK)
             return status;
 
     const Directions all{directions, count};
-    RegionCone best[kMostCones];
+    RegionCone best[kMostCones] = {};
     std::uint32_t best_count = 0;
     int least = kAreaPoints + 1;
     for (std::uint32_t cone_count = 1; cone_count <= std::min(most_cones, count); ++cone_count) {
         Centres centres;
         while (centres.count < cone_count) add_farthest(all, centres);
         move_to_middles(all, centres);
-        RegionCone cones[kMostCones];
+        RegionCone cones[kMostCones] = {};
         enclose(all, centres, double{margin}, cones);
         put_in_order(cones, cone_count);
+        if (!are_allowed(cones, cone_count)) continue;
         RegionBuilder alone(swivel_default_region());
         add_cones(alone, cones, cone_count, false);
         if (const int now = area(alone.region()); now < least) {
@@ -170,6 +185,9 @@ swivel_status swivel_region_add_directions(swivel_region* region, const float* d
             std::copy_n(cones, cone_count, best);
         }
     }
+    if (best_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "%s: found no cones that hold all these directions; leave some out, or allow more cones", kCall);
     RegionBuilder builder(*region);
     add_cones(builder, best, best_count, false);
     return keep(kCall, builder, region);

@@ -118,7 +118,7 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/(api|api_solve|api_pose|bodies|pose|share|sized|crowd|describe|digest|explain_text|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/(api_plant|rig|skeleton|body_(check|joints|plan)|angles|budget|check|compare(d_limb)?|explain(_plant)?|forward|joint_angles|one_limb|pack|posed_body|region(_cones|_directions)?)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(api_plant|rig|skeleton|body_(check|joints|plan)|angles|budget|check|compare(d_limb)?|explain(_limits|_plant|_probe)?|forward|joint_angles|one_limb|pack|posed_body|region(_cones|_directions)?)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- lecture: formulas in double and the oracle; it needs no crowd
@@ -127,7 +127,7 @@ may_include(lecture "" "${standard}|\"include/swivel/lecture[.]h\"|\"core/[a-z_]
 # ---- tools and bench: the public headers and their own; a format knows no solver
 foreach(folder tools bench)
   # To count a formula's operations, op_counts needs the formula itself.
-  must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted[.]h|op_counts[.]cpp)$"
+  must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted(_values)?[.]h|(body_)?op_counts[.]cpp)$"
                "only the public headers are for it")
   must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h, swivel.hpp and lecture.h")
 endforeach()
@@ -162,7 +162,7 @@ foreach(folder core simd batch include)
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
   must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/schedule[.]cpp$" "oneTBB is named in batch/schedule.cpp alone")
   # ---- only + - * / sqrt, comparisons, selects and sign bits
-  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/(explain(_ground|_look)?|(joint_)?angles|region(_cones|_directions)?)[.]cpp$"
+  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/(explain(_ground|_limits|_look)?|(joint_)?angles|region(_cones|_directions)?)[.]cpp$"
                "no trigonometry here")
   must_not_say(${folder} "[^a-zA-Z_](exp|exp2|log|log2|log10|pow|cbrt)f?[ \t]*[(]" ${nowhere} "not correctly rounded everywhere")
   must_not_say(${folder} "[^a-zA-Z]_*(builtin_)?(fma|fmaf|fms|fnma|rsqrt|reciprocal|mm[0-9]*_rcp[a-z0-9_]*|mm[0-9]*_rsqrt[a-z0-9_]*)[ \t]*[(]"

@@ -273,6 +273,42 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
     CHECK(named > 500);
 }
 
+TEST_CASE("explain says how near an arm that its box turned is to the box's pole")
+{
+    Random random{9};
+    constexpr std::uint32_t count = 2000;
+    swivel_group_def group = swivel::group(count, SWIVEL_WITH_SHOULDER_BOX);
+    group.shoulder_order = SWIVEL_ZXY;
+    Crowd crowd(group);
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    const Float4 narrow = range(-0.5, 0.5), wide = range(-1.6, 1.6);
+    Float12 box;
+    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(k == 1 ? wide : narrow, box.begin() + 4 * k);
+    crowd.write_all(SWIVEL_SHOULDER_BOX, 0, box);
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const Float3 target = floats(1.5 * random.direction()), pole = floats(random.direction());
+        crowd.write(SWIVEL_TARGET, 0, std::span(&target, 1), n);
+        crowd.write(SWIVEL_POLE, 0, std::span(&pole, 1), n);
+    }
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    int near = 0, far = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        if (!(flags[n] & SWIVEL_LIMITED_SHOULDER_BOX)) continue;
+        const std::string text = crowd.explain(0, n), words = "degrees from the pole of shoulder_box";
+        INFO(text);
+        // The middle angle's sine is the entry of the first axis and the last.
+        const double sine = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[n]).toRotationMatrix()(2, 1);
+        const double off = std::acos(std::fabs(sine)) / degrees(1);
+        const bool is_said = text.find(words) != std::string::npos;
+        if (std::fabs(off - 15) > 0.01) CHECK(is_said == (off < 15));
+        if (is_said) CHECK(number_after(text, "It is ") == Approx(off).margin(0.51));
+        (is_said ? near : far) += 1;
+    }
+    CHECK(near > 0);
+    CHECK(far > 0);
+}
+
 TEST_CASE("with a step limit, explain measures the nearest place from where the step ends")
 {
     Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST, 1);

@@ -133,6 +133,9 @@ class Regions(unittest.TestCase):
                            ("give a convex polygon", lambda: Region().add_polygon(np.eye(3)[::-1])),
                            ("the angle of cone 0, 4, is not", lambda: Region().forbid((1, 0, 0), 4)),
                            ("direction 0, (0, 0, 0), has no direction", lambda: Region().room((0, 0, 0))),
+                           ("the axis of cone 0, (0, 0, 0), has no", lambda: Region().forbid((0, 0, 0), 1)),
+                           ("found no cones that hold all these directions",
+                            lambda: Region().add_directions(np.vstack([np.eye(3), -np.eye(3)]), 0.1, 1)),
                            ("axes", lambda: Region().add_cones((1, 0, 0), 0.1)),
                            ("the region allows nothing", lambda: swivel.Crowd(swivel.Group(1, region=Region()))),
                            ("WITH_REGION needs a region", lambda: swivel.Crowd(1, Feature.WITH_REGION))):

@@ -29,9 +29,8 @@ constexpr const char* kCrowdText =
     "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
     "With a skeleton it is a crowd of body_count bodies, whose groups are BodyGroups: limb i of each is body i's.\n"
     "A FitGroup among them shifts the bodies, a PropGroup is a thing that hands hold, a LookGroup looks. solve() then\n"
-    "takes their pose, and on_bad_input None is\n"
-    "OnBadInput.KEEP_POSE instead of REST_POSE. up, of any length but 0, is the axis of heights and shifts in\n"
-    "the root's frame.\n\n"
+    "takes their pose, and on_bad_input None is OnBadInput.KEEP_POSE instead of REST_POSE. up, of any length but 0,\n"
+    "is the axis of heights and shifts in the root's frame.\n\n"
     "Targets and shoulder positions start as NaN, lengths as the binding's, or NaN: a limb that never gets them has\n"
     "Flag.BAD_INPUT. Parents and hands start as the identity, without limits; results as the rest pose. After\n"
     "creation the library allocates nothing.\n\n"
@@ -62,7 +61,7 @@ void set_options(swivel_group_def& def, py::handle features, py::handle on_bad_i
     if (const auto given = shoulder_order.cast<Number>()) def.shoulder_order = order_of(*given);
     if (const auto given = wrist_order.cast<Number>()) def.wrist_order = order_of(*given);
     if (region.is_none()) return;
-    if (!is_a("Region", region))
+    if (!py::isinstance<Region>(region))
         throw py::type_error("region: expected a Region, got " + std::string(py::repr(region)));
     def.region = &region.cast<const Region&>().get();  // of the entry, which outlives the call
     def.features |= SWIVEL_WITH_REGION;

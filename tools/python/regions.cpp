@@ -47,9 +47,9 @@ py::object rooms(const Region& region, const py::object& directions)
 {
     const py::array given = py::module_::import("numpy").attr("asarray")(directions);
     if (given.ndim() <= 1) {
-        Direction direction;
-        copy("direction", given, reinterpret_cast<float(&)[3]>(*direction.data()));
-        return py::float_(region.room(direction));
+        float direction[3];
+        copy("direction", given, direction);
+        return py::float_(region.room({direction[0], direction[1], direction[2]}));
     }
     const std::vector<Direction> all = directions_of("directions", given);
     py::array_t<float> made(static_cast<py::ssize_t>(all.size()));
