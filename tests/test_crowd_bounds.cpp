@@ -236,6 +236,17 @@ TEST_CASE("crowd bounds: the swivel turns no further in a frame than it may")
     CHECK(as_at_first == 1);
 }
 
+TEST_CASE("crowd bounds: one limb's step wins, and not another's")
+{
+    const CrowdStage stage;
+    const std::string steps =
+        "[limb.arms]\nswivel.most_deg_per_frame = 2\n"
+        "limits.shoulder_cone = {axis = [0.3, 0.2, 0.6], opening_deg = 74}\n";
+    const std::string wins = steps + "[limb.left_arm]\nswivel.step_wins = true\n";
+    CHECK(worst_rotation(stage.rows(wins, "right_arm"), stage.rows(steps, "right_arm")) == 0);
+    CHECK(worst_rotation(stage.rows(wins, "left_arm"), stage.rows(steps, "left_arm")) > 0.01);
+}
+
 TEST_CASE("crowd bounds: twist bones share the hand's twist")
 {
     const CrowdStage stage;

@@ -21,6 +21,14 @@ void check_settings(const LimbSettings& s)
     SWIVEL_REQUIRE(!s.joints || s.joints->value.size() == 3);
     SWIVEL_REQUIRE(!s.bend || std::abs(s.bend->value.norm() - 1) < 1e-12);
     SWIVEL_REQUIRE(!s.shoulder_cone || std::abs(s.shoulder_cone->value.axis.norm() - 1) < 1e-12);
+    if (s.region) {
+        const RegionLimit& region = s.region->value;
+        for (const std::vector<ConeLimit>* cones : {&region.cones, &region.forbidden})
+            for (const ConeLimit& cone : *cones)
+                SWIVEL_REQUIRE(std::abs(cone.axis.norm() - 1) < 1e-12 && cone.opening_deg > 0 &&
+                               cone.opening_deg < 180);
+        SWIVEL_REQUIRE(!region.cones.empty() || !region.polygons.empty() || region.clip_margin_deg > 0);
+    }
     SWIVEL_REQUIRE(!s.effector || s.effector->value.allFinite());
     SWIVEL_REQUIRE(!s.flexion_deg || s.flexion_deg->value.least <= s.flexion_deg->value.most);
     SWIVEL_REQUIRE(!s.pole_weight || (s.pole_weight->value >= 0 && s.pole_weight->value <= 1));

@@ -136,7 +136,7 @@ class Regions(unittest.TestCase):
                            ("the axis of cone 0, (0, 0, 0), has no", lambda: Region().forbid((0, 0, 0), 1)),
                            ("found no cones that hold all these directions",
                             lambda: Region().add_directions(np.vstack([np.eye(3), -np.eye(3)]), 0.1, 1)),
-                           ("axes", lambda: Region().add_cones((1, 0, 0), 0.1)),
+                           ("axes: expected shape (n, 3), got (3,)", lambda: Region().add_cones((1, 0, 0), 0.1)),
                            ("the region allows nothing", lambda: swivel.Crowd(swivel.Group(1, region=Region()))),
                            ("WITH_REGION needs a region", lambda: swivel.Crowd(1, Feature.WITH_REGION))):
             with self.subTest(text), self.assertRaises(ValueError) as raised:

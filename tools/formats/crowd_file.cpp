@@ -119,7 +119,10 @@ Maybe<RegionLimit> read_region(TomlTable table)
     if (margin) region.clip_margin_deg = margin->value;
     if (count) region.clip_cones = static_cast<int>(count->value);
     if (table.is_there() && region.cones.empty() && region.polygons.empty() && !margin)
-        table.fail("", "allows nothing; give cones, polygons or clip_margin_deg, or leave the table out");
+        table.fail(
+            "",
+            "allows nothing; give cones, polygons or clip_margin_deg, or leave the table out. It adds nothing to the "
+            "region of a more general table, but takes its place");
     return given_by(table, std::move(region));
 }
 

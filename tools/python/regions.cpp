@@ -23,7 +23,10 @@ using Direction = std::array<float, 3>;
 // An array of shape (n, 3).
 std::vector<Direction> directions_of(const char* name, const py::object& given)
 {
-    const std::size_t count = length_of(name, given);
+    const py::array array = given_array(name, given);
+    if (array.ndim() != 2 || array.shape(1) != 3)
+        throw py::value_error(std::string(name) + ": expected shape (n, 3), got " + shape_text(array));
+    const auto count = static_cast<std::size_t>(array.shape(0));
     const Input in = input({name, count, 3, "directions"}, given, py::dtype::of<float>(), false);
     std::vector<Direction> made(count);
     for (std::size_t n = 0; n < count; ++n)
