@@ -88,9 +88,10 @@ SWIVEL_INLINE constexpr LookTurn<T> look_turn(const Vector<T>& from, const Vecto
     const T cos_half = whole.template at<kScalar>(), part = bent_share(share, cos_half);
     const Vector<T> sine = part * vector(whole.template at<kI>(), whole.template at<kJ>(), whole.template at<kK>());
     const T cosine = T(1) - part + part * cos_half, sine2 = len2(sine), cosine2 = cosine * cosine;
-    const T most = T(joint.cos_half_most), size2 = sine2 + cosine2;
-    const Mask<T> held = cosine2 < most * most * size2;
-    const T scale = select(held, T(joint.sin_half_most), T(1)) / sqrt(select(held, sine2, size2));
+    // By the tangent: a cosine does not tell small angles apart.
+    const T most = T(joint.cos_half_most), most_sine = T(joint.sin_half_most);
+    const Mask<T> held = sine2 * (most * most) > cosine2 * (most_sine * most_sine);
+    const T scale = select(held, most_sine, T(1)) / sqrt(select(held, sine2, sine2 + cosine2));
     const Vector<T> v = scale * sine;
     return {rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), select(held, most, scale * cosine)),
             held};
