@@ -181,7 +181,8 @@ bool is_near(const LimbPose& a, const LimbPose& b)
            len2(a.wrist - b.wrist) <= kShare * kShare * size2 && 1 - cos_half * cos_half <= kShare * kShare;
 }
 
-void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+// It is a function of its own so that explain_prop, which has a limb on the stack too, has that room.
+[[gnu::noinline]] void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
     Probe probe(group, limb);
     const std::uint32_t flags_were = probe.flags();

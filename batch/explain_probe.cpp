@@ -27,7 +27,8 @@ void Probe::take()
 
 std::uint32_t Probe::solve()
 {
-    solve_group(find_isa("scalar")->kernels, group(), {0, 1}, {strip_, 1});
+    alignas(64) float strip[kStripBlockFloats];
+    solve_group(find_isa("scalar")->kernels, group(), {0, 1}, {strip, 1});
     return flags();
 }
 

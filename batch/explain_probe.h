@@ -13,8 +13,8 @@
 
 namespace swivel {
 
-// With its strip it takes three fifths of the stack that a call may take. So there is one, which takes the limb again
-// for each question.
+// It takes nearly half of the stack that a call may take. So there is one, which takes the limb again for each
+// question.
 class Probe {
 public:
     Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), one_(of) { take(); }
@@ -62,7 +62,6 @@ private:
     const Group& group() const { return one_.group(); }
     double outside(swivel_field limit) const;
 
-    alignas(64) float strip_[kStripBlockFloats];
     const Group& of_;
     std::uint32_t limb_;
     OneLimb one_;

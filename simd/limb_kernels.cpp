@@ -84,20 +84,24 @@ std::uint32_t store_arcs([[maybe_unused]] const SolveRun& run, [[maybe_unused]] 
         add_block(strip, static_cast<std::uint32_t>(limb / kLanes), 1u << limb % kLanes);
         for (std::uint32_t n = 0; run.stages->function[n] < first_function(Stage::choose); ++n)
             kFunctions[run.stages->function[n]](strip);
-        AllowedArcs<float> allowed;
+        static_assert(kMostAllowedArcs == kMostArcs);
+        std::uint32_t count = 0;
+        const auto store = [&](const AllowedArcs<float>& allowed) {
+            count = static_cast<std::uint32_t>(allowed.count);
+            for (std::uint32_t n = 0; n < count; ++n) {
+                const Arc<float>& arc = allowed.arc[n];
+                arcs[n] = {{arc.from.cos, arc.from.sin}, {arc.to.cos, arc.to.sin}};
+            }
+        };
         const LimitList list(run.features);
         for_each_slice<float, 0, 0>(strip, [&](const auto& s) {
             if (s.good() == 0) return;
             const Limits<float> limits = load_limits<kMostBoxes>(s, list.line_count, list);
-            allowed = run.region ? allowed_arcs(LimitsInRegion<float, kMostBoxes>{limits, load_region(s)})
-                                 : allowed_arcs(limits);
+            if (run.region)
+                store(allowed_arcs(LimitsInRegion<float, kMostBoxes>{limits, load_region(s)}));
+            else
+                store(allowed_arcs(limits));
         });
-        static_assert(std::size(allowed.arc) == kMostArcs);
-        const auto count = static_cast<std::uint32_t>(allowed.count);
-        for (std::uint32_t n = 0; n < count; ++n) {
-            const Arc<float>& arc = allowed.arc[n];
-            arcs[n] = {{arc.from.cos, arc.from.sin}, {arc.to.cos, arc.to.sin}};
-        }
         return count;
     } else {
         return 0;
