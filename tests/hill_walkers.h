@@ -102,7 +102,7 @@ struct HillWalkers {
         Random random{seed};
         for (std::uint32_t n = 0; n < count; ++n) {
             const double speed = random.between(0.5, 1.15);
-            walks.push_back({Vector3d(random.between(-4, 4), 0, random.between(-4, 4)), random.between(-3.1, 3.1),
+            walks.push_back({Vector3d{random.between(-4, 4), 0, random.between(-4, 4)}, random.between(-3.1, 3.1),
                              random.between(-0.15, 0.15), speed, random.between(1, 1.15), random.unit()});
         }
         go_to(0);

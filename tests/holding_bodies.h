@@ -38,9 +38,7 @@ struct HoldingBodies : LinkedBodies {
         for (const std::uint32_t g : {right, third})
             give(g, SWIVEL_EFFECTOR, [&](std::size_t) { return floats(Vector3d(0.05 * random.direction())); });
         for (const std::uint32_t g : {left, right, third, follower, on_handle})
-            give(g, SWIVEL_GRIP, [&](std::size_t) {
-                return floats(Held{random.rotation(), random.between(0, 0.3) * random.direction()});
-            });
+            give(g, SWIVEL_GRIP, [&](std::size_t) { return floats(Held{random.rotation(), random.vector(0, 0.3)}); });
         give(on_handle, SWIVEL_WEIGHTS, [&](std::size_t n) { return Float3{n % 2 ? 1.0f : 0.5f, 1, 0.5f}; });
         give(prop, SWIVEL_PROP_SHARE, [&](std::size_t n) { return Float1{static_cast<float>(n % 4) / 3}; });
         give(prop, SWIVEL_PROP_PLACE, [&](std::size_t n) { return n % 5 ? kNoPlace : goal(random, right, n).target; });

@@ -72,7 +72,7 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
         look.cos_most[n] = static_cast<float>(random.below(3) ? -1 : std::cos(random.between(0.05, 2)));
     }
     look.share[look.joint_count - 1] = static_cast<float>(random.between(0.1, 3));
-    const Float3 eye = floats(Vector3d(random.between(0, 0.1) * random.direction())),
+    const Float3 eye = floats(random.vector(0, 0.1)),
                  axis = floats(Vector3d(random.spread(0.1, 10) * random.direction()));
     std::copy(eye.begin(), eye.end(), look.eye);
     std::copy(axis.begin(), axis.end(), look.axis);

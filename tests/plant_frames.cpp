@@ -12,7 +12,7 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 // Of so few digits that differences are exact, in floats and far away in doubles.
 Float3 short_place(Random& random, double size)
 {
-    Float3 v = floats(Vector3d(random.between(0, size) * random.direction()));
+    Float3 v = floats(random.vector(0, size));
     for (float& x : v) x = std::round(x * 65536) / 65536;
     return v;
 }

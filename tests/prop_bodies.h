@@ -123,8 +123,7 @@ private:
     void give_arm(Random& random, std::uint32_t arm)
     {
         if (has(arm, SWIVEL_WITH_EFFECTOR))
-            give(arm, SWIVEL_EFFECTOR,
-                 [&](std::size_t) { return floats(Vector3d(random.between(0, 0.1) * random.direction())); });
+            give(arm, SWIVEL_EFFECTOR, [&](std::size_t) { return floats(random.vector(0, 0.1)); });
         if (has(arm, SWIVEL_WITH_ANGLE))
             give(arm, SWIVEL_ANGLE, [&](std::size_t) { return turn(random.between(0.3, 3)); });
         if (has(arm, SWIVEL_WITH_FLEXION_LIMIT))
@@ -159,7 +158,7 @@ private:
                 if (a == 0)
                     at.push_back(hand * Held{random.rotation(), 0.5 * length * random.unit() * random.direction()});
                 else if (random.below(3))
-                    hand = {random.rotation(), shoulder.place + random.between(0.3, 1.5) * length * random.direction()};
+                    hand = {random.rotation(), shoulder.place + length * random.vector(0.3, 1.5)};
                 grips[a].push_back(floats(at.back().inverse() * hand));
             }
         }

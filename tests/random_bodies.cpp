@@ -46,7 +46,7 @@ BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish)
     const auto add = [&](std::int32_t parent) {
         s.parents.push_back(parent);
         s.rotations.push_back(floats(random.rotation()));
-        s.translations.push_back(floats(Vector3d(random.between(0.05, 0.3) * random.direction())));
+        s.translations.push_back(floats(random.vector(0.05, 0.3)));
         return static_cast<std::int32_t>(s.size() - 1);
     };
     for (std::uint32_t n = 0; n < wish.trunk; ++n)
@@ -81,13 +81,12 @@ Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& w
     Body body;
     for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
         body.rotations.push_back(floats(random.rotation()));
-        body.translations.push_back(wish.translates ? floats(Vector3d(random.between(0.05, 0.3) * random.direction()))
-                                                    : skeleton.translations[n]);
+        body.translations.push_back(wish.translates ? floats(random.vector(0.05, 0.3)) : skeleton.translations[n]);
         const auto scale = static_cast<float>(wish.scales && random.below(4) == 0 ? random.between(0.8, 1.25) : 1);
         body.scales.push_back({scale, scale, scale});
     }
     if (wish.roots) {
-        body.root_position = floats(Vector3d(random.between(0, 3) * random.direction()));
+        body.root_position = floats(random.vector(0, 3));
         body.root_rotation = floats(random.rotation());
         body.root_scale = static_cast<float>(random.spread(0.1, 10));
     }

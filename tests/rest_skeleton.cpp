@@ -6,7 +6,7 @@ namespace swivel::test {
 namespace {
 
 Float4 random_turn(Random& random) { return floats(Quaterniond(random.spread(0.1, 10) * random.rotation().coeffs())); }
-Float3 random_step(Random& random) { return floats(random.between(0.2, 1) * random.direction()); }
+Float3 random_step(Random& random) { return floats(random.vector(0.2, 1)); }
 
 // Every joint gets another index.
 void shuffle(Random& random, RestSkeleton& skeleton)

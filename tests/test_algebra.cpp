@@ -83,7 +83,7 @@ Mv<double, S> random_mv(Random& random)
 
 Vector<double> mv(const Vector3d& v) { return vector(v.x(), v.y(), v.z()); }
 Rotor<double> mv(const Quaterniond& q) { return rotor(q.x(), q.y(), q.z(), q.w()); }
-Vector3d any_vector(Random& random) { return random.between(0.1, 3) * random.direction(); }
+Vector3d any_vector(Random& random) { return random.vector(0.1, 3); }
 
 // ---- what the compiler must know
 

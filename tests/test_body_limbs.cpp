@@ -73,7 +73,7 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     const bool is_point = !(features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL));
     values[SWIVEL_POLE] = list(is_point ? goal.pole : direction());
     values[SWIVEL_HAND] = list(goal.hand);
-    values[SWIVEL_EFFECTOR] = list(floats(Vector3d(random.between(0, 0.3) * length * random.direction())));
+    values[SWIVEL_EFFECTOR] = list(floats(Vector3d(length * random.vector(0, 0.3))));
     values[SWIVEL_ANGLE] = list(turn(random.between(-3, 3)));
     values[SWIVEL_WEIGHTS] = {number(0, 1), number(0, 1), random.below(2) ? number(0.1, 1) : 0};
     values[SWIVEL_REACH] = {number(0, 0.2), number(0, 0.2), number(1, 1.3), number(0, 0.2)};

@@ -86,8 +86,7 @@ private:
             give(g, SWIVEL_HAND, [&](std::size_t n) { return goals[n].hand; });
         }
         if (!has(g, SWIVEL_POLE_INCOMING)) give(g, SWIVEL_POLE, [&](std::size_t n) { return goals[n].pole; });
-        give_if(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR,
-                [&](std::size_t) { return floats(Vector3d(random.between(0, 0.1) * random.direction())); });
+        give_if(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, [&](std::size_t) { return floats(random.vector(0, 0.1)); });
         give_if(SWIVEL_WITH_AIM, SWIVEL_AIM, [&](std::size_t) {
             const Vector3d axis = random.direction();
             return aim({axis.x(), axis.y(), axis.z()}, random.between(0.2, 2));

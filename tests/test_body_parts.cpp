@@ -57,7 +57,7 @@ constexpr double kBound = 1e-4;  // radians and metres
 BodyGoal near_goal(Random& random, const SolvedLimb& limb)
 {
     BodyGoal goal = random_goal(random, limb.skeleton, limb.body, 0);
-    goal.target = floats(Vector3d(vec(limb.own().target) + random.between(0.01, 0.3) * random.direction()));
+    goal.target = floats(Vector3d(vec(limb.own().target) + random.vector(0.01, 0.3)));
     return goal;
 }
 

@@ -33,8 +33,7 @@ struct Effectors {
     {
         for (std::size_t g = 0; g < limbs; ++g) {
             of.emplace_back();
-            for (std::size_t n = 0; n < bodies; ++n)
-                of.back().push_back(floats(Vector3d(random.between(0, 0.1) * random.direction())));
+            for (std::size_t n = 0; n < bodies; ++n) of.back().push_back(floats(random.vector(0, 0.1)));
         }
     }
 };

@@ -26,7 +26,7 @@ void add_clavicles(Random& random, BodySkeleton& skeleton)
     for (const BodyLimbJoints& limb : skeleton.limbs) {
         skeleton.parents.push_back(skeleton.parents[limb.shoulder]);
         skeleton.rotations.push_back(floats(random.rotation()));
-        skeleton.translations.push_back(floats(Vector3d(random.between(0.05, 0.3) * random.direction())));
+        skeleton.translations.push_back(floats(random.vector(0.05, 0.3)));
         skeleton.parents[limb.shoulder] = static_cast<std::int32_t>(skeleton.size() - 1);
     }
 }
@@ -127,9 +127,16 @@ private:
     }
     std::vector<Body> random_bodies(Random& random, const RigWish& wish) const
     {
+        // A scale may be by chance that of feet to metres, or of inches to centimetres. Such a body says nothing.
+        const auto is_unit = [](double scale) {
+            const auto is_near = [&](double unit) { return std::fabs(std::log(scale / unit)) < 0.01; };
+            return is_near(3.28084) || is_near(1 / 3.28084) || is_near(2.54) || is_near(1 / 2.54);
+        };
         std::vector<Body> made;
-        for (int n = 0; n < 3; ++n)
+        while (made.size() < 3) {
             made.push_back(random_body(random, skeleton, {wish.translates && wish.stretches, wish.scales, true, 2.5}));
+            if (is_unit(double{made.back().root_scale})) made.pop_back();
+        }
         return made;
     }
 };
@@ -148,14 +155,19 @@ void conjugate(float* q)
 }
 void nothing(float*) {}
 
-// One cause, which is this.
+int chance_count = 0;  // of rigs with a second cause
+
+// One cause, which is this. By chance a second one is true, too: places may lie near the root.
 void check_cause(const Crowd::Comparison& said, const std::string& start)
 {
     INFO(said.text);
     REQUIRE(!said.agrees);
-    REQUIRE(said.text.starts_with(start));
-    REQUIRE(said.text.find(" Or: ") == std::string::npos);
-    REQUIRE(said.text.find("With that the three places agree") != std::string::npos);
+    const std::size_t other = said.text.find(" Or: ");
+    const bool is_one = other == std::string::npos;
+    REQUIRE((said.text.starts_with(start) || (!is_one && said.text.substr(other + 5).starts_with(start))));
+    REQUIRE(said.text.find(is_one ? "With that the three places agree" : "With each of these the three places agree") !=
+            std::string::npos);
+    chance_count += !is_one;
 }
 
 // Poses of quaternions whose rotations show in places.
@@ -182,11 +194,13 @@ RigWish any_wish(Random& random)
 template <class Try>
 void for_each_rig(int count, const Try& attempt)
 {
+    chance_count = 0;
     for (int seed = 0; seed < count; ++seed) {
         INFO("rig " << seed);
         Random random{static_cast<std::uint64_t>(seed)};
         attempt(random);
     }
+    CHECK(chance_count <= count / 200);
 }
 
 }  // namespace
@@ -459,7 +473,7 @@ TEST_CASE("a joint that no mistake explains is named, with its way")
         constexpr const char* names[] = {"shoulder", "elbow", "wrist"};
         Vector3d way = Vector3d::Zero();
         for (std::size_t n = first; n < 3; ++n) {
-            const Vector3d off = random.between(0.05, 0.5) * rig.length() * random.direction();
+            const Vector3d off = rig.length() * random.vector(0.05, 0.5);
             if (n == first) way = off;
             places[n] = Rig::numbers(Vector3d(places[n].data()) + off);
         }

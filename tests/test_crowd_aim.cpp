@@ -18,8 +18,7 @@ struct Aim {
 
 Aim random_aim(Random& random)
 {
-    return {random.direction(), vec(floats(Vector3d(random.between(0, 0.3) * random.direction()))),
-            random.between(0, 3)};
+    return {random.direction(), vec(floats(random.vector(0, 0.3))), random.between(0, 3)};
 }
 
 std::array<float, 5> value_of(const Aim& aim)
@@ -49,7 +48,7 @@ TEST_CASE("the hand's ray goes through the target, with the flexion and the wris
     for (std::uint32_t n = 0; n < count; ++n) {
         Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
         const Parent parent = each.parent();
-        each.target = floats(Vector3d(parent.position + parent.scale * random.between(0.2, 8) * random.direction()));
+        each.target = floats(Vector3d(parent.position + parent.scale * random.vector(0.2, 8)));
         write_limb(crowd, 0, n, each);  // SWIVEL_HAND is the wrist's local rotation
         aims.push_back(random_aim(random));
         put(crowd, SWIVEL_EFFECTOR, n, floats(aims[n].effector));

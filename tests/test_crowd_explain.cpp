@@ -403,7 +403,7 @@ TEST_CASE("with weights, explain speaks of the blended target, and of how far th
     Crowd crowd = crowd_of(features, count);
     std::vector<Float3> targets, effectors, weights;
     for (std::uint32_t n = 0; n < count; ++n) {
-        targets.push_back(floats(Vector3d(random.between(0, 4) * random.direction())));
+        targets.push_back(floats(random.vector(0, 4)));
         effectors.push_back(n % 2 == 0 ? Float3{0, 0, 0} : floats(Vector3d(0.3 * random.direction())));
         weights.push_back({n % 4 == 0 ? 1 : static_cast<float>(random.below(4) ? random.unit() : 0), 1, 1});
     }

@@ -20,7 +20,7 @@ struct More {
 };
 More random_more(Random& random, double length)
 {
-    const auto place = [&] { return floats(Vector3d(random.between(0, 0.5) * length * random.direction())); };
+    const auto place = [&] { return floats(Vector3d(length * random.vector(0, 0.5))); };
     More more;
     more.effector = place();
     const Float3 bone = place();

@@ -164,7 +164,7 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         for (int n = 0; n < 20; ++n) {
             for (std::uint32_t g = 0; g < 3; ++g) {
                 std::vector<Float3> targets(counts[g]);
-                for (Float3& target : targets) target = floats(Vector3d(random.between(0, 2) * random.direction()));
+                for (Float3& target : targets) target = floats(random.vector(0, 2));
                 crowd.write(SWIVEL_TARGET, g, targets);
                 crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 0.75f});
             }

@@ -259,7 +259,7 @@ TEST_CASE("skeletons by joints: effectors and aims are the wrist joint's own")
               swivel_features{SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_AIM}}) {
             Random random{shape.above + features};
             Posed p(random, shape, features, count);
-            const Vector3d point = random.between(0.1, 0.3) * random.direction(), axis = random.direction();
+            const Vector3d point = random.vector(0.1, 0.3), axis = random.direction();
             if (features & SWIVEL_WITH_EFFECTOR) p.crowd.write_all(SWIVEL_EFFECTOR, 0, floats(point));
             if (features & SWIVEL_WITH_AIM) p.crowd.write_all(SWIVEL_AIM, 0, aim({axis.x(), axis.y(), axis.z()}, 0.7));
             p.crowd.solve();

@@ -59,7 +59,7 @@ struct Stage {
         std::vector<Float3> targets(count), poles(count);
         Random random{1};
         for (std::uint32_t n = 0; n < count; ++n) {
-            targets[n] = floats(random.between(0, 2.2) * random.direction());
+            targets[n] = floats(random.vector(0, 2.2));
             poles[n] = floats(random.direction());
         }
         crowd.write(SWIVEL_TARGET, 0, targets);

@@ -80,7 +80,7 @@ Crowd random_crowd(Random& random)
     std::vector<Float3> targets(kLimbs), poles(kLimbs);
     std::vector<Float4> hands(kLimbs), parents(kLimbs);
     for (std::uint32_t n = 0; n < kLimbs; ++n) {
-        targets[n] = floats(random.between(0, 2.5) * random.direction());
+        targets[n] = floats(random.vector(0, 2.5));
         poles[n] = floats(random.direction());
         hands[n] = floats(random.rotation());
         parents[n] = floats(random.rotation());

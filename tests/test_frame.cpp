@@ -36,7 +36,7 @@ TEST_CASE("frames of many rounds give the bits of rows, on threads and on this o
                 if (random.below(one_in) != 0) continue;
                 const std::uint32_t limb = swivel_group_first_limb(rows.get(), g) + n;
                 mask[limb / 32] |= 1u << limb % 32;
-                targets[g][n] = floats(Vector3d(random.between(0.2, 2.2) * random.direction()));
+                targets[g][n] = floats(random.vector(0.2, 2.2));
                 rows.write(SWIVEL_TARGET, g, std::span(&targets[g][n], 1), n);
             }
             own[g].in(SWIVEL_TARGET, {targets[g].data(), sizeof(Float3)});

@@ -55,7 +55,7 @@ FootCase random_case(Random& random, double slope = 1.4)
     of.place = Vector3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
     of.toe = of.place + random.between(-0.2, 0.3) * of.unit() + random.between(0, 0.5) * random.across(of.normal);
     of.foot = random.rotation();
-    of.heel = random.between(0.02, 0.3) * random.direction();
+    of.heel = random.vector(0.02, 0.3);
     of.scale = random.spread(0.5, 2);
     of.share = random.below(4) ? random.unit() : random.below(2);
     of.most = random.below(8) ? random.spread(1e-4, 1.5) : 0;
@@ -233,7 +233,7 @@ TEST_CASE("a point that locks does so at its clearance, and its target stays")
         Random random{seed};
         for (int n = 0; n < kSeedFeet; ++n) {
             const FootCase of = random_case(random);
-            const auto any = [&] { return mv<double>(Vector3d(random.between(0, 0.3) * random.direction())); };
+            const auto any = [&] { return mv<double>(random.vector(0, 0.3)); };
             PlantState<double> state{};
             state.mark = mv<double>(of.toe), state.offset = any(), state.velocity = any();
             const PlantState<double> was = state;

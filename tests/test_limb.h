@@ -35,7 +35,7 @@ inline Limb random_limb(Random& random, swivel_features features, const Float2& 
     Limb limb;
     limb.lengths = lengths;
     const bool world = features & SWIVEL_WORLD;
-    limb.position = world ? floats(random.between(0, 5) * random.direction()) : Float3{0, 0, 0};
+    limb.position = world ? floats(random.vector(0, 5)) : Float3{0, 0, 0};
     limb.rotation =
         world ? floats(Quaterniond(random.spread(0.01, 100) * random.rotation().coeffs())) : Float4{0, 0, 0, 1};
     limb.scale = {world ? static_cast<float>(random.spread(0.1, 10)) : 1.0f};

@@ -77,7 +77,7 @@ TEST_CASE("effectors and hands")
         LimbUse use;
         use.hand = use.effector = true;
         const Quaterniond hand = random.rotation();
-        const Vector3d effector = random.between(0, 0.3) * random.direction();
+        const Vector3d effector = random.vector(0, 0.3);
         LimbGoal<float> goal = limb_goal<float>(arm);
         goal.arm.wrist = mv<float>(Vector3d(arm.wrist + hand * effector));
         goal.hand = mv<float>(Quaterniond(random.spread(0.1, 10) * hand.coeffs()));

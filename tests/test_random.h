@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The same random numbers in every run of a test, so that a failure comes back.
+// The same random numbers in every run of a test, so that a failure comes back. Compilers call the arguments of a
+// function in orders of their own. So what compares sizes or counts with a limit draws in statements of their own, or
+// in braces.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -32,6 +34,11 @@ struct Random {
             const Eigen::Vector3d v(x, y, z);
             if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
         }
+    }
+    Eigen::Vector3d vector(double least, double most)  // with a length between the two
+    {
+        const double length = between(least, most);
+        return length * direction();
     }
     Eigen::Vector3d across(const Eigen::Vector3d& axis)  // unit, orthogonal to axis
     {

@@ -220,7 +220,7 @@ TEST_CASE("limbs that keep a region and all other limits take at most 32 KiB of 
         Crowd crowd(def);
         crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
         for (std::uint32_t n = 0; n < 100; ++n) {
-            const Float3 target = floats(Eigen::Vector3d(random.between(0.5, 1.9) * random.direction()));
+            const Float3 target = floats(random.vector(0.5, 1.9));
             crowd.write(SWIVEL_TARGET, 0, std::span(&target, 1), n);
         }
         Most jobs, questions;

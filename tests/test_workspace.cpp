@@ -31,7 +31,7 @@ Crowd crowd_of_limbs(std::uint32_t workspace_count, std::uint32_t limb_count = 1
     Crowd crowd(def);
     Random random{6};
     for (std::uint32_t n = 0; n < limb_count; ++n) {
-        const Float3 target = floats(Eigen::Vector3d(random.between(0.2, 2) * random.direction()));
+        const Float3 target = floats(random.vector(0.2, 2));
         const Float4 narrow = cone({1, 0, 0}, random.between(0.2, 2));
         crowd.write(SWIVEL_TARGET, 0, std::span(&target, 1), n);
         crowd.write(SWIVEL_SHOULDER_CONE, 0, std::span(&narrow, 1), n);

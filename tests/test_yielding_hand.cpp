@@ -25,9 +25,9 @@ Goals random_goals(Random& random)
 {
     Goals goals;
     for (std::uint32_t n = 0; n < kYieldingLimbs; ++n) {
-        goals.targets.push_back(floats(Vector3d(random.between(0.05, 4) * random.direction())));
+        goals.targets.push_back(floats(random.vector(0.05, 4)));
         goals.poles.push_back(floats(random.direction()));
-        goals.effectors.push_back(floats(Vector3d(random.between(0.05, 0.6) * random.direction())));
+        goals.effectors.push_back(floats(random.vector(0.05, 0.6)));
         goals.hands.push_back(floats(random.rotation()));
     }
     goals.reach = {0.1f, 0.1f, static_cast<float>(random.between(1, 1.3)), 0.2f};
