@@ -147,9 +147,8 @@ TEST_CASE("input: skeletons without legs, and --leg that names none")
                     {"'LeftArm,LeftForeArm' does not name three joints (--leg); write HIP,KNEE,ANKLE"});
     require_refused(folder, {"clip.bvh", "--leg", "Nope,LeftForeArm,LeftHand"}, {"'Nope' (--leg)"});
     spill(folder / "t.csv", edited(kColumns, "side", "limb") + "0,0,left_leg,6,8,3,4,8,9\n");
-    require_refused(
-        folder, {"clip.bvh", "--targets", "t.csv"},
-        {"t.csv:2: the left leg is not solved; take it in with --limbs, or name it with --leg HIP,KNEE,ANKLE"});
+    require_refused(folder, {"clip.bvh", "--targets", "t.csv"},
+                    {"t.csv:2: all rows are of legs, which are not solved; take them in with --limbs"});
 }
 
 TEST_CASE("input: what a crowd file names wrongly is said with file, line and key")

@@ -61,6 +61,12 @@ TEST_CASE("exported targets, given back unchanged, change nothing")
     };
     const std::string plain = run(kPlainCrowd, "own.bvh", {"--export-targets", "t.csv"});
     CHECK(plain == run(kPlainCrowd, "again.bvh", {"--targets", "t.csv"}));  // to the last bit
+    // Of all limbs, where only legs are solved.
+    const Words legs{"--limbs", "legs", "--targets", "t.csv"};
+    CHECK(stage.output(kPlainCrowd, "legs.bvh", {"--limbs", "legs"}) == stage.output(kPlainCrowd, "again.bvh", legs));
+    CHECK_THAT(stage.run(kPlainCrowd, legs).out,
+               Contains("note     t.csv: " + std::to_string(2 * stage.clip.lines.size()) +
+                        " rows are left out, of limbs that are not solved\n"));
     for (const std::string toml :
          {"[crowd]\ncharacters = 5\n", "[limb.all.target]\noffset = [0.3, -0.2, 0.1]\n",
           "[limb.arms]\neffector = [1, 0.5, 0]\n", "[limb.left_arm.target]\npoint = [3, 20, 10]\n",
@@ -135,6 +141,37 @@ TEST_CASE("an edit of one exported row moves that wrist alone")
     CHECK(edited.lines[kFrame] != before.lines[kFrame]);
 }
 
+namespace {
+
+// Below the first joint's first place, as low as any joint ever is.
+Vector3d foot_of(const PlainMotion& motion)
+{
+    Vector3d foot = pose_of(motion, 0)[0].position;
+    for (std::size_t frame = 0; frame < motion.lines.size(); ++frame)
+        for (const PlainPose& joint : pose_of(motion, frame)) foot.y() = std::min(foot.y(), joint.position.y());
+    return foot;
+}
+Vector3d place_of(const PoseLine& row) { return {row.number("place_x"), row.number("place_y"), row.number("place_z")}; }
+
+}  // namespace
+
+TEST_CASE("a character of another size is the clip's whole body in that size, targets and the way that it goes too")
+{
+    const CrowdStage stage;
+    const std::string toml = "[crowd]\ncharacters = 4\nsize = [0.5, 2]\nlimbs = \"legs\"\n";
+    const std::vector<PoseLine> rows = stage.rows(toml, "left_leg", "", {"--export-targets", "targets.csv"});
+    TargetTable targets(slurp(stage.folder / "targets.csv"));
+    std::erase_if(targets.rows, [](const Cells& row) { return row.at("limb") != "left_leg"; });
+    const std::size_t frames = stage.clip.lines.size();
+    REQUIRE(rows.size() == 4 * frames);
+    REQUIRE(targets.rows.size() == rows.size());
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        const std::size_t clip_frame = (n / 4 + static_cast<std::size_t>(rows[n].number("start"))) % frames;
+        const Vector3d ankle = arm_pose(stage.clip, stage.legs[0], clip_frame).wrist, is = point(targets.rows[n], "");
+        CHECK((is - (place_of(rows[n]) + rows[n].number("size") * ankle)).norm() < 1e-4);
+    }
+}
+
 TEST_CASE(
     "characters stand on the documented grid, and the columns size and start say how a character's poses come from the "
     "clip's, in the table and in JSON")
@@ -147,6 +184,7 @@ TEST_CASE(
     const std::size_t frames = stage.clip.lines.size();
     REQUIRE(rows.size() == 6 * frames);
     const double span = 2 * std::max(stage.arms[0].length(), stage.arms[1].length());
+    const Vector3d foot = foot_of(stage.clip);
     std::size_t bent = 0, starts = 0;
     for (std::size_t frame = 0; frame < frames; ++frame)
         for (std::size_t c = 0; c < 6; ++c) {
@@ -156,9 +194,10 @@ TEST_CASE(
             CHECK(each.at(c).at("start") == start);
             CHECK(each.at(c).at("place") ==
                   nlohmann::json({row.number("place_x"), row.number("place_y"), row.number("place_z")}));
-            CHECK(row.number("place_x") == Approx(3 * span * static_cast<double>(c % 3)).epsilon(1e-6));  // the grid
-            CHECK(row.number("place_y") == 0);
-            CHECK(row.number("place_z") == Approx(3 * span * static_cast<double>(c / 3)).epsilon(1e-6));
+            // On the grid stands what is below the root at first, on the ground.
+            const Vector3d stands = row.number("size") * foot + place_of(row);
+            CHECK((stands - foot - 3 * span * Vector3d(static_cast<double>(c % 3), 0, static_cast<double>(c / 3)))
+                      .norm() < 1e-5 * span);
             if (c == 0) CHECK((start == 0 && row.number("size") == 1));
             starts += frame == 0 && start > 0;
             const std::size_t clip_frame = (frame + start) % frames;

@@ -35,8 +35,8 @@ constexpr Member kSourceMembers[] = {
     {"wrist_local", "<f4", offsetof(goal_source, wrist_local), 4, "the clip's own local rotation, x y z w"}};
 
 constexpr Member kCharacterMembers[] = {
-    {"size", "<f8", offsetof(goal_character, size), 1, "factor of limb lengths and of targets"},
-    {"place", "<f8", offsetof(goal_character, place), 3, "where it stands in the world, the clip's unit"},
+    {"size", "<f8", offsetof(goal_character, size), 1, "factor of all lengths, also of the way it goes"},
+    {"place", "<f8", offsetof(goal_character, place), 3, "in the world, of the clip's origin; the clip's unit"},
     {"start", "<u4", offsetof(goal_character, start), 1, "frame of the clip that it starts at"}};
 
 // The member of all structures, side by side, and zeros up to that many rows.

@@ -26,7 +26,7 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
     : plan_(plan),
       random_(plan.seed),
-      frame_count_(frame_count),
+      starts_(plan.starts > 0 ? plan.starts : frame_count),
       columns_(static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)))),
       spacing_(plan.spacing * limb_span(limbs))
 {
@@ -37,8 +37,10 @@ goal_character CharacterStream::next()
     const std::uint32_t n = made_++;
     if (n == 0) return {1, {0, 0, 0}, 0, 0};
     const double size = plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_);
-    const auto start = static_cast<std::uint32_t>(random_() % frame_count_);
-    return {size, {spacing_ * (n % columns_), 0, spacing_ * (n / columns_)}, plan_.stagger ? start : 0, 0};
+    const auto start = static_cast<std::uint32_t>(random_() % starts_);
+    const Eigen::Vector3d place =
+        Eigen::Vector3d(spacing_ * (n % columns_), 0, spacing_ * (n / columns_)) + (1 - size) * plan_.foot;
+    return {size, {place.x(), place.y(), place.z()}, plan_.stagger ? start : 0, 0};
 }
 
 std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)

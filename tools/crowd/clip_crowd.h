@@ -19,10 +19,9 @@ namespace swivel::tools {
 
 class ClipCrowd {
 public:
-    // Its characters are characters_of() the plan: limb lengths differ by their size, and targets taken from the clip
-    // reach by the same factor. The incoming pose is the clip's. limbs and plan must outlive the crowd. file: of the
-    // plan, for messages. Memory grows with characters and with frames, not with their product. The clip must outlive
-    // the crowd, too.
+    // Its characters are characters_of() the plan. The incoming pose is the clip's. limbs and plan must outlive the
+    // crowd. file: of the plan, for messages. Memory grows with characters and with frames, not with their product. The
+    // clip must outlive the crowd, too.
     ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
               const std::filesystem::path& file);
 
@@ -73,7 +72,8 @@ private:
     // The upper joint of that character in the world: what targets are counted from.
     Eigen::Vector3d origin(std::size_t limb, std::uint32_t character) const
     {
-        return motion_.origin(clip_frame(character), limb) + Eigen::Vector3d(characters()[character].place);
+        const goal_character& who = characters()[character];
+        return who.size * motion_.origin(clip_frame(character), limb) + Eigen::Vector3d(who.place);
     }
     std::size_t limb_index(formats::LimbName name) const;  // of one that is solved
     bool follows_clip(std::size_t limb, std::uint32_t character) const;

@@ -54,6 +54,7 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
     std::vector<std::uint32_t> flags(end - begin);
     const LimbPlan& plan = plans_[limb];
     const bool hand = plan.has(SWIVEL_WITH_HAND), aims = plan.has(SWIVEL_WITH_AIM);
+    statistics.has_effector = !plan.effector.isZero(0);
     crowds().forward(limb, begin, end - begin, {reached[0].elbow, sizeof(Reached)}, {reached[0].wrist, sizeof(Reached)},
                      {hand ? reached[0].hand : nullptr, sizeof(Reached)});
     crowds().read(limb, SWIVEL_FLAGS, begin, end - begin, {flags.data(), sizeof flags[0]});

@@ -21,7 +21,7 @@ struct LimbPlan {
     std::vector<FixedField> fields;
     std::optional<swivel_region> region;
 
-    std::optional<Eigen::Vector3d> target_point;              // in the world of a character that stands at the origin
+    std::optional<Eigen::Vector3d> target_point;              // in the clip
     Eigen::Vector3d target_offset = Eigen::Vector3d::Zero();  // added to targets; world axes
     Eigen::Vector3d effector = Eigen::Vector3d::Zero();       // in the end joint's frame, of a character of size 1
     formats::PoleKind pole = formats::PoleKind::point;
@@ -41,11 +41,13 @@ struct LimbPlan {
 struct CrowdPlan {
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
-    double spacing = 3;                          // between neighbours, in spans of two limbs
-    double least_size = 0.85, most_size = 1.15;  // factor of limb lengths; the first character's is 1
-    bool stagger = true;                         // characters start anywhere in the clip
-    std::uint32_t budget_blocks = 0;             // solved in a frame; 0: all
-    std::vector<LimbPlan> limbs;                 // one for each limb solved
+    double spacing = 3;                              // between neighbours, in spans of two limbs
+    double least_size = 0.85, most_size = 1.15;      // factor of all lengths; the first character's is 1
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();  // in the clip: where characters of all sizes stand alike
+    bool stagger = true;                             // characters start anywhere in the clip, or in the first `starts`
+    std::size_t starts = 0;                          // frames of it; 0: all
+    std::uint32_t budget_blocks = 0;                 // solved in a frame; 0: all
+    std::vector<LimbPlan> limbs;                     // one for each limb solved
 };
 
 // What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and bends to

@@ -32,25 +32,33 @@ Target on_the_way(const Target& before, const Target& after, std::size_t frame)
 
 }  // namespace
 
-GivenTargets::GivenTargets(const std::string& source, Between between, const formats::Clip& clip,
+GivenTargets::GivenTargets(const std::string& source, Between between, std::size_t frame_count,
                            std::span<const Limb> limbs, std::uint32_t characters)
     : between_(between)
 {
     if (source == "clip") return;
     rows_ = formats::read_targets_csv(source);
+    const auto is_of_kind = [&](const Target& target) {
+        return std::ranges::any_of(limbs, [&](const Limb& limb) { return limb.name.kind == target.limb.kind; });
+    };
     for (const Target& target : rows_) {
         const auto refuse = [&](const std::string& cause) { throw formats::InputError(source, target.line, cause); };
-        if (target.frame >= clip.frame_count)
-            refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", target.frame,
-                               clip.frame_count - 1));
+        if (target.frame >= frame_count)
+            refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", target.frame, frame_count - 1));
         if (target.character >= characters)
             refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
                                target.character, characters));
-        if (std::none_of(limbs.begin(), limbs.end(), [&](const Limb& limb) { return limb.name == target.limb; }))
-            refuse(fmt::format("the {} is not solved; take it in with --limbs, or name it with {} {}",
-                               plain_name(target.limb), words_of(target.limb.kind).option,
-                               words_of(target.limb.kind).joints));
+        if (is_of_kind(target) && std::ranges::find(limbs, target.limb, &Limb::name) == limbs.end())
+            refuse(fmt::format("the {} is not solved; name it with {} {}", plain_name(target.limb),
+                               words_of(target.limb.kind).option, words_of(target.limb.kind).joints));
     }
+    const std::uint32_t line = rows_.front().line;
+    const std::string_view limbs_of_row = words_of(rows_.front().limb.kind).limbs;
+    left_out_ = std::erase_if(rows_, [&](const Target& row) { return !is_of_kind(row); });
+    if (rows_.empty())
+        throw formats::InputError(
+            source, line,
+            fmt::format("all rows are of {}, which are not solved; take them in with --limbs", limbs_of_row));
     find_tracks();
 }
 

@@ -23,10 +23,14 @@ enum class Between {
 
 class GivenTargets {
 public:
-    // source: "clip" for none, or a file of targets. Throws InputError, naming the line, for frames, characters and
-    // limbs that do not exist or are not solved, and as read_targets_csv() does.
-    GivenTargets(const std::string& source, Between between, const formats::Clip& clip, std::span<const Limb> limbs,
+    // source: "clip" for none, or a file of targets. Rows of arms are left out where no arm is solved, and so are those
+    // of legs. Throws InputError, naming the line, for frames, characters and limbs that do not exist or are not
+    // solved, for a table of which no row is left, and as read_targets_csv() does.
+    GivenTargets(const std::string& source, Between between, std::size_t frame_count, std::span<const Limb> limbs,
                  std::uint32_t characters);
+
+    // How many rows were left out.
+    std::size_t left_out() const { return left_out_; }
 
     // How many there are in the first frames together.
     std::uint64_t count(std::size_t frame_count) const;
@@ -42,6 +46,7 @@ private:
     void find_tracks();
 
     Between between_;
+    std::size_t left_out_ = 0;
     std::vector<formats::Target> rows_;  // by track, then frame
     std::vector<Track> tracks_;
     std::vector<formats::Target> targets_;  // of the frame

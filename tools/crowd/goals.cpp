@@ -36,7 +36,7 @@ Vec3 target_of(const goal_plan& plan, const goal_source& from, double size)
     if (!plan.has_target_point) return size * (vec3(from.wrist) + turned(from.hand, vec3(plan.effector))) + offset;
     Vec3 origin = vec3(from.origin);
     if (plan.is_mirrored) origin.x = -origin.x;
-    return vec3(plan.target_point) - origin + offset;
+    return size * (vec3(plan.target_point) - origin) + offset;
 }
 
 // As the plan's kind of pole has it.

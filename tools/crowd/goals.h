@@ -23,11 +23,11 @@ typedef struct goal_source {
     float shoulder[4], elbow_local[4], wrist_local[4];  // the clip's own pose between the two bones
 } goal_source;
 
-// A character of the crowd; the first is the clip's own.
+// A character of the crowd; the first is the clip's own. What is at x in the clip is at place + size * x.
 typedef struct goal_character {
-    double size;      // factor of limb lengths and of targets
-    double place[3];  // in the world, from where the clip's own character stands
-    uint32_t start;   // frame of the clip that it starts at
+    double size;
+    double place[3];
+    uint32_t start;  // frame of the clip that it starts at
     uint32_t reserved;
 } goal_character;
 

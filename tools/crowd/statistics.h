@@ -72,7 +72,7 @@ constexpr double kLostDistance = 1e-4;
 
 // Of the limbs of one kind.
 struct LimbStatistics {
-    ErrorStat reached;      // limb lengths, between wrist or ankle and target, of limbs that reach it
+    ErrorStat reached;      // limb lengths, between wrist, ankle or effector and target, of limbs that reach it
     ErrorStat missed;       // the same, of the others
     ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim and hit it
     ErrorStat aim_missed;   // the same, of limbs that aim and do not
@@ -84,6 +84,7 @@ struct LimbStatistics {
     std::array<FlagStat, 32> flags{};           // [bit]
     std::uint64_t limb_count = 0;
     std::uint64_t unreached = 0, bad = 0;  // of them: out of reach, with bad input
+    bool has_effector = false;             // a point of hand or foot goes to the target
 
     // distance: in limb lengths, between what was to reach the target and the target.
     void add_flags(std::uint32_t word, double distance, const PoseName& pose)
@@ -113,6 +114,7 @@ struct LimbStatistics {
         limb_count += other.limb_count;
         unreached += other.unreached;
         bad += other.bad;
+        has_effector = has_effector || other.has_effector;
     }
 };
 

@@ -204,6 +204,24 @@ LimbSettings read_limb(TomlTable table, bool is_one)
     return to;
 }
 
+// "auto", [first, last] or false.
+Maybe<LoopFrames> read_loop(TomlTable& table)
+{
+    constexpr std::string_view kKey = "loop", kAuto[] = {"auto"};
+    if (table.is_flag(kKey)) {
+        if (table.flag(kKey)->value) table.fail(kKey, "is true; write \"auto\", [first, last] or false");
+        return std::nullopt;
+    }
+    if (!table.is_list(kKey))
+        return converted<LoopFrames>(table.word(kKey, kAuto), [](std::size_t) { return LoopFrames(); });
+    return converted<LoopFrames>(table.range(kKey, 0, UINT32_MAX, UINT32_MAX), [&](const NumberRange& frames) {
+        const std::array ends{static_cast<std::size_t>(frames.least), static_cast<std::size_t>(frames.most)};
+        if (static_cast<double>(ends[0]) != frames.least || static_cast<double>(ends[1]) != frames.most)
+            table.fail(kKey, "frames are counted; write whole numbers");
+        return LoopFrames(ends);
+    });
+}
+
 void read_crowd(TomlTable table, CrowdFile& to)
 {
     to.characters = table.whole("characters", 1, 10'000'000);
@@ -211,6 +229,7 @@ void read_crowd(TomlTable table, CrowdFile& to)
     to.spacing = table.number("spacing", 0, 1e6);
     to.size = table.range("size", 0.01, 100, 100);
     to.stagger = table.flag("stagger");
+    to.loop = read_loop(table);
     to.limbs = converted<std::string>(table.word("limbs", kLimbKinds),
                                       [](std::size_t n) { return std::string(kLimbKinds[n]); });
     to.targets = table.text("targets");

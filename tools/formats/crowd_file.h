@@ -86,12 +86,16 @@ struct LimbSection {
     LimbSettings settings;
 };
 
+// Frames between which the clip goes on and on: the first, and the one that is as the first. Nothing: they are found.
+using LoopFrames = std::optional<std::array<std::size_t, 2>>;
+
 struct CrowdFile {
     std::filesystem::path path;
     Maybe<std::int64_t> characters, seed;
     Maybe<double> spacing;
     Maybe<NumberRange> size;
     Maybe<bool> stagger;
+    Maybe<LoopFrames> loop;
     Maybe<std::string> limbs, targets;  // targets as written; a relative path starts at the file's folder
     Maybe<std::int64_t> budget_blocks;
     std::vector<LimbSection> sections;  // those in the file, the general before the special

@@ -55,6 +55,10 @@ public:
 
     Maybe<std::vector<Eigen::Vector3d>> vectors(std::string_view key);  // a list of them, of any number
 
+    // Whether the key has true or false, or a list.
+    bool is_flag(std::string_view key) const { return table_ && table_->get(key) && table_->get(key)->is_boolean(); }
+    bool is_list(std::string_view key) const { return table_ && table_->get(key) && table_->get(key)->is_array(); }
+
     // A table within; an empty one where it is not there, so that its keys are asked for all the same.
     TomlTable table(std::string_view key);
     // The tables of a list, such as [{...}, {...}]; none where it is not there.

@@ -58,6 +58,7 @@ void add_solve(CLI::App& app)
               "there are statistics only"),
           file_name());
     add_view(*command, options->view);
+    add_frames(*command, options->frames);
     add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_solve(*options); });
@@ -83,10 +84,7 @@ void add_view_command(CLI::App& app)
                               "The page, to open in a browser; it needs no network and no other file. Without it it is "
                               "named as FILE, with .html, in this folder. - is standard output"),
           file_name());
-    takes(command->add_option("--frames", options->frames,
-                              "Frames of the clip at most, from the first, 1 to 1 million. Without it all. Fewer make "
-                              "a smaller page"),
-          whole_number(1, 1'000'000));
+    add_frames(*command, options->frames);
     add_quiet(*command, options->quiet, "Print errors and nothing else");
     command->footer("FILE may also be a cache that swivel store made.");
     command->callback([options, command] { run_view(*options, option_about_clip(*command)); });

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/cli/command_error.h"
 #include "tools/crowd/crowd_checks.h"
 #include "tools/formats/error.h"
@@ -30,6 +32,46 @@ Between between_of(const SolveOptions& options, const std::string& targets)
         throw CommandError(2, fmt::format("--between {}: is about the rows of a table; give one with --targets FILE",
                                           options.between));
     return options.between == "hold" ? Between::hold : Between::linear;
+}
+
+// The joint that all limbs hang on.
+int common_joint(const formats::Clip& clip, std::span<const Limb> limbs)
+{
+    const auto hangs_on = [&](int joint, int above) {
+        for (; joint >= 0; joint = joint_at(clip, joint).parent)
+            if (joint == above) return true;
+        return false;
+    };
+    int body = limbs.front().upper();
+    while (joint_at(clip, body).parent >= 0 && !std::ranges::all_of(limbs, [&](const Limb& limb) {
+               return limb.upper() != body && hangs_on(limb.upper(), body);
+           }))
+        body = joint_at(clip, body).parent;
+    return body;
+}
+
+// Puts the clip as it goes on in place of the clip: as many frames as are solved, wherever in the loop one starts.
+void go_round(const SolveOptions& options, MotionFile& file, CrowdJob& job)
+{
+    const formats::Given<formats::LoopFrames>& asked = *job.crowd->loop;
+    const formats::Clip& clip = file.clip();
+    const auto refuse = [&](const std::string& cause) {
+        throw formats::InputError(job.crowd->path, asked.line, fmt::format("{}: {}", asked.key, cause));
+    };
+    if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
+    if (clip.frame_count < 2) refuse("the clip has one frame; take this out");
+    const int body = common_joint(clip, job.limbs);
+    if (asked.value) {
+        const auto [first, last] = *asked.value;
+        if (last >= clip.frame_count)
+            refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", last, clip.frame_count - 1));
+        if (last - first < 2) refuse("a loop has two frames or more; write [first, last]");
+        job.loop = FoundLoop{{first, last}, 0};
+    } else {
+        job.loop = find_loop(clip, body);
+    }
+    if (options.frames > 0) job.frame_count = options.frames;
+    file.replace(looped(clip, body, job.loop->loop, job.frame_count + job.loop->loop.length()));
 }
 
 }  // namespace
@@ -65,7 +107,10 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     job.limbs = require_limbs(search, options.file);
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) job.missing.push_back(std::move(finding));
+    job.frame_count = clip.frame_count;
+    if (job.crowd && job.crowd->loop) go_round(options, file, job);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
+    if (job.loop) job.plan.starts = job.loop->loop.length();
     if (options.characters) job.plan.characters = *options.characters;
     if (clip.frame_time == 0 && job.plan.characters > 1)
         throw formats::InputError(options.file,
@@ -74,8 +119,11 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     if (options.seed) job.plan.seed = *options.seed;
     job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
     require_one_reader(options, job.targets);
-    job.given.emplace(job.targets, between_of(options, job.targets), clip, job.limbs, job.plan.characters);
-    if (options.frames > 0 && options.frames < clip.frame_count) file.cut(options.frames);
+    job.given.emplace(job.targets, between_of(options, job.targets), job.frame_count, job.limbs, job.plan.characters);
+    if (!job.loop && options.frames > 0 && options.frames < clip.frame_count) {
+        file.cut(options.frames);
+        job.frame_count = options.frames;
+    }
     return job;
 }
 

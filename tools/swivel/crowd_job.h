@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/crowd/clip_loop.h"
 #include "tools/crowd/crowd_plan.h"
 #include "tools/crowd/given_targets.h"
 #include "tools/swivel/commands.h"
@@ -21,7 +22,9 @@ struct CrowdJob {
     std::vector<Limb> limbs;
     std::vector<LimbFinding> missing;
     CrowdPlan plan;
-    std::string targets;  // "clip" or a file
+    std::optional<FoundLoop> loop;
+    std::size_t frame_count = 0;  // to solve: those of the clip, but for a loop
+    std::string targets;          // "clip" or a file
     std::optional<GivenTargets> given;
 };
 

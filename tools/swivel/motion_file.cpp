@@ -77,6 +77,11 @@ void MotionFile::cut(std::size_t frame_count)
     std::visit([&](auto& file) { formats::keep_frames(file.clip, frame_count); }, file_);
 }
 
+void MotionFile::replace(formats::Clip clip)
+{
+    std::visit([&](auto& file) { file.clip = std::move(clip); }, file_);
+}
+
 const formats::Clip& MotionFile::clip() const
 {
     return std::visit([](const auto& file) -> const formats::Clip& { return file.clip; }, file_);

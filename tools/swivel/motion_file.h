@@ -29,6 +29,8 @@ public:
 
     // Keeps the first frames alone, for a motion that will not be written. frame_count: at most the clip's.
     void cut(std::size_t frame_count);
+    // Takes another motion of the clip's joints, which will not be written.
+    void replace(formats::Clip clip);
 
     const formats::Clip& clip() const;
     // The files that it refers to, such as a glTF file's buffers and images.

@@ -76,11 +76,11 @@ void add_distances(std::vector<Distance>& to, const LimbStatistics& s, LimbKind 
         if (stat.count > 0) to.push_back({meaning, std::move(key), std::move(text), std::move(unit), stat});
     };
     const auto joint = [&](std::string_view suffix) { return fmt::format("{}_{}", w.lower_joint, suffix); };
-    const std::string end(w.end_joint);
-    add(kError, end, end + " to target", length, s.reached);
+    const std::string key(w.end_joint), end = s.has_effector ? "effector" : key;
+    add(kError, key, end + " to target", length, s.reached);
     add(kError, arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target", w.end), length, s.aimed);
     add(kError, std::string(w.end), fmt::format("{} to orientation", w.end), "rad", s.orientation);
-    add(kMissed, end, end + " to target, not reached", length, s.missed);
+    add(kMissed, key, end + " to target, not reached", length, s.missed);
     add(kMissed, arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target, not reached", w.end), length, s.aim_missed);
     add(kDiffers, joint("given"), fmt::format("{} from clip, goal given", w.lower_joint), length, s.given);
     add(kDiffers, joint("bent"), fmt::format("{} from clip, bent over 5 deg", w.lower_joint), length, s.bent);

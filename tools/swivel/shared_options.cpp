@@ -66,6 +66,14 @@ void add_view(CLI::App& command, std::string& view)
           file_name());
 }
 
+void add_frames(CLI::App& command, std::uint32_t& frames)
+{
+    takes(command.add_option("--frames", frames,
+                             "Frames of the clip at most, from the first, 1 to 1 million. Without it all. With "
+                             "crowd.loop the crowd goes on for so many"),
+          whole_number(1, 1'000'000));
+}
+
 void add_crowd_of_clip(CLI::App& command, SolveOptions& options)
 {
     add_file(command, options.file, "Motion file");

@@ -41,6 +41,7 @@ void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
 void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vector<std::string>& legs,
                      const std::string& other_side);
 void add_view(CLI::App& command, std::string& view);
+void add_frames(CLI::App& command, std::uint32_t& frames);
 // The clip, its crowd and what is asked of it.
 void add_crowd_of_clip(CLI::App& command, SolveOptions& options);
 

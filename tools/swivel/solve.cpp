@@ -50,8 +50,8 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     }
     Statistics statistics;
     {
-        Progress progress("frames", file.clip().frame_count, options.quiet);
-        for (std::size_t frame = 0; frame < file.clip().frame_count; ++frame) {
+        Progress progress("frames", job.frame_count, options.quiet);
+        for (std::size_t frame = 0; frame < job.frame_count; ++frame) {
             progress.show(frame);
             crowd.set_frame(frame, job.given->of_frame(frame));
             if (exported) exported->append(crowd.targets());
@@ -108,6 +108,8 @@ void run_solve(const SolveOptions& options)
     std::FILE* const reports = report_stream(options);
     MotionFile file(options.file, options.motion);
     if (is_motion) file.require_can_write(options.out);
+    if (is_motion && options.frames > 0)
+        throw CommandError(2, "--frames: a written clip keeps its frames; write a .csv, or leave this out");
     CrowdJob job = make_job(options, choice, file);
     require_own_files(options, file, job.targets);
     if (!options.json && !options.quiet) print_clip(reports, options, file, job);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tools/cli/streams.h"
 #include "tools/formats/printable.h"
@@ -22,7 +23,7 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     const std::vector<Limb>& limbs = job.limbs;
     const std::uint32_t characters = job.plan.characters;
     say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(options.file), file.describe(),
-        clip.joints.size(), clip.frame_count, clip.frame_count == 1 ? "" : "s",
+        clip.joints.size(), job.frame_count, job.frame_count == 1 ? "" : "s",
         clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
     for (const std::string& note : file.notes()) say(to, "note     {}\n", note);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
@@ -35,6 +36,15 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     for (const LimbFinding& finding : job.missing)
         say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
             finding.has_joints ? "refused" : "missing", problem_text(finding));
+    if (job.loop)
+        say(to, "loop     frames {} to {} of the clip, {:.2f} s{}\n", job.loop->loop.first, job.loop->loop.last,
+            static_cast<double>(job.loop->loop.length()) * clip.frame_time,
+            job.loop->gap > 0
+                ? fmt::format(", whose joints differ by {:.1f} degrees", job.loop->gap * 180 / std::numbers::pi)
+                : "");
+    if (const std::size_t count = job.given->left_out(); count > 0)
+        say(to, "note     {}: {} row{} left out, of limbs that are not solved\n", shown_file(job.targets), count,
+            count == 1 ? " is" : "s are");
     std::string counts;
     for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
         const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
@@ -53,12 +63,13 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
     nlohmann::ordered_json out{{"clip", options.file},
                                {"motion", file.describe()},
                                {"joints", clip.joints.size()},
-                               {"frames", clip.frame_count},
+                               {"frames", job.frame_count},
                                {"frame_time", frame_time_of(clip)},
                                {"characters", job.plan.characters},
                                {"seed", job.plan.seed},
                                {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
+    if (job.loop) out["loop"] = {job.loop->loop.first, job.loop->loop.last};
     if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;
     for (const Limb& limb : job.limbs) {
         const LimbWords& words = words_of(limb.name.kind);

@@ -128,8 +128,8 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
     const LimbCrowds one(limb_setups(job.limbs, job.plan), 1, 0, options.crowd.crowd);
     CachedCrowd crowd = cached_clip({title_of(options.crowd.file), file.describe()}, clip, job.limbs, job.plan,
                                     ClipMotion(clip, job.limbs));
-    if (options.crowd.frames > 0) crowd.frame_count = options.crowd.frames;
-    crowd.has_given = job.given->count(clip.frame_count) > 0;
+    crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);
+    crowd.has_given = job.given->count(job.frame_count) > 0;
     crowd.has_poses = !options.no_poses;
     crowd.chunk = options.chunk.empty() ? chunk_shape(crowd.frame_count, crowd.character_count, crowd.limbs.size())
                                         : chunk_of(options.chunk);

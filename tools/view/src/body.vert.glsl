@@ -4,6 +4,7 @@ uniform highp sampler2D uBones;  // a texel each: the joints at both ends, the r
 void main() {
     vec4 bone = texel(uBones, int(part));
     int character = characterOf(gl_InstanceID);
-    vec3 place = placeOf(character).xyz;
-    putCapsule(place + jointOf(character, int(bone.x)), place + jointOf(character, int(bone.y)), bone.z, bone.w);
+    vec4 place = placeOf(character);
+    vec3 a = place.xyz + jointOf(character, int(bone.x)), b = place.xyz + jointOf(character, int(bone.y));
+    putCapsule(a, b, place.w * bone.z, place.w * bone.w);
 }

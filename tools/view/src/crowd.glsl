@@ -1,5 +1,5 @@
-// Where a character stands and what it does: two texels each, place and size, then the frame it starts at. Positions of
-// the clip's joints lie one after the other, frame by frame.
+// What makes a character: two texels each, place and size, then the frame it starts at. What is at x in the clip is at
+// place + size * x. Positions of the clip's joints lie one after the other, frame by frame.
 uniform highp sampler2D uCharacters, uPositions;
 uniform int uFrame, uFrameCount, uJointCount;
 uniform int uDrawn, uExtra;  // so many characters from the first on are drawn, and one more
@@ -10,7 +10,7 @@ vec4 texel(highp sampler2D from, int at) {
 }
 int characterOf(int instance) { return instance < uDrawn ? instance : uExtra; }
 vec4 placeOf(int character) { return texel(uCharacters, 2 * character); }
-vec3 jointOf(int character, int joint) {
+vec3 jointOf(int character, int joint) {  // from the character's place
     int frame = (uFrame + int(texel(uCharacters, 2 * character + 1).x)) % uFrameCount;
-    return texel(uPositions, frame * uJointCount + joint).xyz;
+    return placeOf(character).w * texel(uPositions, frame * uJointCount + joint).xyz;
 }

@@ -11,7 +11,7 @@ void main() {
     vec3 at = place.xyz + jointOf(character, uUpperJoint);
     vec3 a = n == 0 ? limb.shoulder : n == 1 ? limb.elbow : limb.wrist;
     vec3 b = n == 0 ? limb.elbow : n == 1 ? limb.wrist : limb.tip;
-    putCapsule(at + a, at + b, uRadii[n], uRadii[n + 1]);
+    putCapsule(at + a, at + b, place.w * uRadii[n], place.w * uRadii[n + 1]);
     vFlags = limb.flags;
     vFlexion = limb.flexion;
     vMissed = limb.missed;

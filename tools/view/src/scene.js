@@ -74,8 +74,8 @@ export class View {
     }
     /** Where a character's first joint is on the ground. */
     placeOf(character) {
-        const { place } = this.stage.characters[character], root = this.figure.at(0, this.stage.clipFrame(character));
-        return new Vector3(root.x + place[0], 0, root.z + place[2]).multiplyScalar(this.metres);
+        const { size, place } = this.stage.characters[character], root = this.figure.at(0, this.stage.clipFrame(character));
+        return new Vector3(size * root.x + place[0], 0, size * root.z + place[2]).multiplyScalar(this.metres);
     }
     /** A point of the clip's world in the scene. */
     toScene([x, y, z]) { return new Vector3(x, y - this.figure.ground, z).multiplyScalar(this.metres); }

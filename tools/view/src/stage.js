@@ -133,8 +133,8 @@ export class Stage {
     clipFrame(character) { return (this.frame + this.characters[character].start) % this.clipFrameCount; }
     /** Where goals are relative to, in the world: a limb's shoulder, before its clavicle has turned. */
     origin(limb, character) {
-        const origin = limb.sources.origin(this.clipFrame(character));
-        return origin.map((coordinate, axis) => coordinate + this.characters[character].place[axis]);
+        const origin = limb.sources.origin(this.clipFrame(character)), { size, place } = this.characters[character];
+        return origin.map((coordinate, axis) => size * coordinate + place[axis]);
     }
     /** Poles may be points or directions; a direction is shown at the end of the limb. */
     poleIsPoint(limb) { return (this.featuresOf(limb) & Feature.POLE_DIRECTION) === 0n; }

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a clip that loops goes on without a jump, and whoever walks walks on from where they were. The two
+// frames are found, or named. Places are those of Eigen's matrices, of the clip alone.
+#include <catch2/catch.hpp>
+
+#include "tests/crowd_stage.h"
+#include "tests/shared_figures.h"
+#include "tools/crowd/clip_loop.h"
+#include "tools/formats/bvh.h"
+
+using namespace swivel;
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using formats::Clip;
+using tools::ClipLoop;
+
+namespace {
+
+std::vector<Eigen::Isometry3d> matrices(const Clip& clip, std::size_t frame)
+{
+    std::vector<Eigen::Isometry3d> to;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        const Eigen::Isometry3d local = Eigen::Translation3d(formats::local_translation(clip, frame, n)) *
+                                        clip.rotation[frame * clip.joints.size() + n];
+        const int parent = clip.joints[n].parent;
+        to.push_back(parent < 0 ? local : to[static_cast<std::size_t>(parent)] * local);
+    }
+    return to;
+}
+// The most that any joint moves between two frames that follow each other, from one frame to another.
+double largest_step(const Clip& clip, std::size_t from, std::size_t to)
+{
+    double most = 0;
+    std::vector<Eigen::Isometry3d> was = matrices(clip, from);
+    for (std::size_t frame = from + 1; frame <= to; ++frame) {
+        const std::vector<Eigen::Isometry3d> is = matrices(clip, frame);
+        for (std::size_t n = 0; n < is.size(); ++n)
+            most = std::max(most, (is[n].translation() - was[n].translation()).norm());
+        was = is;
+    }
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE("the loop of a walk is one step of both legs, and no joint jumps where recorded clips go on")
+{
+    for (const std::string name : kSharedClips) {
+        const fs::path path = find_or_warn(name);
+        if (path.empty()) continue;
+        const Clip clip = formats::read_bvh(path).clip;
+        const ClipLoop loop = tools::find_loop(clip, 0).loop;
+        const std::size_t length = loop.length(), count = 3 * length + 1;
+        const Clip on = tools::looped(clip, 0, loop, count);
+        INFO(name << ", frames " << loop.first << " to " << loop.last);
+        REQUIRE(on.frame_count == count);
+        if (name == "cmu_02_01_walk.bvh") {
+            CHECK(std::abs(static_cast<int>(loop.first) - 136) <= 2);
+            CHECK(std::abs(static_cast<int>(loop.last) - 268) <= 2);
+        }
+        CHECK(static_cast<double>(length) * clip.frame_time >= tools::kShortestLoop - 1e-6);
+        CHECK(largest_step(on, 0, count - 1) <= 1.2 * largest_step(clip, loop.first, loop.last));
+        // Where the second round begins, it is as in the last frame, and then as in the first round, some way on.
+        const auto seam = matrices(on, length), last = matrices(clip, loop.last);
+        for (std::size_t n = 0; n < seam.size(); ++n) REQUIRE((seam[n].matrix() - last[n].matrix()).norm() < 1e-6);
+        const auto middle = length / 2 + length % 2;
+        REQUIRE(static_cast<double>(middle) * clip.frame_time >= tools::kSeam);
+        const auto first = matrices(on, middle), second = matrices(on, length + middle),
+                   third = matrices(on, 2 * length + middle);
+        const Eigen::Isometry3d way = second[0] * first[0].inverse();
+        CHECK(std::fabs(way.translation().y()) < 1e-6);
+        CHECK((way.rotation() * Vector3d::UnitY() - Vector3d::UnitY()).norm() < 1e-6);
+        for (std::size_t n = 0; n < first.size(); ++n) {
+            REQUIRE((second[n].matrix() - (way * first[n]).matrix()).norm() < 1e-6);
+            REQUIRE((third[n].matrix() - (way * second[n]).matrix()).norm() < 1e-6);
+        }
+    }
+}
+
+TEST_CASE("a clip that turns on the spot and about its height loops as it does")
+{
+    // A root that goes round a circle, and a joint that nods every second, at 50 frames a second.
+    Clip clip;
+    clip.joints.resize(2);
+    clip.joints[0].track = 0, clip.track_count = 1;
+    clip.joints[1].parent = 0, clip.joints[1].offset = Vector3d(0, 1, 0);
+    clip.frame_time = 0.02, clip.frame_count = 120;
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const double t = 0.02 * static_cast<double>(frame);
+        const Eigen::AngleAxisd turn(0.7 * t, Vector3d::UnitY());
+        clip.translation.push_back(turn * Vector3d(3, 1, 0));
+        clip.rotation.push_back(Quaterniond(turn));
+        clip.rotation.push_back(
+            Quaterniond(Eigen::AngleAxisd(0.5 * std::sin(2 * std::numbers::pi * t), Vector3d::UnitX())));
+    }
+    const tools::FoundLoop found = tools::find_loop(clip, 0);
+    CHECK(found.loop.length() == 50);
+    CHECK(found.gap < 1e-3);
+    const Clip on = tools::looped(clip, 0, found.loop, 500);
+    for (std::size_t frame = 0; frame < on.frame_count; ++frame) {
+        const Eigen::AngleAxisd turn(0.7 * 0.02 * static_cast<double>(found.loop.first + frame), Vector3d::UnitY());
+        REQUIRE((matrices(on, frame)[0].translation() - turn * Vector3d(3, 1, 0)).norm() < 1e-9);
+    }
+    // Too short to loop otherwise.
+    clip.frame_count = 20;
+    clip.translation.resize(20), clip.rotation.resize(40);
+    const ClipLoop whole = tools::find_loop(clip, 0).loop;
+    CHECK((whole.first == 0 && whole.last == 19));
+}
+
+TEST_CASE("crowd file: loop")
+{
+    const CrowdStage stage(0, 1);
+    const std::string crowd = "[crowd]\ncharacters = 6\nsize = [1, 1]\nlimbs = \"legs\"\n";
+    const Outcome outcome = stage.run(crowd + "loop = \"auto\"\n", {"--frames", "400", "--out", "out.csv"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("400 frames") && Contains("loop     frames "));
+    const std::vector<PoseLine> rows = pose_lines(slurp(stage.folder / "out.csv"));
+    REQUIRE(rows.size() == 400 * 12);
+    const nlohmann::json json = stage.json(crowd + "loop = [40, 90]\n", {"--frames", "200"});
+    CHECK(json.at("loop") == nlohmann::json({40, 90}));
+    CHECK(json.at("frames") == 200);
+    for (const auto& each : json.at("each_character")) CHECK(each.at("start").get<int>() < 50);
+    // The first character's frames are the clip's, and a round later they are again, where nothing fades any more.
+    const std::vector<PoseLine> looped = stage.rows(crowd + "loop = [40, 90]\n", "left_leg", "", {"--frames", "200"}),
+                                plain = stage.rows(crowd, "left_leg");
+    for (std::size_t frame = 0; frame < 100; ++frame) {
+        if (frame >= 50 && frame < 70) continue;
+        const PoseLine &is = looped[6 * frame], &was = plain[6 * (40 + frame % 50)];
+        for (std::size_t j = 0; j < 3; ++j) CHECK(is.joint[j].angularDistance(was.joint[j]) < 1e-4);
+    }
+    // Character n in frame f is the first one in frame f + start.
+    for (std::size_t c = 1; c < 6; ++c)
+        for (std::size_t frame = 0; frame < 100; frame += 9) {
+            const PoseLine& is = looped[6 * frame + c];
+            const PoseLine& first = looped[6 * (frame + static_cast<std::size_t>(is.number("start")))];
+            for (std::size_t j = 0; j < 3; ++j) CHECK(is.joint[j].angularDistance(first.joint[j]) < 1e-4);
+        }
+    CHECK(stage.output(crowd + "loop = false\n", "a.csv") == stage.output(crowd, "b.csv"));
+    stage.require_refused(crowd + "loop = [40, 9000]\n",
+                          "crowd.loop: frame 9000 does not exist; the clip has frames 0 to ");
+    stage.require_refused(crowd + "loop = [40, 41]\n", "crowd.loop: a loop has two frames or more");
+    stage.require_refused(crowd + "loop = [40.5, 60]\n", "crowd.loop: frames are counted; write whole numbers");
+    stage.require_refused(crowd + "loop = true\n", "crowd.loop: is true; write \"auto\", [first, last] or false");
+    stage.require_refused("[crowd]\nloop = \"auto\"\n", "crowd.loop: a written clip keeps its frames", "out.bvh");
+}
