@@ -108,6 +108,17 @@ Arm godot()
     return arm;
 }
 
+Arm blender()
+{
+    // [blender]
+    const Arm arm{chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, -1, 0}),  // bones along -x
+                  {-0.2f, 0, 1.4f},                                 // shoulder
+                  {-0.2f, -0.5f, 1.4f},   // target: half a metre in front
+                  {-0.2f, -0.2f, 0.4f}};  // pole: below
+    // [end]
+    return arm;
+}
+
 Arm gltf()
 {
     return {chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, 0, 1}),
@@ -140,6 +151,11 @@ Float4 turn_to_unreal_mesh(const Float4& q) { return {-q[0], -q[2], -q[1], q[3]}
 // [to_godot]
 Float3 point_to_godot(const Float3& p) { return {-p[0], p[1], -p[2]}; }
 Float4 turn_to_godot(const Float4& q) { return {-q[0], q[1], -q[2], q[3]}; }
+// [end]
+
+// [to_blender]
+Float3 point_to_blender(const Float3& p) { return {p[0], -p[2], p[1]}; }
+Float4 turn_to_blender(const Float4& q) { return {q[0], -q[2], q[1], q[3]}; }
 // [end]
 
 // A glTF arm carried over is the engine's, and so is its pose.
@@ -201,6 +217,14 @@ TEST_CASE("docs: Godot")
     check_rotations(solved(godot()), {0.2236f, 0.2236f, -0.6708f, 0.6708f},
                     {0, 0.7071f, 0, 0.7071f});
     check_carried(godot(), point_to_godot, turn_to_godot);
+}
+
+TEST_CASE("docs: Blender")
+{
+    check_pose(blender(), solved(blender()), {-0.2, -0.18, 1.16});
+    check_rotations(solved(blender()), {-0.2236f, -0.6708f, 0.2236f, 0.6708f},
+                    {0, 0, 0.7071f, 0.7071f});
+    check_carried(blender(), point_to_blender, turn_to_blender);
 }
 
 TEST_CASE("docs: glTF") { check_pose(gltf(), solved(gltf()), {-0.2, 1.16, 0.18}); }

@@ -29,8 +29,8 @@ struct LimbRange {
     AngleRange flexion;    // the angle between both bones, outwards to the next tenth
 };
 
-// Nothing for a clip of one frame, which is no motion. Takes every frame's pose of the limb: what lies between frames
-// may leave the range.
+// Nothing for a clip of one frame, and for a limb that never moves by a tenth of a degree: a T-pose tells no limits.
+// Takes every frame's pose of the limb: what lies between frames may leave the range.
 std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb);
 
 }  // namespace swivel::tools

@@ -106,30 +106,57 @@ struct NameSearch {
         return limbs;
     }
 
-    // Why names that are borne make no limb.
-    std::string problem_of(const Attempt& made) const
+    // "#5,#7,#9", and the option that names them.
+    std::string numbers(const LimbJoints& at) const
     {
+        const auto number = [&](int joint) { return joint_at(joints.clip, joint).number; };
+        return fmt::format("#{},#{},#{}", number(at[0]), number(at[1]), number(at[2]));
+    }
+    std::string option(const LimbJoints& at) const
+    {
+        return fmt::format("{} {}:{}", words_of(limb.kind).option, side_name(limb.side), numbers(at));
+    }
+    // A joint below `lower` that rests where `end` does, within a thousandth of the way there; -1 if there is none.
+    int twin_below(int lower, int end) const
+    {
+        const std::vector<formats::JointPose> rest_w = formats::rest_pose(joints.clip);
+        const auto place = [&](int joint) { return rest_w[static_cast<std::size_t>(joint)].position; };
+        const double most = 1e-3 * (place(end) - place(lower)).norm();
+        for (int joint = lower + 1; joint < static_cast<int>(joints.clip.joints.size()); ++joint)
+            if (is_above(joints.clip, lower, joint) && (place(joint) - place(end)).norm() <= most) return joint;
+        return -1;
+    }
+    // n: of the joint that is not below the one before.
+    FoundJoints not_below(LimbJoints at, std::size_t n) const
+    {
+        const int parent = joint_at(joints.clip, at[n]).parent;
+        const std::string on = parent < 0 ? "is a root" : fmt::format("hangs on '{}'", shown(parent));
+        FoundJoints made{{}, {}, fmt::format("'{}' {}, not below '{}'", shown(at[n]), on, shown(at[n - 1])), {}};
+        at[n] = twin_below(at[n - 1], at[n]);
+        if (at[n] >= 0 && is_chain(joints.clip, at))
+            made.advice = fmt::format("at rest '{}' lies in the same place: {}", shown(at[n]), option(at));
+        return made;
+    }
+    // Why names that are borne make no limb.
+    FoundJoints problem_of(const Attempt& made) const
+    {
+        const auto problem = [](std::string text) { return FoundJoints{{}, {}, std::move(text), {}}; };
         const LimbWords& words = words_of(limb.kind);
         const std::string_view parts[] = {words.upper_joint, words.lower_joint, words.end_joint};
         for (std::size_t n = 0; n < 3; ++n)
             if (made.bearers[n].empty())
-                return fmt::format("no joint is called '{}' or alike for its {}", made.names[n], parts[n]);
+                return problem(fmt::format("no joint is called '{}' or alike for its {}", made.names[n], parts[n]));
         const LimbJoints first = {made.bearers[0][0], made.bearers[1][0], made.bearers[2][0]};
         for (std::size_t n = 0; n < 2; ++n)
-            if (!is_above(joints.clip, first[n], first[n + 1]))
-                return fmt::format("'{}' is not below '{}' in the hierarchy", shown(first[n + 1]), shown(first[n]));
+            if (!is_above(joints.clip, first[n], first[n + 1])) return not_below(first, n + 1);
         if (const int rival = rival_between(made, first); rival >= 0)
-            return fmt::format("'{}' lies between '{}' and '{}', and may be one of its joints", shown(rival),
-                               shown(first[0]), shown(first[2]));
-        return fmt::format("'{}' and what is below it are no bones of the file's skin", shown(first[0]));
+            return problem(fmt::format("'{}' lies between '{}' and '{}', and may be one of its joints", shown(rival),
+                                       shown(first[0]), shown(first[2])));
+        return problem(fmt::format("'{}' and what is below it are no bones of the file's skin", shown(first[0])));
     }
 
     FoundJoints several(const std::vector<LimbJoints>& limbs) const
     {
-        const auto numbers = [&](const LimbJoints& at) {
-            const auto number = [&](int joint) { return joint_at(joints.clip, joint).number; };
-            return fmt::format("#{},#{},#{}", number(at[0]), number(at[1]), number(at[2]));
-        };
         std::string list;
         for (const LimbJoints& at : limbs)
             list += fmt::format("{}{} > {} > {} ({})", list.empty() ? "" : " and ", shown(at[0]), shown(at[1]),
@@ -137,8 +164,7 @@ struct NameSearch {
         return {{},
                 {},
                 "more than one fits: " + formats::printable(list, formats::kMostQuoted),
-                fmt::format("name one, such as {} {}:{}", words_of(limb.kind).option, side_name(limb.side),
-                            numbers(limbs[0]))};
+                "name one, such as " + option(limbs[0])};
     }
 };
 
@@ -187,7 +213,7 @@ FoundJoints joints_by_name(const NamedJoints& joints, LimbName limb)
     if (limbs.size() > 1) return search.several(limbs);
     if (limbs.size() == 1) return {limbs[0], std::string(from), {}, {}};
     // One name alone says nothing: half the world has a "LeftHand".
-    return {{}, {}, nearest.borne() > 1 ? search.problem_of(nearest) : "", {}};
+    return nearest.borne() > 1 ? search.problem_of(nearest) : FoundJoints();
 }
 
 }  // namespace swivel::tools
