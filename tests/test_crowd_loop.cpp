@@ -144,5 +144,13 @@ TEST_CASE("crowd file: loop")
     stage.require_refused(crowd + "loop = [40, 41]\n", "crowd.loop: a loop has two frames or more");
     stage.require_refused(crowd + "loop = [40.5, 60]\n", "crowd.loop: frames are counted; write whole numbers");
     stage.require_refused(crowd + "loop = true\n", "crowd.loop: is true; write \"auto\", [first, last] or false");
-    stage.require_refused("[crowd]\nloop = \"auto\"\n", "crowd.loop: a written clip keeps its frames", "out.bvh");
+    // A written clip has the frames of the loop, and poses as in the table.
+    const PlainMotion written = stage.motion("[crowd]\nloop = [40, 90]\nlimbs = \"legs\"\n", {"--frames", "200"});
+    REQUIRE(written.lines.size() == 200);
+    const Vector3d first = arm_pose(written, stage.legs[0], 75).shoulder,
+                   again = arm_pose(written, stage.legs[0], 125).shoulder,
+                   third = arm_pose(written, stage.legs[0], 175).shoulder;
+    CHECK((again - first).norm() > 1e-3);
+    CHECK((third - again).norm() == Approx((again - first).norm()).margin(1e-4));
+    CHECK(first.y() == Approx(third.y()).margin(1e-4));
 }

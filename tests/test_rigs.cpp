@@ -209,7 +209,7 @@ TEST_CASE("rigs: the animation and its rate are chosen, and what a file cannot h
     for (const auto& [options, code, part] : std::vector<std::tuple<Words, int, const char*>>{
              {{"--clip", "dance"}, 1, "it has no animation 'dance'; it has 0 motion"},
              {{"--out", "new.bvh"}, 2, "this clip is a glTF file; its poses go to .glb, .gltf, .vrm or .csv"},
-             {{"--out", "new.glb", "--characters", "2"}, 2, "a glTF file holds one character, not 2"},
+             {{"--out", "new.glb", "--characters", "201"}, 1, "new.glb: a file holds 200 characters at most"},
              {{"--arm", "#1,#2,#99"}, 1, "no joint is called '#99' (--arm); swivel rig --joints lists them"}}) {
         const Outcome outcome = run(options);
         CHECK(outcome.exit_code == code);

@@ -121,7 +121,6 @@ void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const fo
 
 void require_fits_motion(const CrowdFile& file, std::span<const Limb> limbs)
 {
-    if (file.loop) refuse(file, *file.loop, "a written clip keeps its frames; write a .csv, or take this out");
     for (const Limb& limb : limbs) {
         const LimbSettings settings = settings_of(file, limb.name);
         if (settings.most_stretch && settings.most_stretch->value > 1)

@@ -31,7 +31,7 @@ void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSet
 void require_even_frames(const formats::CrowdFile& file, const formats::LimbSettings& settings,
                          const formats::Clip& clip);
 
-// Nothing is asked for that a written clip, BVH or glTF, has no room for: a loop, stretched bones and twist bones.
+// Nothing is asked for that a written clip, BVH or glTF, has no room for: stretched bones and twist bones.
 void require_fits_motion(const formats::CrowdFile& file, std::span<const Limb> limbs);
 
 }  // namespace swivel::tools

@@ -140,18 +140,16 @@ Json& animation_for(GltfAsset& asset, const GltfChanges& changes)
     return animation;
 }
 
-void add_keys(GltfAsset& asset, const GltfChanges& changes)
+// Adds keys of nodes, counted from the first node of a figure.
+void add_tracks(GltfAsset& asset, std::size_t times, std::span<const GltfChanges::Track> tracks, Json& animation,
+                std::size_t first_node)
 {
-    if (changes.tracks.empty()) return;
-    const std::size_t times = add_floats(asset, changes.times, 1, "SCALAR");
-    asset.list("accessors")[times]["min"] = {changes.times.front()};
-    asset.list("accessors")[times]["max"] = {changes.times.back()};
-    Json& animation = animation_for(asset, changes);
-    for (const GltfChanges::Track& track : changes.tracks) {
-        take_matrix_apart(asset.list("nodes")[static_cast<std::size_t>(track.node)], track);
+    for (const GltfChanges::Track& track : tracks) {
+        const std::size_t node = first_node + static_cast<std::size_t>(track.node);
+        take_matrix_apart(asset.list("nodes")[node], track);
         const auto add = [&](const char* path, std::span<const float> keys, std::size_t width, const char* type) {
             if (keys.empty()) return;
-            Json& sampler = sampler_for(animation, track.node, path);
+            Json& sampler = sampler_for(animation, static_cast<int>(node), path);
             sampler["input"] = times;
             sampler["output"] = add_floats(asset, keys, width, type);
             sampler["interpolation"] = track.is_stepped ? "STEP" : "LINEAR";
@@ -159,6 +157,84 @@ void add_keys(GltfAsset& asset, const GltfChanges& changes)
         add("rotation", track.xyzw, 4, "VEC4");
         add("translation", track.xyz, 3, "VEC3");
     }
+}
+
+// Nodes that are no child of another.
+std::vector<std::size_t> root_nodes(const Json& nodes)
+{
+    std::vector<bool> is_child(nodes.size());
+    for (const Json& node : nodes)
+        if (node.contains("children"))
+            for (const Json& child : node["children"]) is_child[child.get<std::size_t>()] = true;
+    std::vector<std::size_t> roots;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        if (!is_child[n]) roots.push_back(n);
+    return roots;
+}
+
+// Counts the nodes or skins that an object names from another first one.
+void shift(Json& object, const char* name, std::size_t by)
+{
+    const auto found = object.find(name);
+    if (found == object.end()) return;
+    if (found->is_array())
+        for (Json& each : *found) each = each.get<std::size_t>() + by;
+    else if (found->is_number_unsigned())
+        *found = found->get<std::size_t>() + by;
+}
+
+// Copies the first nodes and skins behind those that there are.
+void copy_nodes(GltfAsset& asset, std::size_t node_count, std::size_t skin_count)
+{
+    Json &nodes = asset.list("nodes"), &skins = asset.list("skins");
+    const std::size_t by = nodes.size(), skins_by = skins.size();
+    for (std::size_t n = 0; n < node_count; ++n) {
+        Json node = nodes[n];
+        shift(node, "children", by), shift(node, "skin", skins_by);
+        nodes.push_back(std::move(node));
+    }
+    for (std::size_t n = 0; n < skin_count; ++n) {
+        Json skin = skins[n];
+        shift(skin, "joints", by), shift(skin, "skeleton", by);
+        skins.push_back(std::move(skin));
+    }
+}
+
+void add_figures(GltfAsset& asset, std::size_t times, std::span<const GltfChanges::Figure> figures)
+{
+    const std::size_t node_count = asset.list("nodes").size(), skin_count = asset.list("skins").size();
+    for (std::size_t n = 1; n < figures.size(); ++n) copy_nodes(asset, node_count, skin_count);
+    const std::vector<std::size_t> roots = root_nodes(asset.list("nodes"));  // so many of each figure
+    Json shown = Json::array(), animations = Json::array();
+    for (std::size_t n = 0; n < figures.size(); ++n) {
+        const GltfChanges::Figure& figure = figures[n];
+        const auto first = roots.begin() + static_cast<std::ptrdiff_t>(n * roots.size() / figures.size()),
+                   end = roots.begin() + static_cast<std::ptrdiff_t>((n + 1) * roots.size() / figures.size());
+        shown.push_back(asset.list("nodes").size());
+        asset.list("nodes").push_back({{"name", figure.name},
+                                       {"translation", {figure.place.x(), figure.place.y(), figure.place.z()}},
+                                       {"scale", {figure.size, figure.size, figure.size}},
+                                       {"children", std::vector<std::size_t>(first, end)}});
+        Json animation{{"name", figure.name}, {"channels", Json::array()}, {"samplers", Json::array()}};
+        add_tracks(asset, times, figure.tracks, animation, n * node_count);
+        animations.push_back(std::move(animation));
+    }
+    asset.document["scenes"] = {{{"nodes", std::move(shown)}}};
+    asset.document["scene"] = 0;
+    asset.document["animations"] = std::move(animations);
+    if (skin_count == 0) asset.document.erase("skins");
+}
+
+void add_keys(GltfAsset& asset, const GltfChanges& changes)
+{
+    if (changes.tracks.empty() && changes.figures.empty()) return;
+    const std::size_t times = add_floats(asset, changes.times, 1, "SCALAR");
+    asset.list("accessors")[times]["min"] = {changes.times.front()};
+    asset.list("accessors")[times]["max"] = {changes.times.back()};
+    if (changes.figures.empty())
+        add_tracks(asset, times, changes.tracks, animation_for(asset, changes), 0);
+    else
+        add_figures(asset, times, changes.figures);
 }
 
 }  // namespace

@@ -26,10 +26,20 @@ struct GltfChanges {
         Eigen::Vector3d translation, scale;
         Eigen::Quaterniond rotation;
     };
+    // One of several figures: the scene's nodes below a node of its own.
+    struct Figure {
+        std::string name;
+        Eigen::Vector3d place;
+        double size;
+        std::vector<Track> tracks;
+    };
     std::vector<float> times;
     std::vector<Track> tracks;
     int animation = -1;               // -1: a new one
     std::optional<std::string> name;  // in place of the animation and all its channels comes one of this name
+    // In place of the scene and of all animations and tracks: so many of what is in it, with an animation each. Nodes
+    // and skins are copied; meshes, materials and all that they are made of are shared.
+    std::vector<Figure> figures;
 };
 
 // The file with these changes, in the shape for a file at `to`: `binary` or not. from: where the file was read, for

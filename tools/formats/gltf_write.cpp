@@ -60,6 +60,33 @@ Movers movers_of(const GltfFile& file, const std::set<int>& joints)
     return movers;
 }
 
+std::vector<GltfChanges::Track> tracks_of(const GltfFile& file, std::span<const JointKeys> keys)
+{
+    std::vector<GltfChanges::Track> tracks;
+    for (const JointKeys& each : keys) {
+        require_can_key(file, each.joint);
+        tracks.push_back(track_of(file, each));
+    }
+    return tracks;
+}
+
+void write_changes(const std::filesystem::path& path, const GltfFile& file, const GltfChanges& changes,
+                   std::optional<bool> binary)
+{
+    const bool is_glb = binary.value_or(lower_suffix(path) != ".gltf");
+    OutputFile out(path);
+    const GltfContainer written = with_changes(file.container, file.buffers, changes, file.path, path, is_glb);
+    try {
+        if (is_glb)
+            out.write(glb_of(written));
+        else
+            out.write(written.json);
+    } catch (const std::length_error& error) {
+        throw InputError(is_standard_stream(path) ? "standard output" : path, error.what());
+    }
+    out.commit();
+}
+
 }  // namespace
 
 void require_can_key(const GltfFile& file, int joint)
@@ -74,35 +101,32 @@ void require_can_key(const GltfFile& file, int joint)
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const JointKeys> keys,
                 const std::optional<NewFrames>& frames, std::optional<bool> binary)
 {
-    GltfChanges changes{file.times, {}, file.animation, {}};
+    GltfChanges changes{file.times, {}, file.animation, {}, {}};
     if (frames) {
         changes.times = even_times(*frames);
         changes.name = frames->name;
     }
     require_keys(file.clip, keys, changes.times.size());
+    changes.tracks = tracks_of(file, keys);
     std::set<int> joints;
-    for (const JointKeys& each : keys) {
-        require_can_key(file, each.joint);
-        joints.insert(each.joint);
-        changes.tracks.push_back(track_of(file, each));
-    }
+    for (const JointKeys& each : keys) joints.insert(each.joint);
     const Movers movers = frames ? Movers{} : movers_of(file, joints);
     for (std::size_t n = 0; n < keys.size(); ++n)  // one that had no keys that move goes as all others do
         changes.tracks[n].is_stepped = movers.all.contains(keys[n].joint)
                                            ? movers.by_steps.contains(keys[n].joint)
                                            : !movers.all.empty() && movers.by_steps == movers.all;
-    const bool is_glb = binary.value_or(lower_suffix(path) != ".gltf");
-    OutputFile out(path);
-    const GltfContainer written = with_changes(file.container, file.buffers, changes, file.path, path, is_glb);
-    try {
-        if (is_glb)
-            out.write(glb_of(written));
-        else
-            out.write(written.json);
-    } catch (const std::length_error& error) {
-        throw InputError(is_standard_stream(path) ? "standard output" : path, error.what());
+    write_changes(path, file, changes, binary);
+}
+
+void write_gltf_crowd(const std::filesystem::path& path, const GltfFile& file,
+                      std::span<const GltfCharacter> characters, const NewFrames& frames)
+{
+    GltfChanges changes{even_times(frames), {}, file.animation, {}, {}};
+    for (const GltfCharacter& each : characters) {
+        require_keys(file.clip, each.keys, frames.count);
+        changes.figures.push_back({each.name, each.place, each.size, tracks_of(file, each.keys)});
     }
-    out.commit();
+    write_changes(path, file, changes, {});
 }
 
 }  // namespace swivel::formats

@@ -52,10 +52,10 @@ void add_solve(CLI::App& app)
           file_name());
     takes(command->add_option(
               "-o,--out", options->out,
-              "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A motion "
-              "file holds one character and keeps all else of the asset. - is standard output, as CSV, and the "
-              "report then goes to standard error. Without it "
-              "there are statistics only"),
+              "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A .bvh "
+              "holds one character, a glTF file up to 200; all else of the asset is kept. - is "
+              "standard output, as CSV, and the report then goes to standard error. Without it there "
+              "are statistics only"),
           file_name());
     add_view(*command, options->view);
     add_frames(*command, options->frames);

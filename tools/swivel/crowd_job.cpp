@@ -107,7 +107,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     job.limbs = require_limbs(search, options.file);
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) job.missing.push_back(std::move(finding));
-    job.frame_count = clip.frame_count;
+    job.frame_count = job.clip_frames = clip.frame_count;
     if (job.crowd && job.crowd->loop) go_round(options, file, job);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (job.loop) job.plan.starts = job.loop->loop.length();

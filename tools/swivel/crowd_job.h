@@ -23,7 +23,8 @@ struct CrowdJob {
     std::vector<LimbFinding> missing;
     CrowdPlan plan;
     std::optional<FoundLoop> loop;
-    std::size_t frame_count = 0;  // to solve: those of the clip, but for a loop
+    std::size_t frame_count = 0;  // to solve: those of the clip, fewer, or of a loop any number
+    std::size_t clip_frames = 0;  // that the file has
     std::string targets;          // "clip" or a file
     std::optional<GivenTargets> given;
 };

@@ -137,4 +137,13 @@ void MotionFile::write(const std::filesystem::path& out, std::span<const formats
         formats::write_bvh(out, std::get<BvhFile>(file_), keys, frames);
 }
 
+void MotionFile::write_whole(const std::filesystem::path& out, std::span<const formats::GltfCharacter> characters,
+                             const formats::NewFrames& frames) const
+{
+    if (characters.size() > 1)
+        formats::write_gltf_crowd(out, std::get<GltfFile>(file_), characters, frames);
+    else
+        write(out, characters.front().keys, frames);
+}
+
 }  // namespace swivel::tools

@@ -27,6 +27,7 @@
 #include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"
 #include "tools/swivel/view_page.h"
+#include "tools/swivel/whole_keys.h"
 
 namespace swivel::tools {
 
@@ -43,9 +44,13 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
     std::optional<formats::TargetsCsv> exported;
     if (!options.export_targets.empty()) exported.emplace(options.export_targets);
+    // New frames where the clip's own do not fit, else the file's own keys of the limbs.
+    const bool is_whole =
+        kind == OutKind::motion && (job.loop || job.plan.characters > 1 || job.frame_count < job.clip_frames);
     MotionKeys keys(job.limbs, job.plan);
+    WholeKeys whole(file.clip(), job.limbs, job.plan);
     if (kind == OutKind::motion) {  // says so before the work, not after
-        keys.require_can_write(file);
+        is_whole ? whole.require_can_write(options.out, file, job.frame_count) : keys.require_can_write(file);
         const formats::OutputFile can_be_written(options.out);
     }
     Statistics statistics;
@@ -58,13 +63,16 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
             crowd.solve(statistics);
             crowd.measure(statistics);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
-            if (kind == OutKind::motion) keys.add(crowd);
+            if (kind == OutKind::motion) is_whole ? whole.add(crowd) : keys.add(crowd);
             if (page) page->add_frame(crowd.goal_crowd(), crowd.given_places());
         }
     }
     if (csv) csv->commit();
     if (exported) exported->commit();
-    if (kind == OutKind::motion) keys.write(options.out, file);
+    if (is_whole)
+        whole.write(options.out, file, crowd.goal_crowd().characters());
+    else if (kind == OutKind::motion)
+        keys.write(options.out, file);
     if (page)
         page->commit(
             cached_clip({title_of(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
@@ -108,8 +116,6 @@ void run_solve(const SolveOptions& options)
     std::FILE* const reports = report_stream(options);
     MotionFile file(options.file, options.motion);
     if (is_motion) file.require_can_write(options.out);
-    if (is_motion && options.frames > 0)
-        throw CommandError(2, "--frames: a written clip keeps its frames; write a .csv, or leave this out");
     CrowdJob job = make_job(options, choice, file);
     require_own_files(options, file, job.targets);
     if (!options.json && !options.quiet) print_clip(reports, options, file, job);

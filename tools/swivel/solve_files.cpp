@@ -56,9 +56,10 @@ OutKind out_kind(const std::string& out, std::uint32_t characters)
     if (!is_bvh(suffix) && !is_gltf(suffix))
         throw CommandError(
             2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf, .vrm or .csv", out));
-    if (characters > 1)
-        throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", out,
-                                          is_bvh(suffix) ? "BVH" : "glTF", characters));
+    if (characters > 1 && is_bvh(suffix))
+        throw CommandError(2, fmt::format("--out {}: a BVH file holds one character, not {}; write a .csv, or a .glb "
+                                          "from a glTF file",
+                                          out, characters));
     return OutKind::motion;
 }
 

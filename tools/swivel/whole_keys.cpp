@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/whole_keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/formats/error.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using formats::Clip;
+
+bool turns(const Clip& clip, std::size_t joint)
+{
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+        if (clip.rotation[frame * clip.joints.size() + joint].coeffs() != clip.joints[joint].rest_rotation.coeffs())
+            return true;
+    return false;
+}
+bool moves(const Clip& clip, std::size_t joint)
+{
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+        if (formats::local_translation(clip, frame, joint) != clip.joints[joint].offset) return true;
+    return false;
+}
+bool scales(const Clip& clip)
+{
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+        for (std::size_t n = 0; n < clip.joints.size(); ++n)
+            if (const int track = clip.joints[n].scale_track; track >= 0) {
+                const Vector3d& scale = clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(track)];
+                if (!scale.isApprox(clip.joints[n].rest_scale, 1e-5)) return true;
+            }
+    return false;
+}
+
+}  // namespace
+
+WholeKeys::WholeKeys(const Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
+    : clip_(clip), characters_(plan.characters)
+{
+    std::vector<bool> has(clip.joints.size());
+    struct Part {
+        std::size_t limb, part;
+        int joint;
+    };
+    std::vector<Part> parts;
+    for (std::size_t limb = 0; limb < limbs.size(); ++limb) {
+        for (std::size_t n = 0; n < (plan.limbs[limb].has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
+            parts.push_back({limb, n, limbs[limb].joints[n]});
+        if (plan.limbs[limb].has(SWIVEL_WITH_CLAVICLE))
+            parts.push_back({limb, 3, joint_at(clip, limbs[limb].upper()).parent});
+    }
+    for (const Part& part : parts) has[static_cast<std::size_t>(part.joint)] = true;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        if (has[n] || turns(clip, n)) turning_.push_back(static_cast<int>(n));
+        if (moves(clip, n)) moving_.push_back(static_cast<int>(n));
+    }
+    for (const Part& part : parts)
+        solved_.push_back({part.limb, part.part,
+                           static_cast<std::size_t>(std::ranges::find(turning_, part.joint) - turning_.begin())});
+}
+
+void WholeKeys::require_can_write(const std::filesystem::path& out, const MotionFile& file,
+                                  std::size_t frame_count) const
+{
+    const double bytes = static_cast<double>(characters_) * static_cast<double>(frame_count) *
+                         static_cast<double>(16 * turning_.size() + 12 * moving_.size());
+    if (characters_ > kMostInFile)
+        throw formats::InputError(
+            out, fmt::format("a file holds {} characters at most; {} would take {:.1f} GB; give --characters {}, or "
+                             "write a .csv",
+                             kMostInFile, characters_, bytes / 1e9, kMostInFile));
+    for (const int joint : turning_) file.require_can_key(joint);
+    for (const int joint : moving_) file.require_can_key(joint);
+    if (scales(clip_))
+        throw formats::InputError(out,
+                                  "joints of the clip change their size, which new frames do not hold; write a .csv");
+}
+
+void WholeKeys::add(const ClipCrowd& crowd)
+{
+    rotations_.resize(characters_ * turning_.size()), places_.resize(characters_ * moving_.size());
+    for (std::uint32_t c = 0; c < characters_; ++c) {
+        const std::size_t frame = crowd.goal_crowd().clip_frame(c);
+        const std::span rotations = std::span(rotations_).subspan(c * turning_.size(), turning_.size());
+        for (std::size_t n = 0; n < turning_.size(); ++n)
+            rotations[n].push_back(clip_.rotation[frame * clip_.joints.size() + static_cast<std::size_t>(turning_[n])]);
+        for (std::size_t n = 0; n < moving_.size(); ++n)
+            places_[c * moving_.size() + n].push_back(
+                formats::local_translation(clip_, frame, static_cast<std::size_t>(moving_[n])));
+        for (const Solved& each : solved_) {
+            const formats::PoseRow row = crowd.pose(each.limb, c);
+            const auto& q = each.part == 0 ? row.shoulder : each.part == 1 ? row.elbow : row.wrist;
+            rotations[each.turning].back() =
+                each.part == 3 ? crowd.clavicle(each.limb, c) : Quaterniond(q[3], q[0], q[1], q[2]);
+        }
+    }
+}
+
+void WholeKeys::write(const std::filesystem::path& out, const MotionFile& file,
+                      std::span<const goal_character> characters) const
+{
+    const std::size_t frames = rotations_.empty() ? places_.front().size() : rotations_.front().size();
+    std::vector<formats::GltfCharacter> whole;
+    for (std::size_t c = 0; c < characters.size(); ++c) {
+        formats::GltfCharacter& to = whole.emplace_back();
+        to.name = fmt::format("character {}", c);
+        to.place = Vector3d(characters[c].place), to.size = characters[c].size;
+        for (std::size_t n = 0; n < turning_.size(); ++n)
+            to.keys.push_back({turning_[n], rotations_[c * turning_.size() + n], {}});
+        for (std::size_t n = 0; n < moving_.size(); ++n) {
+            const auto found = std::ranges::find(to.keys, moving_[n], &formats::JointKeys::joint);
+            formats::JointKeys& keys = found == to.keys.end() ? to.keys.emplace_back() : *found;
+            keys.joint = moving_[n], keys.translation = places_[c * moving_.size() + n];
+        }
+    }
+    file.write_whole(out, whole, {frames, clip_.frame_time, "swivel"});
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// The poses of whole characters, kept for a file of motion with frames of its own: limbs as solved, all else as the
+// clip has it in the frame that the character shows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/crowd/clip_crowd.h"
+#include "tools/swivel/motion_file.h"
+
+namespace swivel::tools {
+
+inline constexpr std::uint32_t kMostInFile = 200;  // characters
+
+class WholeKeys {
+public:
+    // Of the joints that move in the clip, and of the limbs' own. All of them must outlive it.
+    WholeKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan);
+
+    // Throws, before any work is done, for what write() could not hold: joints that cannot have keys or change their
+    // size, and more than kMostInFile characters, with the size that the file would have.
+    void require_can_write(const std::filesystem::path& out, const MotionFile& file, std::size_t frame_count) const;
+
+    // Takes the frame that the crowd has solved.
+    void add(const ClipCrowd& crowd);
+
+    // Writes the clip's file with the frames that were taken. It throws as MotionFile::write() does.
+    void write(const std::filesystem::path& out, const MotionFile& file,
+               std::span<const goal_character> characters) const;
+
+private:
+    // Joints that are solved, each with the limb and which of its rotations, 3: the joint above.
+    struct Solved {
+        std::size_t limb, part, turning;  // turning: in turning_
+    };
+
+    const formats::Clip& clip_;
+    std::uint32_t characters_;
+    std::vector<int> turning_, moving_;  // joints that have keys of rotation, of translation
+    std::vector<Solved> solved_;
+    std::vector<std::vector<Eigen::Quaterniond>> rotations_;  // [character * turning joints + n][frame]
+    std::vector<std::vector<Eigen::Vector3d>> places_;        // [character * moving joints + n][frame]
+};
+
+}  // namespace swivel::tools
