@@ -173,12 +173,8 @@ TEST_CASE("bvh: overrides that fit no file are the caller's mistake")
     const BvhFile file = read(folder, kTiny);
     const std::vector<Quaterniond> fit(2, Quaterniond::Identity()), less(1, Quaterniond::Identity());
     const std::vector<Quaterniond> zero(2, Quaterniond(0, 0, 0, 0)), nan(2, Quaterniond(NAN, 0, 0, 0));
-    for (const std::vector<RotationOverride>& overrides : {std::vector<RotationOverride>{{3, fit}},
-                                                           {{-1, fit}},
-                                                           {{1, less}},
-                                                           {{1, zero}},
-                                                           {{1, nan}},
-                                                           {{1, fit}, {1, fit}}})
+    for (const std::vector<JointKeys>& overrides :
+         {std::vector<JointKeys>{{3, fit}}, {{-1, fit}}, {{1, less}}, {{1, zero}}, {{1, nan}}, {{1, fit}, {1, fit}}})
         CHECK_THROWS_AS(write_bvh(folder / "w.bvh", file, overrides), std::invalid_argument);
     CHECK_FALSE(fs::exists(folder / "w.bvh"));
 }

@@ -85,7 +85,7 @@ TEST_CASE("gltf faults: a chain of many nodes is read and written")
     CHECK(joint_path(file.clip, last).size() == 5 * kCount - 2);
     CHECK(world_pose(file.clip, 0).back().position.y() == kCount - 1);
     const std::vector<Eigen::Quaterniond> turn = {Eigen::Quaterniond(0, 1, 0, 0)};
-    const RotationOverride change[] = {{last, turn}};
+    const JointKeys change[] = {{last, turn}};
     write_gltf(folder / "new.glb", file, change);
     CHECK(plain_gltf_of(folder / "new.glb").json["nodes"].size() == kCount);
 }

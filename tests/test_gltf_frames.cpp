@@ -170,8 +170,8 @@ TEST_CASE("gltf frames: new keys lie at exactly these times, and the joint is th
     std::vector<Quaterniond> turn;
     for (std::size_t n = 0; n < wanted.size(); ++n)
         turn.emplace_back(Eigen::AngleAxisd(static_cast<double>(n), Eigen::Vector3d::UnitZ()));
-    const RotationOverride changes[] = {{find_joints(file.clip, "#2").at(0), turn},
-                                        {find_joints(file.clip, "#4").at(0), turn}};
+    const JointKeys changes[] = {{find_joints(file.clip, "#2").at(0), turn},
+                                 {find_joints(file.clip, "#4").at(0), turn}};
     write_gltf(folder / "new.glb", file, changes);
     const PlainGltf plain = plain_gltf_of(folder / "new.glb");
     int seen = 0;
@@ -200,7 +200,7 @@ TEST_CASE("gltf frames: each joint goes by steps or evenly as it did, and one th
         rig.write(folder / "rig.glb");
         const GltfFile file = read_clip(folder / "rig.glb");
         const std::vector<Quaterniond> turn(file.clip.frame_count, Quaterniond(0, 1, 0, 0));
-        const RotationOverride changes[] = {{0, turn}, {1, turn}, {2, turn}};
+        const JointKeys changes[] = {{0, turn}, {1, turn}, {2, turn}};
         write_gltf(folder / "new.glb", file, changes);
         const std::string second = is_mixed ? "LINEAR" : "STEP";
         const std::map<int, std::string> wanted = {{0, "STEP"}, {1, second}, {2, second}};

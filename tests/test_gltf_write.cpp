@@ -106,7 +106,7 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
             INFO(from << " to " << to);
             const GltfFile file = read_clip(folder / from, {"wave", 2});
             const auto arm = turns(3, 0.4), fore = turns(3, -0.3), hand = turns(3, 0.1);
-            const RotationOverride changes[] = {
+            const JointKeys changes[] = {
                 {joint_of(file, 1), arm}, {joint_of(file, 2), fore}, {joint_of(file, 3), hand}};
             write_gltf(folder / to, file, changes);
             const PlainGltf before = plain_gltf_of(folder / from), after = plain_gltf_of(folder / to);
@@ -147,7 +147,7 @@ TEST_CASE("gltf write: successive keys lie on one side, and move evenly unless a
     rig.write(folder / "rig.glb");
     const GltfFile file = read_clip(folder / "rig.glb", {"rest", 2});
     const auto arm = turns(3, 2.0);
-    const RotationOverride change[] = {{joint_of(file, 1), arm}};
+    const JointKeys change[] = {{joint_of(file, 1), arm}};
     write_gltf(folder / "rig.glb", file, change);  // onto itself
     const PlainGltf plain = plain_gltf_of(folder / "rig.glb");
     const json& sampler = plain.json["animations"][1]["samplers"][0];
@@ -176,7 +176,7 @@ TEST_CASE("gltf write: keys go into files that have nothing yet to hold them")
     pictured["images"] = {{{"uri", "a.png"}}, {{"uri", "a.png"}}};
     spill(folder / "a.png", kPixel);
     const std::vector<Quaterniond> turn = {Quaterniond(0, 1, 0, 0)};
-    const RotationOverride changes[] = {{0, turn}, {1, turn}};
+    const JointKeys changes[] = {{0, turn}, {1, turn}};
     for (const json& whole : {least, six, named, pictured})
         for (const char* to : {"new.glb", "new.gltf"}) {
             INFO(whole.dump() << " to " << to);
@@ -201,16 +201,16 @@ TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
     const auto good = turns(3, 1), few = turns(2, 1);
     std::vector<Quaterniond> zero = good;
     zero[1].coeffs().setZero();
-    const auto write = [&](std::vector<RotationOverride> changes, const char* name = "new.glb") {
+    const auto write = [&](std::vector<JointKeys> changes, const char* name = "new.glb") {
         write_gltf(folder / name, file, changes);
     };
-    for (const std::vector<RotationOverride>& changes :
-         {std::vector<RotationOverride>{{99, good}}, {{-1, good}}, {{1, few}}, {{1, zero}}, {{1, good}, {1, good}}})
+    for (const std::vector<JointKeys>& changes :
+         {std::vector<JointKeys>{{99, good}}, {{-1, good}}, {{1, few}}, {{1, zero}}, {{1, good}, {1, good}}})
         CHECK_THROWS_AS(write(changes), std::invalid_argument);
     CHECK_THROWS_AS(write({{1, good}}, "no/new.glb"), InputError);
     GltfFile sheared = file;
     sheared.clip.joints[1].is_sheared = true;
-    const RotationOverride change[] = {{1, good}};
+    const JointKeys change[] = {{1, good}};
     CHECK_THROWS_AS(write_gltf(folder / "new.glb", sheared, change), InputError);
     CHECK(folder.file_count() == 1);
 }

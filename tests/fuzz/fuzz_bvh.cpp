@@ -38,7 +38,7 @@ void check_writing(const BvhFile& file, const std::filesystem::path& to)
     SWIVEL_REQUIRE(slurp(to) == file.text);
 
     std::vector<std::vector<Eigen::Quaterniond>> rotations(file.joints.size());
-    std::vector<RotationOverride> overrides;
+    std::vector<JointKeys> overrides;
     for (std::size_t n = 0; n < file.joints.size(); ++n) {
         if (!can_turn(file.joints[n])) continue;
         rotations[n] = rotations_of(file.clip, n);

@@ -83,7 +83,7 @@ void check_copy(const GltfFile& file, const std::filesystem::path& to, const Glt
 void check_new_keys(const GltfFile& file, const std::filesystem::path& to)
 {
     std::vector<std::vector<Quaterniond>> rotations(file.clip.joints.size());
-    std::vector<RotationOverride> overrides;
+    std::vector<JointKeys> overrides;
     for (std::size_t n = 0; n < rotations.size(); ++n) {
         if (file.clip.joints[n].is_sheared) continue;
         rotations[n] = rotations_of(file.clip, n);
@@ -94,7 +94,7 @@ void check_new_keys(const GltfFile& file, const std::filesystem::path& to)
     const GltfFile again = read_sampled(to, {std::to_string(std::max(file.animation, 0)), 0, 64 * kMostPoseBytes});
     check_file(again);
     SWIVEL_REQUIRE(again.clip.joints.size() == file.clip.joints.size());
-    for (const RotationOverride& change : overrides)
+    for (const JointKeys& change : overrides)
         for (std::size_t frame = 0; frame < file.times.size(); ++frame)
             SWIVEL_REQUIRE(rotation_at(again, change.joint, file.times[frame]).angularDistance(change.rotation[frame]) <
                            1e-6);

@@ -24,6 +24,7 @@ constexpr std::size_t kMaxPoses = std::size_t{1} << 28;  // frames times joints:
 std::size_t read_motion_header(Scanner& scan, BvhFile& file)
 {
     if (file.channel_count == 0) fail(scan, "no joint has CHANNELS, so there is no motion to read");
+    file.motion_begin = scan.at;
     expect(scan, "Frames:");
     const std::string_view count_word = rest_of_line(scan);
     const std::optional<std::int64_t> count = parse_integer(count_word);

@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// BVH motion files. Reading keeps the file's text; writing puts new rotations into that text and leaves every other
-// byte as it was. Conventions:
+// BVH motion files. Reading keeps the file's text; writing puts new keys into that text and leaves every other byte
+// as it was. Conventions:
 // - Rotation channels are degrees, multiplied in the order listed: Zrotation Yrotation Xrotation is Rz Ry Rx.
 // - A position channel takes the place of that component of OFFSET, at roots and inner joints alike, as Blender and
 //   assimp read it. An old note on the format adds the two at the root. In files in use, the offset there is zero, or
@@ -16,12 +16,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/formats/clip.h"
+#include "tools/formats/joint_keys.h"
 
 namespace swivel::formats {
 
@@ -44,6 +46,7 @@ struct BvhJoint {
 struct BvhFile {
     std::filesystem::path path;            // where it was read; for messages
     std::string text;                      // the whole file
+    std::size_t motion_begin = 0;          // byte in `text` after MOTION, where "Frames:" follows
     std::vector<std::size_t> frame_begin;  // byte in `text` where each frame's line starts
     std::vector<BvhJoint> joints;          // same order as clip.joints
     std::size_t channel_count = 0;         // values a line
@@ -63,13 +66,15 @@ BvhFile bvh_of(const std::filesystem::path& path, std::string text);
 // Whether a text starts as BVH files do.
 bool is_bvh_text(std::string_view text);
 
-// Writes `file` with the rotation channels of the overridden joints replaced; all other text is copied byte for byte,
-// so without overrides the copy is identical. Angles have nine decimals, which give the rotation back to better than
-// 1e-9 rad. Keys are continuous: each angle triple is the one nearest to the frame before, the first to the file's own.
-// path: may be the file that was read. It appears whole or not at all (see OutputFile).
-// Throws InputError when an overridden joint lacks three rotation channels about three different axes, or on writing.
-// Throws std::invalid_argument for a joint out of range or named twice, a wrong frame count, a zero or non-finite
-// quaternion. Allocates a few bytes a channel.
-void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const RotationOverride> overrides);
+// Writes `file` with the channels of these keys replaced; all other text is copied byte for byte, so without keys the
+// copy is identical. With new frames the hierarchy alone is copied, and all other channels rest: angles are 0,
+// positions the OFFSET. Numbers have nine decimals, which give a rotation back to better than 1e-9 rad. Keys are
+// continuous: each angle triple is the one nearest to the frame before, the first to the file's own, or to 0 in new
+// frames. path: may be the file that was read. It appears whole or not at all (see OutputFile). Throws InputError when
+// a joint with new rotations lacks three rotation channels about three different axes, one with new translations a
+// position channel of each axis, or on writing. Throws std::invalid_argument as require_keys() does. Allocates a few
+// bytes a channel.
+void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
+               const std::optional<NewFrames>& frames = {});
 
 }  // namespace swivel::formats

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 #include <string_view>
 
 #include "tools/formats/error.h"
@@ -19,75 +19,78 @@ namespace {
 
 constexpr int kKept = -1;
 
-// One override on its way into the text.
-struct EulerTrack {
-    std::span<const Eigen::Quaterniond> rotation;
-    EulerAxes axes;
-    Eigen::Vector3d angle_deg;  // of the frame written last; before the first frame the file's own
+// One joint's keys on their way into the text.
+struct Track {
+    const JointKeys& keys;
+    EulerAxes axes{};
+    Eigen::Vector3d angle_deg = Eigen::Vector3d::Zero();  // of the frame written last; before the first the file's own
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
 };
 
 struct Plan {
-    std::vector<EulerTrack> tracks;
-    std::vector<int> slot;  // per channel of a line: 3 * track + angle, or kKept
+    std::vector<Track> tracks;
+    std::vector<int> slot;  // per channel of a line: kSlots * track and then angle 0 to 2 or place 3 to 5, or kKept
 };
+constexpr int kSlots = 6;
 
-void check_override(const BvhFile& file, const RotationOverride& change)
-{
-    if (change.joint < 0 || static_cast<std::size_t>(change.joint) >= file.joints.size()) {
-        throw std::invalid_argument("write_bvh: no such joint");
-    }
-    if (change.rotation.size() != file.clip.frame_count) {
-        throw std::invalid_argument("write_bvh: an override needs one rotation per frame");
-    }
-    for (const Eigen::Quaterniond& rotation : change.rotation) {
-        const double length = rotation.norm();
-        if (!(length > 0) || !std::isfinite(length)) {
-            throw std::invalid_argument("write_bvh: a rotation is zero or not finite");
-        }
-    }
-}
-
-[[noreturn]] void refuse(const BvhFile& file, int joint, std::string_view cause)
+[[noreturn]] void refuse(const BvhFile& file, int joint, std::string_view what, std::string_view cause)
 {
     const auto at = static_cast<std::size_t>(joint);
     const std::string name = printable(file.clip.joints[at].name);
     throw InputError(file.path, file.joints[at].line,
-                     fmt::format("joint '{}' cannot take a new rotation: {}", name, cause));
+                     fmt::format("joint '{}' cannot take a new {}: {}", name, what, cause));
 }
 
-// Plans the joint's rotation channels as the angles of one more track.
-EulerAxes claim_channels(const BvhFile& file, int joint, Plan& plan)
+// Plans the joint's rotation channels as the track's angles.
+EulerAxes claim_angles(const BvhFile& file, int joint, int first_slot, Plan& plan)
 {
     const BvhJoint& at = file.joints[static_cast<std::size_t>(joint)];
+    const auto require = [&](bool is_met, std::string_view cause) {
+        if (!is_met) refuse(file, joint, "rotation", cause);
+    };
     EulerAxes axes{};
-    std::size_t count = 0;
+    int count = 0;
     for (std::size_t c = 0; c < at.channels.size(); ++c) {
         if (is_position(at.channels[c])) continue;
-        if (count == 3) refuse(file, joint, "it has more than three rotation channels");
-        int& slot = plan.slot[at.first_channel + c];
-        if (slot != kKept) throw std::invalid_argument("write_bvh: two overrides for one joint");
-        slot = static_cast<int>(3 * plan.tracks.size() + count);
-        axes[count++] = axis_of(at.channels[c]);
+        require(count < 3, "it has more than three rotation channels");
+        plan.slot[at.first_channel + c] = first_slot + count;
+        axes[static_cast<std::size_t>(count++)] = axis_of(at.channels[c]);
     }
-    if (count < 3) refuse(file, joint, "it has fewer than three rotation channels");
-    const bool repeats = axes[0] == axes[1] || axes[1] == axes[2] || axes[0] == axes[2];
-    if (repeats) refuse(file, joint, "its rotation channels repeat an axis");
+    require(count == 3, "it has fewer than three rotation channels");
+    require(axes[0] != axes[1] && axes[1] != axes[2] && axes[0] != axes[2], "its rotation channels repeat an axis");
     return axes;
 }
 
-Plan make_plan(const BvhFile& file, std::span<const RotationOverride> overrides)
+// The same of its position channels.
+void claim_places(const BvhFile& file, int joint, int first_slot, Plan& plan)
+{
+    const BvhJoint& at = file.joints[static_cast<std::size_t>(joint)];
+    for (const Channel axis : {Channel::Xposition, Channel::Yposition, Channel::Zposition})
+        if (std::ranges::find(at.channels, axis) == at.channels.end())
+            refuse(file, joint, "position", "it has fewer than three position channels");
+    for (std::size_t c = 0; c < at.channels.size(); ++c)
+        if (is_position(at.channels[c])) plan.slot[at.first_channel + c] = first_slot + 3 + axis_of(at.channels[c]);
+}
+
+Plan make_plan(const BvhFile& file, std::span<const JointKeys> keys)
 {
     Plan plan;
     plan.slot.assign(file.channel_count, kKept);
-    for (const RotationOverride& change : overrides) {
-        check_override(file, change);
-        const EulerAxes axes = claim_channels(file, change.joint, plan);
-        plan.tracks.push_back({change.rotation, axes, Eigen::Vector3d::Zero()});
+    for (const JointKeys& each : keys) {
+        const int first_slot = kSlots * static_cast<int>(plan.tracks.size());
+        Track track{each};
+        if (!each.rotation.empty()) track.axes = claim_angles(file, each.joint, first_slot, plan);
+        if (!each.translation.empty()) claim_places(file, each.joint, first_slot, plan);
+        plan.tracks.push_back(track);
     }
     return plan;
 }
 
-double& angle_of(Plan& plan, int slot) { return plan.tracks[static_cast<std::size_t>(slot / 3)].angle_deg[slot % 3]; }
+double& value_of(Plan& plan, int slot)
+{
+    Track& track = plan.tracks[static_cast<std::size_t>(slot / kSlots)];
+    return slot % kSlots < 3 ? track.angle_deg[slot % kSlots] : track.place[slot % kSlots - 3];
+}
 
 // The file's own angles in its first frame, which the reader has checked.
 void start_from_file(const BvhFile& file, Plan& plan)
@@ -95,27 +98,29 @@ void start_from_file(const BvhFile& file, Plan& plan)
     std::string_view rest = std::string_view(file.text).substr(file.frame_begin.front());
     for (const int slot : plan.slot) {
         const std::string_view word = take_word(rest);
-        if (slot != kKept) angle_of(plan, slot) = parse_number(word).value();
+        if (slot != kKept) value_of(plan, slot) = parse_number(word).value();
     }
 }
 
-void solve_frame(Plan& plan, std::size_t frame)
+void take_frame(Plan& plan, std::size_t frame)
 {
-    for (EulerTrack& track : plan.tracks) {
-        track.angle_deg = nearest_euler(track.rotation[frame].normalized(), track.axes, track.angle_deg);
+    for (Track& track : plan.tracks) {
+        if (!track.keys.rotation.empty())
+            track.angle_deg = nearest_euler(track.keys.rotation[frame].normalized(), track.axes, track.angle_deg);
+        if (!track.keys.translation.empty()) track.place = track.keys.translation[frame];
     }
 }
 
-// Nine decimals of a degree: 9e-12 rad an angle.
-void write_angle(OutputFile& out, double angle_deg)
+// Nine decimals; of a degree they are 9e-12 rad.
+void write_value(OutputFile& out, double value)
 {
-    const double shown = std::abs(angle_deg) < 5e-10 ? 0.0 : angle_deg;  // no "-0.000000000"
+    const double shown = std::abs(value) < 5e-10 ? 0.0 : value;  // no "-0.000000000"
     fmt::memory_buffer digits;
     fmt::format_to(std::back_inserter(digits), "{:.9f}", shown);
     out.write({digits.data(), digits.size()});
 }
 
-// Writes the text from `done` through the frame's last new angle; what lies between new angles is copied.
+// Writes the text from `done` through the last new value of the frame at `begin`; what lies between is copied.
 std::size_t write_frame(OutputFile& out, std::string_view text, std::size_t begin, std::size_t done, Plan& plan)
 {
     std::string_view rest = text.substr(begin);
@@ -124,26 +129,59 @@ std::size_t write_frame(OutputFile& out, std::string_view text, std::size_t begi
         if (slot == kKept) continue;
         const auto word_begin = static_cast<std::size_t>(word.data() - text.data());
         out.write(text.substr(done, word_begin - done));
-        write_angle(out, angle_of(plan, slot));
+        write_value(out, value_of(plan, slot));
         done = word_begin + word.size();
     }
     return done;
 }
 
-}  // namespace
-
-void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const RotationOverride> overrides)
+void write_own_frames(OutputFile& out, const BvhFile& file, Plan& plan)
 {
-    Plan plan = make_plan(file, overrides);
-    OutputFile out(path);
     const std::string_view text = file.text;
     std::size_t done = 0;
     start_from_file(file, plan);
     for (std::size_t frame = 0; frame < file.clip.frame_count && !plan.tracks.empty(); ++frame) {
-        solve_frame(plan, frame);
+        take_frame(plan, frame);
         done = write_frame(out, text, file.frame_begin[frame], done, plan);
     }
     out.write(text.substr(done));
+}
+
+// A frame's line in which every joint rests.
+std::string rest_line(const BvhFile& file)
+{
+    std::string line;
+    for (std::size_t n = 0; n < file.joints.size(); ++n)
+        for (const Channel channel : file.joints[n].channels)
+            line += fmt::format("{}{}", line.empty() ? "" : " ",
+                                is_position(channel) ? file.clip.joints[n].offset[axis_of(channel)] : 0.0);
+    return line + '\n';
+}
+
+void write_new_frames(OutputFile& out, const BvhFile& file, const NewFrames& frames, Plan& plan)
+{
+    out.write(std::string_view(file.text).substr(0, file.motion_begin));
+    out.write(fmt::format("\nFrames: {}\nFrame Time: {}\n", frames.count, frames.frame_time));
+    const std::string line = rest_line(file);
+    for (std::size_t frame = 0; frame < frames.count; ++frame) {
+        take_frame(plan, frame);
+        const std::size_t done = write_frame(out, line, 0, 0, plan);
+        out.write(std::string_view(line).substr(done));
+    }
+}
+
+}  // namespace
+
+void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
+               const std::optional<NewFrames>& frames)
+{
+    require_keys(file.clip, keys, frames ? frames->count : file.clip.frame_count);
+    Plan plan = make_plan(file, keys);
+    OutputFile out(path);
+    if (frames)
+        write_new_frames(out, file, *frames, plan);
+    else
+        write_own_frames(out, file, plan);
     out.commit();
 }
 

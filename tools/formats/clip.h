@@ -41,12 +41,6 @@ struct Clip {
     std::vector<Eigen::Vector3d> scale;        // takes the place of rest_scale; [frame * scale_track_count + track]
 };
 
-// New local rotations for one joint of a clip, for its writer.
-struct RotationOverride {
-    int joint = -1;                                // index in Clip::joints, at most once a call
-    std::span<const Eigen::Quaterniond> rotation;  // one per frame, not zero, made unit; borrowed for the call
-};
-
 // joint: 0 to joints.size()-1, as parents and find_joints() count; the caller answers for it.
 inline const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
 

@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
 // glTF 2.0 and GLB. Reading takes the node hierarchy as a skeleton and one animation as its motion. Writing puts new
-// rotations into that animation; everything else of the asset stays as it is. Conventions:
+// keys into that animation; everything else of the asset stays as it is. Conventions:
 // - Every node is a joint, so that what lies above a skeleton counts, such as an armature with its scale. Nodes that a
 //   skin names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is
 //   "#12".
@@ -24,6 +24,7 @@
 #include "tools/formats/clip.h"
 #include "tools/formats/gltf_container.h"
 #include "tools/formats/gltf_sampler.h"
+#include "tools/formats/joint_keys.h"
 
 namespace swivel::formats {
 
@@ -86,17 +87,17 @@ void sample(GltfFile& file, std::span<const int> limb_joints);
 // Throws InputError for a joint whose matrix is sheared, which no keys can say. joint: of the clip.
 void require_can_key(const GltfFile& file, int joint);
 
-// Writes `file` with the rotations of the overridden joints replaced, keyed at the clip's frames: STEP for a joint
-// whose own keys moved by steps, LINEAR for others; a joint that did not move goes by steps if all that did so did.
-// Where several frames' keys lie apart, a viewer turns each joint evenly in between. All other JSON is kept value by
-// value, all buffers byte by byte; keys that are no longer used stay in them.
-// Joints whose node has a matrix get translation, rotation and scale instead, as animated nodes must.
-// path: .glb or .gltf; may be the file that was read; appears whole or not at all (see OutputFile). binary: whether it
-// is a .glb, where the path's suffix does not say it. A .glb takes in all buffers, one after the other. A .gltf holds
-// the new keys itself. All other files that were referred to are, from wherever the new file is written; none is
-// opened. Throws InputError on writing, and as require_can_key() does. Throws std::invalid_argument for a joint out of
-// range or named twice, a wrong frame count, and a zero or non-finite quaternion.
-void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides,
-                std::optional<bool> binary = {});
+// Writes `file` with these keys in place of the joints' own, at the clip's frames. A joint's keys go by STEP if its own
+// rotations moved by steps, else LINEAR; a joint that did not turn goes by steps if all that did so did. With new
+// frames the animation has these keys alone, LINEAR from time 0 on, and is given their name. Where several frames' keys
+// lie apart, a viewer turns each joint evenly in between. All other JSON is kept value by value, all buffers byte by
+// byte; keys that are no longer used stay in them. Joints whose node has a matrix get translation, rotation and scale
+// instead, as animated nodes must. path: .glb or .gltf; may be the file that was read; appears whole or not at all (see
+// OutputFile). binary: whether it is a .glb, where the path's suffix does not say it. A .glb takes in all buffers, one
+// after the other. A .gltf holds the new keys itself. All other files that were referred to are, from wherever the new
+// file is written; none is opened. Throws InputError on writing, and as require_can_key() does. Throws
+// std::invalid_argument as require_keys() does.
+void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const JointKeys> keys,
+                const std::optional<NewFrames>& frames = {}, std::optional<bool> binary = {});
 
 }  // namespace swivel::formats

@@ -106,17 +106,17 @@ std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::siz
     return asset.list("accessors").size() - 1;
 }
 
-// The sampler of the node's rotation, unless other channels use it, too; else a new one.
-Json& sampler_for(Json& animation, int node)
+// The sampler of the node's rotation or translation, unless other channels use it, too; else a new one.
+Json& sampler_for(Json& animation, int node, const char* path)
 {
     Json &channels = animation["channels"], &samplers = animation["samplers"];
     const auto is_its = [&](const Json& channel) {
         const Json& target = channel.at("target");
-        return target.at("path") == "rotation" && target.value("node", -1) == node;
+        return target.at("path") == path && target.value("node", -1) == node;
     };
     auto channel = std::find_if(channels.begin(), channels.end(), is_its);
     if (channel == channels.end()) {
-        channels.push_back({{"target", {{"node", node}, {"path", "rotation"}}}});
+        channels.push_back({{"target", {{"node", node}, {"path", path}}}});
         channel = channels.end() - 1;
     } else {
         const Json& old = channel->at("sampler");
@@ -127,25 +127,37 @@ Json& sampler_for(Json& animation, int node)
     return samplers.emplace_back(Json::object());
 }
 
+// The animation that new keys go into.
+Json& animation_for(GltfAsset& asset, const GltfChanges& changes)
+{
+    if (changes.animation < 0) asset.list("animations").push_back({{"name", "swivel"}});
+    Json& animations = asset.list("animations");
+    Json& animation =
+        changes.animation < 0 ? animations.back() : animations[static_cast<std::size_t>(changes.animation)];
+    if (changes.name) animation = {{"name", *changes.name}};
+    for (const char* name : {"channels", "samplers"})
+        if (!animation.contains(name)) animation[name] = Json::array();
+    return animation;
+}
+
 void add_keys(GltfAsset& asset, const GltfChanges& changes)
 {
     if (changes.tracks.empty()) return;
     const std::size_t times = add_floats(asset, changes.times, 1, "SCALAR");
     asset.list("accessors")[times]["min"] = {changes.times.front()};
     asset.list("accessors")[times]["max"] = {changes.times.back()};
-    if (changes.animation < 0) asset.list("animations").push_back({{"name", "swivel"}});
-    Json& animations = asset.list("animations");
-    Json& animation =
-        changes.animation < 0 ? animations.back() : animations[static_cast<std::size_t>(changes.animation)];
-    for (const char* name : {"channels", "samplers"})
-        if (!animation.contains(name)) animation[name] = Json::array();
+    Json& animation = animation_for(asset, changes);
     for (const GltfChanges::Track& track : changes.tracks) {
         take_matrix_apart(asset.list("nodes")[static_cast<std::size_t>(track.node)], track);
-        const std::size_t rotations = add_floats(asset, track.xyzw, 4, "VEC4");
-        Json& sampler = sampler_for(animation, track.node);
-        sampler["input"] = times;
-        sampler["output"] = rotations;
-        sampler["interpolation"] = track.is_stepped ? "STEP" : "LINEAR";
+        const auto add = [&](const char* path, std::span<const float> keys, std::size_t width, const char* type) {
+            if (keys.empty()) return;
+            Json& sampler = sampler_for(animation, track.node, path);
+            sampler["input"] = times;
+            sampler["output"] = add_floats(asset, keys, width, type);
+            sampler["interpolation"] = track.is_stepped ? "STEP" : "LINEAR";
+        };
+        add("rotation", track.xyzw, 4, "VEC4");
+        add("translation", track.xyz, 3, "VEC3");
     }
 }
 

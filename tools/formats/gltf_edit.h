@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +19,8 @@ namespace swivel::formats {
 struct GltfChanges {
     struct Track {
         int node = -1;
-        std::vector<float> xyzw;  // 4 for each time
+        std::vector<float> xyzw;  // rotations, 4 for each time; empty: no new ones
+        std::vector<float> xyz;   // the same of translations, 3 for each time
         bool is_stepped = false;  // STEP; else LINEAR
         // What the node's matrix, if it has one, is made of.
         Eigen::Vector3d translation, scale;
@@ -25,7 +28,8 @@ struct GltfChanges {
     };
     std::vector<float> times;
     std::vector<Track> tracks;
-    int animation = -1;  // -1: a new one
+    int animation = -1;               // -1: a new one
+    std::optional<std::string> name;  // in place of the animation and all its channels comes one of this name
 };
 
 // The file with these changes, in the shape for a file at `to`: `binary` or not. from: where the file was read, for

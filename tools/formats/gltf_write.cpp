@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -19,31 +18,29 @@ using Eigen::Quaterniond;
 
 const Joint& joint_at(const GltfFile& file, int joint) { return file.clip.joints[static_cast<std::size_t>(joint)]; }
 
-void check_override(const GltfFile& file, const RotationOverride& change, std::set<int>& seen)
-{
-    if (change.joint < 0 || static_cast<std::size_t>(change.joint) >= file.clip.joints.size())
-        throw std::invalid_argument("write_gltf: no such joint");
-    if (!seen.insert(change.joint).second) throw std::invalid_argument("write_gltf: two overrides for one joint");
-    if (change.rotation.size() != file.clip.frame_count)
-        throw std::invalid_argument("write_gltf: an override needs one rotation per frame");
-    for (const Quaterniond& rotation : change.rotation)
-        if (!(rotation.norm() > 0) || !std::isfinite(rotation.norm()))
-            throw std::invalid_argument("write_gltf: a rotation is zero or not finite");
-}
-
 // Keys of one joint, each on the side of the one before: a reader that does not look for the shorter arc gets it too.
-GltfChanges::Track track_of(const GltfFile& file, const RotationOverride& change)
+GltfChanges::Track track_of(const GltfFile& file, const JointKeys& keys)
 {
-    const Joint& joint = joint_at(file, change.joint);
-    GltfChanges::Track track{joint.number, {}, false, joint.offset, joint.rest_scale, joint.rest_rotation};
+    const Joint& joint = joint_at(file, keys.joint);
+    GltfChanges::Track track{joint.number, {}, {}, false, joint.offset, joint.rest_scale, joint.rest_rotation};
     Quaterniond before = joint.rest_rotation;
-    for (const Quaterniond& rotation : change.rotation) {
+    for (const Quaterniond& rotation : keys.rotation) {
         Quaterniond key = rotation.normalized();
         if (key.dot(before) < 0) key.coeffs() = -key.coeffs();
         for (const double part : key.coeffs()) track.xyzw.push_back(static_cast<float>(part));
         before = key;
     }
+    for (const Eigen::Vector3d& place : keys.translation)
+        for (const double part : place) track.xyz.push_back(static_cast<float>(part));
     return track;
+}
+
+std::vector<float> even_times(const NewFrames& frames)
+{
+    std::vector<float> times;
+    for (std::size_t n = 0; n < frames.count; ++n)
+        times.push_back(static_cast<float>(static_cast<double>(n) * frames.frame_time));
+    return times;
 }
 
 // Which of the joints move by keys of rotation, and which of those by steps.
@@ -74,20 +71,25 @@ void require_can_key(const GltfFile& file, int joint)
                                                 at.number));
 }
 
-void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides,
-                std::optional<bool> binary)
+void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const JointKeys> keys,
+                const std::optional<NewFrames>& frames, std::optional<bool> binary)
 {
-    GltfChanges changes{file.times, {}, file.animation};
-    std::set<int> joints;
-    for (const RotationOverride& change : overrides) {
-        check_override(file, change, joints);
-        require_can_key(file, change.joint);
-        changes.tracks.push_back(track_of(file, change));
+    GltfChanges changes{file.times, {}, file.animation, {}};
+    if (frames) {
+        changes.times = even_times(*frames);
+        changes.name = frames->name;
     }
-    const Movers movers = movers_of(file, joints);
-    for (std::size_t n = 0; n < overrides.size(); ++n)  // one that had no keys that move goes as all others do
-        changes.tracks[n].is_stepped = movers.all.contains(overrides[n].joint)
-                                           ? movers.by_steps.contains(overrides[n].joint)
+    require_keys(file.clip, keys, changes.times.size());
+    std::set<int> joints;
+    for (const JointKeys& each : keys) {
+        require_can_key(file, each.joint);
+        joints.insert(each.joint);
+        changes.tracks.push_back(track_of(file, each));
+    }
+    const Movers movers = frames ? Movers{} : movers_of(file, joints);
+    for (std::size_t n = 0; n < keys.size(); ++n)  // one that had no keys that move goes as all others do
+        changes.tracks[n].is_stepped = movers.all.contains(keys[n].joint)
+                                           ? movers.by_steps.contains(keys[n].joint)
                                            : !movers.all.empty() && movers.by_steps == movers.all;
     const bool is_glb = binary.value_or(lower_suffix(path) != ".gltf");
     OutputFile out(path);

@@ -123,12 +123,13 @@ void MotionFile::require_can_key(int joint) const
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::require_can_key(*gltf, joint);
 }
 
-void MotionFile::write(const std::filesystem::path& out, std::span<const formats::RotationOverride> overrides) const
+void MotionFile::write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
+                       const std::optional<formats::NewFrames>& frames) const
 {
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_))
-        formats::write_gltf(out, *gltf, overrides, formats::lower_suffix(out) != ".gltf");
+        formats::write_gltf(out, *gltf, keys, frames, formats::lower_suffix(out) != ".gltf");
     else
-        formats::write_bvh(out, std::get<BvhFile>(file_), overrides);
+        formats::write_bvh(out, std::get<BvhFile>(file_), keys, frames);
 }
 
 }  // namespace swivel::tools

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,8 +42,9 @@ public:
     void require_can_write(const std::filesystem::path& out) const;
     // Throws InputError for a joint whose rotation that cannot hold.
     void require_can_key(int joint) const;
-    // In the format that the suffix of `out` says.
-    void write(const std::filesystem::path& out, std::span<const formats::RotationOverride> overrides) const;
+    // In the format that the suffix of `out` says; as write_bvh() and write_gltf() do.
+    void write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
+               const std::optional<formats::NewFrames>& frames = {}) const;
 
 private:
     std::variant<formats::BvhFile, formats::GltfFile> file_;

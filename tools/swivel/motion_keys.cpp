@@ -15,9 +15,9 @@ void MotionKeys::add(const ClipCrowd& crowd)
     }
 }
 
-std::vector<formats::RotationOverride> MotionKeys::overrides(const formats::Clip& clip) const
+std::vector<formats::JointKeys> MotionKeys::overrides(const formats::Clip& clip) const
 {
-    std::vector<formats::RotationOverride> overrides;
+    std::vector<formats::JointKeys> overrides;
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
         for (std::size_t n = 0; n < (plans_[limb].has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
             overrides.push_back({limbs_[limb].joints[n], keys_[3 * limb + n]});
@@ -29,7 +29,7 @@ std::vector<formats::RotationOverride> MotionKeys::overrides(const formats::Clip
 
 void MotionKeys::require_can_write(const MotionFile& file) const
 {
-    for (const formats::RotationOverride& each : overrides(file.clip())) file.require_can_key(each.joint);
+    for (const formats::JointKeys& each : overrides(file.clip())) file.require_can_key(each.joint);
 }
 
 void MotionKeys::write(const std::filesystem::path& out, const MotionFile& file) const

@@ -30,7 +30,7 @@ public:
     void write(const std::filesystem::path& out, const MotionFile& file) const;
 
 private:
-    std::vector<formats::RotationOverride> overrides(const formats::Clip& clip) const;
+    std::vector<formats::JointKeys> overrides(const formats::Clip& clip) const;
 
     std::span<const Limb> limbs_;
     std::span<const LimbPlan> plans_;

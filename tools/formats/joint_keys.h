@@ -1,0 +1,32 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// What a writer of motion takes: new keys for joints of a clip, at the clip's own frames or at new ones. Knows no file.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "tools/formats/clip.h"
+
+namespace swivel::formats {
+
+// New keys for one joint, one for each frame; an empty list: none of that kind. Borrowed for the call.
+struct JointKeys {
+    int joint = -1;                                     // index in Clip::joints, at most once a call
+    std::span<const Eigen::Quaterniond> rotation = {};  // local, not zero, made unit
+    std::span<const Eigen::Vector3d> translation = {};  // local, finite, in place of Joint::offset
+};
+
+// Frames in place of the clip's own. Joints without new keys then rest in all of them, and so does each kind of key
+// that a joint has none of.
+struct NewFrames {
+    std::size_t count = 0;  // 1 or more
+    double frame_time = 0;  // seconds between them, above 0
+    std::string name = {};  // of the animation, where the format names it
+};
+
+// Throws std::invalid_argument for keys that are not as said above. frame_count: of the clip, or of the new frames.
+void require_keys(const Clip& clip, std::span<const JointKeys> keys, std::size_t frame_count);
+
+}  // namespace swivel::formats
