@@ -20,12 +20,12 @@ std::size_t frames_within(const LegMotion& motion, double seconds)
     return static_cast<std::size_t>(std::max(1.0, std::round(seconds / motion.frame_time)));
 }
 
-// The height that a share of a toe's frames are not above.
-double quantile(std::vector<double> heights, double share)
+// The height that a fiftieth of a toe's frames are not above.
+double floor_of(std::vector<double> heights)
 {
-    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(heights.size() - 1));
-    std::nth_element(heights.begin(), heights.begin() + at, heights.end());
-    return heights[static_cast<std::size_t>(at)];
+    const auto at = heights.begin() + (std::ssize(heights) - 1) / 50;
+    std::nth_element(heights.begin(), at, heights.end());
+    return *at;
 }
 
 // The frames in which a toe is low.
@@ -33,7 +33,7 @@ std::vector<bool> low_frames(const LegMotion& motion, const LegPath& leg, const 
 {
     std::vector<double> heights;
     for (const Vector3d& toe_w : leg.toe_w) heights.push_back(toe_w.dot(motion.up_w));
-    const double most = quantile(heights, 0.02) + bars.height * leg.length;
+    const double most = floor_of(heights) + bars.height * leg.length;
     std::vector<bool> low;
     for (const double height : heights) low.push_back(height < most);
     return low;
@@ -104,8 +104,7 @@ std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts
     for (std::size_t frame = 0; frame < motion.frame_count(); ++frame)
         for (std::size_t leg = 0; leg < contacts.size(); ++leg)
             if (frame == 0 || contacts[leg][frame] != contacts[leg][frame - 1])
-                rows.push_back(
-                    {static_cast<std::uint32_t>(frame), motion.legs[leg].name, contacts[leg][frame], 0});
+                rows.push_back({static_cast<std::uint32_t>(frame), motion.legs[leg].name, contacts[leg][frame], 0});
     return rows;
 }
 
@@ -114,8 +113,7 @@ Contacts contacts_of_rows(const LegMotion& motion, std::span<const formats::Cont
 {
     Contacts contacts(motion.legs.size(), std::vector<bool>(motion.frame_count()));
     for (const formats::ContactRow& row : rows) {
-        const auto leg =
-            std::ranges::find_if(motion.legs, [&](const LegPath& each) { return each.name == row.limb; });
+        const auto leg = std::ranges::find_if(motion.legs, [&](const LegPath& each) { return each.name == row.limb; });
         if (leg == motion.legs.end())
             throw formats::InputError(
                 file, row.line, fmt::format("{} is no leg that the clip has; remove its rows", limb_word(row.limb)));

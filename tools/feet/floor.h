@@ -12,7 +12,7 @@ namespace swivel::tools {
 
 struct Floor {
     Eigen::Vector3d up_w = Eigen::Vector3d::UnitY();
-    double level = 0;            // how high the toes stand over the world's origin, where no hill is
+    double level = 0;  // how high the toes stand over the world's origin, where no hill is
     std::optional<Ground> hills;
 
     // How high the hills are there; 0 without any.

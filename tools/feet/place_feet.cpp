@@ -192,8 +192,7 @@ private:
             for (std::size_t frame = 1; frame + 1 < body_.size(); ++frame) {
                 const Sum change = second_difference(leg.toe, frame);
                 const Vector3d now = change.at(values);
-                if (now.norm() > jump)
-                    squares.want(change, now.normalized(), jump, kJump / (pace_ * pace_ * pace_));
+                if (now.norm() > jump) squares.want(change, now.normalized(), jump, kJump / (pace_ * pace_ * pace_));
             }
             for (const Stand& stand : leg.stands) {
                 const Vector3d toe_w = stand.toe.at(values), normal_w = floor_.normal_w(toe_w);

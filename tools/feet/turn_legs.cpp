@@ -80,10 +80,10 @@ struct Poses {
                 const Vector3d place = formats::local_translation(clip, frame, joint);
                 rotations.push_back(floats(clip.rotation[frame * joint_count + joint]));
                 translations.push_back(floats(at.parent < 0 ? Vector3d(place - origins_w.back()) : place));
-                scales.push_back(floats(at.scale_track < 0
-                                            ? at.rest_scale
-                                            : clip.scale[frame * clip.scale_track_count +
-                                                         static_cast<std::size_t>(at.scale_track)]));
+                scales.push_back(floats(
+                    at.scale_track < 0
+                        ? at.rest_scale
+                        : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(at.scale_track)]));
             }
         }
     }
