@@ -25,10 +25,11 @@ struct PlainLegs {
 // Of a skeleton with the names of the CMU library.
 PlainLegs legs_path(const PlainMotion& motion, double frame_time);
 
-// A CMU clip carried to another body: every second frame, thighs and shins `legs` times as long, the root's way over
-// the ground `way` times as far, and less by `minus` of its mean velocity.
+// A CMU clip carried to another body, every second frame.
 struct Carried {
-    double legs = 1, way = 1, minus = 0;
+    double legs = 1;   // thighs and shins are so many times as long
+    double way = 1;    // the root's way over the ground is so many times as far
+    double minus = 0;  // this share of the root's mean velocity is taken away
 };
 std::string carried(const PlainMotion& motion, const Carried& to);
 inline constexpr double kCarriedTime = 1.0 / 60;  // seconds from frame to frame

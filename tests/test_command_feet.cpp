@@ -61,10 +61,10 @@ double agreement(const PlainContacts& a, const PlainContacts& b)
     return same / all;
 }
 
-void print_skating(const char* words, const PlainSkating& is, double knee_scale = 1)
+void print_skating(const char* words, const PlainSkating& is)
 {
     std::printf("%-22s %6.4f  %6.4f  %6.2f  %6.2f  %7.4f\n", words, kMetre * is.mean, kMetre * is.most,
-                1e3 * kMetre * is.step, knee_scale * is.knee, kMetre * is.jump);
+                1e3 * kMetre * is.step, is.knee, kMetre * is.jump);
 }
 
 struct FeetCase {

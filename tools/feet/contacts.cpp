@@ -94,7 +94,7 @@ std::optional<Vector3d> missing_way(const LegMotion& motion, const ContactBars& 
     }
     Eigen::AlignedBox3d room;
     for (const Vector3d& place_w : motion.carrier_w) room.extend(motion.level(place_w));
-    if (way.norm() <= std::max(motion.leg_length() / 2, room.diagonal().norm())) return std::nullopt;
+    if (way.norm() <= std::max(motion.leg_length() / 2, 2 * room.diagonal().norm())) return std::nullopt;
     return -way / (frames * motion.frame_time);
 }
 

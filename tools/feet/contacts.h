@@ -29,9 +29,9 @@ struct Contact {
 // A leg's contacts, in order.
 std::vector<Contact> contacts_of(const std::vector<bool>& frames);
 
-// The velocity, in lengths of the clip a second, that would keep the feet of a clip in place: it walks, and its body
-// does not go. Nothing for another clip. It walks in place if its feet, while they are low, go further one way than the
-// body ever is from anywhere, and further than half a leg.
+// The velocity of the body, in lengths of the clip a second, that a clip lacks which walks in place. Nothing for
+// another clip. It walks in place if its feet, while they are low, go further one way than half a leg. And that must be
+// more than twice as far as the room is wide in which the body stays.
 std::optional<Eigen::Vector3d> missing_way(const LegMotion& motion, const ContactBars& bars);
 
 // The rows of a table: each leg's first frame, and each in which its contact begins or ends.

@@ -12,8 +12,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Weights at 60 frames a second, of squares of lengths. Those of second differences go with the cube of the rate, those
-// of a sum over the frames against it, so that the sums stand for the same integrals at any rate.
+// Weights at 60 frames a second, of squares of lengths. Those of second differences go with the cube of the rate, and
+// others against it. So the sums over frames stand for the same integrals at any rate.
 constexpr double kSmooth = 20, kTogether = 0.005, kHome = 0.02, kAsBent = 1, kReach = 1000, kJump = 1000, kGround = 1e4;
 constexpr double kStraightest = 0.995;  // share of both bones: a knee bent by 11 degrees
 constexpr double kJumpShare = 0.995;    // of the clip's largest jump: a weight leaves a little of what it forbids

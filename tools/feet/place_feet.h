@@ -4,14 +4,18 @@
 // solved at once, by least squares. Eigen solves them, so the results are not the same bits on every CPU.
 //
 // Unknown are the change of the body and of each toe in each frame, against the clip on its ground. A contact is one
-// unknown, its place, so its toe does not move at all. What is to be small:
-// - the second differences of each change: nothing starts or stops at once;
-// - a toe's change against the body's, and the body's own: the clip comes back where nothing is asked;
-// - how much longer or shorter a leg gets than it is in the clip: knees bend as they do there.
+// unknown, its place, so its toe does not move at all.
+//
+// What is to be small:
+// - The second differences of each change. So nothing starts or stops at once.
+// - A toe's change against the body's, and the body's own. So the clip comes back where nothing is asked.
+// - How much longer or shorter a leg gets than it is in the clip. So knees bend as they do there.
+//
 // What is to hold, by large weights where it does not hold by itself:
-// - no leg is straighter than 0.995 of its bones: a knee that goes straight snaps;
-// - no toe's velocity jumps more from frame to frame than toes do in the clip;
-// - feet in contact are on the ground.
+// - No leg is longer than 0.995 of its bones. A knee that goes straight snaps.
+// - No toe's velocity jumps more from frame to frame than toes' velocities do in the clip.
+// - Feet in contact are on the ground.
+//
 // Lengths of legs and heights are not linear, so it is solved some times, each time from where the last one ended.
 #pragma once
 

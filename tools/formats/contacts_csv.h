@@ -21,8 +21,10 @@ struct ContactRow {
     std::size_t line = 0;  // of the file, for messages
 };
 
-// All rows, sorted by frame. Throws InputError that names the line: for another first line, a cell that is missing, too
-// many or none of the above, and a second row for a limb and frame.
+// All rows, sorted by frame. Throws InputError that names the line, for
+// - another first line;
+// - a cell that is missing, too many or none of the above;
+// - a second row for a limb and frame.
 std::vector<ContactRow> read_contacts_csv(const std::filesystem::path& path);
 
 // Writes such a table, whole or not at all. Throws InputError as OutputFile does.

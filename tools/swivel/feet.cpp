@@ -3,6 +3,7 @@
 // `swivel feet`: finds when feet of clips are on the ground, lets them stand, reports, and writes the clips.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
