@@ -22,9 +22,10 @@ double PlainLegs::leg_length() const
 
 PlainLegs legs_path(const PlainMotion& motion, double frame_time)
 {
-    PlainLegs path{frame_time, {}};
+    PlainLegs path{frame_time, {}, {}};
     for (std::size_t frame = 0; frame < motion.lines.size(); ++frame) {
         const std::vector<PlainPose> pose = pose_of(motion, frame);
+        path.body.push_back(pose[0].position);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto place = [&](const std::string& joint) {
                 return pose[static_cast<std::size_t>(joint_named(motion, (side == 0 ? "Left" : "Right") + joint))]
@@ -137,6 +138,9 @@ PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts)
             ++frames;
         }
     }
+    for (std::size_t n = 2; n < legs.body.size(); ++n)
+        skating.body_jump = std::max(skating.body_jump,
+                                     (legs.body[n - 2] - 2 * legs.body[n - 1] + legs.body[n]).norm() / legs.frame_time);
     skating.mean = way / (frames * legs.frame_time);
     skating.step = way / steps;
     return skating;

@@ -16,7 +16,8 @@ struct PlainLegPath {
 };
 struct PlainLegs {
     double frame_time;
-    std::array<PlainLegPath, 2> legs;  // left, right
+    std::array<PlainLegPath, 2> legs;   // left, right
+    std::vector<Eigen::Vector3d> body;  // the joint Hips
 
     std::size_t frame_count() const { return legs[0].toe.size(); }
     double leg_length() const;
@@ -36,14 +37,14 @@ inline constexpr double kCarriedTime = 1.0 / 60;  // seconds from frame to frame
 
 // The rule of docs/clip_feet.md.
 using PlainContacts = std::array<std::vector<bool>, 2>;
-PlainContacts plain_contacts(const PlainLegs& legs, double speed = 0.6, double height = 0.07);
+PlainContacts plain_contacts(const PlainLegs& legs, double speed = 0.8, double height = 0.085);
 
 // The rows of a table, frame by frame.
 PlainContacts contacts_in_table(const std::string& csv, std::size_t frame_count);
 
 // In lengths of the file a second, in lengths, in degrees: between two frames of contact.
 struct PlainSkating {
-    double mean = 0, most = 0, step = 0, knee = 0, jump = 0;
+    double mean = 0, most = 0, step = 0, knee = 0, jump = 0, body_jump = 0;
 };
 PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/feet/leg_motion.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "tools/rig/facing.h"
@@ -36,6 +37,14 @@ double LegMotion::leg_length() const
 {
     const auto add = [](double sum, const LegPath& leg) { return sum + leg.length; };
     return std::accumulate(legs.begin(), legs.end(), 0.0, add) / static_cast<double>(legs.size());
+}
+
+double largest_jump(std::span<const Vector3d> places_w)
+{
+    double most = 0;
+    for (std::size_t n = 2; n < places_w.size(); ++n)
+        most = std::max(most, (places_w[n - 2] - 2 * places_w[n - 1] + places_w[n]).norm());
+    return most;
 }
 
 int toe_of(const Clip& clip, const Limb& leg)

@@ -31,6 +31,9 @@ struct LegMotion {
     Eigen::Vector3d level(const Eigen::Vector3d& v) const { return v - v.dot(up_w) * up_w; }
 };
 
+// The largest second difference of places from frame to frame: how much a velocity jumps, times the frame's time.
+double largest_jump(std::span<const Eigen::Vector3d> places_w);
+
 // The joint that a foot stands on: right below the ankle and called toe or ball, or VRM's toes. Without one it is the
 // ankle.
 int toe_of(const formats::Clip& clip, const Limb& leg);

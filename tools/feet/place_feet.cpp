@@ -102,8 +102,15 @@ public:
     Problem(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor)
         : motion_(motion), floor_(floor), pace_(60 * motion.frame_time)
     {
-        for (std::size_t frame = 0; frame < motion.frame_count(); ++frame) body_.push_back(new_unknown());
-        for (std::size_t leg = 0; leg < motion.legs.size(); ++leg) add_leg(motion.legs[leg], contacts[leg], bars);
+        for (std::size_t frame = 0; frame < motion.frame_count(); ++frame) {
+            body_.push_back(new_unknown());
+            body_at_.push_back(body_.back());
+            body_at_.back().known = motion.carrier_w[frame] + lift_w(frame);
+        }
+        for (std::size_t leg = 0; leg < motion.legs.size(); ++leg) {
+            add_leg(motion.legs[leg], contacts[leg], bars);
+            toes_jump_ = std::max(toes_jump_, largest_jump(motion.legs[leg].toe_w));
+        }
     }
 
     PlacedFeet solve() const
@@ -185,15 +192,11 @@ private:
     Squares part_about(const VectorXd& values) const
     {
         Squares squares(unknown_count_);
-        const double jump = kJumpShare * largest_jump();
+        add_jumps(body_at_, largest_jump(motion_.carrier_w), values, squares);
         for (std::size_t n = 0; n < legs_.size(); ++n) {
             const LegSums& leg = legs_[n];
             for (std::size_t frame = 0; frame < body_.size(); ++frame) add_reach(n, frame, values, squares);
-            for (std::size_t frame = 1; frame + 1 < body_.size(); ++frame) {
-                const Sum change = second_difference(leg.toe, frame);
-                const Vector3d now = change.at(values);
-                if (now.norm() > jump) squares.want(change, now.normalized(), jump, kJump / (pace_ * pace_ * pace_));
-            }
+            add_jumps(leg.toe, toes_jump_, values, squares);
             for (const Stand& stand : leg.stands) {
                 const Vector3d toe_w = stand.toe.at(values), normal_w = floor_.normal_w(toe_w);
                 // The plane through the point of the ground below.
@@ -217,14 +220,15 @@ private:
         if (now.norm() > most) squares.want(leg, now.normalized(), most, kReach * pace_);
     }
 
-    // Of the second differences of the clip's toes.
-    double largest_jump() const
+    // A velocity jumps no more than it does in the clip.
+    void add_jumps(const std::vector<Sum>& places, double most, const VectorXd& values, Squares& squares) const
     {
-        double most = 0;
-        for (const LegPath& path : motion_.legs)
-            for (std::size_t frame = 1; frame + 1 < path.toe_w.size(); ++frame)
-                most = std::max(most, (path.toe_w[frame - 1] - 2 * path.toe_w[frame] + path.toe_w[frame + 1]).norm());
-        return most;
+        for (std::size_t frame = 1; frame + 1 < places.size(); ++frame) {
+            const Sum change = second_difference(places, frame);
+            const Vector3d now = change.at(values);
+            if (now.norm() > kJumpShare * most)
+                squares.want(change, now.normalized(), kJumpShare * most, kJump / (pace_ * pace_ * pace_));
+        }
     }
 
     PlacedFeet placed(const VectorXd& values) const
@@ -247,7 +251,8 @@ private:
     const Floor& floor_;
     double pace_;  // seconds a frame, in sixtieths
     int unknown_count_ = 0;
-    std::vector<Sum> body_;  // its change, beside the hills' lift
+    std::vector<Sum> body_, body_at_;  // its change, beside the hills' lift; and where it is then
+    double toes_jump_ = 0;             // the largest of the clip
     std::vector<LegSums> legs_;
 };
 

@@ -13,7 +13,7 @@
 //
 // What is to hold, by large weights where it does not hold by itself:
 // - No leg is longer than 0.995 of its bones. A knee that goes straight snaps.
-// - No toe's velocity jumps more from frame to frame than toes' velocities do in the clip.
+// - Velocities of toes and of the body jump no more from frame to frame than they do in the clip.
 // - Feet in contact are on the ground.
 //
 // Lengths of legs and heights are not linear, so it is solved some times, each time from where the last one ended.

@@ -28,8 +28,7 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
         const std::vector<Vector3d>& toe_w = leg.toe_w;
         for (std::size_t frame = 1; frame < toe_w.size(); ++frame)
             raise(most.knee_deg, std::abs(bend_deg(leg, frame) - bend_deg(leg, frame - 1)));
-        for (std::size_t frame = 1; frame + 1 < toe_w.size(); ++frame)
-            raise(most.jump, (toe_w[frame - 1] - 2 * toe_w[frame] + toe_w[frame + 1]).norm() / motion.frame_time);
+        raise(most.jump, largest_jump(toe_w) / motion.frame_time);
         for (const Contact& contact : contacts_of(contacts[n])) {
             if (contact.first > 0) ++steps;
             for (std::size_t frame = contact.first; frame < contact.end; ++frame) {
@@ -43,10 +42,11 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
             }
         }
     }
+    most.body_jump = largest_jump(motion.carrier_w) / motion.frame_time;
     most.mean_speed = times > 0 ? way / times : 0;
     most.step = way / std::max(steps, 1.0);
     for (double* const length :
-         {&most.mean_speed, &most.most_speed, &most.step, &most.drift, &most.off_ground, &most.jump})
+         {&most.mean_speed, &most.most_speed, &most.step, &most.drift, &most.off_ground, &most.jump, &most.body_jump})
         *length /= motion.leg_length();
     return most;
 }

@@ -14,6 +14,7 @@ struct Skating {
     double off_ground = 0;  // the most that a toe in contact is over or under where it would stand
     double knee_deg = 0;    // the largest change of a knee's angle, a frame
     double jump = 0;        // the largest change of a toe's velocity, a frame
+    double body_jump = 0;   // and of the body's
 };
 
 Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor);

@@ -78,7 +78,7 @@ struct FeetOptions {
     std::string ground, ground_size;  // the picture of hills, "X,Y,Z"; empty: a level floor
     MotionChoice motion;
     std::vector<std::string> legs;
-    double speed = 0.6, height = 0.07;  // see ContactBars
+    double speed = 0.8, height = 0.085;  // see ContactBars
     bool quiet = false, json = false;
 };
 void run_feet(const FeetOptions& options);
