@@ -96,14 +96,10 @@ def main(swivel, walk, out):
 
         lines.append(f'  <text x="24" y="{height + 26}" fill="{GREY}" font-size="14">{words}</text>')
         for leg, on in zip(LEGS, legs_on):
-            for frame in range(0, len(clip), 4):
-                if on[frame]:
-                    path = " L".join(point(clip[frame][joint]) for joint in leg)
-                    lines.append(f'  <path d="M{path}" fill="none" stroke="{INK}" stroke-width="1" opacity="0.45"/>')
-            for frame in range(len(clip)):
-                if on[frame]:
-                    x, y = point(clip[frame][leg[3]]).split()
-                    lines.append(f'  <circle cx="{x}" cy="{y}" r="2.2" fill="{colour}"/>')
+            path = "".join(" M" + " L".join(point(clip[frame][joint]) for joint in leg) for frame in range(0, len(clip), 6) if on[frame])
+            lines.append(f'  <path d="{path[1:]}" fill="none" stroke="{INK}" stroke-width="1" opacity="0.45"/>')
+            toes = "".join((" L" if on[frame - 2] else " M") + point(clip[frame][leg[3]]) for frame in range(2, len(clip), 2) if on[frame])
+            lines.append(f'  <path d="M{toes[2:]}" fill="none" stroke="{colour}" stroke-width="4.4" stroke-linecap="round"/>')
         height = int(floor) + 14
     head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 {height}" font-family="DejaVu Sans, Helvetica, Arial, sans-serif">\n'
             f'  <title>The legs of a walk while they are in contact</title>\n  <rect width="760" height="{height}" rx="8" fill="#fbfaf5"/>\n')
