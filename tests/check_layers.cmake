@@ -138,6 +138,7 @@ must_not_say(tools/corpus "[^a-zA-Z_](std::)?(a?(sin|cos|tan)h?|atan2|sincos|exp
 must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/(rig|crowd|cli|swivel))[^\n]*" ${nowhere} "a format knows no solver")
 must_not_say(tools/rig "#[ \t]*include[ \t]*\"tools/(crowd|cli|swivel|corpus)/[^\n]*" ${nowhere} "a rig knows skeletons and the library alone")
 must_not_say(tools/crowd "#[ \t]*include[ \t]*\"tools/(cli|swivel|corpus)/[^\n]*" ${nowhere} "a crowd knows no command")
+must_not_say(tools/feet "#[ \t]*include[ \t]*\"tools/(cli|swivel|corpus)/[^\n]*" ${nowhere} "feet know no command")
 must_not_say(tools/cache "#[ \t]*include[ \t]*(\"tools/(rig|cli|swivel|corpus)/|<Eigen/)[^\n]*" ${nowhere} "a cache knows no clip and no command")
 must_not_say(tools/cache "#[ \t]*include[ \t]*\"tools/crowd/(clip|characters|crowd_|demo|given|limb_setups)[^\n]*" ${nowhere} "a cache knows goals alone")
 must_not_say(tools/cli "#[ \t]*include[ \t]*\"tools/(rig|crowd|swivel|corpus)/[^\n]*" ${nowhere} "a command line knows no subcommand")

@@ -87,7 +87,7 @@ class Readme(unittest.TestCase):
         for program in re.findall(r"`((?:tools|tests)/[\w/]+)", text):
             self.assertTrue((ROOT / program).exists(), program)
         for reader in re.search(r"\*\*Files of motion and tables: (.*?)\.\*\*", text)[1].split(", "):
-            name = {"crowd files (TOML)": "crowd_file", "targets (CSV)": "targets", "GLB": "gltf"}.get(reader, reader.lower())
+            name = {"crowd files (TOML)": "crowd_file", "targets (CSV)": "targets", "contacts (CSV)": "contacts", "heights (PNG)": "heights", "GLB": "gltf"}.get(reader, reader.lower())
             self.assertTrue((ROOT / f"tests/fuzz/fuzz_{name}.cpp").exists(), f"no fuzzer of {reader}")
         self.assertIn("sha256sum -- * >SHA256SUMS", (ROOT / "tools/release/build").read_text(encoding="utf-8"))
 

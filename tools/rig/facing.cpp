@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tools/rig/facing.h"
 
-#include <vector>
-
 #include "tools/rig/joint_names.h"
 
 namespace swivel::tools {
@@ -51,24 +49,12 @@ struct RestingFigure {
         return fork >= 0 && pose(fork).mirrored;
     }
 
-    // The toes of a foot, by the file or by their names.
-    std::vector<int> toes(std::size_t leg) const
-    {
-        const auto said = clip.human_bones.find(std::string(side_name(formats::kLimbNames[leg].side)) + "Toes");
-        if (said != clip.human_bones.end()) return {said->second};
-        std::vector<int> toes = formats::child_joints(clip, (*joints[leg])[2]);
-        std::erase_if(toes, [&](int joint) {
-            const std::string name = plain(joint_at(clip, joint).name);
-            return name.find("toe") == std::string::npos && name.find("ball") == std::string::npos;
-        });
-        return toes;
-    }
     Vector3d way_of_toes_w() const
     {
         Vector3d way_w = Vector3d::Zero();
         for (const std::size_t leg : {kLegs, kLegs + 1}) {
             if (!joints[leg]) continue;
-            for (const int toe : toes(leg))
+            for (const int toe : toes_of(clip, formats::kLimbNames[leg].side, (*joints[leg])[2]))
                 way_w += (pose(toe).position - pose((*joints[leg])[2]).position).normalized();
         }
         return way_w;
@@ -76,6 +62,18 @@ struct RestingFigure {
 };
 
 }  // namespace
+
+std::vector<int> toes_of(const Clip& clip, formats::Side side, int ankle)
+{
+    const auto said = clip.human_bones.find(std::string(side_name(side)) + "Toes");
+    if (said != clip.human_bones.end()) return {said->second};
+    std::vector<int> toes = formats::child_joints(clip, ankle);
+    std::erase_if(toes, [&](int joint) {
+        const std::string name = plain(joint_at(clip, joint).name);
+        return name.find("toe") == std::string::npos && name.find("ball") == std::string::npos;
+    });
+    return toes;
+}
 
 Facing facing_of(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints)
 {

@@ -90,6 +90,59 @@ void add_view_command(CLI::App& app)
     command->callback([options, command] { run_view(*options, option_about_clip(*command)); });
 }
 
+void add_feet(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "feet", "Make the feet of clips stand: find when they are on the ground, and remove their skate");
+    auto options = std::make_shared<FeetOptions>();
+    takes(command->add_option("FILE", options->files,
+                              "Motion files: BVH or glTF (.glb, .gltf, .vrm, .vrma), as their first bytes say. - is "
+                              "standard input"),
+          file_name())
+        ->required()
+        ->option_text("...");
+    takes(command->add_option("-o,--out", options->out,
+                              "Write the clip with its new legs and its body's new way, in its own format; all else of "
+                              "it is kept. Of several FILEs, or if it is one already, a folder, where each keeps its "
+                              "name. Without it there is a report only"),
+          file_name());
+    takes(command->add_option("--contacts", options->contacts,
+                              "When feet are on the ground, instead of finding it: a CSV file with the columns "
+                              "frame,limb,contact. limb is left_leg or right_leg, contact is on or off from that frame "
+                              "on"),
+          file_name());
+    takes(command->add_option("--export-contacts", options->export_contacts,
+                              "Write the contacts that count as such a table, to edit and to give back"),
+          file_name());
+    takes(command
+              ->add_option("--speed", options->speed,
+                           "A foot is on the ground while its toe is slower than this many leg lengths a second, "
+                           "0.01 to 100")
+              ->capture_default_str(),
+          number(0.01, 100));
+    takes(command
+              ->add_option("--height", options->height,
+                           "And while it is lower than this many leg lengths over its floor, 0.001 to 10")
+              ->capture_default_str(),
+          number(0.001, 10));
+    takes(command->add_option("--ground", options->ground,
+                              "Hills to put the clip on: a picture of heights, a PNG of 8 or 16 bits. Its middle is at "
+                              "the origin, and its upper edge is behind"),
+          file_name());
+    takes(command->add_option("--ground-size", options->ground_size,
+                              "How wide the picture is, how high its white, and how deep it is, X,Y,Z, in the "
+                              "clip's unit"),
+          numbers(3, 0));
+    add_named_legs(*command, options->legs,
+                   "Joints of a leg, HIP,KNEE,ANKLE, where their names do not tell. Each is a name, a path or a number "
+                   "(#12). left: or right: in front sets the side. May be given twice. The other side is still looked "
+                   "for");
+    add_motion(*command, options->motion, "It needs even frames, so glTF mostly needs --fps");
+    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
+    add_json(*command, options->json);
+    command->callback([options] { run_feet(*options); });
+}
+
 void add_rig(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
@@ -201,6 +254,7 @@ void run(int argc, const char* const* argv)
     add_view_command(app);
     add_cache_commands(app);
     add_rig(app);
+    add_feet(app);
     add_steps(app);
     add_verify(app);
     add_bench(app);

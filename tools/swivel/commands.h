@@ -71,6 +71,18 @@ struct ReplayOptions {
 };
 void run_replay(const ReplayOptions& options);
 
+struct FeetOptions {
+    std::vector<std::string> files;
+    std::string out;  // a file, or of several files a folder; empty: none
+    std::string contacts, export_contacts;
+    std::string ground, ground_size;  // the picture of hills, "X,Y,Z"; empty: a level floor
+    MotionChoice motion;
+    std::vector<std::string> legs;
+    double speed = 0.8, height = 0.085;  // see ContactBars
+    bool quiet = false, json = false;
+};
+void run_feet(const FeetOptions& options);
+
 struct RigOptions {
     SolveOptions clip;  // its file, motion and limbs
     bool joints = false, json = false;

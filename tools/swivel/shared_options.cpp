@@ -43,6 +43,11 @@ void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
           number(0.001, 10'000));
 }
 
+CLI::Option* add_named_legs(CLI::App& command, std::vector<std::string>& legs, const std::string& meaning)
+{
+    return command.add_option("--leg", legs, meaning)->type_name("JOINTS")->allow_extra_args(false);
+}
+
 void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vector<std::string>& legs,
                      const std::string& other_side)
 {
@@ -53,9 +58,7 @@ void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vec
                         other_side)
         ->type_name("JOINTS")
         ->allow_extra_args(false);
-    command.add_option("--leg", legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
-        ->type_name("JOINTS")
-        ->allow_extra_args(false);
+    add_named_legs(command, legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way");
 }
 
 void add_view(CLI::App& command, std::string& view)

@@ -37,6 +37,8 @@ void add_file(CLI::App& command, std::string& file, const std::string& meaning);
 CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning);
 // --clip and --fps; use: what the animation is there for.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use);
+// --leg alone.
+CLI::Option* add_named_legs(CLI::App& command, std::vector<std::string>& legs, const std::string& meaning);
 // --arm and --leg; other_side: what becomes of the one that is not named.
 void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vector<std::string>& legs,
                      const std::string& other_side);

@@ -69,10 +69,9 @@ void require_one_reader(const SolveOptions& options, const std::string& targets)
         throw CommandError(2, "more than one of FILE, --crowd and --targets is -, standard input; name the others");
 }
 
-void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets)
+void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read, const MotionFile& clip)
 {
-    const std::string outputs[] = {options.out, options.export_targets, options.view};
-    for (std::size_t n = 0; n < std::size(outputs); ++n) {
+    for (std::size_t n = 0; n < outputs.size(); ++n) {
         const std::string& file = outputs[n];
         if (file.empty()) continue;
         const auto refuse_if = [&](bool is_lost, const char* what) {
@@ -81,12 +80,19 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
         for (std::size_t other = 0; other < n; ++other)
             refuse_if(!outputs[other].empty() && is_same_file(file, outputs[other]), "another output");
         if (is_standard_stream(file)) continue;  // reading from - is something else
-        refuse_if(is_read(file, options.file), "the clip");
+        for (const ReadFile& each : read) refuse_if(!each.name.empty() && is_read(file, each.name), each.what);
         for (const std::filesystem::path& beside : clip.files_beside())
             refuse_if(is_same_file(file, beside), "a buffer or image of the clip");
-        refuse_if(targets != "clip" && is_read(file, targets), "the table of targets");
-        refuse_if(!options.crowd.empty() && is_read(file, options.crowd), "the crowd file");
     }
+}
+
+void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets)
+{
+    const std::string outputs[] = {options.out, options.export_targets, options.view};
+    const ReadFile read[] = {{options.file, "the clip"},
+                             {targets == "clip" ? "" : targets, "the table of targets"},
+                             {options.crowd, "the crowd file"}};
+    require_own_outputs(outputs, read, clip);
 }
 
 std::FILE* report_stream(const SolveOptions& options)

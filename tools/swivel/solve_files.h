@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <span>
 #include <string>
 
 #include "tools/swivel/commands.h"
@@ -21,6 +22,15 @@ OutKind out_kind(const std::string& out, std::uint32_t characters);
 
 // Standard input can be read once. targets: "clip" or a file; throws CommandError.
 void require_one_reader(const SolveOptions& options, const std::string& targets);
+
+// What a run reads, and what to call it in a message.
+struct ReadFile {
+    std::string name;
+    const char* what;
+};
+// Refuses an output that is one of these files, lies beside the clip, or is another output. Empty names are none.
+// Throws CommandError.
+void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read, const MotionFile& clip);
 
 // Nothing that is read is written over, and nothing that is written. Throws CommandError.
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets);

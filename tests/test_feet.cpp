@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise of `swivel feet` on recorded motion: feet that it finds in contact stand, on the ground, and neither
+// knees nor velocities pay for it. Tests' own readers and formulas judge. It prints what it measures:
+// test_feet -# "[#test_feet]".
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/feet_motion.h"
+#include "tests/plain_gltf.h"
+#include "tests/run_command.h"
+#include "tests/shared_figures.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Eigen::Vector3d;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kMetre = 0.0254 / 0.45;  // a unit of the CMU library's skeletons
+
+void feet_done(const TempFolder& folder, Words words)
+{
+    words.insert(words.begin(), "feet");
+    const Outcome outcome = run_command(folder.path, words);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+}
+
+json feet_report(const TempFolder& folder, Words words)
+{
+    words.insert(words.begin(), "feet");
+    words.push_back("--json");
+    const Outcome outcome = run_command(folder.path, words);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return json::parse(outcome.out).at("clips");
+}
+
+std::string refused_feet(const TempFolder& folder, Words words, int exit_code = 1)
+{
+    words.insert(words.begin(), "feet");
+    const Outcome outcome = run_command(folder.path, words);
+    CHECK(outcome.exit_code == exit_code);
+    CHECK(outcome.out.empty());
+    return outcome.err;
+}
+
+PlainLegs legs_in(const fs::path& path) { return legs_path(plain_motion_of(path), kCarriedTime); }
+
+// Those by which the prototype's figures are measured: slower than 0.5 m/s and lower than 6 cm.
+PlainContacts prototypes_contacts(const PlainLegs& source)
+{
+    const double leg = kMetre * source.leg_length();
+    return plain_contacts(source, 0.5 / leg, 0.06 / leg);
+}
+
+double agreement(const PlainContacts& a, const PlainContacts& b)
+{
+    double same = 0, all = 0;
+    for (std::size_t side = 0; side < 2; ++side)
+        for (std::size_t n = 0; n < a[side].size(); ++n, ++all) same += a[side][n] == b[side][n] ? 1 : 0;
+    return same / all;
+}
+
+void print_skating(const char* words, const PlainSkating& is)
+{
+    std::printf("%-22s %6.4f  %6.4f  %6.2f  %6.2f  %7.4f\n", words, kMetre * is.mean, kMetre * is.most,
+                1e3 * kMetre * is.step, is.knee, kMetre * is.jump);
+}
+
+struct FeetCase {
+    const char* words;
+    const char* file;
+    Carried to;
+    // What the prototype's least squares leaves: m/s, mean and most; mm a step; a knee, degrees a frame.
+    double mean, most, step, knee;
+};
+// 0 in its table is less than half of the last digit.
+const FeetCase kFeetCases[] = {
+    {"walk, legs x 0.8", "cmu_02_01_walk.bvh", {.legs = 0.8}, .020, .334, 12, 13.1},
+    {"dance, legs x 0.8", "cmu_05_06_dance.bvh", {.legs = 0.8}, .0005, .0005, 0.5, 10.2},
+    {"jump, legs x 0.8", "cmu_01_01_forward_jump.bvh", {.legs = 0.8}, .0005, .009, 0.5, 17.3},
+    {"walk, root x 1.25", "cmu_02_01_walk.bvh", {.way = 1.25}, .030, .454, 18, 15.4},
+};
+
+// Splits a line of a BVH's frames.
+Words tokens_of(const std::string& line)
+{
+    std::istringstream in(line);
+    Words words;
+    for (std::string word; in >> word;) words.push_back(word);
+    return words;
+}
+
+}  // namespace
+
+TEST_CASE("feet: recorded feet stand where legs or way do not fit the clip")
+{
+    std::printf(
+        "Toes in contact: m/s, mean and most; mm a step. A knee, degrees a frame; a toe's velocity, m/s a "
+        "frame.\n");
+    for (const FeetCase& each : kFeetCases) {
+        const fs::path path = find_or_warn(each.file);
+        if (path.empty()) continue;
+        INFO(each.words);
+        const TempFolder folder;
+        const PlainMotion recorded = plain_motion_of(path);
+        spill(folder / "source.bvh", carried(recorded, {}));
+        spill(folder / "skates.bvh", carried(recorded, each.to));
+        const PlainLegs source = legs_in(folder / "source.bvh"), skates = legs_in(folder / "skates.bvh");
+        // The source says when feet stand; a detector of the test's own must agree, frame by frame.
+        feet_done(folder, {"source.bvh", "--export-contacts", "c.csv", "--quiet"});
+        CHECK(agreement(contacts_in_table(slurp(folder / "c.csv"), source.frame_count()), plain_contacts(source)) == 1);
+        const PlainContacts contacts = prototypes_contacts(source);
+        const json report = feet_report(folder, {"skates.bvh", "--contacts", "c.csv", "--out", "stands.bvh"}).at(0);
+        const PlainLegs stands = legs_in(folder / "stands.bvh");
+        const PlainSkating before = plain_skating(skates, contacts), after = plain_skating(stands, contacts);
+        print_skating(each.words, before);
+        print_skating("  after", after);
+        CHECK(kMetre * after.mean <= each.mean);
+        CHECK(kMetre * after.most <= each.most);
+        CHECK(1e3 * kMetre * after.step <= each.step);
+        CHECK(after.knee <= each.knee + 0.05);  // half of the last digit
+        CHECK(after.jump <= before.jump);
+        CHECK(after.body_jump <= before.body_jump);
+        // On the ground, which is level.
+        const double floor = report.at("floor");
+        for (std::size_t side = 0; side < 2; ++side)
+            for (std::size_t n = 0; n < stands.frame_count(); ++n)
+                if (contacts[side][n]) CHECK(std::abs(stands.legs[side].toe[n].y() - floor) * kMetre < 0.003);
+        // What it reports is what is so.
+        const double leg = skates.leg_length();
+        CHECK(report.at("before").at("contact_speed_mean") == Approx(before.mean / leg).epsilon(1e-3));
+        CHECK(report.at("before").at("skate_a_step") == Approx(before.step / leg).epsilon(1e-3));
+        CHECK(report.at("after").at("knee_degrees_a_frame_most") == Approx(after.knee).epsilon(1e-3));
+        CHECK(report.at("after").at("velocity_jump_most") == Approx(after.jump / leg).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("feet: a clip that skates tells its own contacts, and all else of its file stays")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    const PlainMotion recorded = plain_motion_of(path);
+    spill(folder / "skates.bvh", carried(recorded, {.legs = 0.8}));
+    feet_done(folder, {"skates.bvh", "--out", "stands.bvh", "--export-contacts", "c.csv"});
+    const PlainMotion was = plain_motion_of(folder / "skates.bvh"), is = plain_motion_of(folder / "stands.bvh");
+    const PlainContacts found = contacts_in_table(slurp(folder / "c.csv"), was.lines.size());
+    CHECK(agreement(found, plain_contacts(legs_path(was, kCarriedTime))) == 1);
+    CHECK(kMetre * plain_skating(legs_path(is, kCarriedTime), found).most < 1e-3);
+    const PlainContacts true_ones = prototypes_contacts(legs_path(plain_motion(carried(recorded, {})), kCarriedTime));
+    CHECK(agreement(found, true_ones) > 0.95);
+    const PlainSkating left = plain_skating(legs_path(is, kCarriedTime), true_ones);
+    print_skating("walk, by its own", left);
+    CHECK(1e3 * kMetre * left.step < 12);
+    CHECK(is.header == was.header);
+    std::vector<bool> may_change(was.values[0].size());
+    for (const PlainJoint& joint : was.joints)
+        for (std::size_t n = 0; n < joint.channels.size(); ++n)
+            for (const char* const turned : {"Hips", "UpLeg", "Leg", "Foot"})
+                if (joint.name.ends_with(turned) && (joint.name != "Hips" || joint.channels[n].ends_with("position")))
+                    may_change[joint.first_channel + n] = true;
+    for (std::size_t frame = 0; frame < was.lines.size(); ++frame) {
+        const Words before = tokens_of(was.lines[frame]), after = tokens_of(is.lines[frame]);
+        for (std::size_t n = 0; n < before.size(); ++n)
+            if (!may_change[n]) REQUIRE(before[n] == after[n]);
+    }
+}
+
+TEST_CASE("feet: on hills they stand on the ground as it lies")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    spill(folder / "walk.bvh", carried(plain_motion_of(path), {}));
+    const PlainLegs flat = legs_in(folder / "walk.bvh");
+    const PlainContacts contacts = plain_contacts(flat);
+    const Hills hills = random_hills({300, 8, 200});  // of 17 x 0.45 x 11 m: slopes of 10 degrees
+    for (const int bits : {16, 8}) {
+        write_png(folder / "hills.png", hills, bits);
+        Hills read = hills;  // as that many bits have them
+        if (bits == 8)
+            for (std::uint16_t& sample : read.samples) sample = static_cast<std::uint16_t>((sample >> 8) * 257);
+        const json report =
+            feet_report(folder, {"walk.bvh", "--ground", "hills.png", "--ground-size", "300,8,200", "--out", "out.bvh"})
+                .at(0);
+        const PlainLegs stands = legs_in(folder / "out.bvh");
+        double most = 0, least_hill = 1e9, most_hill = 0;
+        for (std::size_t side = 0; side < 2; ++side)
+            for (std::size_t n = 0; n < stands.frame_count(); ++n) {
+                if (!contacts[side][n]) continue;
+                const Vector3d& toe = stands.legs[side].toe[n];
+                const double hill = read.height(toe.x(), toe.z());
+                most = std::max(most, std::abs(toe.y() - report.at("floor").get<double>() - hill));
+                least_hill = std::min(least_hill, hill), most_hill = std::max(most_hill, hill);
+            }
+        CHECK(most_hill - least_hill > 1);
+        CHECK(most * kMetre < 0.003);
+        const PlainSkating is = plain_skating(stands, contacts);
+        print_skating("walk on hills", is);
+        CHECK(kMetre * is.most < 1e-3);
+        CHECK(is.knee < 13.1);
+    }
+}
+
+TEST_CASE("feet: a glTF's feet stand, and a foot without a toe joint stands on its ankle")
+{
+    const fs::path path = find_or_warn("m2m_human_ymca.glb");
+    if (path.empty()) return;
+    const TempFolder folder;
+    const json report =
+        feet_report(folder, {path.string(), "--fps", "60", "--out", "out.glb", "--export-contacts", "c.csv"}).at(0);
+    CHECK(report.at("legs").at(0).at("stands_on") == "DEF-toe.L");
+    CHECK(report.at("legs").at(0).at("has_toe") == true);
+    const PlainGltf is = plain_gltf_of(folder / "out.glb");
+    const std::size_t frame_count = report.at("frames");
+    const double frame_time = report.at("frame_time");
+    const PlainContacts contacts = contacts_in_table(slurp(folder / "c.csv"), frame_count);
+    int held = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const int toe = is.node_named(side == 0 ? "DEF-toe.L" : "DEF-toe.R");
+        for (std::size_t n = 1; n < frame_count; ++n) {
+            if (!contacts[side][n] || !contacts[side][n - 1]) continue;
+            const auto at = [&](std::size_t frame) {
+                return Vector3d(plain_world(is, 0, toe, static_cast<double>(frame) * frame_time).translation());
+            };
+            CHECK((at(n) - at(n - 1)).norm() < 1e-3);
+            ++held;
+        }
+    }
+    CHECK(held > 100);
+    const fs::path man = find_or_warn("cesium_man.gltf");
+    if (man.empty()) return;
+    const Words walk = {man.string(), "--fps", "60", "--leg", "left:#7,#8,#9", "--leg", "right:#3,#4,#5"};
+    CHECK_THAT(refused_feet(folder, walk), Contains("it walks in place"));
+    spill(folder / "c.csv", "frame,limb,contact\n0,left_leg,on\n10,left_leg,off\n");
+    Words told = walk;
+    told.insert(told.end(), {"--contacts", "c.csv"});
+    const json ankles = feet_report(folder, told).at(0);
+    CHECK(ankles.at("legs").at(0).at("has_toe") == false);
+}
+
+TEST_CASE("feet: a clip that walks in place is told so")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    spill(folder / "in_place.bvh", carried(plain_motion_of(path), {.minus = 1}));
+    CHECK_THAT(
+        refused_feet(folder, {"in_place.bvh", "--out", "o.bvh"}),
+        Contains("in_place.bvh: it walks in place: on the ground its feet slide by ") && Contains("move its root by "));
+    CHECK(!fs::exists(folder / "o.bvh"));
+    spill(folder / "c.csv", "frame,limb,contact\n0,left_leg,on\n5,left_leg,off\n");
+    feet_done(folder, {"in_place.bvh", "--contacts", "c.csv", "--quiet"});  // the user knows
+}
+
+TEST_CASE("feet: several clips go to a folder, and one that fails keeps none from it")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    const PlainMotion recorded = plain_motion_of(path);
+    spill(folder / "a.bvh", carried(recorded, {.legs = 0.9}));
+    spill(folder / "b.bvh", "HIERARCHY\n");
+    spill(folder / "c.bvh", carried(recorded, {.way = 1.1}));
+    const Outcome outcome = run_command(folder.path, {"feet", "a.bvh", "b.bvh", "c.bvh", "--out", "clean", "--quiet"});
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, Contains("swivel: b.bvh:") && Contains("swivel: 1 of 3 clips failed"));
+    CHECK(fs::exists(folder / "clean/a.bvh"));
+    CHECK(fs::exists(folder / "clean/c.bvh"));
+    CHECK(!fs::exists(folder / "clean/b.bvh"));
+    CHECK_THAT(refused_feet(folder, {"a.bvh", "c.bvh", "--contacts", "t.csv"}, 2), Contains("a table is of one FILE"));
+    CHECK_THAT(refused_feet(folder, {"a.bvh", "./a.bvh", "--out", "clean", "--quiet"}), Contains("is another output"));
+    const std::string before = slurp(folder / "a.bvh");
+    CHECK_THAT(refused_feet(folder, {"a.bvh", "--out", "."}, 2), Contains("is the clip, too"));
+    CHECK(slurp(folder / "a.bvh") == before);
+}
+
+TEST_CASE("feet: what is wrong with tables, pictures and options is said in a line")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    spill(folder / "walk.bvh", carried(plain_motion_of(path), {}));
+    const auto table = [&](const std::string& text) {
+        spill(folder / "t.csv", text);
+        return refused_feet(folder, {"walk.bvh", "--contacts", "t.csv"});
+    };
+    const std::string columns = "frame,limb,contact\n";
+    CHECK_THAT(table("frame,limb\n0,left_leg\n"), Contains("t.csv:1: is no table of contacts; its first line must be"));
+    CHECK_THAT(table(columns), Contains("t.csv: has no rows"));
+    CHECK_THAT(table(columns + "x,left_leg,on\n"), Contains("t.csv:2: column frame: 'x' is not a whole number"));
+    CHECK_THAT(table(columns + "0,leg,on\n"), Contains("t.csv:2: column limb: 'leg' is none of"));
+    CHECK_THAT(table(columns + "0,left_leg,yes\n"), Contains("t.csv:2: column contact: 'yes' is neither on nor off"));
+    CHECK_THAT(table(columns + "0,left_leg\n"), Contains("t.csv:2: has 2 values; a line has three"));
+    CHECK_THAT(table(columns + "0,left_arm,on\n"), Contains("t.csv:2: left_arm is no leg that the clip has"));
+    CHECK_THAT(table(columns + "\n900,left_leg,on\n"),
+               Contains("t.csv:3: there is no frame 900; the clip's frames are 0 to 171"));
+    CHECK_THAT(table(columns + "1,left_leg,on\n1,left_leg,off\n"),
+               Contains("t.csv:3: frame 1 of left_leg is already in line 2"));
+    CHECK_THAT(table(columns + "1,left_leg,off\n"), Contains("no foot is ever on the ground"));
+    CHECK_THAT(refused_feet(folder, {"walk.bvh", "--speed", "0.01"}), Contains("no foot is ever on the ground"));
+
+    const auto ground = [&](const std::string& bytes) {
+        spill(folder / "g.png", bytes);
+        return refused_feet(folder, {"walk.bvh", "--ground", "g.png", "--ground-size", "9,1,9"});
+    };
+    CHECK_THAT(ground("GIF89a, and more"), Contains("g.png: is no PNG"));
+    write_png(folder / "whole.png", random_hills({1, 1, 1}), 16);
+    const std::string whole = slurp(folder / "whole.png");
+    for (std::size_t size = 8; size < whole.size(); size += 41)
+        CHECK_THAT(ground(whole.substr(0, size)), Contains("g.png: cannot be read as a PNG"));
+    CHECK_THAT(refused_feet(folder, {"walk.bvh", "--ground", "g.png"}, 2), Contains("go together; give both"));
+    CHECK_THAT(refused_feet(folder, {"walk.bvh", "--ground", "g.png", "--ground-size", "9,0,9"}, 2),
+               Contains("above 0"));
+    CHECK_THAT(refused_feet(folder, {"walk.bvh", "--out", "o.glb"}, 2), Contains("this clip is a BVH file"));
+    CHECK_THAT(refused_feet(folder, {"walk.bvh", "--out", "x.bvh", "--export-contacts", "x.bvh"}, 2),
+               Contains("is another output"));
+}

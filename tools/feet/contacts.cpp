@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "tools/feet/contacts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/formats/error.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// How many frames on either side lie within a time; 1 at least.
+std::size_t frames_within(const LegMotion& motion, double seconds)
+{
+    return static_cast<std::size_t>(std::max(1.0, std::round(seconds / motion.frame_time)));
+}
+
+// The height that a fiftieth of a toe's frames are not above.
+double floor_of(std::vector<double> heights)
+{
+    const auto at = heights.begin() + (std::ssize(heights) - 1) / 50;
+    std::nth_element(heights.begin(), at, heights.end());
+    return *at;
+}
+
+// The frames in which a toe is low.
+std::vector<bool> low_frames(const LegMotion& motion, const LegPath& leg, const ContactBars& bars)
+{
+    std::vector<double> heights;
+    for (const Vector3d& toe_w : leg.toe_w) heights.push_back(toe_w.dot(motion.up_w));
+    const double most = floor_of(heights) + bars.height * leg.length;
+    std::vector<bool> low;
+    for (const double height : heights) low.push_back(height < most);
+    return low;
+}
+
+std::vector<bool> find_of_leg(const LegMotion& motion, const LegPath& leg, const ContactBars& bars)
+{
+    const std::size_t last = motion.frame_count() - 1, near = frames_within(motion, 1.0 / 60);
+    std::vector<bool> stands = low_frames(motion, leg, bars);
+    for (std::size_t frame = 0; frame <= last; ++frame) {
+        const std::size_t before = frame - std::min(frame, near), after = std::min(frame + near, last);
+        const double time = static_cast<double>(after - before) * motion.frame_time;
+        if ((leg.toe_w[after] - leg.toe_w[before]).norm() >= bars.speed * leg.length * time) stands[frame] = false;
+    }
+    // Most of the frames around each; the first and the last one count for those beyond.
+    const auto half = static_cast<std::ptrdiff_t>(frames_within(motion, (1.0 / 12 - motion.frame_time) / 2));
+    std::vector<bool> most;
+    for (std::ptrdiff_t frame = 0; frame <= std::ssize(stands) - 1; ++frame) {
+        std::ptrdiff_t standing = 0;
+        for (std::ptrdiff_t n = frame - half; n <= frame + half; ++n)
+            standing += stands[static_cast<std::size_t>(std::clamp(n, std::ptrdiff_t{0}, std::ssize(stands) - 1))];
+        most.push_back(standing > half);
+    }
+    return most;
+}
+
+}  // namespace
+
+Contacts find_contacts(const LegMotion& motion, const ContactBars& bars)
+{
+    Contacts contacts;
+    for (const LegPath& leg : motion.legs) contacts.push_back(find_of_leg(motion, leg, bars));
+    return contacts;
+}
+
+std::vector<Contact> contacts_of(const std::vector<bool>& frames)
+{
+    std::vector<Contact> contacts;
+    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+        if (!frames[frame]) continue;
+        if (frame == 0 || !frames[frame - 1]) contacts.push_back({frame, frame});
+        contacts.back().end = frame + 1;
+    }
+    return contacts;
+}
+
+std::optional<Vector3d> missing_way(const LegMotion& motion, const ContactBars& bars)
+{
+    Vector3d way = Vector3d::Zero();
+    double frames = 0;
+    for (const LegPath& leg : motion.legs) {
+        const std::vector<bool> low = low_frames(motion, leg, bars);
+        for (std::size_t frame = 1; frame < low.size(); ++frame)
+            if (low[frame] && low[frame - 1]) {
+                way += motion.level(leg.toe_w[frame] - leg.toe_w[frame - 1]);
+                ++frames;
+            }
+    }
+    Eigen::AlignedBox3d room;
+    for (const Vector3d& place_w : motion.carrier_w) room.extend(motion.level(place_w));
+    if (way.norm() <= std::max(motion.leg_length() / 2, 2 * room.diagonal().norm())) return std::nullopt;
+    return -way / (frames * motion.frame_time);
+}
+
+std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts& contacts)
+{
+    std::vector<formats::ContactRow> rows;
+    for (std::size_t frame = 0; frame < motion.frame_count(); ++frame)
+        for (std::size_t leg = 0; leg < contacts.size(); ++leg)
+            if (frame == 0 || contacts[leg][frame] != contacts[leg][frame - 1])
+                rows.push_back({static_cast<std::uint32_t>(frame), motion.legs[leg].name, contacts[leg][frame], 0});
+    return rows;
+}
+
+Contacts contacts_of_rows(const LegMotion& motion, std::span<const formats::ContactRow> rows,
+                          const std::filesystem::path& file)
+{
+    Contacts contacts(motion.legs.size(), std::vector<bool>(motion.frame_count()));
+    for (const formats::ContactRow& row : rows) {
+        const auto leg = std::ranges::find_if(motion.legs, [&](const LegPath& each) { return each.name == row.limb; });
+        if (leg == motion.legs.end())
+            throw formats::InputError(
+                file, row.line, fmt::format("{} is no leg that the clip has; remove its rows", limb_word(row.limb)));
+        if (row.frame >= motion.frame_count())
+            throw formats::InputError(file, row.line,
+                                      fmt::format("there is no frame {}; the clip's frames are 0 to {}", row.frame,
+                                                  motion.frame_count() - 1));
+        std::vector<bool>& frames = contacts[static_cast<std::size_t>(leg - motion.legs.begin())];
+        std::fill(frames.begin() + row.frame, frames.end(), row.is_on);  // rows are in the order of their frames
+    }
+    return contacts;
+}
+
+}  // namespace swivel::tools

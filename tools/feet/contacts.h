@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// When feet are in contact with the ground: found in a clip, or given as a table. Knows where legs are.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/feet/leg_motion.h"
+#include "tools/formats/contacts_csv.h"
+
+namespace swivel::tools {
+
+using Contacts = std::vector<std::vector<bool>>;  // [leg][frame]
+
+// A foot is in contact while its toe is slower and lower than these, in most frames of a twelfth of a second.
+struct ContactBars {
+    double speed = 0.8;     // leg lengths a second, over a thirtieth of a second
+    double height = 0.085;  // leg lengths over the toe's floor, which a fiftieth of its frames are not above
+};
+
+Contacts find_contacts(const LegMotion& motion, const ContactBars& bars);
+
+// Frames from `first` on, up to `end`.
+struct Contact {
+    std::size_t first, end;
+};
+// A leg's contacts, in order.
+std::vector<Contact> contacts_of(const std::vector<bool>& frames);
+
+// The velocity of the body, in lengths of the clip a second, that a clip lacks which walks in place. Nothing for
+// another clip. It walks in place if its feet, while they are low, go further one way than half a leg. And that must be
+// more than twice as far as the room is wide in which the body stays.
+std::optional<Eigen::Vector3d> missing_way(const LegMotion& motion, const ContactBars& bars);
+
+// The rows of a table: each leg's first frame, and each in which its contact begins or ends.
+std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts& contacts);
+
+// And back. A row holds until the leg's next one; before its first, a leg is not in contact. Throws InputError, naming
+// file and line, for a limb that is no leg of the motion, and for a frame beyond it.
+Contacts contacts_of_rows(const LegMotion& motion, std::span<const formats::ContactRow> rows,
+                          const std::filesystem::path& file);
+
+}  // namespace swivel::tools

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// Where a clip has its legs in each of its frames. Knows clips and limbs.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/rig/limbs.h"
+
+namespace swivel::tools {
+
+// Places are in the world, one for each frame.
+struct LegPath {
+    formats::LimbName name;
+    int toe = -1;         // the joint that stands: the toe's, or without one the ankle's
+    bool has_toe = true;  // false: it is the ankle's
+    double length = 1;    // of both bones at rest
+    std::vector<Eigen::Vector3d> hip_w, knee_w, ankle_w, toe_w;
+};
+
+struct LegMotion {
+    Eigen::Vector3d up_w = Eigen::Vector3d::UnitY();  // one of the world's axes
+    double frame_time = 0;                            // seconds
+    int carrier = -1;                                 // the joint whose place moves the body: see carrier_of()
+    std::vector<Eigen::Vector3d> carrier_w;           // its place
+    std::vector<LegPath> legs;
+
+    std::size_t frame_count() const { return carrier_w.size(); }
+    double leg_length() const;  // the mean
+    Eigen::Vector3d level(const Eigen::Vector3d& v) const { return v - v.dot(up_w) * up_w; }
+};
+
+// The largest second difference of places from frame to frame: how much a velocity jumps, times the frame's time.
+double largest_jump(std::span<const Eigen::Vector3d> places_w);
+
+// The joint that a foot stands on: right below the ankle and called toe or ball, or VRM's toes. Without one it is the
+// ankle.
+int toe_of(const formats::Clip& clip, const Limb& leg);
+
+// The lowest joint above all limbs that are known, with all that lies between. Where it never leaves its offset, it is
+// the lowest above it that does, if there is one.
+int carrier_of(const formats::Clip& clip, const FigureJoints& figure);
+
+// legs: bound limbs of the clip. up_w: of the figure; the world's axis nearest to it counts.
+LegMotion leg_motion(const formats::Clip& clip, std::span<const Limb> legs, int carrier, const Eigen::Vector3d& up_w);
+
+}  // namespace swivel::tools

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+//
+// A clip's body moved and its legs turned so that its feet are where they were placed. The library solves the legs, as
+// bodies: each frame is one. Knows clips, limbs and the public interface.
+#pragma once
+
+#include "tools/feet/place_feet.h"
+
+namespace swivel::tools {
+
+// New local values of one joint, one for each frame; of a leg's joints rotations, of the carrier translations.
+struct TurnedJoint {
+    int joint;
+    std::vector<Eigen::Quaterniond> rotation;
+    std::vector<Eigen::Vector3d> translation;
+};
+
+// legs: those of the motion, in its order. Throws InputError, naming `file` and the frame, where a leg cannot be
+// solved: below a mirror, below scales that are not uniform, and beyond 1e15.
+std::vector<TurnedJoint> turn_legs(const formats::Clip& clip, std::span<const Limb> legs, const LegMotion& motion,
+                                   const PlacedFeet& placed, const std::filesystem::path& file);
+
+// The clip with these.
+formats::Clip with_joints(formats::Clip clip, std::span<const TurnedJoint> joints);
+
+}  // namespace swivel::tools

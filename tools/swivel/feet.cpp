@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+//
+// `swivel feet`: finds when feet of clips are on the ground, lets them stand, reports, and writes the clips.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/cli/command_error.h"
+#include "tools/cli/option_checks.h"
+#include "tools/cli/progress.h"
+#include "tools/feet/turn_legs.h"
+#include "tools/formats/error.h"
+#include "tools/formats/output_file.h"
+#include "tools/formats/text.h"
+#include "tools/rig/vectors.h"
+#include "tools/swivel/commands.h"
+#include "tools/swivel/crowd_job.h"
+#include "tools/swivel/feet_report.h"
+#include "tools/swivel/report.h"
+#include "tools/swivel/solve_files.h"
+
+namespace swivel::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using formats::InputError;
+
+bool is_to_folder(const FeetOptions& options)
+{
+    std::error_code ignored;
+    return !options.out.empty() && (options.files.size() > 1 || fs::is_directory(options.out, ignored));
+}
+
+void require_usage(const FeetOptions& options)
+{
+    if (options.ground.empty() != options.ground_size.empty())
+        throw CommandError(2, "--ground and --ground-size go together; give both");
+    if (options.files.size() == 1) return;
+    for (const std::string& file : options.files)
+        if (formats::is_standard_stream(file))
+            throw CommandError(2, "-, standard input, is one FILE of several; give it alone");
+    for (const auto& [option, value] :
+         {std::pair("--contacts", &options.contacts), {"--export-contacts", &options.export_contacts}})
+        if (!value->empty())
+            throw CommandError(2, fmt::format("{}: a table is of one FILE, not of {}; run each by itself", option,
+                                              options.files.size()));
+}
+
+// Where the clips go, one for each FILE; empty: nowhere.
+std::vector<std::string> outputs_of(const FeetOptions& options)
+{
+    std::vector<std::string> outputs;
+    for (const std::string& file : options.files)
+        outputs.push_back(is_to_folder(options) ? (fs::path(options.out) / title_of(file)).string() : options.out);
+    return outputs;
+}
+
+std::optional<Ground> read_ground(const FeetOptions& options)
+{
+    if (options.ground.empty()) return std::nullopt;
+    const std::vector<double> size = numbers_of(options.ground_size);
+    return Ground{formats::read_height_picture(options.ground), size[0], size[1], size[2]};
+}
+
+// The legs that bind, and where they go.
+void bind_legs(const FeetOptions& options, MotionFile& file, FeetRun& run)
+{
+    SolveOptions legs;
+    legs.kinds = "legs";
+    legs.legs = options.legs;
+    const LimbChoice choice = choice_of(legs);
+    const FigureJoints figure = choose_joints(file.clip(), run.file, choice);
+    file.sample(joints_of(figure));
+    const formats::Clip& clip = file.clip();
+    if (clip.frame_time == 0 && clip.frame_count > 1)
+        throw InputError(run.file, "its keys lie at uneven times, and feet are judged by even frames; give --fps");
+    if (clip.frame_count < 3)
+        throw InputError(run.file, fmt::format("has {} frame{}, and feet are judged by their motion; give a clip of 3 "
+                                               "or more",
+                                               clip.frame_count, clip.frame_count == 1 ? "" : "s"));
+    LimbSearch search = bind_limbs(clip, figure, choice);
+    run.legs = require_limbs(search, run.file);
+    for (LimbFinding& finding : search.findings)
+        if (!finding.limb) run.missing.push_back(std::move(finding));
+    const int carrier = carrier_of(clip, figure);
+    if (carrier < 0) throw InputError(run.file, "no joint is above both legs; the body cannot be moved");
+    run.motion = leg_motion(clip, run.legs, carrier, search.facing.up_w);
+}
+
+Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
+{
+    if (!options.contacts.empty())
+        return contacts_of_rows(run.motion, formats::read_contacts_csv(options.contacts), options.contacts);
+    if (const auto way_w = missing_way(run.motion, run.bars))
+        throw InputError(
+            run.file, fmt::format("it walks in place: on the ground its feet slide by {:.2g} leg lengths a second, and "
+                                  "its body stays; move its root by {} a second first, or say by --contacts when feet "
+                                  "stand",
+                                  way_w->norm() / run.motion.leg_length(), vector_text(*way_w)));
+    return find_contacts(run.motion, run.bars);
+}
+
+// One clip, from its file to its file.
+FeetRun run_clip(const FeetOptions& options, const std::optional<Ground>& hills, MotionFile& file, FeetRun run)
+{
+    bind_legs(options, file, run);
+    run.contacts = choose_contacts(options, run);
+    if (std::ranges::none_of(run.contacts, [](const std::vector<bool>& leg) { return std::ranges::count(leg, true); }))
+        throw InputError(run.file, fmt::format("no foot is ever on the ground: slower than {:g} leg lengths a second "
+                                               "and lower than {:g} over its floor; raise --speed or --height, or give "
+                                               "--contacts",
+                                               run.bars.speed, run.bars.height));
+    if (!run.export_contacts.empty())
+        formats::write_contacts_csv(run.export_contacts, rows_of(run.motion, run.contacts));
+    run.floor = {run.motion.up_w, floor_level(run.motion, run.contacts), hills};
+    run.placed = place_feet(run.motion, run.contacts, run.bars, run.floor);
+    const formats::Clip& clip = file.clip();
+    const std::vector<TurnedJoint> joints = turn_legs(clip, run.legs, run.motion, run.placed, run.file);
+    run.before = skating_of(run.motion, run.contacts, {run.motion.up_w, run.floor.level, {}});
+    run.after = skating_of(leg_motion(with_joints(clip, joints), run.legs, run.motion.carrier, run.motion.up_w),
+                           run.contacts, run.floor);
+    if (run.out.empty()) return run;
+    std::vector<formats::JointKeys> keys;
+    for (const TurnedJoint& each : joints) keys.push_back({each.joint, each.rotation, each.translation});
+    file.write(run.out, keys);
+    return run;
+}
+
+}  // namespace
+
+void run_feet(const FeetOptions& options)
+{
+    require_usage(options);
+    if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
+    const std::optional<Ground> hills = read_ground(options);
+    const std::vector<std::string> outputs = outputs_of(options);
+    std::vector<ReadFile> read{{options.contacts, "the table of contacts"}, {options.ground, "the picture of heights"}};
+    for (const std::string& file : options.files) read.push_back({file, "the clip"});
+    if (is_to_folder(options)) fs::create_directories(options.out);
+
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    const auto run_one = [&](std::size_t n) {
+        FeetRun run;
+        run.file = options.files[n];
+        run.out = outputs[n];
+        run.export_contacts = options.export_contacts;
+        run.bars = {options.speed, options.height};
+        run.contacts_from = options.contacts;
+        run.ground = options.ground;
+        MotionFile file(run.file, options.motion);
+        run.motion_file = &file;
+        if (!run.out.empty()) file.require_can_write(run.out);
+        std::vector<std::string> written(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(n) + 1);
+        written.push_back(run.export_contacts);
+        require_own_outputs(written, read, file);
+        run = run_clip(options, hills, file, std::move(run));
+        if (options.json)
+            json.push_back(json_of(run));
+        else if (!options.quiet)
+            print_feet(run);
+    };
+    std::size_t failed = 0;
+    if (options.files.size() == 1) {
+        run_one(0);
+    } else {
+        Progress progress("clips", options.files.size(), options.quiet);
+        for (std::size_t n = 0; n < options.files.size(); ++n) {
+            progress.show(n);
+            if (run_to_end([&] { run_one(n); }) != 0) ++failed;
+        }
+    }
+    if (options.json) print_json({{"clips", json}});
+    if (failed > 0) throw CommandError(1, fmt::format("{} of {} clips failed", failed, options.files.size()));
+}
+
+}  // namespace swivel::tools
