@@ -135,9 +135,10 @@ may_include(tools/corpus "" "${standard}|\"swivel/swivel[.]hpp\"|\"tools/corpus/
 must_not_say(tools/corpus "[^a-zA-Z_](SWIVEL|swivel)_[a-zA-Z_]+" "tools/corpus/interface[.]cpp$" "the library's names are known to interface.cpp alone")
 must_not_say(tools/corpus "[^a-zA-Z_](std::)?(a?(sin|cos|tan)h?|atan2|sincos|exp2?|log(2|10)?|pow|cbrt|hypot|fma)f?[ \t]*[(]" ${nowhere}
              "the corpus's numbers are the same everywhere: + - * / and sqrt")
-must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/(rig|crowd|cli|swivel))[^\n]*" ${nowhere} "a format knows no solver")
-must_not_say(tools/rig "#[ \t]*include[ \t]*\"tools/(crowd|cli|swivel|corpus)/[^\n]*" ${nowhere} "a rig knows skeletons and the library alone")
-must_not_say(tools/crowd "#[ \t]*include[ \t]*\"tools/(cli|swivel|corpus)/[^\n]*" ${nowhere} "a crowd knows no command")
+must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/(rig|crowd|retarget|cli|swivel))[^\n]*" ${nowhere} "a format knows no solver")
+must_not_say(tools/rig "#[ \t]*include[ \t]*\"tools/(crowd|retarget|cli|swivel|corpus)/[^\n]*" ${nowhere} "a rig knows skeletons and the library alone")
+must_not_say(tools/crowd "#[ \t]*include[ \t]*\"tools/(retarget|cli|swivel|corpus)/[^\n]*" ${nowhere} "a crowd knows no command")
+must_not_say(tools/retarget "#[ \t]*include[ \t]*\"tools/(cli|swivel|corpus)/[^\n]*" ${nowhere} "retargeting knows no command")
 must_not_say(tools/cache "#[ \t]*include[ \t]*(\"tools/(rig|cli|swivel|corpus)/|<Eigen/)[^\n]*" ${nowhere} "a cache knows no clip and no command")
 must_not_say(tools/cache "#[ \t]*include[ \t]*\"tools/crowd/(clip|characters|crowd_|demo|given|limb_setups)[^\n]*" ${nowhere} "a cache knows goals alone")
 must_not_say(tools/cli "#[ \t]*include[ \t]*\"tools/(rig|crowd|swivel|corpus)/[^\n]*" ${nowhere} "a command line knows no subcommand")

@@ -10,6 +10,7 @@
 #include <optional>
 #include <tuple>
 
+#include "tools/formats/csv_rows.h"
 #include "tools/formats/error.h"
 #include "tools/formats/limits.h"
 #include "tools/formats/printable.h"
@@ -115,23 +116,6 @@ Target parse_target(const Row& row)
     return target;
 }
 
-// The cells of a line, without blanks around them and the quotes that they may stand in.
-void split(const fs::path& path, std::size_t line, std::string_view text, std::vector<std::string_view>& cells)
-{
-    cells.clear();
-    for (bool is_last = false; !is_last;) {
-        bool is_quoted = false;
-        std::size_t end = 0;
-        for (; end < text.size() && (is_quoted || text[end] != ','); ++end) is_quoted = is_quoted != (text[end] == '"');
-        if (is_quoted) throw InputError(path, line, "a quote is opened and not closed; close it or remove it");
-        std::string_view cell = trimmed(text.substr(0, end));
-        if (cell.size() > 1 && cell.starts_with('"') && cell.ends_with('"')) cell = cell.substr(1, cell.size() - 2);
-        cells.push_back(cell);
-        is_last = end == text.size();
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-}
-
 // Which of kColumns the cells of the first line name.
 std::vector<unsigned> columns_of(const fs::path& path, std::size_t line, const std::vector<std::string_view>& cells)
 {
@@ -187,29 +171,23 @@ void sort_targets(const fs::path& path, std::vector<Target>& targets)
 
 std::vector<Target> read_targets_csv(const fs::path& path)
 {
-    const std::string text = read_text(path);
     std::vector<Target> targets;
     std::vector<unsigned> columns;
-    std::vector<std::string_view> cells;
     Row row{path, 0, false, {}};
-    for (std::string_view rest = without_byte_order_mark(text); !rest.empty();) {
-        const std::string_view line = rest.substr(0, rest.find('\n'));
-        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-        ++row.line;
-        if (trimmed(line).empty() || line[0] == '#') continue;
-        split(path, row.line, line, cells);
+    for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
+        row.line = line;
         if (columns.empty()) {
-            columns = columns_of(path, row.line, cells);
+            columns = columns_of(path, line, cells);
             row.has_side = std::find(columns.begin(), columns.end(), kSide) != columns.end();
-            continue;
+            return;
         }
         if (cells.size() < columns.size())
-            throw InputError(path, row.line, "fewer values than the first line names columns; leave none out");
+            throw InputError(path, line, "fewer values than the first line names columns; leave none out");
         if (cells.size() > columns.size())
-            throw InputError(path, row.line, "more values than the first line names columns; remove the surplus");
+            throw InputError(path, line, "more values than the first line names columns; remove the surplus");
         for (std::size_t n = 0; n < cells.size(); ++n) row.cell[columns[n]] = cells[n];
         targets.push_back(parse_target(row));
-    }
+    });
     if (columns.empty()) throw InputError(path, "is empty; its first line must name the columns");
     if (targets.empty()) throw InputError(path, "has no targets below its first line");
     sort_targets(path, targets);

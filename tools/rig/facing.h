@@ -3,8 +3,6 @@
 // Which way a figure faces and stands at rest. Knows clips alone.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 
 #include "tools/formats/clip.h"
@@ -24,7 +22,6 @@ struct Facing {
 // says are toes, or those right below the feet that are called toe or ball. Without toes it is at right angles to up
 // and to the line from right to left, of the shoulders or else of the hips. A mirror above exchanges left and right.
 // Else it is +Z, as in glTF. Toes and lines within 30 degrees of up tell nothing.
-// joints: of the limbs in the order of formats::kLimbNames, those that are known.
-Facing facing_of(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints);
+Facing facing_of(const formats::Clip& clip, const KnownLimbs& joints);
 
 }  // namespace swivel::tools

@@ -40,12 +40,6 @@ bool is_standard_input(const std::string& file)
            named.st_dev == input.st_dev && named.st_ino == input.st_ino;
 }
 
-// Whether what is written to the file would replace what is read by that name.
-bool is_read(const std::string& file, const std::string& name)
-{
-    return is_standard_stream(name) ? is_standard_input(file) : is_same_file(file, name);
-}
-
 }  // namespace
 
 OutKind out_kind(const std::string& out, std::uint32_t characters)
@@ -60,6 +54,11 @@ OutKind out_kind(const std::string& out, std::uint32_t characters)
         throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", out,
                                           is_bvh(suffix) ? "BVH" : "glTF", characters));
     return OutKind::motion;
+}
+
+bool would_be_lost(const std::string& file, const std::string& name)
+{
+    return is_standard_stream(name) ? is_standard_input(file) : is_same_file(file, name);
 }
 
 void require_one_reader(const SolveOptions& options, const std::string& targets)
@@ -80,11 +79,11 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
         for (std::size_t other = 0; other < n; ++other)
             refuse_if(!outputs[other].empty() && is_same_file(file, outputs[other]), "another output");
         if (is_standard_stream(file)) continue;  // reading from - is something else
-        refuse_if(is_read(file, options.file), "the clip");
+        refuse_if(would_be_lost(file, options.file), "the clip");
         for (const std::filesystem::path& beside : clip.files_beside())
             refuse_if(is_same_file(file, beside), "a buffer or image of the clip");
-        refuse_if(targets != "clip" && is_read(file, targets), "the table of targets");
-        refuse_if(!options.crowd.empty() && is_read(file, options.crowd), "the crowd file");
+        refuse_if(targets != "clip" && would_be_lost(file, targets), "the table of targets");
+        refuse_if(!options.crowd.empty() && would_be_lost(file, options.crowd), "the crowd file");
     }
 }
 

@@ -22,6 +22,9 @@ OutKind out_kind(const std::string& out, std::uint32_t characters);
 // Standard input can be read once. targets: "clip" or a file; throws CommandError.
 void require_one_reader(const SolveOptions& options, const std::string& targets);
 
+// Whether writing to the file would replace what is read by that name, which may be standard input.
+bool would_be_lost(const std::string& file, const std::string& name);
+
 // Nothing that is read is written over, and nothing that is written. Throws CommandError.
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets);
 
