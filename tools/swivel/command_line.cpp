@@ -101,7 +101,8 @@ void add_retarget(CLI::App& app)
         takes(command->add_option(name, file, meaning), file_name())->required()->option_text(" ");
     };
     add_input("SOURCE", options->source, "Motion file: BVH or glTF. - is standard input");
-    add_input("TARGET", options->target, "File of the figure that is to move: BVH or glTF. Its own motion is not used");
+    add_input("TARGET", options->target,
+              "File of the figure that is to move: BVH or glTF. Its own motion only tells how its feet stand");
     add_motion(*command, options->motion, "Here FILE is SOURCE");
     takes(command->add_option("-o,--out", options->out,
                               "TARGET with the motion, in its own format: .bvh, or .glb, .gltf and .vrm. The motion "
