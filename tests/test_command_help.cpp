@@ -97,8 +97,10 @@ TEST_CASE("help: a slip in a command or an option is told")
     CHECK(said({"slove", "x"}) == "swivel: there is no command 'slove'; did you mean solve?\n");
     CHECK(said({"veiw", "x"}) == "swivel: there is no command 'veiw'; did you mean view?\n");
     CHECK(said({"stpes"}) == "swivel: there is no command 'stpes'; did you mean steps?\n");
-    CHECK_THAT(said({"dance"}),
-               Contains("there is no command 'dance'; known are demo, solve, view, store, fill, check, replay, rig"));
+    CHECK_THAT(
+        said({"dance"}),
+        Contains(
+            "there is no command 'dance'; known are demo, solve, view, store, fill, check, replay, retarget, rig"));
     CHECK(said({"--verison"}) == "swivel: there is no option --verison; did you mean --version?\n");
     CHECK(said({"solve", "x", "--foo"}) == "swivel: there is no option --foo; see swivel solve --help\n");
     CHECK(said({"solve", "x", "--trgets=y"}) == "swivel: there is no option --trgets; did you mean --targets?\n");

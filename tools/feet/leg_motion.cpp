@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tools/rig/facing.h"
+#include "tools/rig/limb_joints.h"
 
 namespace swivel::tools {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <tuple>
 
-#include "tools/formats/csv_cells.h"
+#include "tools/formats/csv_rows.h"
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/printable.h"
@@ -39,24 +39,16 @@ ContactRow parse_contact(const std::filesystem::path& path, std::size_t line,
 
 std::vector<ContactRow> read_contacts_csv(const std::filesystem::path& path)
 {
-    const std::string text = read_text(path);
     std::vector<ContactRow> rows;
-    std::vector<std::string_view> cells;
     bool has_columns = false;
-    std::size_t number = 0;
-    for (std::string_view rest = without_byte_order_mark(text); !rest.empty();) {
-        const std::string_view line = rest.substr(0, rest.find('\n'));
-        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-        ++number;
-        if (trimmed(line).empty() || line[0] == '#') continue;
-        split_cells(path, number, line, cells);
+    for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
         if (has_columns)
-            rows.push_back(parse_contact(path, number, cells));
+            rows.push_back(parse_contact(path, line, cells));
         else if (fmt::format("{}", fmt::join(cells, ",")) != kContactColumns)
-            throw InputError(path, number,
+            throw InputError(path, line,
                              fmt::format("is no table of contacts; its first line must be {}", kContactColumns));
         has_columns = true;
-    }
+    });
     if (rows.empty()) throw InputError(path, fmt::format("has no rows below its first line, {}", kContactColumns));
     const auto place = [](const ContactRow& row) { return std::tuple(row.frame, row.limb); };
     std::ranges::stable_sort(rows, {}, place);

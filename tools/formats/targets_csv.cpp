@@ -10,7 +10,7 @@
 #include <optional>
 #include <tuple>
 
-#include "tools/formats/csv_cells.h"
+#include "tools/formats/csv_rows.h"
 #include "tools/formats/error.h"
 #include "tools/formats/limits.h"
 #include "tools/formats/printable.h"
@@ -171,29 +171,23 @@ void sort_targets(const fs::path& path, std::vector<Target>& targets)
 
 std::vector<Target> read_targets_csv(const fs::path& path)
 {
-    const std::string text = read_text(path);
     std::vector<Target> targets;
     std::vector<unsigned> columns;
-    std::vector<std::string_view> cells;
     Row row{path, 0, false, {}};
-    for (std::string_view rest = without_byte_order_mark(text); !rest.empty();) {
-        const std::string_view line = rest.substr(0, rest.find('\n'));
-        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-        ++row.line;
-        if (trimmed(line).empty() || line[0] == '#') continue;
-        split_cells(path, row.line, line, cells);
+    for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
+        row.line = line;
         if (columns.empty()) {
-            columns = columns_of(path, row.line, cells);
+            columns = columns_of(path, line, cells);
             row.has_side = std::find(columns.begin(), columns.end(), kSide) != columns.end();
-            continue;
+            return;
         }
         if (cells.size() < columns.size())
-            throw InputError(path, row.line, "fewer values than the first line names columns; leave none out");
+            throw InputError(path, line, "fewer values than the first line names columns; leave none out");
         if (cells.size() > columns.size())
-            throw InputError(path, row.line, "more values than the first line names columns; remove the surplus");
+            throw InputError(path, line, "more values than the first line names columns; remove the surplus");
         for (std::size_t n = 0; n < cells.size(); ++n) row.cell[columns[n]] = cells[n];
         targets.push_back(parse_target(row));
-    }
+    });
     if (columns.empty()) throw InputError(path, "is empty; its first line must name the columns");
     if (targets.empty()) throw InputError(path, "has no targets below its first line");
     sort_targets(path, targets);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/rig/facing.h"
 
-#include "tools/rig/joint_names.h"
+#include <vector>
 
 namespace swivel::tools {
 
@@ -13,16 +13,6 @@ using formats::JointPose;
 
 constexpr std::size_t kArms = 0, kLegs = 2;  // where a pair starts in formats::kLimbNames
 
-// The joint that both hang on, or -1.
-int fork_of(const Clip& clip, int a, int b)
-{
-    while (a != b) {
-        int& later = a > b ? a : b;  // parents come before their children
-        later = joint_at(clip, later).parent;
-    }
-    return a;
-}
-
 // The part of `v` at right angles to up, unit; nothing within 30 degrees of up.
 std::optional<Vector3d> level(const Vector3d& v, const Vector3d& up)
 {
@@ -33,7 +23,7 @@ std::optional<Vector3d> level(const Vector3d& v, const Vector3d& up)
 
 struct RestingFigure {
     const Clip& clip;
-    const std::array<std::optional<LimbJoints>, 4>& joints;
+    const KnownLimbs& joints;
     std::vector<JointPose> pose_w = formats::rest_pose(clip);
 
     const JointPose& pose(int joint) const { return pose_w[static_cast<std::size_t>(joint)]; }
@@ -54,8 +44,9 @@ struct RestingFigure {
         Vector3d way_w = Vector3d::Zero();
         for (const std::size_t leg : {kLegs, kLegs + 1}) {
             if (!joints[leg]) continue;
-            for (const int toe : toes_of(clip, formats::kLimbNames[leg].side, (*joints[leg])[2]))
-                way_w += (pose(toe).position - pose((*joints[leg])[2]).position).normalized();
+            const int foot = (*joints[leg])[2];
+            for (const int toe : toes_of(clip, formats::kLimbNames[leg].side, foot))
+                way_w += (pose(toe).position - pose(foot).position).normalized();
         }
         return way_w;
     }
@@ -63,19 +54,7 @@ struct RestingFigure {
 
 }  // namespace
 
-std::vector<int> toes_of(const Clip& clip, formats::Side side, int ankle)
-{
-    const auto said = clip.human_bones.find(std::string(side_name(side)) + "Toes");
-    if (said != clip.human_bones.end()) return {said->second};
-    std::vector<int> toes = formats::child_joints(clip, ankle);
-    std::erase_if(toes, [&](int joint) {
-        const std::string name = plain(joint_at(clip, joint).name);
-        return name.find("toe") == std::string::npos && name.find("ball") == std::string::npos;
-    });
-    return toes;
-}
-
-Facing facing_of(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints)
+Facing facing_of(const Clip& clip, const KnownLimbs& joints)
 {
     const RestingFigure figure{clip, joints};
     Facing facing;

@@ -3,8 +3,6 @@
 // Which way a figure faces and stands at rest. Knows clips alone.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,13 +19,10 @@ struct Facing {
     std::string up_source = "the file's +Y";
 };
 
-// The toes of a foot: the joint that the file says is one, or those right below the ankle that are called toe or ball.
-std::vector<int> toes_of(const formats::Clip& clip, formats::Side side, int ankle);
-
-// Up leads from the hips to the shoulders, else it is +Y. Forwards is where the toes point. Without toes it is at right
-// angles to up and to the line from right to left, of the shoulders or else of the hips. A mirror above exchanges left
-// and right. Else it is +Z, as in glTF. Toes and lines within 30 degrees of up tell nothing. joints: of the limbs in
-// the order of formats::kLimbNames, those that are known.
-Facing facing_of(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints);
+// Up leads from the hips to the shoulders, else it is +Y. Forwards is where the toes point: the joints that the file
+// says are toes, or those right below the feet that are called toe or ball. Without toes it is at right angles to up
+// and to the line from right to left, of the shoulders or else of the hips. A mirror above exchanges left and right.
+// Else it is +Z, as in glTF. Toes and lines within 30 degrees of up tell nothing.
+Facing facing_of(const formats::Clip& clip, const KnownLimbs& joints);
 
 }  // namespace swivel::tools

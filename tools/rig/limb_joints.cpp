@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tools/rig/joint_names.h"
 #include "tools/rig/name_search.h"
 
 namespace swivel::tools {
@@ -53,6 +54,27 @@ bool is_above(const Clip& clip, int top, int joint)
 bool is_chain(const Clip& clip, const LimbJoints& joints)
 {
     return is_above(clip, joints[0], joints[1]) && is_above(clip, joints[1], joints[2]);
+}
+
+int fork_of(const Clip& clip, int a, int b)
+{
+    while (a != b) {
+        int& later = a > b ? a : b;  // parents come before their children
+        later = joint_at(clip, later).parent;
+    }
+    return a;
+}
+
+std::vector<int> toes_of(const Clip& clip, formats::Side side, int foot)
+{
+    const auto said = clip.human_bones.find(std::string(side_name(side)) + "Toes");
+    if (said != clip.human_bones.end()) return {said->second};
+    std::vector<int> toes = formats::child_joints(clip, foot);
+    std::erase_if(toes, [&](int joint) {
+        const std::string name = plain(joint_at(clip, joint).name);
+        return name.find("toe") == std::string::npos && name.find("ball") == std::string::npos;
+    });
+    return toes;
 }
 
 int shared_joint(std::span<const int> a, std::span<const int> b)

@@ -19,6 +19,9 @@ namespace swivel::tools {
 // Shoulder, elbow and wrist, or hip, knee and ankle: joints of a clip.
 using LimbJoints = std::array<int, 3>;
 
+// The joints of the four limbs as far as they are known, in the order of formats::kLimbNames.
+using KnownLimbs = std::array<std::optional<LimbJoints>, 4>;
+
 // A limb's joints, or why there are none.
 struct FoundJoints {
     std::optional<LimbJoints> joints;
@@ -49,6 +52,12 @@ bool is_above(const formats::Clip& clip, int top, int joint);
 
 // True if each is above the next.
 bool is_chain(const formats::Clip& clip, const LimbJoints& joints);
+
+// The joint that both hang on, or one of the two that the other hangs on; -1 if there is none.
+int fork_of(const formats::Clip& clip, int a, int b);
+
+// The toes of a foot: the joint that the file says is (VRM), or those right below the foot that are called toe or ball.
+std::vector<int> toes_of(const formats::Clip& clip, formats::Side side, int foot);
 
 // The first joint of `a` that is in `b`, too; -1 if there is none.
 int shared_joint(std::span<const int> a, std::span<const int> b);

@@ -188,10 +188,10 @@ std::vector<int> joints_of(const FigureJoints& figure)
 
 LimbSearch bind_limbs(const Clip& clip, const FigureJoints& joints, const LimbChoice& choice)
 {
-    std::array<std::optional<LimbJoints>, 4> known;
+    KnownLimbs known;
     std::transform(joints.begin(), joints.end(), known.begin(),
                    [](const LimbFound& limb) { return limb.joints.joints; });
-    LimbSearch search{facing_of(clip, known), {}};
+    LimbSearch search{facing_of(clip, known), body_parts(clip, known), {}};
     for (const LimbFound& limb : joints)
         if (limb.is_chosen) search.findings.push_back(finding_of(clip, choice, search.facing, limb));
     return search;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/rig/body_parts.h"
 #include "tools/rig/limb_choice.h"
 
 namespace swivel::tools {
@@ -48,6 +49,7 @@ std::string problem_text(const LimbFinding& finding);
 
 struct LimbSearch {
     Facing facing;                      // of the figure
+    std::vector<BodyPart> body;         // its parts
     std::vector<LimbFinding> findings;  // of the limbs that were chosen, arms first
 };
 

@@ -143,6 +143,34 @@ void add_feet(CLI::App& app)
     command->callback([options] { run_feet(*options); });
 }
 
+void add_retarget(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "retarget", "Put a clip's motion on another skeleton: joints turn alike, hands and feet reach their places");
+    auto options = std::make_shared<RetargetOptions>();
+    const auto add_input = [&](const char* name, std::string& file, const char* meaning) {
+        takes(command->add_option(name, file, meaning), file_name())->required()->option_text(" ");
+    };
+    add_input("SOURCE", options->source, "Motion file: BVH or glTF. - is standard input");
+    add_input("TARGET", options->target,
+              "File of the figure that is to move: BVH or glTF. Its own motion only tells how its feet stand");
+    add_motion(*command, options->motion, "Here FILE is SOURCE");
+    takes(command->add_option("-o,--out", options->out,
+                              "TARGET with the motion, in its own format: .bvh, or .glb, .gltf and .vrm. The motion "
+                              "replaces that of a BVH file and the first animation of a glTF file, and all else is "
+                              "kept. Without it there is the report alone"),
+          file_name());
+    takes(command->add_option("--map", options->map,
+                              "Table of the joints that stand for one another, with the columns part,source,target. "
+                              "Without it they are found by their names. - is standard input"),
+          file_name());
+    takes(command->add_option("--export-map", options->export_map,
+                              "Write that table as it was found, to edit and to give back by --map"),
+          file_name());
+    add_quiet(*command, options->quiet, "Print errors and nothing else");
+    command->callback([options] { run_retarget(*options); });
+}
+
 void add_rig(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
@@ -253,6 +281,7 @@ void run(int argc, const char* const* argv)
     add_solve(app);
     add_view_command(app);
     add_cache_commands(app);
+    add_retarget(app);
     add_rig(app);
     add_feet(app);
     add_steps(app);

@@ -48,6 +48,14 @@ void run_view(SolveOptions options, const std::string& about_clip);
 // The same of a cache's crowd: its first characters, or all of them.
 void view_cache(const SolveOptions& options, const std::string& about_clip);
 
+struct RetargetOptions {
+    std::string source, target, out;
+    std::string map, export_map;  // tables of pairs
+    MotionChoice motion;          // of source
+    bool quiet = false;
+};
+void run_retarget(const RetargetOptions& options);
+
 struct StoreOptions {
     SolveOptions crowd;  // its outputs are not used
     std::string folder;

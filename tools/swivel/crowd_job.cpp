@@ -34,20 +34,13 @@ Between between_of(const SolveOptions& options, const std::string& targets)
     return options.between == "hold" ? Between::hold : Between::linear;
 }
 
-// The joint that all limbs hang on.
+// The joint that all limbs hang on, or the first one.
 int common_joint(const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    const auto hangs_on = [&](int joint, int above) {
-        for (; joint >= 0; joint = joint_at(clip, joint).parent)
-            if (joint == above) return true;
-        return false;
-    };
-    int body = limbs.front().upper();
-    while (joint_at(clip, body).parent >= 0 && !std::ranges::all_of(limbs, [&](const Limb& limb) {
-               return limb.upper() != body && hangs_on(limb.upper(), body);
-           }))
-        body = joint_at(clip, body).parent;
-    return body;
+    int body = joint_at(clip, limbs.front().upper()).parent;
+    for (const Limb& limb : limbs)
+        if (body >= 0) body = fork_of(clip, body, limb.upper());
+    return std::max(body, 0);
 }
 
 // Puts the clip as it goes on in place of the clip: as many frames as are solved, wherever in the loop one starts.

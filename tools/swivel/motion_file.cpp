@@ -114,13 +114,14 @@ std::vector<std::string> MotionFile::notes() const
                         bvh->surplus_count == 1 ? "is" : "are")};
 }
 
-void MotionFile::require_can_write(const std::filesystem::path& out) const
+void MotionFile::require_can_write(const std::filesystem::path& out, std::string_view what,
+                                   std::string_view others) const
 {
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
     const std::string suffix = formats::lower_suffix(out);
     if (is_bvh_clip ? !is_bvh(suffix) : !is_gltf(suffix))
-        throw CommandError(2, fmt::format("--out {}: this clip is a {} file; its poses go to {} or .csv", out.string(),
-                                          format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm"));
+        throw CommandError(2, fmt::format("--out {}: {} is a {} file; its poses go to {}{}", out.string(), what,
+                                          format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm", others));
 }
 
 void MotionFile::require_can_key(int joint) const

@@ -40,8 +40,10 @@ public:
     std::string describe() const;
     // What the user should know of how it was read, a line each; mostly nothing.
     std::vector<std::string> notes() const;
-    // Throws CommandError (bad usage) for an output file that cannot hold this motion.
-    void require_can_write(const std::filesystem::path& out) const;
+    // Throws CommandError (bad usage) for an output file that cannot hold this motion. what: the file's own name in the
+    // message; others: what else is written.
+    void require_can_write(const std::filesystem::path& out, std::string_view what = "this clip",
+                           std::string_view others = " or .csv") const;
     // Throws InputError for a joint whose rotation that cannot hold.
     void require_can_key(int joint) const;
     // In the format that the suffix of `out` says; as write_bvh() and write_gltf() do.

@@ -99,6 +99,8 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                {"up_by", facing.up_source}};
     if (const auto notes = motion.notes(); !notes.empty()) out["notes"] = notes;
     for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, facing));
+    for (const BodyPart& part : search.body)
+        for (const int joint : part.joints) out["body"][part.name].push_back(joint_at(clip, joint).number);
     const std::vector<formats::JointPose> rest_w = formats::rest_pose(clip);
     if (with_joints)
         for (std::size_t n = 0; n < clip.joints.size(); ++n)

@@ -98,6 +98,19 @@ std::string shown_path(const Clip& clip, int joint)
     return printable(path, formats::kMostQuoted);
 }
 
+// The parts that are no joints of limbs.
+void print_body(const Clip& clip, const std::vector<BodyPart>& body)
+{
+    const char* heading = "body";
+    for (const BodyPart& part : body) {
+        if (is_limb_part(part)) continue;
+        std::string names;
+        for (const int joint : part.joints) names += (names.empty() ? "" : " > ") + name_of(clip, joint);
+        say(stdout, "{:<10} {}: {}\n", heading, part.name, formats::printable(names, formats::kMostQuoted));
+        heading = "";
+    }
+}
+
 void print_joints(const Clip& clip)
 {
     const std::vector<formats::JointPose> rest_w = formats::rest_pose(clip);
@@ -125,6 +138,7 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
             say(stdout, "{:<10} {}: {}\n", plain_name(finding.name), finding.has_joints ? "refused" : "missing",
                 problem_text(finding));
     }
+    print_body(clip, search.body);
     if (with_joints) print_joints(clip);
 }
 

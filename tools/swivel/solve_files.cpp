@@ -40,12 +40,6 @@ bool is_standard_input(const std::string& file)
            named.st_dev == input.st_dev && named.st_ino == input.st_ino;
 }
 
-// Whether what is written to the file would replace what is read by that name.
-bool is_read(const std::string& file, const std::string& name)
-{
-    return is_standard_stream(name) ? is_standard_input(file) : is_same_file(file, name);
-}
-
 }  // namespace
 
 OutKind out_kind(const std::string& out, std::uint32_t characters)
@@ -61,6 +55,11 @@ OutKind out_kind(const std::string& out, std::uint32_t characters)
                                           "from a glTF file",
                                           out, characters));
     return OutKind::motion;
+}
+
+bool would_be_lost(const std::string& file, const std::string& name)
+{
+    return is_standard_stream(name) ? is_standard_input(file) : is_same_file(file, name);
 }
 
 void require_one_reader(const SolveOptions& options, const std::string& targets)
@@ -80,7 +79,7 @@ void require_own_outputs(std::span<const std::string> outputs, std::span<const R
         for (std::size_t other = 0; other < n; ++other)
             refuse_if(!outputs[other].empty() && is_same_file(file, outputs[other]), "another output");
         if (is_standard_stream(file)) continue;  // reading from - is something else
-        for (const ReadFile& each : read) refuse_if(!each.name.empty() && is_read(file, each.name), each.what);
+        for (const ReadFile& each : read) refuse_if(!each.name.empty() && would_be_lost(file, each.name), each.what);
         for (const std::filesystem::path& beside : clip.files_beside())
             refuse_if(is_same_file(file, beside), "a buffer or image of the clip");
     }

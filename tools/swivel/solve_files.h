@@ -31,6 +31,8 @@ struct ReadFile {
 // Refuses an output that is one of these files, lies beside the clip, or is another output. Empty names are none.
 // Throws CommandError.
 void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read, const MotionFile& clip);
+// Whether writing to the file would replace what is read by that name, which may be standard input.
+bool would_be_lost(const std::string& file, const std::string& name);
 
 // Nothing that is read is written over, and nothing that is written. Throws CommandError.
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets);

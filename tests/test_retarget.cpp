@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+//
+// A motion on another skeleton. Bodies are made up, so that what must come out is known without the code: the same body
+// in another rest, of another size, in another world, or with other bones. plain_motion.h alone poses what is written.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+#include <random>
+
+#include "tests/plain_motion.h"
+#include "tests/run_command.h"
+#include "tests/test_data.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kRad = std::numbers::pi / 180;
+
+Matrix3d about(const Vector3d& axis, double angle_deg)
+{
+    return Eigen::AngleAxisd(angle_deg * kRad, axis).toRotationMatrix();
+}
+
+// A body that faces +Z and stands along +Y before `world` turns it.
+struct MadeBody {
+    int spine = 3;
+    double size = 1;
+    double arms_down_deg = 0, legs_out_deg = 0, toes_out_deg = 0;  // of its rest
+    double forearm = 0.26, shin = 0.42, foot = 0.13;
+    Matrix3d world = Matrix3d::Identity();
+
+    std::string joint(const std::string& name, const Vector3d& offset, const std::string& below) const
+    {
+        const Vector3d at = size * (world * offset);
+        const std::string kind = name == "Hips" ? "ROOT " : "JOINT ";
+        const std::string channels = name == "Hips" ? "CHANNELS 6 Xposition Yposition Zposition " : "CHANNELS 3 ";
+        return kind + name + fmt::format("\n{{\nOFFSET {} {} {}\n", at.x(), at.y(), at.z()) + channels +
+               "Zrotation Xrotation Yrotation\n" + below + "}\n";
+    }
+    std::string arm(const std::string& name, double left) const
+    {
+        const Vector3d way = about(Vector3d::UnitZ(), -left * arms_down_deg) * Vector3d(left, 0, 0);
+        const std::string hand = joint(name + "Hand", forearm * way, "End Site\n{\nOFFSET 0 0 0\n}\n");
+        return joint(name + "Shoulder", {0.03 * left, 0.02, 0},
+                     joint(name + "Arm", {0.12 * left, 0, 0}, joint(name + "ForeArm", 0.3 * way, hand)));
+    }
+    std::string leg(const std::string& name, double left) const
+    {
+        const Vector3d way = about(Vector3d::UnitZ(), left * legs_out_deg) * Vector3d(0, -1, 0);
+        const Vector3d toe = about(Vector3d::UnitY(), left * toes_out_deg) * Vector3d(0, -0.06, foot);
+        const std::string toes = joint(name + "ToeBase", toe, "End Site\n{\nOFFSET 0 0 0\n}\n");
+        return joint(name + "UpLeg", {0.1 * left, -0.05, 0},
+                     joint(name + "Leg", 0.45 * way, joint(name + "Foot", shin * way, toes)));
+    }
+    std::string hierarchy() const
+    {
+        std::string above = joint("Neck", {0, 0.06, 0}, joint("Head", {0, 0.1, 0}, "End Site\n{\nOFFSET 0 0 0\n}\n")) +
+                            arm("Left", 1) + arm("Right", -1);
+        for (int n = spine; n > 0; --n) above = joint(fmt::format("Spine{}", n), {0, 0.5 / spine, 0}, above);
+        return "HIERARCHY\n" + joint("Hips", Vector3d::Zero(), leg("Left", 1) + leg("Right", -1) + above) + "MOTION\n";
+    }
+    // With these rows of values; none: one frame at rest.
+    std::string text(const std::vector<std::vector<double>>& rows = {}) const
+    {
+        const std::string rest = hierarchy() + "Frames: 1\nFrame Time: 0.01\n";
+        std::string frames;
+        for (const std::vector<double>& row : rows) frames += fmt::format("{}\n", fmt::join(row, " "));
+        if (rows.empty()) return rest + zeros(rest);
+        return hierarchy() + fmt::format("Frames: {}\nFrame Time: 0.02\n{}", rows.size(), frames);
+    }
+    static std::string zeros(const std::string& header)
+    {
+        std::string line;
+        for (const PlainJoint& joint : plain_motion(header).joints)
+            for (std::size_t n = 0; n < joint.channels.size(); ++n) line += line.empty() ? "0" : " 0";
+        return line + "\n";
+    }
+};
+
+// Any pose that its legs can stand in: knees are bent by 30 to 60 degrees.
+std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, double least_elbow = 20,
+                                             double most_elbow = 70)
+{
+    std::mt19937 random(4);
+    const auto between = [&](double least, double most) { return std::uniform_real_distribution(least, most)(random); };
+    const PlainMotion motion = plain_motion(body.text());
+    std::vector<std::vector<double>> rows;
+    for (int n = 0; n < count; ++n) {
+        std::vector<double>& row = rows.emplace_back(motion.values[0]);
+        for (const PlainJoint& joint : motion.joints)
+            for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+                double& value = row[joint.first_channel + c];
+                if (joint.channels[c].ends_with("position"))
+                    value = between(0, 2);
+                else if (joint.name.ends_with("Leg") && !joint.name.ends_with("UpLeg"))
+                    value = joint.channels[c] == "Xrotation" ? between(30, 60) : 0;
+                else if (joint.name.ends_with("ForeArm"))
+                    value = joint.channels[c] == "Yrotation"
+                                ? between(least_elbow, most_elbow) * (joint.name[0] == 'L' ? -1 : 1)
+                                : 0;
+                else
+                    value = between(-20, 20);
+            }
+    }
+    return rows;
+}
+
+struct Made {
+    TempFolder folder{};
+    PlainMotion source{}, out{};
+    std::string report{};
+
+    Made(const MadeBody& from, const MadeBody& to, const std::vector<std::vector<double>>& rows,
+         const Words& options = {})
+    {
+        spill(folder / "source.bvh", from.text(rows));
+        spill(folder / "target.bvh", to.text());
+        Words words = {"retarget", "source.bvh", "target.bvh", "--out", "out.bvh"};
+        words.insert(words.end(), options.begin(), options.end());
+        const Outcome outcome = run_command(folder.path, words);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        report = outcome.out;
+        source = plain_motion_of(folder / "source.bvh");
+        out = plain_motion_of(folder / "out.bvh");
+        REQUIRE(out.lines.size() == source.lines.size());
+    }
+    // How far the joint is at most from `expected` of the source's pose.
+    double off(const std::string& joint, const auto& expected) const
+    {
+        double most = 0;
+        for (std::size_t frame = 0; frame < out.lines.size(); ++frame)
+            most = std::max(most, (at(out, joint, frame).position - expected(frame)).norm());
+        return most;
+    }
+    static PlainPose at(const PlainMotion& motion, const std::string& joint, std::size_t frame)
+    {
+        return pose_of(motion, frame)[static_cast<std::size_t>(joint_named(motion, joint))];
+    }
+};
+
+Vector3d in_middle(const PlainMotion& motion, const std::string& joint, std::size_t frame)
+{
+    return (Made::at(motion, "Left" + joint, frame).position + Made::at(motion, "Right" + joint, frame).position) / 2;
+}
+
+}  // namespace
+
+TEST_CASE("retarget: the same body in another rest, size and world takes every place and direction of the source")
+{
+    const MadeBody source;
+    MadeBody target;
+    target.size = 40;
+    target.arms_down_deg = 50;
+    target.legs_out_deg = 15;
+    target.toes_out_deg = 20;
+    target.world << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // z is up, x ahead, y left
+    const Made made(source, target, random_rows(source, 50));
+    for (const PlainJoint& joint : made.out.joints) {
+        INFO(joint.name);
+        CHECK(made.off(joint.name, [&](std::size_t frame) {
+            return Vector3d(40 * (target.world * Made::at(made.source, joint.name, frame).position));
+        }) < 40 * 1e-6);
+    }
+    CHECK_THAT(made.out.header, Contains("Frame Time: 0.02"));
+    CHECK_THAT(made.report, Contains("lengths   40 of TARGET for 1 of SOURCE, by the legs\n"));
+    CHECK_THAT(made.report, Contains("at rest   of TARGET: none\nunused    of SOURCE: none\n"));
+}
+
+TEST_CASE(
+    "retarget: on other bones toes go where the source's are, bent arms reach from the chest, straight ones alike")
+{
+    const MadeBody source;
+    MadeBody target;
+    target.forearm = 0.32;
+    target.shin = 0.36;
+    target.foot = 0.17;
+    const double by_leg = (0.45 + 0.36) / (0.45 + 0.42), by_arm = (0.3 + 0.32) / (0.3 + 0.26);
+    for (const bool is_bent : {true, false}) {
+        INFO(is_bent);
+        const Made made(source, target, is_bent ? random_rows(source, 50, 95, 120) : random_rows(source, 50, 10, 35));
+        for (const std::string side : {"Left", "Right"}) {
+            INFO(side);
+            CHECK(made.off(side + "ToeBase", [&](std::size_t frame) {
+                return Vector3d(by_leg * Made::at(made.source, side + "ToeBase", frame).position);
+            }) < 3e-6);
+            CHECK(made.off(side + "Hand", [&](std::size_t frame) {
+                const auto from = [&](const PlainMotion& motion) -> Vector3d {
+                    return is_bent ? in_middle(motion, "Arm", frame) : Made::at(motion, side + "Arm", frame).position;
+                };
+                return Vector3d(from(made.out) +
+                                by_arm * (Made::at(made.source, side + "Hand", frame).position - from(made.source)));
+            }) < 3e-6);
+            double turn = 0;
+            for (std::size_t frame = 0; frame < 50; ++frame)  // hands keep the source's orientation
+                turn = std::max(turn, (Made::at(made.out, side + "Hand", frame).rotation -
+                                       Made::at(made.source, side + "Hand", frame).rotation)
+                                          .norm());
+            CHECK(turn < 1e-5);
+        }
+    }
+}
+
+TEST_CASE("retarget: knees bend as the source's, whatever its bones")
+{
+    const MadeBody source;
+    MadeBody target;
+    target.shin = 0.3;
+    target.foot = 0.19;
+    std::vector<std::vector<double>> rows;
+    for (const double knee : {0.0, 5.0, 20.0, 45.0, 80.0}) {
+        const PlainMotion motion = plain_motion(source.text());
+        std::vector<double>& row = rows.emplace_back(motion.values[0]);
+        for (const std::string side : {"Left", "Right"}) {
+            row[motion.joint(joint_named(motion, side + "UpLeg")).first_channel + 1] = -knee / 2;
+            row[motion.joint(joint_named(motion, side + "Leg")).first_channel + 1] = knee;
+            row[motion.joint(joint_named(motion, side + "Foot")).first_channel + 1] = -knee / 2;
+        }
+    }
+    const Made made(source, target, rows);
+    const PlainArm leg = legs_of(made.source)[0], to = legs_of(made.out)[0];
+    for (std::size_t frame = 0; frame < rows.size(); ++frame)
+        CHECK(std::abs(arm_pose(made.source, leg, frame).bend() - arm_pose(made.out, to, frame).bend()) < 3 * kRad);
+}
+
+TEST_CASE("retarget: spines of other counts divide the turns of the source's evenly")
+{
+    for (const int count : {1, 2, 3, 6}) {
+        INFO(count);
+        MadeBody source, target;
+        target.spine = count;
+        const PlainMotion rest = plain_motion(source.text());
+        std::vector<double> row = rest.values[0];
+        const double turns[] = {10, -30, 25};
+        for (int n = 0; n < 3; ++n) {
+            const PlainJoint& joint = rest.joint(joint_named(rest, fmt::format("Spine{}", n + 1)));
+            row[joint.first_channel + 1] = turns[n];  // about x
+        }
+        const Made made(source, target, {row});
+        for (int n = 1; n <= count; ++n) {
+            const double place = 3.0 * n / count;  // of the three turns
+            double turn = 0;
+            for (int k = 0; k < 3; ++k) turn += turns[k] * std::clamp(place - k, 0.0, 1.0);
+            CHECK((Made::at(made.out, fmt::format("Spine{}", n), 0).rotation - about(Vector3d::UnitX(), turn)).norm() <
+                  1e-6);
+        }
+    }
+}
+
+TEST_CASE("retarget: feet that rest near height 0 stand there again, however the source counts heights")
+{
+    MadeBody source, target;
+    target.size = 0.5;
+    target.spine = 3;
+    std::string text = target.text();
+    const double toe = 0.5 * (0.05 + 0.45 + 0.42 + 0.06);                           // below the hips
+    text = edited(text, "OFFSET 0 0 0", fmt::format("OFFSET 0 {} 0", toe + 0.01));  // toes 0.01 over the ground
+    std::vector<double> row(plain_motion(source.text()).values[0].size());
+    row[1] = 7;  // the source's ground is anywhere
+    const TempFolder folder;
+    spill(folder / "source.bvh", source.text({row, row}));
+    spill(folder / "target.bvh", text);
+    const Outcome outcome = run_command(folder.path, {"retarget", "source.bvh", "target.bvh", "--out", "out.bvh"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const PlainMotion out = plain_motion_of(folder / "out.bvh");
+    CHECK(std::abs(Made::at(out, "LeftToeBase", 1).position.y() - 0.01) < 1e-6);
+}
+
+TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
+{
+    MadeBody source, target;
+    source.spine = 2;
+    const auto rows = random_rows(source, 5);
+    const Made found(source, target, rows, {"--export-map", "map.csv"});
+    const std::string map = slurp(found.folder / "map.csv");
+    CHECK_THAT(map, Contains("part,source,target\nhips,Hips,Hips\nspine,Spine1,Spine1\nspine,Spine2,Spine2\n"
+                             "spine,,Spine3\n"));
+    CHECK_THAT(map, Contains("leftShoulder,LeftShoulder,LeftShoulder\nleftUpperArm,LeftArm,LeftArm\n"));
+    const auto again = [&](const std::string& table) {
+        spill(found.folder / "map.csv", table);
+        return run_command(found.folder.path,
+                           {"retarget", "source.bvh", "target.bvh", "--map", "map.csv", "--out", "again.bvh"});
+    };
+    CHECK(again(map).exit_code == 0);
+    CHECK(slurp(found.folder / "again.bvh") == slurp(found.folder / "out.bvh"));
+    const Outcome headless = again(edited(map, "head,Head,Head\n", ""));
+    CHECK(headless.exit_code == 0);
+    CHECK_THAT(headless.out, Contains("at rest   of TARGET: Head\nunused    of SOURCE: Head\n"));
+    const PlainMotion still = plain_motion_of(found.folder / "again.bvh");
+    for (std::size_t n = 0; n < 3; ++n)
+        CHECK(still.values[4][still.joint(joint_named(still, "Head")).first_channel + n] == 0);
+    const auto complaint = [&](const std::string& table) { return again(table).err; };
+    CHECK(complaint("part,from,to\n") == "swivel: map.csv:1: the first line must be part,source,target\n");
+    CHECK(complaint("part,source,target\n\nhips,Hip,Hips\n") ==
+          "swivel: map.csv:3: 'Hip' is no joint of its file; swivel rig FILE --joints lists them\n");
+    CHECK(complaint(edited(map, "head,Head,Head", "head,Head,Neck")) ==
+          "swivel: map.csv:7: 'Neck' is already in a line above; remove one\n");
+    CHECK_THAT(complaint("part,source,target\nhips,Hips\n"), Contains("map.csv:2: 2 values; a row has 3"));
+    CHECK_THAT(complaint("part,source,target\nhips,Hips,Hips\n"),
+               Contains("source.bvh: no leg of it can be told by the names of its joints; write the pairs with"));
+}
+
+TEST_CASE("retarget: what cannot be is refused in one line, and nothing is lost")
+{
+    const TempFolder folder;
+    spill(folder / "a.bvh", MadeBody().text());
+    spill(folder / "b.bvh", MadeBody().text());
+    spill(folder / "rig.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"name":"Hips"}]})");
+    const auto complaint = [&](const Words& words) {
+        const Outcome outcome = run_command(folder.path, words);
+        CHECK(outcome.exit_code != 0);
+        return outcome.err;
+    };
+    CHECK(complaint({"retarget", "a.bvh", "b.bvh", "--out", "c.glb"}) ==
+          "swivel: --out c.glb: TARGET is a BVH file; its poses go to .bvh\n");
+    CHECK_THAT(complaint({"retarget", "a.bvh", "b.bvh", "--out", "b.bvh"}), Contains("b.bvh: is TARGET, too"));
+    CHECK_THAT(complaint({"retarget", "a.bvh", "b.bvh", "--export-map", "a.bvh"}), Contains("a.bvh: is SOURCE, too"));
+    CHECK_THAT(complaint({"retarget", "-", "-"}), Contains("more than one of SOURCE, TARGET and --map is -"));
+    CHECK_THAT(complaint({"retarget", "a.bvh", "rig.gltf"}), Contains("rig.gltf: no leg of it can be told"));
+    CHECK(folder.file_count() == 3);
+}

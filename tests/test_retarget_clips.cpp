@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+//
+// Recorded motion on other figures and back. plain_motion.h and plain_gltf.h alone pose what is written.
+#include <catch2/catch.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tests/plain_gltf.h"
+#include "tests/plain_motion.h"
+#include "tests/run_command.h"
+#include "tests/shared_figures.h"
+
+using namespace swivel::test;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+double turn_between(const Matrix3d& a, const Matrix3d& b)
+{
+    const Matrix3d turn = a.transpose() * b;
+    const Vector3d axis(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+    return std::atan2(axis.norm(), turn.trace() - 1);
+}
+
+// Each joint's rotation against the joint above it. CMU's LHipJoint and RHipJoint are passed over where they are left
+// out: a figure whose thighs hang on its pelvis cannot bring back their turns.
+std::vector<Matrix3d> local_turns(const PlainMotion& motion, std::size_t frame, bool with_hip_joints = true)
+{
+    const std::vector<PlainPose> pose = pose_of(motion, frame);
+    std::vector<Matrix3d> turns;
+    for (std::size_t n = 0; n < pose.size(); ++n) {
+        int parent = motion.joints[n].parent;
+        if (!with_hip_joints && parent >= 0 && motion.joint(parent).name.ends_with("HipJoint"))
+            parent = motion.joint(parent).parent;
+        const Matrix3d above =
+            parent < 0 ? Matrix3d(Matrix3d::Identity()) : pose[static_cast<std::size_t>(parent)].rotation;
+        turns.push_back(above.transpose() * pose[n].rotation);
+    }
+    return turns;
+}
+
+std::string retargeted(const TempFolder& folder, const fs::path& source, const fs::path& target, const char* out)
+{
+    const Outcome outcome = run_command(folder.path, {"retarget", source.string(), target.string(), "--out", out});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome.out;
+}
+
+using Way = std::vector<Vector3d>;  // of a toe, in leg lengths, y up
+
+struct Toes {
+    std::array<Way, 2> ways;
+    double frame_time = 0;
+};
+
+Toes toes_of(const PlainMotion& motion, double frame_time)
+{
+    Toes toes{{}, frame_time};
+    const std::vector<PlainArm> legs = legs_of(motion);
+    const double leg = (legs[0].length() + legs[1].length()) / 2;
+    for (std::size_t side = 0; side < 2; ++side)
+        for (std::size_t frame = 0; frame < motion.lines.size(); ++frame)
+            toes.ways[side].push_back(
+                pose_of(motion,
+                        frame)[static_cast<std::size_t>(joint_named(motion, side ? "RightToeBase" : "LeftToeBase"))]
+                    .position /
+                leg);
+    return toes;
+}
+
+// The same of a figure by Mesh2Motion.
+Toes toes_of(const PlainGltf& gltf, std::size_t frames, double frame_time)
+{
+    const auto place = [&](const std::string& name, double time) {
+        return Vector3d(plain_world(gltf, 0, gltf.node_named(name), time).translation());
+    };
+    double leg = 0;
+    for (const std::string side : {"_l", "_r"})
+        leg += ((place("thigh" + side, 0) - place("calf" + side, 0)).norm() +
+                (place("calf" + side, 0) - place("foot" + side, 0)).norm()) /
+               2;
+    Toes toes{{}, frame_time};
+    for (std::size_t side = 0; side < 2; ++side)
+        for (std::size_t frame = 0; frame < frames; ++frame)
+            toes.ways[side].push_back(place(side ? "ball_r" : "ball_l", frame_time * static_cast<double>(frame)) / leg);
+    return toes;
+}
+
+// The frames in which a toe stands, in the source: slower than half a leg a second, and less than a fifteenth of a leg
+// above the lowest of its frames but for a twentieth.
+std::vector<bool> standing(const Toes& toes, std::size_t side)
+{
+    const Way& way = toes.ways[side];
+    std::vector<double> heights;
+    for (const Vector3d& place : way) heights.push_back(place.y());
+    std::ranges::nth_element(heights, heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20));
+    const double floor = heights[heights.size() / 20];
+    std::vector<bool> stands(way.size());
+    for (std::size_t n = 1; n < way.size(); ++n)
+        stands[n] = (way[n] - way[n - 1]).norm() < 0.5 * toes.frame_time && way[n].y() < floor + 1.0 / 15;
+    return stands;
+}
+
+// How far the toes slide over the ground in those frames, in all, and the highest that they float or sink from frame to
+// frame, in leg lengths.
+struct Slide {
+    double way = 0, height = 0;
+};
+Slide slide_of(const Toes& toes, const Toes& source)
+{
+    Slide slide;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const std::vector<bool> stands = standing(source, side);
+        for (std::size_t n = 1; n < stands.size(); ++n) {
+            if (!stands[n]) continue;
+            const Vector3d step = toes.ways[side][n] - toes.ways[side][n - 1];
+            slide.way += std::hypot(step.x(), step.z());
+            slide.height = std::max(slide.height, std::abs(step.y()));
+        }
+    }
+    return slide;
+}
+
+}  // namespace
+
+TEST_CASE("retarget: a motion on its own figure is the same motion")
+{
+    const TempFolder folder;
+    for (const char* name : kSharedClips) {
+        const fs::path path = find_or_warn(name);
+        if (path.empty()) continue;
+        INFO(name);
+        retargeted(folder, path, path, "same.bvh");
+        const PlainMotion before = plain_motion_of(path), after = plain_motion_of(folder / "same.bvh");
+        REQUIRE(after.lines.size() == before.lines.size());
+        double turn = 0, place = 0;
+        for (std::size_t frame = 0; frame < before.lines.size(); ++frame) {
+            const auto from = local_turns(before, frame), to = local_turns(after, frame);
+            for (std::size_t n = 0; n < from.size(); ++n) turn = std::max(turn, turn_between(from[n], to[n]));
+            place = std::max(place, (pose_of(before, frame)[0].position - pose_of(after, frame)[0].position).norm());
+        }
+        CHECK(turn < 1e-5);
+        CHECK(place < 1e-5);
+    }
+    for (const char* name : {"m2m_human_ymca.glb", "m2m_human_skeleton_tpose.glb"}) {
+        const fs::path path = find_or_warn(name);
+        if (path.empty()) continue;
+        INFO(name);
+        retargeted(folder, path, path, "same.glb");
+        const PlainGltf before = plain_gltf_of(path), after = plain_gltf_of(folder / "same.glb");
+        const auto& times = plain_numbers(before, before.json["animations"][0]["samplers"][0]["input"]);
+        const auto& new_times = plain_numbers(after, after.json["animations"][0]["samplers"][0]["input"]);
+        REQUIRE(new_times.size() == times.size());
+        double turn = 0;
+        for (std::size_t n = 0; n < times.size(); ++n)
+            for (std::size_t node = 0; node < before.nodes().size(); ++node)
+                turn = std::max(turn,
+                                turn_between(plain_local(before, 0, static_cast<int>(node), times[n]).rotation(),
+                                             plain_local(after, 0, static_cast<int>(node), new_times[n]).rotation()));
+        CHECK(turn < 1e-5);
+    }
+}
+
+TEST_CASE("retarget: a walk goes to a figure and comes back, and its feet slide no more than before")
+{
+    const fs::path walk = find_or_warn("cmu_02_01_walk.bvh"), figure = find_or_warn("m2m_human_male.glb");
+    if (walk.empty() || figure.empty()) return;
+    const TempFolder folder;
+    retargeted(folder, walk, figure, "figure.glb");
+    retargeted(folder, folder / "figure.glb", walk, "walk.bvh");
+    const PlainMotion before = plain_motion_of(walk), after = plain_motion_of(folder / "walk.bvh");
+    REQUIRE(after.lines.size() == before.lines.size());
+    double sum = 0, most = 0;
+    std::size_t count = 0;
+    for (std::size_t frame = 0; frame < before.lines.size(); ++frame) {
+        const auto from = local_turns(before, frame, false), to = local_turns(after, frame, false);
+        for (const std::string side : {"Left", "Right"})
+            for (const char* joint : {"Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot"}) {
+                const auto n = static_cast<std::size_t>(joint_named(before, side + joint));
+                const double turn_deg = kDegrees * turn_between(from[n], to[n]);
+                sum += turn_deg;
+                most = std::max(most, turn_deg);
+                ++count;
+            }
+    }
+    CHECK(sum / static_cast<double>(count) < 3);
+    CHECK(most < 10);
+    const Toes source = toes_of(before, 1.0 / 120);
+    const Toes there = toes_of(plain_gltf_of(folder / "figure.glb"), before.lines.size(), 0.008333);
+    const Toes back = toes_of(after, 1.0 / 120);
+    const Slide was = slide_of(source, source);
+    REQUIRE(was.way > 0.05);
+    for (const Toes& toes : {there, back}) {
+        const Slide is = slide_of(toes, source);
+        CHECK(is.way < 1.001 * was.way);
+        CHECK(is.height < 1.001 * was.height);
+    }
+}

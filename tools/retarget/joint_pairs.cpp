@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "tools/retarget/joint_pairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tools/formats/csv_rows.h"
+#include "tools/formats/error.h"
+#include "tools/formats/output_file.h"
+#include "tools/formats/printable.h"
+#include "tools/rig/name_search.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::Clip;
+using formats::InputError;
+
+const std::vector<int>& list_of(const PairedPart& part, BodySide side)
+{
+    return side == BodySide::source ? part.source : part.target;
+}
+
+std::vector<BodyPart> found_parts(const Clip& clip)
+{
+    KnownLimbs limbs;
+    std::ranges::transform(joints_by_file(clip), limbs.begin(), &FoundJoints::joints);
+    return body_parts(clip, limbs);
+}
+
+// The part of that name, made where there is none.
+PairedPart& part_called(JointPairs& pairs, const std::string& name)
+{
+    const auto found = std::ranges::find(pairs, name, &PairedPart::name);
+    return found == pairs.end() ? pairs.emplace_back(PairedPart{name, {}, {}}) : *found;
+}
+
+std::set<int> joints_in(const JointPairs& pairs, BodySide side, bool paired_alone)
+{
+    std::set<int> joints;
+    for (const PairedPart& part : pairs)
+        if (!paired_alone || part.is_paired()) joints.insert(list_of(part, side).begin(), list_of(part, side).end());
+    return joints;
+}
+
+// The joint of a cell: none for an empty one.
+std::vector<int> joint_of(const std::filesystem::path& path, std::size_t line, const Clip& clip, std::string_view cell,
+                          std::set<int>& seen)
+{
+    if (cell.empty()) return {};
+    const std::vector<int> found = formats::find_joints(clip, cell);
+    const auto refuse = [&](const char* problem) {
+        throw InputError(path, line, fmt::format("'{}' {}", formats::printable(cell), problem));
+    };
+    if (found.empty()) refuse("is no joint of its file; swivel rig FILE --joints lists them");
+    if (found.size() > 1) refuse("is the name of several joints; give one by its path or number");
+    if (!seen.insert(found.front()).second) refuse("is already in a line above; remove one");
+    return found;
+}
+
+// A name that a cell can hold and that is one joint's alone, or its number.
+std::string cell_of(const Clip& clip, int joint)
+{
+    const std::string& name = joint_at(clip, joint).name;
+    const bool can_be_cell = formats::printable(name, name.size()) == name && !name.starts_with(' ') &&
+                             !name.ends_with(' ') && name.find_first_of(",\"") == name.npos;
+    if (can_be_cell && formats::find_joints(clip, name) == std::vector<int>{joint}) return name;
+    return fmt::format("#{}", joint_at(clip, joint).number);
+}
+
+}  // namespace
+
+JointPairs pair_joints(const Clip& source, const Clip& target)
+{
+    JointPairs pairs;
+    for (BodyPart& part : found_parts(source)) pairs.push_back({part.name, std::move(part.joints), {}});
+    for (BodyPart& part : found_parts(target)) part_called(pairs, part.name).target = std::move(part.joints);
+    const std::set<int> of_source = joints_in(pairs, BodySide::source, false);
+    const std::set<int> of_target = joints_in(pairs, BodySide::target, false);
+    const NamedJoints source_names(source), target_names(target);
+    for (int joint = 0; joint < static_cast<int>(target.joints.size()); ++joint) {
+        const std::string& name = target_names.name(joint);
+        const std::vector<int> to = target_names.named(name), from = source_names.named(name);
+        if (to != std::vector<int>{joint} || from.size() != 1 || of_target.contains(joint)) continue;
+        if (!target_names.is_bone(joint) || !source_names.is_bone(from[0]) || of_source.contains(from[0])) continue;
+        pairs.push_back({{}, from, to});
+    }
+    return pairs;
+}
+
+JointPairs read_joint_map(const std::filesystem::path& path, const Clip& source, const Clip& target)
+{
+    JointPairs pairs;
+    std::set<int> in_source, in_target;
+    bool has_columns = false;
+    formats::for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
+        if (!has_columns) {
+            has_columns = cells == std::vector<std::string_view>{"part", "source", "target"};
+            if (!has_columns) throw InputError(path, line, "the first line must be part,source,target");
+            return;
+        }
+        if (cells.size() != 3)
+            throw InputError(path, line, fmt::format("{} values; a row has 3: part,source,target", cells.size()));
+        PairedPart& part = cells[0].empty() ? pairs.emplace_back() : part_called(pairs, std::string(cells[0]));
+        for (const int joint : joint_of(path, line, source, cells[1], in_source)) part.source.push_back(joint);
+        for (const int joint : joint_of(path, line, target, cells[2], in_target)) part.target.push_back(joint);
+    });
+    if (!has_columns) throw InputError(path, "is empty; its first line must be part,source,target");
+    return pairs;
+}
+
+void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs, const Clip& source, const Clip& target)
+{
+    formats::OutputFile out(path);
+    out.write("part,source,target\n");
+    const auto write = [&](const std::string& part, const std::string& from, const std::string& to) {
+        out.write(fmt::format("{},{},{}\n", part, from, to));
+    };
+    for (const PairedPart& part : pairs)
+        for (std::size_t n = 0; n < std::max(part.source.size(), part.target.size()); ++n)
+            write(part.name, n < part.source.size() ? cell_of(source, part.source[n]) : "",
+                  n < part.target.size() ? cell_of(target, part.target[n]) : "");
+    const std::set<int> in_source = joints_in(pairs, BodySide::source, false);
+    const std::set<int> in_target = joints_in(pairs, BodySide::target, false);
+    for (const int joint : unpaired_bones(pairs, source, BodySide::source))
+        if (!in_source.contains(joint)) write("", cell_of(source, joint), "");
+    for (const int joint : unpaired_bones(pairs, target, BodySide::target))
+        if (!in_target.contains(joint)) write("", "", cell_of(target, joint));
+    out.commit();
+}
+
+std::vector<BodyPart> parts_of(const JointPairs& pairs, BodySide side)
+{
+    std::vector<BodyPart> parts;
+    for (const PairedPart& part : pairs)
+        if (!part.name.empty() && !list_of(part, side).empty()) parts.push_back({part.name, list_of(part, side)});
+    return parts;
+}
+
+std::vector<int> unpaired_bones(const JointPairs& pairs, const Clip& clip, BodySide side)
+{
+    const std::set<int> paired = joints_in(pairs, side, true);
+    std::vector<int> joints;
+    for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
+        if (joint_at(clip, joint).is_bone && !paired.contains(joint)) joints.push_back(joint);
+    return joints;
+}
+
+}  // namespace swivel::tools

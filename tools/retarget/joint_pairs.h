@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// Which joints of one skeleton stand for which of another, found by what they are or given as a table. Knows clips and
+// the names of rigs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/rig/body_parts.h"
+
+namespace swivel::tools {
+
+// A part of both bodies, or a pair of joints that are no part. A list is empty where a skeleton has no such part.
+struct PairedPart {
+    std::string name;  // as body_parts() has it; empty: two joints of equal names, or as a table pairs them
+    std::vector<int> source, target;
+
+    bool is_paired() const { return !source.empty() && !target.empty(); }
+};
+using JointPairs = std::vector<PairedPart>;
+
+// The parts of both, as body_parts() finds them, and then joints that are no part of either but are called the same.
+// Names are compared as plain() has them; bones alone count, and names that one joint alone bears on each side.
+JointPairs pair_joints(const formats::Clip& source, const formats::Clip& target);
+
+// The same from a table with columns part, source and target. Rows of one part list its joints from the hips outwards;
+// its lists may differ in length, and cells may be empty. A row without a part pairs its two joints. Joints are given
+// by name, path or number. Throws InputError, naming the line, for other columns, joints that do not exist or are not
+// unique, a joint that is given twice, and as for_each_row() does.
+JointPairs read_joint_map(const std::filesystem::path& path, const formats::Clip& source, const formats::Clip& target);
+
+// Writes such a table; bones without a partner are rows with an empty cell. Throws InputError on writing.
+void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs, const formats::Clip& source,
+                     const formats::Clip& target);
+
+// The parts of one body.
+enum class BodySide { source, target };
+std::vector<BodyPart> parts_of(const JointPairs& pairs, BodySide side);
+
+// The bones of that body's clip that no other joint stands for.
+std::vector<int> unpaired_bones(const JointPairs& pairs, const formats::Clip& clip, BodySide side);
+
+}  // namespace swivel::tools

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// A figure at rest: its places, the axes it stands in, and how long its limbs are. Knows clips and rigs.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tools/rig/body_parts.h"
+
+namespace swivel::tools {
+
+struct RestFigure {
+    std::vector<formats::JointPose> pose_w;                    // of each joint, in the world
+    Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();  // columns: the figure's left, up and forwards
+    KnownLimbs limbs;
+    std::array<int, 2> toes{-1, -1};  // left and right; -1: it has none
+    double leg = 0;                   // thigh and shin together, mean of the sides that are known; 0: none is
+
+    const Eigen::Vector3d& place_w(int joint) const { return pose_w[static_cast<std::size_t>(joint)].position; }
+    Eigen::Vector3d up_w() const { return axes * Eigen::Vector3d::UnitY(); }
+    // A direction of the world as the figure has it: left, up, forwards.
+    Eigen::Vector3d own(const Eigen::Vector3d& direction_w) const { return axes.conjugate() * direction_w; }
+    // A limb's two bones together at rest; of one that is known.
+    double length(std::size_t limb) const
+    {
+        const LimbJoints& at = *limbs[limb];
+        return own_way(at[0], at[1]).norm() + own_way(at[1], at[2]).norm();
+    }
+    // From one joint to another at rest, as the figure has it.
+    Eigen::Vector3d own_way(int from, int to) const { return own(place_w(to) - place_w(from)); }
+};
+
+// Up is the axis of the world nearest to the way up that facing_of() tells. Forwards is at right angles to it: the axis
+// of the world that is within 15 degrees, else what facing_of() tells. So a toe a little off does not turn a walk.
+RestFigure rest_figure(const formats::Clip& clip, const std::vector<BodyPart>& parts);
+
+}  // namespace swivel::tools

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include "tools/retarget/retarget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "tools/rig/limb_chain.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using formats::Clip;
+using formats::JointPose;
+using formats::LimbKind;
+using Poses = std::vector<JointPose>;
+
+constexpr double kMostWay = 0.1;  // leg lengths that hips move for knees: legs in a split would ask for any
+constexpr double kWayWeight = 5;  // of the hips' way in leg lengths, beside the knees' angles in radians
+
+const JointPose& at(const Poses& pose_w, int joint) { return pose_w[static_cast<std::size_t>(joint)]; }
+
+// The mean place of one joint of each of some limbs.
+Vector3d middle(const Poses& pose_w, const KnownLimbs& limbs, const std::vector<std::size_t>& which)
+{
+    Vector3d sum = Vector3d::Zero();
+    for (const std::size_t limb : which) sum += at(pose_w, (*limbs[limb])[0]).position;
+    return sum / static_cast<double>(which.size());
+}
+
+// Rises evenly from 0 to 1 between two values.
+double rise(double value, double from, double to)
+{
+    const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
+    return share * share * (3 - 2 * share);
+}
+
+bool has_all_toes(const RestFigure& figure)
+{
+    return (!figure.limbs[2] || figure.toes[0] >= 0) && (!figure.limbs[3] || figure.toes[1] >= 0);
+}
+
+// The two bones of a leg.
+struct Bones {
+    double thigh, shin;
+
+    double length() const { return thigh + shin; }
+};
+Bones bones_of(const RestFigure& figure, std::size_t limb)
+{
+    const LimbJoints& at = *figure.limbs[limb];
+    return {figure.own_way(at[0], at[1]).norm(), figure.own_way(at[1], at[2]).norm()};
+}
+
+class Mapper {
+public:
+    Mapper(const Clip& source, const Clip& target, const JointPairs& pairs)
+        : source_clip_(source),
+          source_(rest_figure(source, parts_of(pairs, BodySide::source))),
+          target_(rest_figure(target, parts_of(pairs, BodySide::target))),
+          has_toes_(has_all_toes(source_) && has_all_toes(target_))
+    {
+        for (std::size_t limb = 0; limb < formats::kLimbNames.size(); ++limb)
+            if (source_.limbs[limb] && target_.limbs[limb])
+                (formats::kLimbNames[limb].kind == LimbKind::arm ? arms_ : legs_).push_back(limb);
+        const std::vector<int> source_hips = joints_of(parts_of(pairs, BodySide::source), "hips");
+        const std::vector<int> target_hips = joints_of(parts_of(pairs, BodySide::target), "hips");
+        if (source_hips.empty() || target_hips.empty() || legs_.empty())
+            throw std::invalid_argument("both bodies need hips and a leg");
+        source_hips_ = source_hips[0];
+        out_.hips = target_hips[0];
+        for (const std::vector<std::size_t>& limbs : {arms_, legs_})
+            for (const std::size_t limb : limbs) out_.limbs.push_back(formats::kLimbNames[limb]);
+        double source_length = 0, target_length = 0;
+        for (const std::size_t leg : legs_) {
+            source_length += source_.length(leg);
+            target_length += target_.length(leg);
+        }
+        out_.leg_ratio = target_length / source_length;
+        const Stance from = stance_of(source, source_, has_toes_), to = stance_of(target, target_, has_toes_);
+        transfers_ = transfers_of(pairs, {source, source_, from}, {target, target_, to});
+        if (from.height && to.height) lift_ = *to.height - out_.leg_ratio * *from.height;
+        if (has_toes_)
+            for (const std::size_t leg : legs_)
+                foot_difference_ += foot_difference(leg, from, to) / static_cast<double>(legs_.size());
+        prepare(target);
+    }
+
+    Retargeted map()
+    {
+        for (std::size_t frame = 0; frame < out_.clip.frame_count; ++frame) {
+            const Poses source_w = formats::world_pose(source_clip_, frame);
+            turn_joints(frame, source_w);
+            place_hips(frame, source_w);
+            add_goals(frame, source_w);
+        }
+        return std::move(out_);
+    }
+
+private:
+    int ankle(const RestFigure& figure, std::size_t leg) const { return (*figure.limbs[leg])[2]; }
+    // The joint that touches the ground.
+    int ground_joint(const RestFigure& figure, std::size_t leg) const
+    {
+        return has_toes_ ? figure.toes[leg - 2] : ankle(figure, leg);
+    }
+    // From toe to ankle of flat feet, as the figure has it: the target's less the source's.
+    Vector3d foot_difference(std::size_t leg, const Stance& from, const Stance& to) const
+    {
+        const Vector3d own = source_.own_way(ankle(source_, leg), source_.toes[leg - 2]);
+        const double target_length = target_.own_way(ankle(target_, leg), target_.toes[leg - 2]).norm();
+        const bool both = from.slope[leg - 2] && to.slope[leg - 2];
+        const Vector3d ahead = Vector3d(own.x(), 0, own.z()).normalized();
+        const auto flat = [&](double length, double slope) {
+            return Vector3d(length * (std::cos(slope) * ahead + std::sin(slope) * Vector3d::UnitY()));
+        };
+        return out_.leg_ratio * flat(own.norm(), both ? *from.slope[leg - 2] : slope_of(own)) -
+               flat(target_length, both ? *to.slope[leg - 2] : slope_of(own));
+    }
+
+    // The target's clip with room for the source's frames, at rest.
+    void prepare(const Clip& target)
+    {
+        Clip& clip = out_.clip;
+        clip = target;
+        clip.frame_time = source_clip_.frame_time;
+        clip.frame_count = source_clip_.frame_count;
+        clip.track_count = 1;
+        clip.scale_track_count = 0;
+        for (formats::Joint& joint : clip.joints) joint.track = joint.scale_track = -1;
+        clip.joints[static_cast<std::size_t>(out_.hips)].track = 0;
+        clip.translation.assign(clip.frame_count, joint_at(clip, out_.hips).offset);
+        clip.scale.clear();
+        clip.rotation.clear();
+        for (std::size_t n = 0; n < clip.frame_count * clip.joints.size(); ++n)
+            clip.rotation.push_back(clip.joints[n % clip.joints.size()].rest_rotation);
+    }
+
+    // A joint's turn from rest, as the figure has it.
+    Quaterniond source_turn(const Poses& source_w, int joint) const
+    {
+        if (joint < 0) return Quaterniond::Identity();
+        const Quaterniond turn_w = at(source_w, joint).rotation * at(source_.pose_w, joint).rotation.conjugate();
+        return source_.axes.conjugate() * turn_w * source_.axes;
+    }
+    Quaterniond turn_of(const Poses& source_w, const Transfer& transfer) const
+    {
+        const Quaterniond after = source_turn(source_w, transfer.after);
+        if (transfer.share == 1) return after * transfer.align;
+        return source_turn(source_w, transfer.before).slerp(transfer.share, after) * transfer.align;
+    }
+
+    void turn_joints(std::size_t frame, const Poses& source_w)
+    {
+        Clip& clip = out_.clip;
+        Poses pose_w(clip.joints.size());
+        for (std::size_t n = 0; n < clip.joints.size(); ++n) {  // parents come before their children
+            const formats::Joint& joint = clip.joints[n];
+            const JointPose parent_w = joint.parent < 0 ? JointPose() : at(pose_w, joint.parent);
+            if (transfers_[n]) {
+                const Quaterniond turn_w = target_.axes * turn_of(source_w, *transfers_[n]) * target_.axes.conjugate();
+                const Quaterniond local = parent_w.rotation.conjugate() * turn_w * target_.pose_w[n].rotation;
+                // What scales below zero add to the joint's rotation is no key of it.
+                const Quaterniond by_scale = joint.rest_rotation.conjugate() * formats::local_rest_pose(joint).rotation;
+                clip.rotation[frame * clip.joints.size() + n] =
+                    ((parent_w.mirrored ? formats::mirrored(local) : local) * by_scale.conjugate()).normalized();
+            }
+            pose_w[n] = parent_w * formats::local_pose(clip, frame, n);
+        }
+    }
+
+    // A place of the source's world in the target's.
+    Vector3d mapped(const Vector3d& place_w) const
+    {
+        return target_.axes * (out_.leg_ratio * source_.own(place_w)) + lift_ * target_.up_w();
+    }
+
+    void place_hips(std::size_t frame, const Poses& source_w)
+    {
+        Clip& clip = out_.clip;
+        const Poses pose_w = formats::world_pose(clip, frame);
+        const Vector3d goal_w = mapped(middle(source_w, source_.limbs, legs_)) +
+                                target_.axes * (source_turn(source_w, source_hips_) * foot_difference_);
+        const Vector3d shift_w = goal_w - middle(pose_w, target_.limbs, legs_);
+        const Vector3d place_w = at(pose_w, out_.hips).position + shift_w + shift_for_knees(source_w, pose_w, shift_w);
+        const int parent = joint_at(clip, out_.hips).parent;
+        clip.translation[frame] = parent < 0 ? place_w : formats::to_inner(at(pose_w, parent), place_w);
+    }
+
+    // Where the target's ankle belongs, wherever its hips are.
+    Vector3d ankle_goal(std::size_t leg, const Poses& source_w, const Poses& pose_w) const
+    {
+        return mapped(at(source_w, ground_joint(source_, leg)).position) +
+               (at(pose_w, ankle(target_, leg)).position - at(pose_w, ground_joint(target_, leg)).position);
+    }
+
+    // Gauss-Newton steps from hips that are moved by shift_w. For a knee's angle a and both bones p and q, hip and
+    // ankle are d apart: d^2 = p^2 + q^2 + 2 p q cos a, so d dd = -p q sin a da.
+    Vector3d shift_for_knees(const Poses& source_w, const Poses& pose_w, const Vector3d& shift_w) const
+    {
+        Vector3d more_w = Vector3d::Zero();
+        for (int step = 0; step < 3; ++step) {
+            Eigen::Matrix3d normal = kWayWeight * Eigen::Matrix3d::Identity();
+            Vector3d right = -kWayWeight * more_w;
+            for (const std::size_t leg : legs_) {
+                const LimbJoints &from = *source_.limbs[leg], &to = *target_.limbs[leg];
+                const Bones own = bones_of(source_, leg), bones = bones_of(target_, leg);
+                const double away2 = (at(source_w, from[0]).position - at(source_w, from[2]).position).squaredNorm();
+                const double cosine = std::clamp(
+                    (away2 - own.thigh * own.thigh - own.shin * own.shin) / (2 * own.thigh * own.shin), -1.0, 1.0);
+                const double wanted2 =
+                    bones.thigh * bones.thigh + bones.shin * bones.shin + 2 * bones.thigh * bones.shin * cosine;
+                const Vector3d way_w =
+                    at(pose_w, to[0]).position + shift_w + more_w - ankle_goal(leg, source_w, pose_w);
+                const Vector3d direction_w = way_w.normalized();
+                // 0.01: a knee within 6 degrees of straight tells no more
+                const double per_length = bones.length() / (bones.thigh * bones.shin);
+                const double weight = wanted2 * per_length * per_length / (1 - cosine * cosine + 0.01);
+                normal += weight * direction_w * direction_w.transpose();
+                right -= weight * (way_w.norm() - std::sqrt(wanted2)) * direction_w;
+            }
+            more_w += normal.ldlt().solve(right);
+        }
+        const double most = kMostWay * target_.leg;
+        return more_w.norm() > most ? Vector3d(more_w * (most / more_w.norm())) : more_w;
+    }
+
+    // From shoulder to wrist, of a pose of the target.
+    Vector3d wrist_way(std::size_t arm, const Poses& source_w, const Poses& pose_w) const
+    {
+        const LimbJoints& from = *source_.limbs[arm];
+        const Vector3d shoulder_w = at(source_w, from[0]).position;
+        const Vector3d way_w = at(source_w, from[2]).position - shoulder_w;
+        const double ratio = target_.length(arm) / source_.length(arm);
+        const double bent = 1 - rise(way_w.norm() / source_.length(arm), 0.7, 0.95);
+        const Vector3d from_middle = source_.own(shoulder_w - middle(source_w, source_.limbs, arms_));
+        const Vector3d to_middle =
+            target_.own(at(pose_w, (*target_.limbs[arm])[0]).position - middle(pose_w, target_.limbs, arms_));
+        return target_.axes * (ratio * source_.own(way_w) + bent * (ratio * from_middle - to_middle));
+    }
+
+    void add_goals(std::size_t frame, const Poses& source_w)
+    {
+        const Poses pose_w = formats::world_pose(out_.clip, frame);
+        const auto add = [&](std::size_t limb, const Vector3d& place_w) {
+            const LimbJoints& joints = *target_.limbs[limb];
+            const Vector3d start_w = at(pose_w, joints[0]).position;
+            const Vector3d way_w = at(pose_w, joints[2]).position - start_w;
+            formats::Target goal;
+            goal.frame = static_cast<std::uint32_t>(frame);
+            goal.limb = formats::kLimbNames[limb];
+            goal.position = place_w;
+            // The elbow turns with the line from shoulder to wrist: beside a new line the old elbow says little.
+            goal.has_pole = true;
+            goal.pole = start_w + aim(way_w, place_w - start_w) * (at(pose_w, joints[1]).position - start_w);
+            out_.goals.push_back(goal);
+        };
+        for (const std::size_t arm : arms_)
+            add(arm, at(pose_w, (*target_.limbs[arm])[0]).position + wrist_way(arm, source_w, pose_w));
+        for (const std::size_t leg : legs_) add(leg, ankle_goal(leg, source_w, pose_w));
+    }
+
+    const Clip& source_clip_;
+    RestFigure source_, target_;
+    bool has_toes_;  // each leg of both
+    std::vector<std::optional<Transfer>> transfers_;
+    std::vector<std::size_t> arms_, legs_;  // that both have, in formats::kLimbNames
+    int source_hips_ = -1;
+    Vector3d foot_difference_ = Vector3d::Zero();
+    double lift_ = 0;
+    Retargeted out_;
+};
+
+}  // namespace
+
+Retargeted retarget(const Clip& source, const Clip& target, const JointPairs& pairs)
+{
+    return Mapper(source, target, pairs).map();
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// A clip's motion on another skeleton: rotations by transfers, the hips by the ratio of leg lengths, and where hands
+// and feet then belong. Knows clips and rigs, no solver.
+#pragma once
+
+#include <vector>
+
+#include "tools/formats/targets_csv.h"
+#include "tools/retarget/transfers.h"
+
+namespace swivel::tools {
+
+struct Retargeted {
+    formats::Clip clip;    // the target, with the source's frames; its hips alone move against a parent
+    int hips = -1;         // of the target
+    double leg_ratio = 1;  // lengths of the target for one of the source
+    // Wrists and ankles, of the limbs that both have: their places in the target's world, and where elbow and knee
+    // lean. [frame * limbs.size() + limb]
+    std::vector<formats::Target> goals;
+    std::vector<formats::LimbName> limbs;
+};
+
+// Joints turn as transfers_of() says; those without a partner rest. The world is scaled about the origin by the ratio
+// of leg lengths, turned from the source's left, up and forwards to the target's, and raised so that feet that stand in
+// the source stand on the target's ground, if both stances say their height. In it
+// - toes, or else ankles, go where the source's are. So what stands in the source stands. The target's own foot then
+//   says where its ankle is;
+// - the hips go to where the middle of the hip joints is the source's, moved with the pelvis by what flat feet differ
+// in
+//   length and height, and then so that knees bend as in the source: by least squares of the knees' angles, and of the
+//   way that this takes. The leg that is straighter has more weight, because a length tells more of its angle. The
+//   way is at most a tenth of a leg.
+// Wrists have the source's place from the shoulder, times the ratio of arm lengths. An arm that is bent, its wrist
+// nearer than 0.7 of its length, has it from the middle of the shoulders. So hands that meet still meet. From 0.7 to
+// 0.95 the one fades into the other.
+//
+// target: its frames tell its stance alone. Both need hips and a leg: throws std::invalid_argument without. Scales of
+// the target's joints rest, too. Memory: the clip's, and the goals'.
+Retargeted retarget(const formats::Clip& source, const formats::Clip& target, const JointPairs& pairs);
+
+}  // namespace swivel::tools

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "tools/retarget/stance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Clip;
+using Poses = std::vector<formats::JointPose>;
+
+constexpr double kNearGround = 0.3, kStill = 0.3;  // legs; legs a second
+constexpr std::size_t kFewest = 10;
+
+// The value that this share of all is below.
+double quantile(std::vector<double> values, double share)
+{
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
+struct Feet {
+    const RestFigure& figure;
+    bool has_toes;
+
+    int ankle(std::size_t side) const { return (*figure.limbs[2 + side])[2]; }
+    int ground_joint(std::size_t side) const { return has_toes ? figure.toes[side] : ankle(side); }
+    Vector3d own_place(const Poses& pose_w, int joint) const
+    {
+        return figure.own(pose_w[static_cast<std::size_t>(joint)].position);
+    }
+    double height(const Poses& pose_w) const
+    {
+        double lowest = HUGE_VAL;
+        for (std::size_t side = 0; side < 2; ++side)
+            if (figure.limbs[2 + side]) lowest = std::min(lowest, own_place(pose_w, ground_joint(side)).y());
+        return lowest;
+    }
+    double slope(const Poses& pose_w, std::size_t side) const
+    {
+        return slope_of(own_place(pose_w, figure.toes[side]) - own_place(pose_w, ankle(side)));
+    }
+    double step(const Poses& before_w, const Poses& after_w, int joint) const
+    {
+        return (own_place(after_w, joint) - own_place(before_w, joint)).norm();
+    }
+};
+
+}  // namespace
+
+double slope_of(const Vector3d& way) { return std::atan2(way.y(), std::hypot(way.x(), way.z())); }
+
+Stance stance_of(const Clip& clip, const RestFigure& figure, bool has_toes)
+{
+    const Feet feet{figure, has_toes};
+    const auto has_slope = [&](std::size_t side) { return has_toes && figure.limbs[2 + side]; };
+    Stance stance;
+    if (std::abs(feet.height(figure.pose_w)) < kNearGround * figure.leg) {
+        stance.height = feet.height(figure.pose_w);
+        for (std::size_t side = 0; side < 2; ++side)
+            if (has_slope(side)) stance.slope[side] = feet.slope(figure.pose_w, side);
+        return stance;
+    }
+    if (clip.frame_count < 2) return stance;
+    std::vector<double> heights;
+    std::array<std::vector<double>, 2> slopes;
+    Poses before_w;
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const Poses pose_w = formats::world_pose(clip, frame);
+        heights.push_back(feet.height(pose_w));
+        for (std::size_t side = 0; side < 2 && frame > 0; ++side) {
+            const double most = kStill * figure.leg * clip.frame_time;
+            if (has_slope(side) && feet.step(before_w, pose_w, feet.ankle(side)) < most &&
+                feet.step(before_w, pose_w, figure.toes[side]) < most)
+                slopes[side].push_back(feet.slope(pose_w, side));
+        }
+        before_w = pose_w;
+    }
+    stance.height = quantile(heights, 0.05);
+    for (std::size_t side = 0; side < 2; ++side)
+        if (slopes[side].size() >= kFewest) stance.slope[side] = quantile(slopes[side], 0.9);
+    return stance;
+}
+
+}  // namespace swivel::tools

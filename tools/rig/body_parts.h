@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// A body's joints by what they are, in VRM's words: hips, spine, neck, head, and of each side "leftShoulder" (the
+// clavicle), "leftUpperArm", "leftLowerArm", "leftHand", "leftUpperLeg", "leftLowerLeg", "leftFoot" and "leftToes".
+// Knows clips alone.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/formats/clip.h"
+#include "tools/rig/limb_joints.h"
+
+namespace swivel::tools {
+
+struct BodyPart {
+    std::string name;
+    std::vector<int> joints;  // from the hips outwards, at least one
+};
+
+// The parts that the skeleton has, in the order above, right after left. Hips, head and toes are those that the file
+// names so (VRM). Otherwise the hips are where both legs meet, or are called hips or pelvis. The head is the first
+// joint above the chest that is called head. Toes are as toes_of() has them. All else follows from these and the limbs.
+// The spine leads from the hips to where both arms meet, a clavicle from there to its arm, the neck from there to the
+// head.
+std::vector<BodyPart> body_parts(const formats::Clip& clip, const KnownLimbs& limbs);
+
+// The joints of the part of that name; empty if there is none.
+std::vector<int> joints_of(const std::vector<BodyPart>& parts, std::string_view name);
+
+// Whether it is one of the three joints of a limb.
+bool is_limb_part(const BodyPart& part);
+
+// The parts that are limbs' joints, as the limbs.
+KnownLimbs limbs_of(const std::vector<BodyPart>& parts);
+
+}  // namespace swivel::tools

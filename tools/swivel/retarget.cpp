@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+//
+// `swivel retarget`: one skeleton's motion on another: pairs joints, turns them, solves hands and feet, reports,
+// writes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tools/cli/command_error.h"
+#include "tools/cli/streams.h"
+#include "tools/formats/error.h"
+#include "tools/formats/printable.h"
+#include "tools/formats/text.h"
+#include "tools/retarget/retarget_limbs.h"
+#include "tools/rig/limb_words.h"
+#include "tools/swivel/commands.h"
+#include "tools/swivel/crowd_job.h"
+#include "tools/swivel/motion_file.h"
+#include "tools/swivel/solve_files.h"
+#include "tools/swivel/solve_report.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::Clip;
+
+std::vector<int> all_bones(const Clip& clip)
+{
+    std::vector<int> bones;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n)
+        if (clip.joints[n].is_bone) bones.push_back(static_cast<int>(n));
+    return bones;
+}
+
+std::string names_of(const Clip& clip, const std::vector<int>& joints)
+{
+    std::string names;
+    for (const int joint : joints) names += (names.empty() ? "" : ", ") + printable_name(joint_at(clip, joint));
+    return names.empty() ? "none" : formats::printable(names, formats::kMostQuoted);
+}
+
+void require_files(const RetargetOptions& options, const MotionFile& source, const MotionFile& target)
+{
+    const auto beside = [](const MotionFile& file) { return file.files_beside(); };
+    for (const std::string& output : {options.out, options.export_map}) {
+        if (output.empty()) continue;
+        const auto refuse_if = [&](bool is_lost, const char* what) {
+            if (is_lost) throw CommandError(2, fmt::format("{}: is {}, too; name another file to write", output, what));
+        };
+        refuse_if(would_be_lost(output, options.source), "SOURCE");
+        refuse_if(would_be_lost(output, options.target), "TARGET");
+        refuse_if(!options.map.empty() && would_be_lost(output, options.map), "the table of pairs");
+        for (const MotionFile* file : {&source, &target})
+            for (const std::filesystem::path& each : beside(*file))
+                refuse_if(would_be_lost(output, each.string()), "a buffer or image of SOURCE or TARGET");
+    }
+    if (!options.out.empty() && options.out == options.export_map)
+        throw CommandError(2, fmt::format("{}: is another output, too; name another file to write", options.out));
+}
+
+// Both bodies need hips and a leg that the other has, too.
+void require_bodies(const RetargetOptions& options, const JointPairs& pairs)
+{
+    const auto refuse = [](const std::string& file, const char* what) {
+        throw formats::InputError(
+            file, fmt::format("no {} of it can be told by the names of its joints; write the pairs with --export-map "
+                              "FILE, add what is missing, and give them by --map FILE",
+                              what));
+    };
+    const std::vector<BodyPart> source = parts_of(pairs, BodySide::source), target = parts_of(pairs, BodySide::target);
+    if (joints_of(source, "hips").empty()) refuse(options.source, "hips");
+    if (joints_of(target, "hips").empty()) refuse(options.target, "hips");
+    const KnownLimbs from = limbs_of(source), to = limbs_of(target);
+    if ((from[2] && to[2]) || (from[3] && to[3])) return;
+    refuse(from[2] || from[3] ? options.target : options.source, "leg");
+}
+
+// The joints that ever leave their rest, with the hips' way.
+class MovedJoints {
+public:
+    MovedJoints(const Retargeted& motion, const JointPairs& pairs)
+    {
+        const Clip& clip = motion.clip;
+        for (const PairedPart& part : pairs)
+            for (const int joint : part.is_paired() ? part.target : std::vector<int>()) {
+                const formats::Joint& at = joint_at(clip, joint);
+                std::vector<Eigen::Quaterniond>& rotations = rotations_.emplace_back();
+                for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+                    rotations.push_back(clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(joint)]);
+                const bool is_at_rest = std::ranges::all_of(
+                    rotations, [&](const auto& turn) { return turn.angularDistance(at.rest_rotation) < 1e-9; });
+                if (is_at_rest) rotations.clear();
+                if (joint == motion.hips || !is_at_rest) joints_.push_back({joint, rotations_.size() - 1});
+            }
+        for (const auto& [joint, at] : joints_)
+            keys_.push_back({joint, rotations_[at],
+                             joint == motion.hips ? std::span(clip.translation) : std::span<const Eigen::Vector3d>()});
+    }
+    std::span<const formats::JointKeys> keys() const { return keys_; }
+
+private:
+    std::vector<std::vector<Eigen::Quaterniond>> rotations_;
+    std::vector<std::pair<int, std::size_t>> joints_;
+    std::vector<formats::JointKeys> keys_;
+};
+
+void print_pairs(const Clip& source, const Clip& target, const JointPairs& pairs)
+{
+    const auto count = std::ranges::count_if(pairs, &PairedPart::is_paired);
+    const auto parts =
+        std::ranges::count_if(pairs, [](const auto& each) { return each.is_paired() && !each.name.empty(); });
+    say(stdout, "paired    {} parts of the body, {} more joints by their names\n", parts, count - parts);
+    say(stdout, "at rest   of TARGET: {}\n", names_of(target, unpaired_bones(pairs, target, BodySide::target)));
+    say(stdout, "unused    of SOURCE: {}\n", names_of(source, unpaired_bones(pairs, source, BodySide::source)));
+}
+
+void print_motion(const Retargeted& motion, const std::vector<GoalMiss>& misses)
+{
+    say(stdout, "lengths   {:.6g} of TARGET for 1 of SOURCE, by the legs\n", motion.leg_ratio);
+    for (const GoalMiss& miss : misses) {
+        const LimbWords& words = words_of(miss.limb.kind);
+        if (!miss.problem.empty())
+            say(stdout, "{:<9} not solved: {}\n", plain_name(miss.limb), miss.problem);
+        else
+            say(stdout, "{:<9} {} from its goal: {:.2g} of the limb's length in the mean, most {:.2g} in frame {}\n",
+                plain_name(miss.limb), words.end_joint, miss.mean, miss.most, miss.most_frame);
+    }
+}
+
+}  // namespace
+
+void run_retarget(const RetargetOptions& options)
+{
+    if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
+    const auto inputs = {options.source, options.target, options.map};
+    if (std::ranges::count_if(inputs, [](const std::string& name) { return formats::is_standard_stream(name); }) > 1)
+        throw CommandError(2, "more than one of SOURCE, TARGET and --map is -, standard input; name the others");
+    MotionFile source_file(options.source, options.motion), target_file(options.target, {});
+    if (!options.out.empty()) target_file.require_can_write(options.out, "TARGET", "");
+    require_files(options, source_file, target_file);
+    const Clip &source = source_file.clip(), &target = target_file.clip();
+    source_file.sample(all_bones(source));
+    target_file.sample({});
+    const JointPairs pairs =
+        options.map.empty() ? pair_joints(source, target) : read_joint_map(options.map, source, target);
+    if (!options.export_map.empty()) write_joint_map(options.export_map, pairs, source, target);
+    if (source.frame_time == 0) throw formats::InputError(options.source, "its keys lie at uneven times; give --fps");
+    require_bodies(options, pairs);
+    Retargeted motion = retarget(source, target, pairs);
+    const std::vector<GoalMiss> misses =
+        solve_limbs(motion, parts_of(pairs, BodySide::target), options.map.empty() ? options.target : options.map);
+    if (!options.out.empty())
+        target_file.write(options.out, MovedJoints(motion, pairs).keys(),
+                          formats::NewFrames{source.frame_count, source.frame_time,
+                                             std::filesystem::path(title_of(options.source)).stem().string()});
+    if (options.quiet) return;
+    say(stdout, "source    {}: {}, {} frames\n", shown_file(options.source), source_file.describe(),
+        source.frame_count);
+    for (const std::string& note : source_file.notes()) say(stdout, "note: {}\n", note);
+    say(stdout, "target    {}: {}\n", shown_file(options.target), target_file.describe());
+    print_pairs(source, target, pairs);
+    print_motion(motion, misses);
+    for (const std::string& name : {options.out, options.export_map})
+        if (!name.empty()) say(stdout, "written   {}\n", shown_file(name));
+}
+
+}  // namespace swivel::tools
