@@ -21,7 +21,8 @@ Lemma near_mul c1 c2 c x1 y1 x2 y2 : 0 <= c1 <= 1 -> 0 <= c2 <= 1 -> 0 <= y1 -> 
 Proof.
   intros H1 H2 P1 P2 Hc N1 N2. apply near_bounds in N1. apply near_bounds in N2. apply near_intro.
   pose proof (Rmult_le_pos _ _ P1 P2) as P.
-  assert (Q1 : 0 <= (1 - c1) * y1) by (apply Rmult_le_pos; lra). assert (Q2 : 0 <= (1 - c2) * y2) by (apply Rmult_le_pos; lra).
+  assert (Q1 : 0 <= (1 - c1) * y1) by (apply Rmult_le_pos; lra).
+    assert (Q2 : 0 <= (1 - c2) * y2) by (apply Rmult_le_pos; lra).
   assert (L : (1 - c1) * y1 * ((1 - c2) * y2) <= x1 * x2) by (apply Rmult_le_compat; lra).
   assert (U : x1 * x2 <= (1 + c1) * y1 * ((1 + c2) * y2)) by (apply Rmult_le_compat; lra).
   replace ((1 - c1) * y1 * ((1 - c2) * y2)) with ((1 - c1 - c2 + c1 * c2) * (y1 * y2)) in L by ring.
@@ -48,7 +49,9 @@ Proof.
   rewrite Rmult_assoc, Rinv_l, Rmult_1_r by (apply Rgt_not_eq, Rmult_lt_0_compat; lra).
   replace (c' * (1 / y) * (x * y)) with (c' * x) by (field; lra).
   assert (Rabs (y - x) <= c * y) by (apply Rabs_le; lra).
-  assert (0 <= c') by (destruct (Rle_lt_dec 0 c') as [|L]; [assumption|]; assert (c' * (1 - c) < 0) by (apply Ropp_lt_cancel; replace (- (c' * (1 - c))) with (- c' * (1 - c)) by ring; rewrite Ropp_0; apply Rmult_lt_0_compat; lra); lra).
+  assert (0 <= c') by (destruct (Rle_lt_dec 0 c') as [|L]; [assumption|];
+    assert (c' * (1 - c) < 0) by (apply Ropp_lt_cancel; replace (- (c' * (1 - c))) with (- c' * (1 - c)) by ring;
+    rewrite Ropp_0; apply Rmult_lt_0_compat; lra); lra).
   assert (c' * ((1 - c) * y) <= c' * x) by (apply Rmult_le_compat_l; lra).
   assert (c * y <= c' * (1 - c) * y) by (apply Rmult_le_compat_r; lra). lra.
 Qed.

@@ -2,7 +2,8 @@
 (* The theorem. An environment e gives each name of Program.v a binary32 value, infinities and NaN included. If it runs
    the program, its inputs are finite, and the program says that it holds, then
    - no value of the program is infinite or NaN;
-   - the wrist, by forward kinematics in exact real numbers that divides the rotors by their lengths, is within 1.59e-6 of
+   - the wrist, by forward kinematics in exact real numbers that divides the rotors by their lengths,
+     is within 1.59e-6 of
      the bones' sum from the target, brought into reach along its line;
    - the shoulder's rotor is as long as 1 up to 1.1e-6, and the square of the elbow's up to 2.985e-7. *)
 From Coq Require Import Reals Lra String List.

@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* Rotations by quaternions of any length, in exact reals, and the heart of the proof: a quaternion that is off by a share
+(* Rotations by quaternions of any length, in exact reals,
+  and the heart of the proof: a quaternion that is off by a share
    eps of its length turns a vector at most 2 eps of the vector's length away (rot_near). *)
 From Coq Require Import Reals Lra Psatz.
 Open Scope R_scope.
@@ -23,9 +24,12 @@ Definition qmul a b := q4
 Definition qconj a := q4 (qw a) (- qx a) (- qy a) (- qz a).
 (* q v ~q, not divided *)
 Definition sand q v := v3
-  ((qw q*qw q + qx q*qx q - qy q*qy q - qz q*qz q) * vx v + 2*(qx q*qy q - qw q*qz q) * vy v + 2*(qx q*qz q + qw q*qy q) * vz v)
-  (2*(qx q*qy q + qw q*qz q) * vx v + (qw q*qw q - qx q*qx q + qy q*qy q - qz q*qz q) * vy v + 2*(qy q*qz q - qw q*qx q) * vz v)
-  (2*(qx q*qz q - qw q*qy q) * vx v + 2*(qy q*qz q + qw q*qx q) * vy v + (qw q*qw q - qx q*qx q - qy q*qy q + qz q*qz q) * vz v).
+  ((qw q*qw q + qx q*qx q - qy q*qy q - qz q*qz q) * vx v + 2*(qx q*qy q - qw q*qz q) * vy v + 2*(qx q*qz q + qw q*qy
+    q) * vz v)
+  (2*(qx q*qy q + qw q*qz q) * vx v + (qw q*qw q - qx q*qx q + qy q*qy q - qz q*qz q) * vy v + 2*(qy q*qz q - qw q*qx
+    q) * vz v)
+  (2*(qx q*qz q - qw q*qy q) * vx v + 2*(qy q*qz q + qw q*qx q) * vy v + (qw q*qw q - qx q*qx q - qy q*qy q + qz q*qz
+    q) * vz v).
 Definition rot q v := vscale (/ q2n q) (sand q v).
 
 Ltac comp := repeat match goal with v : V3 |- _ => destruct v | q : Q4 |- _ => destruct q end;
@@ -67,7 +71,8 @@ Proof.
   assert (vx a * vx b + vy a * vy b + vz a * vz b <= sqrt (v2n a * v2n b)).
   { apply Rle_trans with (sqrt (Rsqr (vx a * vx b + vy a * vy b + vz a * vz b))).
     rewrite sqrt_Rsqr_abs. apply Rle_abs. apply sqrt_le_1_alt. unfold Rsqr. comp.
-    pose proof (Rle_0_sqr (vx0*vy1 - vy0*vx1)). pose proof (Rle_0_sqr (vx0*vz1 - vz0*vx1)). pose proof (Rle_0_sqr (vy0*vz1-vz0*vy1)).
+    pose proof (Rle_0_sqr (vx0*vy1 - vy0*vx1)). pose proof (Rle_0_sqr (vx0*vz1 - vz0*vx1)).
+      pose proof (Rle_0_sqr (vy0*vz1-vz0*vy1)).
     unfold Rsqr in *. nra. }
   comp. nra.
 Qed.
@@ -81,7 +86,8 @@ Proof. unfold vnorm. rewrite v2n_scale, sqrt_mult by (try nra; apply v2n_pos). f
 Lemma sand_one r x : v2n (vsub (sand r x) (vscale (q2n r) x)) <= 4 * q2n r * (q2n r - qw r * qw r) * v2n x.
 Proof.
   assert (E : v2n (vsub (sand r x) (vscale (q2n r) x)) = 4 * q2n r *
-    ((q2n r - qw r * qw r) * v2n x - (qx r * vx x + qy r * vy x + qz r * vz x) * (qx r * vx x + qy r * vy x + qz r * vz x)))
+    ((q2n r - qw r * qw r) * v2n x - (qx r * vx x + qy r * vy x + qz r * vz x) * (qx r * vx x + qy r * vy x + qz r * vz
+      x)))
     by (comp; ring).
   rewrite E. pose proof (q2n_pos r).
   pose proof (Rle_0_sqr (qx r * vx x + qy r * vy x + qz r * vz x)) as S. unfold Rsqr in S. nra.
@@ -105,9 +111,10 @@ Proof.
   { unfold rot. destruct (sand r x), x. unfold vsub, vscale; simpl. f_equal; field; lra. }
   rewrite E, v2n_scale. pose proof (sand_one r x) as S. rewrite Hx in S.
   assert (D : q2n r - qw r * qw r <= q2n (qsub q' q) * q2n q').
-  { unfold r. clear. 
+  { unfold r. clear.
     set (d := qmul q' (qconj (qsub q q'))).
-    assert (E1 : q2n (qmul q' (qconj q)) - qw (qmul q' (qconj q)) * qw (qmul q' (qconj q)) = q2n d - qw d * qw d) by (unfold d; comp; ring).
+    assert (E1 : q2n (qmul q' (qconj q)) - qw (qmul q' (qconj q)) * qw (qmul q' (qconj q)) = q2n d - qw d * qw d) by
+      (unfold d; comp; ring).
     assert (E2 : q2n d = q2n (qsub q' q) * q2n q') by (unfold d; comp; ring).
     rewrite E1, E2. pose proof (Rle_0_sqr (qw d)). unfold Rsqr in *. lra. }
   pose proof (v2n_pos v).

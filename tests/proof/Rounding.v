@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* Rounding to binary32 (nearest even, gradual underflow, no largest number), and where it has a relative error alone. *)
+(* Rounding to binary32 (nearest even, gradual underflow, no largest number), and where it has a relative error alone.
+  *)
 From Coq Require Import Reals Lra Psatz ZArith.
 From Flocq Require Import Core Relative Plus_error.
 From Swivel Require Import Wrist.
@@ -26,14 +27,16 @@ Definition relative x := exists e, ok e /\ fl32 x = x * (1 + e).
 Lemma relative_large x : x = 0 \/ 1.18e-38 <= Rabs x -> relative x.
 Proof.
   intros [->|H].
-  - exists 0. split. unfold ok. rewrite Rabs_R0, u_val. lra. unfold fl32. rewrite round_0 by auto with typeclass_instances. ring.
+  - exists 0. split. unfold ok. rewrite Rabs_R0, u_val. lra. unfold fl32.
+    rewrite round_0 by auto with typeclass_instances. ring.
   - destruct (relative_error_N_FLT_ex radix2 (-149) 24 ltac:(reflexivity) (fun x => negb (Z.even x)) x) as [e [B E]].
     eapply Rle_trans. 2: exact H. simpl. lra.
     exists e. split; [|exact E]. unfold ok, u. eapply Rle_trans. exact B. simpl. lra.
 Qed.
 Lemma relative_sum x y : is_float x -> is_float y -> relative (x + y).
 Proof.
-  intros Fx Fy. destruct (@FLT_plus_error_N_ex radix2 (-149) 24 ltac:(reflexivity) (fun x => negb (Z.even x)) x y Fx Fy) as [e [B E]].
+  intros Fx Fy. destruct (@FLT_plus_error_N_ex radix2 (-149) 24 ltac:(reflexivity) (fun x => negb (Z.even x)) x y Fx
+    Fy) as [e [B E]].
   exists e. split; [|exact E]. unfold ok, u. eapply Rle_trans. exact B. unfold u_ro. simpl. lra.
 Qed.
 Lemma relative_difference x y : is_float x -> is_float y -> relative (x - y).

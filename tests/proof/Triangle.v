@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* The bent elbow, in its plane. The arm's two angles are handled by the logarithms of their half tangents, because roundings
+(* The bent elbow, in its plane. The arm's two angles are handled by the logarithms of their half tangents,
+  because roundings
    of products add up there: flexion theta and lift beta from half tangents with relative errors exp tau, exp mu. *)
 From Coq Require Import Reals Lra Psatz.
 From Coquelicot Require Import Coquelicot.
@@ -12,7 +13,8 @@ Definition sech x := 2 * exp x / (1 + exp x * exp x).
 Lemma sech_01 x : 0 <= sech x <= 1.
 Proof. unfold sech. pose proof (exp_pos x). split.
   - apply Rmult_le_pos. lra. left. apply Rinv_0_lt_compat. nra.
-  - apply Rmult_le_reg_r with (1 + exp x * exp x). nra. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by nra. pose proof (Rle_0_sqr (exp x - 1)). unfold Rsqr in *. nra. Qed.
+  - apply Rmult_le_reg_r with (1 + exp x * exp x). nra. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by nra.
+    pose proof (Rle_0_sqr (exp x - 1)). unfold Rsqr in *. nra. Qed.
 Lemma ang_path x d t : is_derive (fun t => ang (x + t * d)) t (d * sech (x + t * d)).
 Proof. unfold ang, sech. auto_derive. { exact I. } simpl. pose proof (exp_pos (x + t*d)). field. nra. Qed.
 
@@ -25,9 +27,11 @@ Proof.
 Qed.
 Lemma ang_near x d K : Rabs d <= K -> Rabs (ang (x + d) - ang x) <= K.
 Proof.
-  intro H. replace (ang (x + d)) with (ang (x + 1*d)) by (f_equal; ring). replace (ang x) with (ang (x + 0*d)) by (f_equal; ring).
+  intro H. replace (ang (x + d)) with (ang (x + 1*d)) by (f_equal; ring).
+    replace (ang x) with (ang (x + 0*d)) by (f_equal; ring).
   apply (mvt01 (fun t => ang (x + t*d)) (fun t => d * sech (x + t*d))). apply ang_path.
-  intro t. rewrite Rabs_mult. pose proof (sech_01 (x + t*d)). rewrite (Rabs_right (sech _)) by lra. pose proof (Rabs_pos d). nra.
+  intro t. rewrite Rabs_mult. pose proof (sech_01 (x + t*d)). rewrite (Rabs_right (sech _)) by lra.
+    pose proof (Rabs_pos d). nra.
 Qed.
 (* the wrist's angle gamma = theta - beta moves by no more than the largest of |tau|, |mu|, |tau - mu| *)
 Lemma corner tau mu s1 s2 K : Rabs tau <= K -> Rabs mu <= K -> Rabs (tau - mu) <= K -> 0 <= s1 <= 1 -> 0 <= s2 <= 1 ->
@@ -42,7 +46,7 @@ Qed.
 Lemma gamma_near x y tau mu K : Rabs tau <= K -> Rabs mu <= K -> Rabs (tau - mu) <= K ->
   Rabs ((ang (x + tau) - ang (y + mu)) - (ang x - ang y)) <= K.
 Proof.
-  intros. 
+  intros.
   replace (ang (x+tau) - ang (y+mu)) with (ang (x+1*tau) - ang (y+1*mu)) by (f_equal; [|f_equal]; f_equal; ring).
   replace (ang x - ang y) with (ang (x+0*tau) - ang (y+0*mu)) by (f_equal; [|f_equal]; f_equal; ring).
   apply (mvt01 (fun t => ang (x + t*tau) - ang (y + t*mu)) (fun t => tau * sech (x + t*tau) - mu * sech (y+t*mu))).
@@ -68,14 +72,16 @@ Proof.
   rewrite E. replace (a - b) with (2 * ((a-b)/2)) at 1 by field. rewrite cos_2a_sin.
   set (y := (a-b)/2). pose proof (sin_abs y) as S.
   assert (sin y * sin y <= y * y).
-  { pose proof (Rabs_pos (sin y)). replace (sin y * sin y) with (Rabs (sin y) * Rabs (sin y)) by (unfold Rabs; destruct (Rcase_abs (sin y)); ring).
+  { pose proof (Rabs_pos (sin y)). replace (sin y * sin y) with (Rabs (sin y) * Rabs (sin y)) by (unfold Rabs;
+    destruct (Rcase_abs (sin y)); ring).
     replace (y*y) with (Rabs y * Rabs y) by (unfold Rabs; destruct (Rcase_abs y); ring). nra. }
   replace ((a-b)*(a-b)) with (4*(y*y)) by (unfold y; field). lra.
 Qed.
 Lemma weighted L1 L2 p q r s K : 0 <= L1 -> 0 <= L2 -> 0 <= K -> p*p + q*q <= K*K -> r*r + s*s <= K*K ->
   (L1*p + L2*r)*(L1*p + L2*r) + (L1*q + L2*s)*(L1*q + L2*s) <= ((L1+L2)*K)*((L1+L2)*K).
 Proof.
-  intros. assert (2*(p*r + q*s) <= (p*p+q*q) + (r*r+s*s)). { pose proof (Rle_0_sqr (p-r)). pose proof (Rle_0_sqr (q-s)). unfold Rsqr in *. nra. }
+  intros. assert (2*(p*r + q*s) <= (p*p+q*q) + (r*r+s*s)). { pose proof (Rle_0_sqr (p-r)).
+    pose proof (Rle_0_sqr (q-s)). unfold Rsqr in *. nra. }
   assert (0 <= L1*L2) by nra. assert (0 <= L1*L1) by nra. assert (0 <= L2*L2) by nra.
   assert (L1*L2*(2*(p*r+q*s)) <= L1*L2*(2*(K*K))). { apply Rmult_le_compat_l; lra. }
   assert (L1*L1*(p*p+q*q) <= L1*L1*(K*K)) by (apply Rmult_le_compat_l; lra).
@@ -96,7 +102,8 @@ Proof.
   pose proof (ang_near y mu K Hm) as Nb. pose proof (gamma_near x y tau mu K Ht Hm Htm) as Ng.
   fold b in Nb. fold g in Ng. set (b0 := ang y) in *. set (g0 := ang x - b0) in *.
   assert (SQ : forall z, Rabs z <= K -> z*z <= K*K).
-  { intros z Hz. pose proof (Rabs_pos z). replace (z*z) with (Rabs z * Rabs z) by (unfold Rabs; destruct (Rcase_abs z); ring). nra. }
+  { intros z Hz. pose proof (Rabs_pos z). replace (z*z) with (Rabs z * Rabs z) by (unfold Rabs; destruct (Rcase_abs z);
+    ring). nra. }
   pose proof (chord2 b b0) as Cb. pose proof (chord2 g g0) as Cg. apply SQ in Nb. apply SQ in Ng.
   replace (L2 * sin g - L1 * sin b) with (L1 * (-(sin b - sin b0)) + L2 * (sin g - sin g0)) by lra.
   replace (L1 * cos b + L2 * cos g - d) with (L1 * (cos b - cos b0) + L2 * (cos g - cos g0)) by lra.
@@ -109,12 +116,14 @@ Proof. intro H. rewrite <- (sqrt_square (exp (ln t / 2))) by (left; apply exp_po
   replace (ln t / 2 + ln t / 2) with (ln t) by field. now apply exp_ln. Qed.
 Lemma cos_ang t : 0 < t -> cos (ang (ln t / 2)) = (1 - t)/(1 + t) /\ sin (ang (ln t / 2)) = 2 * sqrt t / (1 + t).
 Proof.
-  intro H. unfold ang. rewrite exp_half_ln by assumption. set (r := sqrt t). assert (Hr : r*r = t) by (apply sqrt_sqrt; lra).
+  intro H. unfold ang. rewrite exp_half_ln by assumption. set (r := sqrt t).
+    assert (Hr : r*r = t) by (apply sqrt_sqrt; lra).
   assert (0 < r) by now apply sqrt_lt_R0.
   assert (S : sqrt (1 + r²) * sqrt (1 + r²) = 1 + r²) by (apply sqrt_sqrt; unfold Rsqr; nra).
   assert (0 < sqrt (1 + r²)) by (apply sqrt_lt_R0; unfold Rsqr; nra).
   rewrite cos_2a, sin_2a, cos_atan, sin_atan. split.
-  - replace (1 / sqrt (1 + r²) * (1 / sqrt (1 + r²)) - r / sqrt (1 + r²) * (r / sqrt (1 + r²))) with ((1 - r*r) / (sqrt (1 + r²) * sqrt (1 + r²))) by (field; lra).
+  - replace (1 / sqrt (1 + r²) * (1 / sqrt (1 + r²)) - r / sqrt (1 + r²) * (r / sqrt (1 + r²))) with ((1 - r*r) / (sqrt
+    (1 + r²) * sqrt (1 + r²))) by (field; lra).
     rewrite S. unfold Rsqr. rewrite Hr. reflexivity.
   - replace (2 * (r / sqrt (1 + r²)) * (1 / sqrt (1 + r²))) with (2*r/(sqrt (1 + r²) * sqrt (1 + r²))) by (field; lra).
     rewrite S. unfold Rsqr. rewrite Hr. reflexivity.
@@ -126,16 +135,20 @@ Lemma triangle_closes F D d : 0 < d -> Rabs D < d -> d < F ->
   L2 * sin (th - be) - L1 * sin be = 0 /\ L1 * cos be + L2 * cos (th - be) = d.
 Proof.
   intros Hd HD HF A B P M L1 L2 th be. apply Rabs_def2 in HD.
-  assert (0 < A) by (unfold A; apply Rmult_lt_0_compat; lra). assert (0 < B) by (unfold B; apply Rmult_lt_0_compat; lra).
-  assert (0 < P) by (unfold P; apply Rmult_lt_0_compat; lra). assert (0 < M) by (unfold M; apply Rmult_lt_0_compat; lra).
+  assert (0 < A) by (unfold A; apply Rmult_lt_0_compat; lra).
+    assert (0 < B) by (unfold B; apply Rmult_lt_0_compat; lra).
+  assert (0 < P) by (unfold P; apply Rmult_lt_0_compat; lra).
+    assert (0 < M) by (unfold M; apply Rmult_lt_0_compat; lra).
   destruct (cos_ang (B/A)) as [Ct St]. { now apply Rdiv_lt_0_compat. }
   destruct (cos_ang (M/P)) as [Cb Sb]. { now apply Rdiv_lt_0_compat. }
   fold th in Ct, St. fold be in Cb, Sb.
   (* one root for both: R = sqrt (A B) = sqrt (P M) *)
   set (R := sqrt (A*B)). assert (HR : R*R = A*B) by (apply sqrt_sqrt; nra).
   assert (HPM : P*M = A*B) by (unfold P, M, A, B; ring).
-  assert (Q1 : sqrt (B/A) = R/A). { replace (B/A) with (A*B/(A*A)) by (field; lra). rewrite sqrt_div_alt by nra. rewrite sqrt_square by lra. reflexivity. }
-  assert (Q2 : sqrt (M/P) = R/P). { replace (M/P) with (A*B/(P*P)) by (rewrite <- HPM; field; lra). rewrite sqrt_div_alt by nra. rewrite sqrt_square by lra. reflexivity. }
+  assert (Q1 : sqrt (B/A) = R/A). { replace (B/A) with (A*B/(A*A)) by (field; lra). rewrite sqrt_div_alt by nra.
+    rewrite sqrt_square by lra. reflexivity. }
+  assert (Q2 : sqrt (M/P) = R/P). { replace (M/P) with (A*B/(P*P)) by (rewrite <- HPM; field; lra).
+    rewrite sqrt_div_alt by nra. rewrite sqrt_square by lra. reflexivity. }
   rewrite Q1 in St. rewrite Q2 in Sb.
   assert (EF : F + D <> 0) by lra. assert (EG : F - D <> 0) by lra.
   assert (ES : A + B = (F+D)*(F-D)) by (unfold A, B; ring). assert (ET : P + M = 2*d*(F+D)) by (unfold P, M; ring).
@@ -144,10 +157,12 @@ Proof.
   assert (Cb' : cos be = (P - M)/(2*d*(F+D))). { rewrite Cb, <- ET. field. lra. }
   assert (Sb' : sin be = 2*R/(2*d*(F+D))). { rewrite Sb, <- ET. field. lra. }
   rewrite cos_minus, sin_minus, Ct', St', Cb', Sb'. unfold L1, L2. split.
-  - replace ((F - D)/2 * (2*R/((F+D)*(F-D)) * ((P-M)/(2*d*(F+D))) - (A-B)/((F+D)*(F-D)) * (2*R/(2*d*(F+D)))) - (F+D)/2*(2*R/(2*d*(F+D))))
+  - replace ((F - D)/2 * (2*R/((F+D)*(F-D)) * ((P-M)/(2*d*(F+D))) - (A-B)/((F+D)*(F-D)) * (2*R/(2*d*(F+D)))) -
+    (F+D)/2*(2*R/(2*d*(F+D))))
       with (R * ((P - M) - (A - B) - (F+D)*(F+D)) / (2*d*(F+D)*(F+D))) by (field; lra).
     replace ((P-M) - (A-B) - (F+D)*(F+D)) with 0 by (unfold P, M, A, B; ring). field; lra.
-  - replace ((F+D)/2*((P-M)/(2*d*(F+D))) + (F-D)/2*((A-B)/((F+D)*(F-D)) * ((P-M)/(2*d*(F+D))) + 2*R/((F+D)*(F-D))*(2*R/(2*d*(F+D)))))
+  - replace ((F+D)/2*((P-M)/(2*d*(F+D))) + (F-D)/2*((A-B)/((F+D)*(F-D)) * ((P-M)/(2*d*(F+D))) +
+    2*R/((F+D)*(F-D))*(2*R/(2*d*(F+D)))))
       with ((P-M)/(4*d) + ((A-B)*(P-M) + 4*(R*R)) / (4*d*(F+D)*(F+D))) by (field; lra).
     rewrite HR. unfold P, M, A, B. field. lra.
 Qed.
