@@ -55,7 +55,8 @@ TEST_CASE("a glTF file of a crowd has each character where it is solved, and all
     crowd.source = find_or_warn("m2m_human_ymca.glb");
     if (crowd.source.empty()) return;
     const std::string toml =
-        "[crowd]\ncharacters = 4\nsize = [0.6, 1.5]\nlimbs = \"all\"\n[limb.left_arm.target]\npoint = [0.3, 1.2, 0.4]\n";
+        "[crowd]\ncharacters = 4\nsize = [0.6, 1.5]\nlimbs = \"all\"\n[limb.left_arm.target]\npoint = [0.3, 1.2, "
+        "0.4]\n";
     crowd.must_solve(toml, "out.glb", {"--export-targets", "targets.csv"});
     crowd.must_solve(toml, "out.csv");
     CHECK(gltf_errors(crowd.folder / "out.glb").empty());

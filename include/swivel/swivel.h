@@ -224,9 +224,9 @@ typedef uint64_t swivel_features;
 // - A region (WITH_REGION) is one more limit of the upper arm, the same for all limbs of the group.
 // - Limits take precedence over SWIVEL_MOST_SWIVEL, and that over the wish. With STEP_WINS the step comes first.
 //
-// RESULTS. Every quaternion is of unit length within 1.1e-6 and has w >= 0; with WITH_INCOMING it has the sign nearer to
-// the incoming one. At w = 0 the first of x, y, z that is not zero is positive. Equal inputs give equal bits on every
-// CPU, instruction set, thread count and block range.
+// RESULTS. Every quaternion is of unit length within 1.1e-6 and has w >= 0; with WITH_INCOMING it has the sign nearer
+// to the incoming one. At w = 0 the first of x, y, z that is not zero is positive. Equal inputs give equal bits on
+// every CPU, instruction set, thread count and block range.
 //
 // Inputs and results are numbered apart, so later releases add to the end of either.
 typedef enum swivel_field {
