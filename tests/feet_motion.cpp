@@ -14,9 +14,9 @@ namespace swivel::test {
 
 using Eigen::Vector3d;
 
-double PlainLegs::leg_length() const
+double PlainLegs::leg_length(std::size_t side) const
 {
-    const PlainLegPath& leg = legs[0];
+    const PlainLegPath& leg = legs[side];
     return (leg.knee[0] - leg.hip[0]).norm() + (leg.ankle[0] - leg.knee[0]).norm();
 }
 
@@ -79,6 +79,7 @@ PlainContacts plain_contacts(const PlainLegs& legs, double speed, double height)
     PlainContacts contacts;
     const int last = static_cast<int>(legs.frame_count()) - 1;
     for (std::size_t side = 0; side < 2; ++side) {
+        const double length = legs.leg_length(side);
         const auto toe = [&](int frame) {
             return legs.legs[side].toe[static_cast<std::size_t>(std::clamp(frame, 0, last))];
         };
@@ -89,7 +90,7 @@ PlainContacts plain_contacts(const PlainLegs& legs, double speed, double height)
         const auto stands = [&](int frame) {
             const int at = std::clamp(frame, 0, last), before = std::max(at - 1, 0), after = std::min(at + 1, last);
             const double way = (toe(after) - toe(before)).norm(), time = (after - before) * legs.frame_time;
-            return way < speed * legs.leg_length() * time && toe(at).y() < floor + height * legs.leg_length();
+            return way < speed * length * time && toe(at).y() < floor + height * length;
         };
         for (int frame = 0; frame <= last; ++frame) {
             int count = 0;

@@ -20,7 +20,7 @@ struct PlainLegs {
     std::vector<Eigen::Vector3d> body;  // the joint Hips
 
     std::size_t frame_count() const { return legs[0].toe.size(); }
-    double leg_length() const;
+    double leg_length(std::size_t side) const;
 };
 
 // Of a skeleton with the names of the CMU library.

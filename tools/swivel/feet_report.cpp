@@ -65,10 +65,11 @@ void print_feet(const FeetRun& run)
     for (std::size_t n = 0; n < run.legs.size(); ++n) {
         const Limb& leg = run.legs[n];
         const LegPath& path = run.motion.legs[n];
-        say(stdout, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {} times, {:.0f} % of the frames\n",
+        say(stdout, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {} time{}, {:.0f} % of the frames\n",
             side_name(leg.name.side), shown(leg.upper()), shown(leg.lower()), shown(leg.end()), path.length,
             path.has_toe ? shown(path.toe) + " stands" : "without a toe joint its ankle stands",
-            contacts_of(run.contacts[n]).size(), 100 * share_on(run.contacts[n]));
+            contacts_of(run.contacts[n]).size(), contacts_of(run.contacts[n]).size() == 1 ? "" : "s",
+            100 * share_on(run.contacts[n]));
     }
     for (const LimbFinding& finding : run.missing)
         say(stdout, "leg      {:<5} {}: {}\n", side_name(finding.name.side), finding.has_joints ? "refused" : "missing",
