@@ -75,8 +75,9 @@ FoundLoop find_loop(const Clip& clip, int body)
 {
     const Eigen::MatrixXf looks = looks_of(clip, body).cast<float>();
     const Eigen::VectorXf size2 = looks.colwise().squaredNorm();
-    const auto frames = looks.cols(),
-               apart = static_cast<Eigen::Index>(std::ceil(kShortestLoop / clip.frame_time - 1e-6));
+    const auto frames = looks.cols();
+    const double shortest = std::ceil(kShortestLoop / clip.frame_time - 1e-6);
+    const auto apart = static_cast<Eigen::Index>(std::min(shortest, static_cast<double>(frames)));
     constexpr Eigen::Index kTogether = 256;  // frames that are compared with all later ones at once
     FoundLoop best{{0, clip.frame_count - 1}, std::numeric_limits<double>::infinity()};
     for (Eigen::Index from = 0; from + apart < frames; from += kTogether) {
@@ -97,23 +98,27 @@ FoundLoop find_loop(const Clip& clip, int body)
 Clip looped(const Clip& clip, int body, const ClipLoop& loop, std::size_t frame_count)
 {
     const std::size_t joints = clip.joints.size();
-    Clip to = clip;
-    to.frame_count = frame_count;
+    Clip to;
+    to.joints = clip.joints, to.human_bones = clip.human_bones;
+    to.frame_time = clip.frame_time, to.frame_count = frame_count;
+    to.track_count = clip.track_count, to.scale_track_count = clip.scale_track_count;
     for (formats::Joint& joint : to.joints)  // roots go on
         if (joint.parent < 0 && joint.track < 0) joint.track = static_cast<int>(to.track_count++);
-    to.rotation.clear(), to.translation.assign(frame_count * to.track_count, Vector3d::Zero()), to.scale.clear();
+    to.rotation.reserve(frame_count * joints);
+    to.translation.assign(frame_count * to.track_count, Vector3d::Zero());
 
+    // What the last frame has and the first one has not, where the first one stands.
     const GroundMotion round = stand_of(clip, loop.last, body) * stand_of(clip, loop.first, body).inverse(),
                        back = round.inverse();
-    // As the last frame has it, where the first one stands.
-    const auto rotation_at_seam = [&](std::size_t joint) {
-        const Quaterniond& q = clip.rotation[loop.last * joints + joint];
-        return clip.joints[joint].parent < 0 ? back.turn * q : q;
-    };
-    const auto place_at_seam = [&](std::size_t joint) {
-        const Vector3d place = formats::local_translation(clip, loop.last, joint);
-        return clip.joints[joint].parent < 0 ? back * place : place;
-    };
+    std::vector<Quaterniond> turns;
+    std::vector<Vector3d> ways;
+    for (std::size_t n = 0; n < joints; ++n) {
+        const bool is_root = clip.joints[n].parent < 0;
+        const Quaterniond& turn = clip.rotation[loop.last * joints + n];
+        const Vector3d place = formats::local_translation(clip, loop.last, n);
+        turns.push_back((is_root ? back.turn * turn : turn) * clip.rotation[loop.first * joints + n].conjugate());
+        ways.push_back((is_root ? back * place : place) - formats::local_translation(clip, loop.first, n));
+    }
     GroundMotion goes;
     for (std::size_t frame = 0; frame < frame_count; ++frame) {
         const std::size_t since = frame % loop.length(), from = loop.first + since;
@@ -121,12 +126,10 @@ Clip looped(const Clip& clip, int body, const ClipLoop& loop, std::size_t frame_
         const double share = frame < loop.length() ? 0 : faded(static_cast<double>(since) * clip.frame_time);
         for (std::size_t n = 0; n < joints; ++n) {
             const bool is_root = clip.joints[n].parent < 0;
-            const Quaterniond differs = rotation_at_seam(n) * clip.rotation[loop.first * joints + n].conjugate();
-            const Quaterniond q = Quaterniond::Identity().slerp(share, differs) * clip.rotation[from * joints + n];
+            const Quaterniond q = Quaterniond::Identity().slerp(share, turns[n]) * clip.rotation[from * joints + n];
             to.rotation.push_back(is_root ? goes.turn * q : q);
             if (to.joints[n].track < 0) continue;
-            const Vector3d place = formats::local_translation(clip, from, n) +
-                                   share * (place_at_seam(n) - formats::local_translation(clip, loop.first, n));
+            const Vector3d place = formats::local_translation(clip, from, n) + share * ways[n];
             to.translation[frame * to.track_count + static_cast<std::size_t>(to.joints[n].track)] =
                 is_root ? goes * place : place;
         }

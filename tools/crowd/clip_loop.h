@@ -17,12 +17,13 @@ struct ClipLoop {
     std::size_t length() const { return last - first; }
 };
 
-inline constexpr double kShortestLoop = 0.5;  // seconds
-inline constexpr double kSeam = 0.15;         // seconds in which what differs at the seam fades
+inline constexpr std::size_t kMostSearched = 20'000;  // frames
+inline constexpr double kShortestLoop = 0.5;          // seconds
+inline constexpr double kSeam = 0.15;                 // seconds in which what differs at the seam fades
 
 struct FoundLoop {
     ClipLoop loop;
-    double gap;  // between its two frames: by how much a joint differs, in radians, the root of the mean square
+    double gap;  // between its two frames, of a joint's pose and motion: radians, the root of the mean square
 };
 
 // The two frames, kShortestLoop or more apart, of which pose and motion differ least: by how joints are turned, and how

@@ -26,7 +26,7 @@ struct GltfChanges {
         Eigen::Vector3d translation, scale;
         Eigen::Quaterniond rotation;
     };
-    // One of several figures: the scene's nodes below a node of its own.
+    // One of several figures: all nodes of the file, below a node of its own.
     struct Figure {
         std::string name;
         Eigen::Vector3d place;
@@ -37,8 +37,8 @@ struct GltfChanges {
     std::vector<Track> tracks;
     int animation = -1;               // -1: a new one
     std::optional<std::string> name;  // in place of the animation and all its channels comes one of this name
-    // In place of the scene and of all animations and tracks: so many of what is in it, with an animation each. Nodes
-    // and skins are copied; meshes, materials and all that they are made of are shared.
+    // In place of all scenes, animations and tracks: one scene of so many figures, with an animation each. Nodes and
+    // skins are copied; meshes, materials and all that they are made of are shared.
     std::vector<Figure> figures;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/cli/command_error.h"
 #include "tools/crowd/crowd_checks.h"
@@ -61,9 +62,17 @@ void go_round(const SolveOptions& options, MotionFile& file, CrowdJob& job)
         if (last - first < 2) refuse("a loop has two frames or more; write [first, last]");
         job.loop = FoundLoop{{first, last}, 0};
     } else {
+        if (clip.frame_count > kMostSearched)
+            refuse(fmt::format("\"auto\" compares up to {} frames, and the clip has {}; write [first, last]",
+                               kMostSearched, clip.frame_count));
         job.loop = find_loop(clip, body);
+        if (!std::isfinite(job.loop->gap)) refuse("the clip is shorter than half a second; write [first, last]");
     }
     if (options.frames > 0) job.frame_count = options.frames;
+    const double bytes = static_cast<double>((job.frame_count + job.loop->loop.length()) * clip.joints.size()) * 32;
+    if (bytes > 0x1p33)
+        refuse(fmt::format("{} frames of {} joints take {:.1f} GiB, more than 8; give fewer --frames", job.frame_count,
+                           clip.joints.size(), bytes / 0x1p30));
     file.replace(looped(clip, body, job.loop->loop, job.frame_count + job.loop->loop.length()));
 }
 

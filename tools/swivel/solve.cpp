@@ -48,9 +48,10 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     const bool is_whole =
         kind == OutKind::motion && (job.loop || job.plan.characters > 1 || job.frame_count < job.clip_frames);
     MotionKeys keys(job.limbs, job.plan);
-    WholeKeys whole(file.clip(), job.limbs, job.plan);
+    std::optional<WholeKeys> whole;
+    if (is_whole) whole.emplace(file.clip(), job.limbs, job.plan);
     if (kind == OutKind::motion) {  // says so before the work, not after
-        is_whole ? whole.require_can_write(options.out, file, job.frame_count) : keys.require_can_write(file);
+        whole ? whole->require_can_write(options.out, file, job.frame_count) : keys.require_can_write(file);
         const formats::OutputFile can_be_written(options.out);
     }
     Statistics statistics;
@@ -63,14 +64,14 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
             crowd.solve(statistics);
             crowd.measure(statistics);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
-            if (kind == OutKind::motion) is_whole ? whole.add(crowd) : keys.add(crowd);
+            if (kind == OutKind::motion) whole ? whole->add(crowd) : keys.add(crowd);
             if (page) page->add_frame(crowd.goal_crowd(), crowd.given_places());
         }
     }
     if (csv) csv->commit();
     if (exported) exported->commit();
-    if (is_whole)
-        whole.write(options.out, file, crowd.goal_crowd().characters());
+    if (whole)
+        whole->write(options.out, file, crowd.goal_crowd().characters());
     else if (kind == OutKind::motion)
         keys.write(options.out, file);
     if (page)

@@ -39,9 +39,9 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     if (job.loop)
         say(to, "loop     frames {} to {} of the clip, {:.2f} s{}\n", job.loop->loop.first, job.loop->loop.last,
             static_cast<double>(job.loop->loop.length()) * clip.frame_time,
-            job.loop->gap > 0
-                ? fmt::format(", whose joints differ by {:.1f} degrees", job.loop->gap * 180 / std::numbers::pi)
-                : "");
+            job.loop->gap > 0 ? fmt::format("; a joint's pose and motion differ by {:.1f} degrees",
+                                            job.loop->gap * 180 / std::numbers::pi)
+                              : "");
     if (const std::size_t count = job.given->left_out(); count > 0)
         say(to, "note     {}: {} row{} left out, of limbs that are not solved\n", shown_file(job.targets), count,
             count == 1 ? " is" : "s are");

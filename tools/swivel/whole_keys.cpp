@@ -76,6 +76,11 @@ void WholeKeys::require_can_write(const std::filesystem::path& out, const Motion
             out, fmt::format("a file holds {} characters at most; {} would take {:.1f} GB; give --characters {}, or "
                              "write a .csv",
                              kMostInFile, characters_, bytes / 1e9, kMostInFile));
+    constexpr double kMostBytes = 3e9;  // of 4 GiB that a GLB may have, also beside its meshes
+    if (bytes > kMostBytes)
+        throw formats::InputError(
+            out, fmt::format("{} frames of {} characters would take {:.1f} GB; give fewer, or write a .csv",
+                             frame_count, characters_, bytes / 1e9));
     for (const int joint : turning_) file.require_can_key(joint);
     for (const int joint : moving_) file.require_can_key(joint);
     if (scales(clip_))

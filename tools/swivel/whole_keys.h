@@ -20,7 +20,7 @@ public:
     WholeKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan);
 
     // Throws, before any work is done, for what write() could not hold: joints that cannot have keys or change their
-    // size, and more than kMostInFile characters, with the size that the file would have.
+    // size, more than kMostInFile characters and more than 3 GB of keys, with the size that the file would have.
     void require_can_write(const std::filesystem::path& out, const MotionFile& file, std::size_t frame_count) const;
 
     // Takes the frame that the crowd has solved.
