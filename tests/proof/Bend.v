@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: MIT *)
-(* Ranges in arm_triangle: nothing underflows inexactly, and the lift's components are no longer than 2^25. *)
+(* Ranges in arm_triangle: nothing underflows inexactly, and the lift's components are below 3.36e7. *)
 From Coq Require Import Reals Lra Psatz ZArith.
 From Flocq Require Import Core.
 From Swivel Require Import Wrist Rounding Near.

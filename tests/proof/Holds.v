@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* Where solve_plain says that it holds, no operation of it is infinite or NaN, and all are in the ranges that the error
-   bound asks for. *)
+(* Where the condition `holds` of solve_plain is true, no result of it is infinite or NaN, and all are in the ranges
+   that the error bound asks for. *)
 From Coq Require Import Reals Lra Psatz ZArith String List Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Swivel Require Import Rotors Products Elbow Wrist Rounding Near Turns Length Arm Bend Plane Lengths Operations
@@ -547,7 +547,7 @@ Lemma v_lift_least : upto 93 (e "lift_least") /\ #"lift_least" = fl32 (#"per_kLe
 Lemma middle_size : 9.7e-10 <= #"middle_half2" <= 2.00001 * #"wrist2".
 Proof. plane. eapply middle_range with (w1 := #"w1") (w2 := #"w2") (w3 := #"w3");
   first [exact (proj2 v_middle_half2) | fact]. Qed.
-(* holds: the lift is not small beside the middle line *)
+(* by `holds`: the lift is not small beside the middle line *)
 Lemma lifted_least : 9.9e-14 <= #"middle_half2" * #"lift2".
 Proof.
   destruct conditions as [_ [_ [_ C]]]. destruct least as [F V]. line "bones_least" as E. rewrite E in C.

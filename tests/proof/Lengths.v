@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* The shoulder rotor's length. half2 is half the square of the length that the root divides out; here is how near. *)
+(* The shoulder rotor's length. half2 is half the square of the length that the root divides out. The
+   lemmas bound how near to it half2 is. *)
 From Coq Require Import Reals Lra Psatz ZArith.
 From Flocq Require Import Core.
 From Swivel Require Import Rotors Products Wrist Rounding Near Plane.

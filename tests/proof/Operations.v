@@ -1,6 +1,7 @@
 (* SPDX-License-Identifier: MIT *)
 (* The operations that programs consist of, and what they do to binary32 values, infinities and NaN included: Flocq's
-   IEEE 754 numbers, rounded to nearest even. Then lemmas that say when results are finite. *)
+   IEEE 754 numbers, rounded to nearest even. PerPower is said for normal numbers alone, and Const 0 may have either
+   sign. Then lemmas that say when results are finite. *)
 From Coq Require Import Reals Lra Psatz ZArith String List Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Swivel Require Import Wrist Rounding.

@@ -1,11 +1,12 @@
 (* SPDX-License-Identifier: MIT *)
-(* The theorem. An environment e gives each name of Program.v a binary32 value, infinities and NaN included. If it runs
-   the program, its inputs are finite, and the program says that it holds, then
+(* The theorem. An environment e gives each name of Program.v a binary32 value, infinities and NaN included. Let it run
+   the program: each name has the value that its operation gives. If its inputs are finite, and the condition `holds` on
+   its values is true, then
    - no value of the program is infinite or NaN;
-   - the wrist, by forward kinematics in exact real numbers that divides the rotors by their lengths,
-     is within 1.59e-6 of
-     the bones' sum from the target, brought into reach along its line;
-   - the shoulder's rotor is as long as 1 up to 1.1e-6, and the square of the elbow's up to 2.985e-7. *)
+   - the wrist is within 1.59e-6 of the bones' sum from the target, scaled along its ray to the nearest reachable
+     distance. The wrist is that of forward kinematics in exact real numbers, with rotors divided by their lengths;
+   - the length of the shoulder's rotor differs from 1 by at most 1.1e-6, and the squared length of the elbow's by at
+     most 2.985e-7. *)
 From Coq Require Import Reals Lra String List.
 From Flocq Require Import Core BinarySingleNaN.
 From Swivel Require Import Rotors Elbow Operations Program Holds.

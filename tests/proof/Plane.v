@@ -230,7 +230,7 @@ Proof.
     rewrite <- U6 in I6, I7. lra.
 Qed.
 
-(* holds: the pole is off the line *)
+(* by `holds`: the pole is off the line *)
 Hypotheses (O1 : lp = fl32 (length * pole1)) (O2 : off = fl32 (8589935 / 8589934592 * lp)) (O3 : off < normal_length).
 Lemma normal_least : 9.99e-4 * (length * pole1) <= normal_length.
 Proof.

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: MIT *)
-(* What rounding does to the two quaternion products of the shoulder's rotor, and a wrong height to the middle line.
-  u is
-   the largest relative error of a rounding; k stands for u (1 + u). *)
+(* The rotor that brings +z to the target is a product: of the middle line between both and a twist, then of a lift.
+   Here are the errors of both products, and of the middle line if its height is wrong. u is the largest relative
+   error of a rounding; k stands for u (1 + u). *)
 From Coq Require Import Reals Lra Psatz.
 From Swivel Require Import Rotors.
 Open Scope R_scope.

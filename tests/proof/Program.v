@@ -1,12 +1,12 @@
 (* SPDX-License-Identifier: MIT *)
-(* The operations of solve_plain (core/solve_arm.h), all branches included. The test recorded_program compares this list
-   with what the library's own templates do. Names are those of the C++ stages. *)
+(* The operations of solve_plain (core/solve_arm.h), all branches included. The test recorded_program runs the C++
+   templates on a number type that writes down each operation, and compares. Comments name the C++ stages. *)
 From Coq Require Import String List ZArith.
 From Swivel Require Import Operations.
 Import ListNotations.
 Open Scope string_scope.
 
-(* w: the wrist's target, p: the pole, upper and fore: the bones *)
+(* w: the wrist's target, p: the pole's vector, both from the shoulder; upper and fore: the bones' lengths *)
 Definition inputs := ["w1"; "w2"; "w3"; "p1"; "p2"; "p3"; "upper"; "fore"].
 
 Definition program := [

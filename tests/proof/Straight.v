@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* Elbow.v takes logarithms. So straight and folded arms, whose factors are zero exactly, are a case of their own here.
-  *)
+(* Elbow.v takes logarithms, and 0 has none. So straight and folded arms, of which a factor is 0, are a case of their
+   own. *)
 From Coq Require Import Reals Lra Psatz.
 From Swivel Require Import Rotors Products Elbow.
 Open Scope R_scope.

@@ -1,7 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* The bent elbow, in its plane. The arm's two angles are handled by the logarithms of their half tangents,
-  because roundings
-   of products add up there: flexion theta and lift beta from half tangents with relative errors exp tau, exp mu. *)
+(* The bent elbow, in its plane. The arm's two angles, flexion theta and lift beta, are handled by the logarithms of
+   their half tangents. Roundings of products are factors exp tau and exp mu of half tangents, so they add up there. *)
 From Coq Require Import Reals Lra Psatz.
 From Coquelicot Require Import Coquelicot.
 Open Scope R_scope.

@@ -1,7 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* The two quaternion products and the scale, rounded to binary32.
-  They absorb underflow where the quaternions are longer
-   than 1e-30. *)
+(* The two quaternion products and the scale, rounded to binary32. Where the quaternions are longer than 1e-30, the
+   bounds of the errors cover underflow, too. *)
 From Coq Require Import Reals Lra Psatz ZArith.
 From Swivel Require Import Rotors Products Elbow Wrist Rounding.
 Open Scope R_scope.

@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: MIT *)
-(* The assembly: the wrist's error from the errors of its parts.
-  u is half a unit in the last place of a number of 24 bits. *)
+(* The assembly: the wrist's error from the errors of its parts. u = 2^-24 is the largest relative error of a rounding
+   to 24 bits. *)
 From Coq Require Import Reals Lra Psatz.
 From Swivel Require Import Rotors Products Elbow Straight.
 Open Scope R_scope.
@@ -99,8 +99,8 @@ Let SH := sh F d e3 e4 e6 e10 e12 r.
 Let SM := smaller F D d e1 e2 e3 e4 e5 e6 e9 e10 e11 e12 e13 r.
 Variables lc ls : R.
 Hypothesis Hl : (M <= P /\ lc = larger e14 r P /\ ls = SM) \/ (P <= M /\ lc = SM /\ ls = larger e14 r M).
-Hypothesis Hl0 : 0 < l.        (* holds *)
-Hypothesis HDF : Rabs D < F.   (* holds *)
+Hypothesis Hl0 : 0 < l.        (* follows from `holds` *)
+Hypothesis HDF : Rabs D < F.   (* follows from `holds` *)
 (* turn_shoulder: central_line(middle) * twist, then * lift, then the root's scale; t0 + t3 k is the twist *)
 Let Lq := lift_q sg lc ls.
 Let mt0 := qmul (q4 0 w1 w2 (sg*h)) (q4 t0 0 0 t3).
