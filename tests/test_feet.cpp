@@ -17,6 +17,7 @@
 
 using namespace swivel::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 using Eigen::Vector3d;
 using nlohmann::json;
 
@@ -291,7 +292,11 @@ TEST_CASE("feet: several clips go to a folder, and one that fails keeps none fro
     CHECK(fs::exists(folder / "clean/c.bvh"));
     CHECK(!fs::exists(folder / "clean/b.bvh"));
     CHECK_THAT(refused_feet(folder, {"a.bvh", "c.bvh", "--contacts", "t.csv"}, 2), Contains("a table is of one FILE"));
-    CHECK_THAT(refused_feet(folder, {"a.bvh", "./a.bvh", "--out", "clean", "--quiet"}), Contains("is another output"));
+    // Before the first clip is written.
+    CHECK_THAT(refused_feet(folder, {"c.bvh", "a.bvh", "./a.bvh", "--out", "twice"}, 2),
+               Contains("twice/./a.bvh: is another output") || Contains("twice/a.bvh: is another output"));
+    CHECK(!fs::exists(folder / "twice"));
+    CHECK_THAT(refused_feet(folder, {"c.bvh", "a.bvh", "--out", "."}, 2), Contains("c.bvh: is the clip, too"));
     const std::string before = slurp(folder / "a.bvh");
     CHECK_THAT(refused_feet(folder, {"a.bvh", "--out", "."}, 2), Contains("is the clip, too"));
     CHECK(slurp(folder / "a.bvh") == before);
@@ -311,7 +316,8 @@ TEST_CASE("feet: what is wrong with tables, pictures and options is said in a li
     CHECK_THAT(table("frame,limb\n0,left_leg\n"), Contains("t.csv:1: is no table of contacts; its first line must be"));
     CHECK_THAT(table(columns), Contains("t.csv: has no rows"));
     CHECK_THAT(table(columns + "x,left_leg,on\n"), Contains("t.csv:2: column frame: 'x' is not a whole number"));
-    CHECK_THAT(table(columns + "0,leg,on\n"), Contains("t.csv:2: column limb: 'leg' is none of"));
+    CHECK_THAT(table(columns + "0,leg,on\n"),
+               Contains("t.csv:2: column limb: 'leg' is neither left_leg nor right_leg"));
     CHECK_THAT(table(columns + "0,left_leg,yes\n"), Contains("t.csv:2: column contact: 'yes' is neither on nor off"));
     CHECK_THAT(table(columns + "0,left_leg\n"), Contains("t.csv:2: has 2 values; a line has three"));
     CHECK_THAT(table(columns + "0,left_arm,on\n"), Contains("t.csv:2: left_arm is no leg that the clip has"));
@@ -334,7 +340,45 @@ TEST_CASE("feet: what is wrong with tables, pictures and options is said in a li
     CHECK_THAT(refused_feet(folder, {"walk.bvh", "--ground", "g.png"}, 2), Contains("go together; give both"));
     CHECK_THAT(refused_feet(folder, {"walk.bvh", "--ground", "g.png", "--ground-size", "9,0,9"}, 2),
                Contains("above 0"));
+    std::string vast = whole;
+    vast.replace(16, 8, std::string("\0\0\x40\0\0\0\x40\0", 8));
+    CHECK_THAT(ground(vast), Contains("g.png: has 16384 x 16384 pixels; make it smaller: at most 16384 a side, and "));
     CHECK_THAT(refused_feet(folder, {"walk.bvh", "--out", "o.glb"}, 2), Contains("this clip is a BVH file"));
+    CHECK_THAT(refused_feet(folder, {"walk.bvh", "--out", "o.csv"}, 2), EndsWith("its poses go to .bvh\n"));
+    CHECK_THAT(refused_feet(folder, {"-", "--contacts", "-"}, 2),
+               Contains("more than one of FILE, --contacts and --ground is -, standard input; name the others"));
     CHECK_THAT(refused_feet(folder, {"walk.bvh", "--out", "x.bvh", "--export-contacts", "x.bvh"}, 2),
                Contains("is another output"));
+}
+
+TEST_CASE("feet: a frame time that no clip has is told, at once")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    const std::string walk = carried(plain_motion_of(path), {});
+    const std::size_t at = walk.find("Frame Time:");
+    spill(folder / "fast.bvh", walk.substr(0, at) + "Frame Time: 1e-300" + walk.substr(walk.find('\n', at)));
+    CHECK_THAT(refused_feet(folder, {"fast.bvh"}), Contains("fast.bvh: "));
+    spill(folder / "c.csv", "frame,limb,contact\n0,left_leg,on\n5,left_leg,off\n");
+    CHECK_THAT(refused_feet(folder, {"fast.bvh", "--contacts", "c.csv", "--out", "o.bvh"}),
+               Contains("fast.bvh: has frames of 1e-300 s and legs ") && Contains("check its frame time"));
+    CHECK(!fs::exists(folder / "o.bvh"));
+}
+
+TEST_CASE("feet: a table on standard output has that to itself")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    spill(folder / "walk.bvh", carried(plain_motion_of(path), {}));
+    feet_done(folder, {"walk.bvh", "--export-contacts", "c.csv", "--quiet"});
+    const auto check = [&](Words words, const char* report) {
+        const Outcome outcome = run_command(folder.path, words);
+        CHECK(outcome.exit_code == 0);
+        CHECK(outcome.out == slurp(folder / "c.csv"));
+        CHECK_THAT(outcome.err, Contains(report));
+    };
+    check({"feet", "walk.bvh", "--export-contacts", "-"}, "leg      left");
+    check({"feet", "walk.bvh", "--export-contacts", "-", "--json"}, "\"legs\"");
 }

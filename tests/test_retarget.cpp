@@ -11,6 +11,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/gltf_rig.h"
+#include "tests/plain_gltf.h"
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
@@ -213,7 +215,7 @@ TEST_CASE("retarget: knees bend as the source's, whatever its bones")
 {
     const MadeBody source;
     MadeBody target;
-    target.shin = 0.3;
+    target.shin = 0.15;  // at the source's places its knees would bend by up to 16 degrees more
     target.foot = 0.19;
     std::vector<std::vector<double>> rows;
     for (const double knee : {0.0, 5.0, 20.0, 45.0, 80.0}) {
@@ -275,6 +277,38 @@ TEST_CASE("retarget: feet that rest near height 0 stand there again, however the
     CHECK(std::abs(Made::at(out, "LeftToeBase", 1).position.y() - 0.01) < 1e-6);
 }
 
+TEST_CASE("retarget: the animation of a glTF target tells its ground")
+{
+    const MadeBody body;
+    const PlainMotion rest = plain_motion(body.text());
+    GltfRig rig;
+    for (const PlainJoint& joint : rest.joints) rig.add(joint.name, joint.parent, joint.offset);
+    const double toe = 0.05 + 0.45 + 0.42 + 0.06;  // below the hips
+    const auto y = static_cast<float>(toe + 0.2);  // so the ground is at 0.2
+    rig.add_keys(rig.add_animation("Stand"), 0, "translation", {0, 1}, {0, y, 0, 0, y, 0});
+    std::vector<double> row(rest.values[0].size());
+    row[1] = 7;  // the source's ground is elsewhere
+    const TempFolder folder;
+    rig.write(folder / "target.glb");
+    spill(folder / "source.bvh", body.text({row, row}));
+    const Outcome outcome = run_command(folder.path, {"retarget", "source.bvh", "target.glb", "--out", "out.glb"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const PlainGltf out = plain_gltf_of(folder / "out.glb");
+    CHECK(std::abs(plain_world(out, 0, out.node_named("LeftToeBase"), 0).translation().y() - 0.2) < 1e-5);
+}
+
+TEST_CASE("retarget: a table on standard output has that to itself")
+{
+    const TempFolder folder;
+    spill(folder / "a.bvh", MadeBody().text());
+    spill(folder / "b.bvh", MadeBody().text());
+    REQUIRE(run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
+    const Outcome outcome = run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "-"});
+    CHECK(outcome.out == slurp(folder / "map.csv"));
+    CHECK_THAT(outcome.err, Contains("source    a.bvh") && Contains("written   to standard output\n"));
+}
+
 TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
 {
     MadeBody source, target;
@@ -304,6 +338,10 @@ TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
           "swivel: map.csv:3: 'Hip' is no joint of its file; swivel rig FILE --joints lists them\n");
     CHECK(complaint(edited(map, "head,Head,Head", "head,Head,Neck")) ==
           "swivel: map.csv:7: 'Neck' is already in a line above; remove one\n");
+    CHECK_THAT(complaint("part,source,target\nhips,Hips,Hips\nchest,Spine2,Spine3\n"),
+               Contains("map.csv:3: 'chest' is no part of a body; take one of hips, spine, neck, head, leftShoulder, "
+                        "leftUpperArm, ") &&
+                   Contains(", rightFoot, rightToes, or leave it empty"));
     CHECK_THAT(complaint("part,source,target\nhips,Hips\n"), Contains("map.csv:2: 2 values; a row has 3"));
     CHECK_THAT(complaint("part,source,target\nhips,Hips,Hips\n"),
                Contains("source.bvh: no leg of it can be told by the names of its joints; write the pairs with"));
@@ -327,4 +365,15 @@ TEST_CASE("retarget: what cannot be is refused in one line, and nothing is lost"
     CHECK_THAT(complaint({"retarget", "-", "-"}), Contains("more than one of SOURCE, TARGET and --map is -"));
     CHECK_THAT(complaint({"retarget", "a.bvh", "rig.gltf"}), Contains("rig.gltf: no leg of it can be told"));
     CHECK(folder.file_count() == 3);
+    MadeBody no_shin, no_forearm;
+    no_shin.shin = no_forearm.forearm = 0;
+    spill(folder / "no_shin.bvh", no_shin.text());
+    spill(folder / "no_forearm.bvh", no_forearm.text());
+    const char* const leg = "no_shin.bvh: the bone from LeftLeg to LeftFoot has no length at rest";
+    CHECK_THAT(complaint({"retarget", "no_shin.bvh", "b.bvh", "--out", "c.bvh"}), Contains(leg));
+    CHECK_THAT(complaint({"retarget", "a.bvh", "no_shin.bvh", "--out", "c.bvh"}), Contains(leg));
+    const char* const arm = "no_forearm.bvh: the bone from LeftForeArm to LeftHand has no length at rest";
+    CHECK_THAT(complaint({"retarget", "no_forearm.bvh", "b.bvh", "--out", "c.bvh"}), Contains(arm));
+    CHECK_THAT(complaint({"retarget", "a.bvh", "no_forearm.bvh", "--out", "c.bvh"}), Contains(arm));
+    CHECK(!fs::exists(folder / "c.bvh"));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tools/formats/error.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -14,18 +15,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// How many frames on either side lie within a time; 1 at least.
+// How many frames on either side lie within a time: 1 at least, and at most the clip's.
 std::size_t frames_within(const LegMotion& motion, double seconds)
 {
-    return static_cast<std::size_t>(std::max(1.0, std::round(seconds / motion.frame_time)));
-}
-
-// The height that a fiftieth of a toe's frames are not above.
-double floor_of(std::vector<double> heights)
-{
-    const auto at = heights.begin() + (std::ssize(heights) - 1) / 50;
-    std::nth_element(heights.begin(), at, heights.end());
-    return *at;
+    const auto most = static_cast<double>(motion.frame_count());
+    return static_cast<std::size_t>(std::clamp(std::round(seconds / motion.frame_time), 1.0, most));
 }
 
 // The frames in which a toe is low.
@@ -33,7 +27,7 @@ std::vector<bool> low_frames(const LegMotion& motion, const LegPath& leg, const 
 {
     std::vector<double> heights;
     for (const Vector3d& toe_w : leg.toe_w) heights.push_back(toe_w.dot(motion.up_w));
-    const double most = floor_of(heights) + bars.height * leg.length;
+    const double most = quantile(heights, 0.02) + bars.height * leg.length;
     std::vector<bool> low;
     for (const double height : heights) low.push_back(height < most);
     return low;
@@ -50,12 +44,15 @@ std::vector<bool> find_of_leg(const LegMotion& motion, const LegPath& leg, const
     }
     // Most of the frames around each; the first and the last one count for those beyond.
     const auto half = static_cast<std::ptrdiff_t>(frames_within(motion, (1.0 / 12 - motion.frame_time) / 2));
+    const auto stands_at = [&](std::ptrdiff_t frame) -> std::ptrdiff_t {
+        return stands[static_cast<std::size_t>(std::clamp(frame, std::ptrdiff_t{0}, std::ssize(stands) - 1))] ? 1 : 0;
+    };
+    std::ptrdiff_t standing = 0;  // of the frames around one
+    for (std::ptrdiff_t n = -half; n <= half; ++n) standing += stands_at(n);
     std::vector<bool> most;
-    for (std::ptrdiff_t frame = 0; frame <= std::ssize(stands) - 1; ++frame) {
-        std::ptrdiff_t standing = 0;
-        for (std::ptrdiff_t n = frame - half; n <= frame + half; ++n)
-            standing += stands[static_cast<std::size_t>(std::clamp(n, std::ptrdiff_t{0}, std::ssize(stands) - 1))];
+    for (std::ptrdiff_t frame = 0; frame < std::ssize(stands); ++frame) {
         most.push_back(standing > half);
+        standing += stands_at(frame + half + 1) - stands_at(frame - half);
     }
     return most;
 }

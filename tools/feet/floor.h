@@ -3,8 +3,6 @@
 // What feet of a clip stand on: its own level floor, and hills that it is put on. Knows a clip's axes.
 #pragma once
 
-#include <optional>
-
 #include "tools/crowd/ground.h"
 #include "tools/feet/contacts.h"
 
@@ -12,8 +10,8 @@ namespace swivel::tools {
 
 struct Floor {
     Eigen::Vector3d up_w = Eigen::Vector3d::UnitY();
-    double level = 0;  // how high the toes stand over the world's origin, where no hill is
-    std::optional<Ground> hills;
+    double level = 0;               // how high the toes stand over the world's origin, where no hill is
+    const Ground* hills = nullptr;  // not owned
 
     // How high the hills are there; 0 without any.
     double hill(const Eigen::Vector3d& place_w) const;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tools/rig/limb_joints.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -13,23 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using formats::Clip;
 using formats::joint_at;
-
-// The lowest joint that is above both, or one of them; -1: none.
-int fork(const Clip& clip, int a, int b)
-{
-    while (a != b) {
-        int& later = a > b ? a : b;  // parents come before their children
-        later = joint_at(clip, later).parent;
-    }
-    return a;
-}
-
-Vector3d nearest_axis(const Vector3d& v)
-{
-    Vector3d::Index most = 0;
-    v.cwiseAbs().maxCoeff(&most);
-    return v[most] < 0 ? Vector3d(-Vector3d::Unit(most)) : Vector3d(Vector3d::Unit(most));
-}
 
 }  // namespace
 
@@ -59,7 +43,7 @@ int carrier_of(const Clip& clip, const FigureJoints& figure)
     for (const LimbFound& limb : figure)
         if (const auto& joints = limb.joints.joints) {
             const int above = joint_at(clip, (*joints)[0]).parent;
-            carrier = carrier ? fork(clip, *carrier, above) : above;
+            carrier = carrier ? fork_of(clip, *carrier, above) : above;
         }
     for (int joint = carrier.value_or(-1); joint >= 0; joint = joint_at(clip, joint).parent)
         if (joint_at(clip, joint).track >= 0) return joint;

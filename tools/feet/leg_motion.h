@@ -38,8 +38,8 @@ double largest_jump(std::span<const Eigen::Vector3d> places_w);
 // ankle.
 int toe_of(const formats::Clip& clip, const Limb& leg);
 
-// The lowest joint above all limbs that are known, with all that lies between. Where it never leaves its offset, it is
-// the lowest above it that does, if there is one.
+// The lowest joint above all limbs that are known, with all that lies between. Where no keys say its place, it is
+// the lowest above it that has keys of its place, if there is one.
 int carrier_of(const formats::Clip& clip, const FigureJoints& figure);
 
 // legs: bound limbs of the clip. up_w: of the figure; the world's axis nearest to it counts.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tools/feet/place_feet.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Sparse>
 #include <array>
+
+#include "tools/formats/error.h"
 
 namespace swivel::tools {
 
@@ -113,7 +117,7 @@ public:
         }
     }
 
-    PlacedFeet solve() const
+    PlacedFeet solve(const std::filesystem::path& file) const
     {
         const Squares lasting = linear_part();
         const Eigen::SparseMatrix<double> matrix = lasting.matrix();
@@ -122,6 +126,10 @@ public:
             const Squares now = part_about(values);
             const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factored(matrix + now.matrix());
             const VectorXd next = factored.solve(lasting.right + now.right);
+            if (factored.info() != Eigen::Success || !next.allFinite())
+                throw formats::InputError(file, fmt::format("has frames of {:g} s and legs {:.4g} long, and with these "
+                                                            "its feet cannot be placed; check its frame time and unit",
+                                                            motion_.frame_time, motion_.leg_length()));
             const double step = (next - values).lpNorm<Eigen::Infinity>();
             values = next;
             if (step < kSettled * motion_.leg_length()) break;
@@ -258,9 +266,10 @@ private:
 
 }  // namespace
 
-PlacedFeet place_feet(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor)
+PlacedFeet place_feet(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor,
+                      const std::filesystem::path& file)
 {
-    return Problem(motion, contacts, bars, floor).solve();
+    return Problem(motion, contacts, bars, floor).solve(file);
 }
 
 }  // namespace swivel::tools

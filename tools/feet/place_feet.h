@@ -34,7 +34,9 @@ struct PlacedFeet {
 };
 
 // bars: a contact whose toe is farther from the floor than their height, in the mean, keeps that height over the
-// ground: it stands on a stair. Time and memory grow with the frames: some 5 s and 100 MB for 10,000.
-PlacedFeet place_feet(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor);
+// ground: it stands on a stair. Time and memory grow with the frames: some 5 s and 100 MB for 10,000. Throws
+// InputError, naming `file`, where numbers overflow: with a frame time or with lengths that no body has.
+PlacedFeet place_feet(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor,
+                      const std::filesystem::path& file);
 
 }  // namespace swivel::tools

@@ -2,6 +2,7 @@
 #include "tools/feet/skating.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/rig/vectors.h"
 

@@ -30,7 +30,7 @@ ContactRow parse_contact(const std::filesystem::path& path, std::size_t line,
     if (!frame || *frame < 0 || *frame > std::numeric_limits<std::uint32_t>::max())
         refuse("frame", cells[0], "is not a whole number from 0 to 4294967295");
     const std::optional<LimbName> limb = limb_of_word(cells[1]);
-    if (!limb) refuse("limb", cells[1], "is none of left_arm, right_arm, left_leg and right_leg");
+    if (!limb) refuse("limb", cells[1], "is neither left_leg nor right_leg");
     if (cells[2] != "on" && cells[2] != "off") refuse("contact", cells[2], "is neither on nor off");
     return {static_cast<std::uint32_t>(*frame), *limb, cells[2] == "on", line};
 }

@@ -15,7 +15,7 @@
 namespace swivel::formats {
 namespace {
 
-constexpr png_uint_32 kMostPixels = 16'384;  // a side
+constexpr png_uint_32 kMostSide = 16'384, kMostPixels = 1 << 26;  // pixels; in all
 
 struct Source {
     std::string bytes;
@@ -45,7 +45,7 @@ bool read_picture(png_structp png, png_infop info, Source& source)
 {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_read_fn(png, &source, take);
-    png_set_user_limits(png, kMostPixels, kMostPixels);
+    png_set_user_limits(png, kMostSide, kMostSide);
     png_read_png(png, info, PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_STRIP_ALPHA | PNG_TRANSFORM_EXPAND_16, nullptr);
     return true;
 }
@@ -59,6 +59,12 @@ HeightPicture read_height_picture(const std::filesystem::path& path)
     const auto* const begin = reinterpret_cast<png_const_bytep>(source.bytes.data());
     if (source.bytes.size() < 8 || png_sig_cmp(begin, 0, 8) != 0)
         throw InputError(path, "is no PNG; write the picture of heights as a PNG of 8 or 16 bits");
+    if (source.bytes.size() >= 24) {  // a PNG begins with its size, which tells what reading it takes
+        const png_uint_32 columns = png_get_uint_32(begin + 16), rows = png_get_uint_32(begin + 20);
+        if (columns > kMostSide || rows > kMostSide || std::uint64_t{columns} * rows > kMostPixels)
+            throw InputError(path, fmt::format("has {} x {} pixels; make it smaller: at most {} a side, and {} in all",
+                                               columns, rows, kMostSide, kMostPixels));
+    }
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, note_problem, ignore_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     HeightPicture picture;
@@ -66,6 +72,7 @@ HeightPicture read_height_picture(const std::filesystem::path& path)
         picture.columns = png_get_image_width(png, info);
         picture.rows = png_get_image_height(png, info);
         const std::size_t step = 2 * std::size_t{png_get_channels(png, info)};
+        picture.heights.reserve(std::size_t{picture.columns} * picture.rows);
         png_bytepp const rows = png_get_rows(png, info);
         for (std::uint32_t row = 0; row < picture.rows; ++row)
             for (std::uint32_t column = 0; column < picture.columns; ++column) {

@@ -14,8 +14,9 @@ struct HeightPicture {
     std::vector<float> heights;  // [row * columns + column], 0 to 1; the first row is the picture's upper edge
 };
 
-// Throws InputError for a file that is no PNG, is damaged, has one pixel a row or column, or more than 16,384.
-// Allocates 4 bytes a pixel, and the picture while it reads.
+// Throws InputError for a file that is no PNG, is damaged, or has one pixel a row or column. And for one of more
+// than 16,384 a side, or 67,108,864 in all, before it is decoded. Allocates 4 bytes a pixel, and the picture while it
+// reads.
 HeightPicture read_height_picture(const std::filesystem::path& path);
 
 }  // namespace swivel::formats

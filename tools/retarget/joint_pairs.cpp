@@ -97,6 +97,7 @@ JointPairs read_joint_map(const std::filesystem::path& path, const Clip& source,
     JointPairs pairs;
     std::set<int> in_source, in_target;
     bool has_columns = false;
+    const std::vector<std::string> words = part_names();
     formats::for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
         if (!has_columns) {
             has_columns = cells == std::vector<std::string_view>{"part", "source", "target"};
@@ -105,6 +106,10 @@ JointPairs read_joint_map(const std::filesystem::path& path, const Clip& source,
         }
         if (cells.size() != 3)
             throw InputError(path, line, fmt::format("{} values; a row has 3: part,source,target", cells.size()));
+        if (!cells[0].empty() && std::ranges::find(words, cells[0]) == words.end())
+            throw InputError(path, line,
+                             fmt::format("'{}' is no part of a body; take one of {}, or leave it empty",
+                                         formats::printable(cells[0]), fmt::join(words, ", ")));
         PairedPart& part = cells[0].empty() ? pairs.emplace_back() : part_called(pairs, std::string(cells[0]));
         for (const int joint : joint_of(path, line, source, cells[1], in_source)) part.source.push_back(joint);
         for (const int joint : joint_of(path, line, target, cells[2], in_target)) part.target.push_back(joint);

@@ -27,8 +27,9 @@ JointPairs pair_joints(const formats::Clip& source, const formats::Clip& target)
 
 // The same from a table with columns part, source and target. Rows of one part list its joints from the hips outwards;
 // its lists may differ in length, and cells may be empty. A row without a part pairs its two joints. Joints are given
-// by name, path or number. Throws InputError, naming the line, for other columns, joints that do not exist or are not
-// unique, a joint that is given twice, and as for_each_row() does.
+// by name, path or number. Throws InputError, naming the line, as for_each_row() does, and for
+// - other columns, and parts that are none of part_names();
+// - joints that do not exist or are not unique, and a joint that is given twice.
 JointPairs read_joint_map(const std::filesystem::path& path, const formats::Clip& source, const formats::Clip& target);
 
 // Writes such a table; bones without a partner are rows with an empty cell. Throws InputError on writing.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tools/rig/facing.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -13,13 +14,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kNearAxis_deg = 15;
-
-Vector3d nearest_axis(const Vector3d& direction)
-{
-    Eigen::Index axis = 0;
-    direction.cwiseAbs().maxCoeff(&axis);
-    return std::copysign(1.0, direction[axis]) * Vector3d::Unit(axis);
-}
 
 Eigen::Quaterniond axes_of(const Facing& facing)
 {

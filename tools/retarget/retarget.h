@@ -22,21 +22,20 @@ struct Retargeted {
 };
 
 // Joints turn as transfers_of() says; those without a partner rest. The world is scaled about the origin by the ratio
-// of leg lengths, turned from the source's left, up and forwards to the target's, and raised so that feet that stand in
-// the source stand on the target's ground, if both stances say their height. In it
+// of leg lengths. It is turned from the source's left, up and forwards to the target's. If both stances say their
+// height, it is raised: feet that stand in the source then stand on the target's ground. In that world
 // - toes, or else ankles, go where the source's are. So what stands in the source stands. The target's own foot then
 //   says where its ankle is;
-// - the hips go to where the middle of the hip joints is the source's, moved with the pelvis by what flat feet differ
-// in
-//   length and height, and then so that knees bend as in the source: by least squares of the knees' angles, and of the
-//   way that this takes. The leg that is straighter has more weight, because a length tells more of its angle. The
-//   way is at most a tenth of a leg.
+// - the hips go to where the middle of the hip joints is the source's. Flat feet may differ in length and height: by
+//   that the hips are moved, in the pelvis's axes. Then they are moved so that knees bend as in the source.
+// The latter is by least squares of the knees' angles, and of the way that this takes, which is at most a tenth of a
+// leg. The leg that is straighter has more weight, because a length tells more of its angle.
 // Wrists have the source's place from the shoulder, times the ratio of arm lengths. An arm that is bent, its wrist
 // nearer than 0.7 of its length, has it from the middle of the shoulders. So hands that meet still meet. From 0.7 to
 // 0.95 the one fades into the other.
 //
-// target: its frames tell its stance alone. Both need hips and a leg: throws std::invalid_argument without. Scales of
-// the target's joints rest, too. Memory: the clip's, and the goals'.
+// target: its frames tell its stance alone. Both need hips and a leg: throws std::invalid_argument without. Bones of
+// limbs that both have need a length. Scales of the target's joints rest, too. Memory: the clip's, and the goals'.
 Retargeted retarget(const formats::Clip& source, const formats::Clip& target, const JointPairs& pairs);
 
 }  // namespace swivel::tools

@@ -35,10 +35,10 @@ LimbChoice choice_of(const Clip& clip, const KnownLimbs& limbs, const std::vecto
 
 double length_of(const Limb& limb) { return double{limb.bound.lengths[0]} + double{limb.bound.lengths[1]}; }
 
-// The limb's end in a frame, in the world.
-Eigen::Vector3d end_w(const std::vector<formats::JointPose>& pose_w, int end)
+// A joint's place in the world.
+Eigen::Vector3d place_w(const std::vector<formats::JointPose>& pose_w, int joint)
 {
-    return pose_w[static_cast<std::size_t>(end)].position;
+    return pose_w[static_cast<std::size_t>(joint)].position;
 }
 
 // The goals of a frame that are not met, of these limbs.
@@ -49,7 +49,7 @@ std::vector<Target> unmet(const Retargeted& motion, std::size_t frame, const std
     for (std::size_t n = 0; n < motion.limbs.size(); ++n) {
         const Target& goal = motion.goals[frame * motion.limbs.size() + n];
         const auto limb = std::ranges::find(limbs, goal.limb, &Limb::name);
-        if (limb == limbs.end() || (end_w(pose_w, limb->end()) - goal.position).norm() <= kMet * length_of(*limb))
+        if (limb == limbs.end() || (place_w(pose_w, limb->end()) - goal.position).norm() <= kMet * length_of(*limb))
             continue;
         goals.push_back(goal);
     }
@@ -109,9 +109,9 @@ void measure(const Retargeted& motion, const KnownLimbs& joints, std::vector<Goa
             const Target& goal = motion.goals[frame * misses.size() + n];
             const LimbJoints& at = *joints[static_cast<std::size_t>(std::ranges::find(formats::kLimbNames, goal.limb) -
                                                                     formats::kLimbNames.begin())];
-            const double length = (end_w(pose_w, at[0]) - end_w(pose_w, at[1])).norm() +
-                                  (end_w(pose_w, at[1]) - end_w(pose_w, at[2])).norm();
-            const double miss = (end_w(pose_w, at[2]) - goal.position).norm() / length;
+            const double length = (place_w(pose_w, at[0]) - place_w(pose_w, at[1])).norm() +
+                                  (place_w(pose_w, at[1]) - place_w(pose_w, at[2])).norm();
+            const double miss = (place_w(pose_w, at[2]) - goal.position).norm() / length;
             misses[n].mean += miss / static_cast<double>(motion.clip.frame_count);
             if (miss > misses[n].most) {
                 misses[n].most = miss;

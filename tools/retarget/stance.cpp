@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/rig/vectors.h"
+
 namespace swivel::tools {
 
 namespace {
@@ -15,14 +17,6 @@ using Poses = std::vector<formats::JointPose>;
 
 constexpr double kNearGround = 0.3, kStill = 0.3;  // legs; legs a second
 constexpr std::size_t kFewest = 10;
-
-// The value that this share of all is below.
-double quantile(std::vector<double> values, double share)
-{
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::ranges::nth_element(values, at);
-    return *at;
-}
 
 struct Feet {
     const RestFigure& figure;

@@ -21,9 +21,9 @@ struct Stance {
 double slope_of(const Eigen::Vector3d& way);
 
 // A figure whose feet at rest are within 0.3 leg lengths of height 0 stands so: its rest tells all. Otherwise its clip
-// tells it, where that has more than one frame. The height is the lowest, all but the lowest twentieth of frames left
-// out. The slope is the least steep, all but a tenth left out, of ten or more frames in which ankle and toe are slower
-// than 0.3 legs a second.
+// tells it, where that has more than one frame. The height is that which a twentieth of its frames are not above. A
+// slope is of frames in which ankle and toe are slower than 0.3 legs a second, ten or more. It is the one that nine
+// tenths of them are not above.
 Stance stance_of(const formats::Clip& clip, const RestFigure& figure, bool has_toes);
 
 }  // namespace swivel::tools

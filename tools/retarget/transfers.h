@@ -29,7 +29,7 @@ struct StandingFigure {
 // One for each joint of the target; nothing: it keeps its rest. Where a part has n joints and m in the target, the m
 // divide the part's turns evenly among them: its last joint turns as the source's last does.
 // Limbs and fingers are aligned bone by bone, each by the least turn beyond that of the joint above. A foot is aligned
-// so that it is flat where the source's is; where one of the two does not say when it is, it takes the source's
+// so that it is flat where the source's is. Where one of the two does not say when it is flat, it takes the source's
 // direction. Hips, spine, neck, head and clavicles are not aligned: both figures rest upright, whatever the shape of
 // their backs.
 std::vector<std::optional<Transfer>> transfers_of(const JointPairs& pairs, const StandingFigure& source,

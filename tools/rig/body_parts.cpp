@@ -112,6 +112,18 @@ std::vector<int> joints_of(const std::vector<BodyPart>& parts, std::string_view 
     return part == parts.end() ? std::vector<int>() : part->joints;
 }
 
+std::vector<std::string> part_names()
+{
+    std::vector<std::string> names{"hips", "spine", "neck", "head"};
+    for (const LimbName limb : formats::kLimbNames) {
+        const std::string side(side_name(limb.side));
+        if (limb.kind == LimbKind::arm) names.push_back(side + "Shoulder");
+        for (const std::string& name : part_names(limb)) names.push_back(name);
+        if (limb.kind == LimbKind::leg) names.push_back(side + "Toes");
+    }
+    return names;
+}
+
 bool is_limb_part(const BodyPart& part)
 {
     return std::ranges::any_of(formats::kLimbNames, [&](LimbName limb) {

@@ -29,6 +29,9 @@ std::vector<BodyPart> body_parts(const formats::Clip& clip, const KnownLimbs& li
 // The joints of the part of that name; empty if there is none.
 std::vector<int> joints_of(const std::vector<BodyPart>& parts, std::string_view name);
 
+// The names of all parts, in the order above, the left side's limbs before the right's.
+std::vector<std::string> part_names();
+
 // Whether it is one of the three joints of a limb.
 bool is_limb_part(const BodyPart& part);
 

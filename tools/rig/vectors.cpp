@@ -3,7 +3,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace swivel::tools {
+
+Eigen::Vector3d nearest_axis(const Eigen::Vector3d& direction)
+{
+    Eigen::Index axis = 0;
+    direction.cwiseAbs().maxCoeff(&axis);
+    return std::copysign(1.0, direction[axis]) * Eigen::Vector3d::Unit(axis);
+}
+
+double quantile(std::vector<double> values, double share)
+{
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
+}
 
 std::string vector_text(const Eigen::Vector3d& v)
 {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Angles between directions, and numbers for people.
+// Angles between directions, ranks of numbers, and numbers for people.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace swivel::tools {
 
@@ -15,6 +16,12 @@ inline double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b
 {
     return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
 }
+
+// The axis of the world that is nearest to a direction, with its sign.
+Eigen::Vector3d nearest_axis(const Eigen::Vector3d& direction);
+
+// The value that this share of all is not above. values: one at least. share: 0 to 1.
+double quantile(std::vector<double> values, double share);
 
 // For people to read, without a -0.
 inline Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }

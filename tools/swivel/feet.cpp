@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -41,7 +42,14 @@ void require_usage(const FeetOptions& options)
 {
     if (options.ground.empty() != options.ground_size.empty())
         throw CommandError(2, "--ground and --ground-size go together; give both");
-    if (options.files.size() == 1) return;
+    if (options.files.size() == 1) {
+        const auto inputs = {options.files[0], options.contacts, options.ground};
+        if (std::ranges::count_if(inputs, [](const std::string& name) { return formats::is_standard_stream(name); }) >
+            1)
+            throw CommandError(2,
+                               "more than one of FILE, --contacts and --ground is -, standard input; name the others");
+        return;
+    }
     for (const std::string& file : options.files)
         if (formats::is_standard_stream(file))
             throw CommandError(2, "-, standard input, is one FILE of several; give it alone");
@@ -106,8 +114,8 @@ Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
     return find_contacts(run.motion, run.bars);
 }
 
-// One clip, from its file to its file.
-FeetRun run_clip(const FeetOptions& options, const std::optional<Ground>& hills, MotionFile& file, FeetRun run)
+// One clip, from its file to its file. hills: null without.
+FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& file, FeetRun run)
 {
     bind_legs(options, file, run);
     run.contacts = choose_contacts(options, run);
@@ -119,10 +127,10 @@ FeetRun run_clip(const FeetOptions& options, const std::optional<Ground>& hills,
     if (!run.export_contacts.empty())
         formats::write_contacts_csv(run.export_contacts, rows_of(run.motion, run.contacts));
     run.floor = {run.motion.up_w, floor_level(run.motion, run.contacts), hills};
-    run.placed = place_feet(run.motion, run.contacts, run.bars, run.floor);
+    run.placed = place_feet(run.motion, run.contacts, run.bars, run.floor, run.file);
     const formats::Clip& clip = file.clip();
     const std::vector<TurnedJoint> joints = turn_legs(clip, run.legs, run.motion, run.placed, run.file);
-    run.before = skating_of(run.motion, run.contacts, {run.motion.up_w, run.floor.level, {}});
+    run.before = skating_of(run.motion, run.contacts, {run.motion.up_w, run.floor.level, nullptr});
     run.after = skating_of(leg_motion(with_joints(clip, joints), run.legs, run.motion.carrier, run.motion.up_w),
                            run.contacts, run.floor);
     if (run.out.empty()) return run;
@@ -142,7 +150,11 @@ void run_feet(const FeetOptions& options)
     const std::vector<std::string> outputs = outputs_of(options);
     std::vector<ReadFile> read{{options.contacts, "the table of contacts"}, {options.ground, "the picture of heights"}};
     for (const std::string& file : options.files) read.push_back({file, "the clip"});
+    std::vector<std::string> written = outputs;
+    written.push_back(options.export_contacts);
+    require_own_outputs(written, read);
     if (is_to_folder(options)) fs::create_directories(options.out);
+    std::FILE* const reports = report_stream(written);
 
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     const auto run_one = [&](std::size_t n) {
@@ -155,15 +167,13 @@ void run_feet(const FeetOptions& options)
         run.ground = options.ground;
         MotionFile file(run.file, options.motion);
         run.motion_file = &file;
-        if (!run.out.empty()) file.require_can_write(run.out);
-        std::vector<std::string> written(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(n) + 1);
-        written.push_back(run.export_contacts);
-        require_own_outputs(written, read, file);
-        run = run_clip(options, hills, file, std::move(run));
+        if (!run.out.empty()) file.require_can_write(run.out, "this clip", "");
+        require_not_beside(std::array{run.out, run.export_contacts}, file);
+        run = run_clip(options, hills ? &*hills : nullptr, file, std::move(run));
         if (options.json)
             json.push_back(json_of(run));
         else if (!options.quiet)
-            print_feet(run);
+            print_feet(run, reports);
     };
     std::size_t failed = 0;
     if (options.files.size() == 1) {
@@ -175,7 +185,7 @@ void run_feet(const FeetOptions& options)
             if (run_to_end([&] { run_one(n); }) != 0) ++failed;
         }
     }
-    if (options.json) print_json({{"clips", json}});
+    if (options.json) print_json({{"clips", json}}, reports);
     if (failed > 0) throw CommandError(1, fmt::format("{} of {} clips failed", failed, options.files.size()));
 }
 

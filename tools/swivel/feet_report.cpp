@@ -55,48 +55,46 @@ double share_on(const std::vector<bool>& contact)
 
 }  // namespace
 
-void print_feet(const FeetRun& run)
+void print_feet(const FeetRun& run, std::FILE* to)
 {
     const formats::Clip& clip = run.motion_file->clip();
-    say(stdout, "clip     {}: {}, {} joints, {} frames, {:.1f} frames/s\n", shown_file(run.file),
+    say(to, "clip     {}: {}, {} joints, {} frames, {:.1f} frames/s\n", shown_file(run.file),
         run.motion_file->describe(), clip.joints.size(), clip.frame_count, 1 / clip.frame_time);
-    for (const std::string& note : run.motion_file->notes()) say(stdout, "note     {}\n", note);
+    for (const std::string& note : run.motion_file->notes()) say(to, "note     {}\n", note);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (std::size_t n = 0; n < run.legs.size(); ++n) {
         const Limb& leg = run.legs[n];
         const LegPath& path = run.motion.legs[n];
-        say(stdout, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {} time{}, {:.0f} % of the frames\n",
+        say(to, "leg      {:<5} {} > {} > {}, {:.4g} long; {}; in contact {} time{}, {:.0f} % of the frames\n",
             side_name(leg.name.side), shown(leg.upper()), shown(leg.lower()), shown(leg.end()), path.length,
             path.has_toe ? shown(path.toe) + " stands" : "without a toe joint its ankle stands",
             contacts_of(run.contacts[n]).size(), contacts_of(run.contacts[n]).size() == 1 ? "" : "s",
             100 * share_on(run.contacts[n]));
     }
     for (const LimbFinding& finding : run.missing)
-        say(stdout, "leg      {:<5} {}: {}\n", side_name(finding.name.side), finding.has_joints ? "refused" : "missing",
+        say(to, "leg      {:<5} {}: {}\n", side_name(finding.name.side), finding.has_joints ? "refused" : "missing",
             problem_text(finding));
     if (run.contacts_from.empty())
-        say(stdout,
+        say(to,
             "contact  slower than {:g} leg lengths a second and lower than {:g} over its floor, in most frames of a "
             "twelfth of a second\n",
             run.bars.speed, run.bars.height);
     else
-        say(stdout, "contact  as {} says\n", shown_file(run.contacts_from));
+        say(to, "contact  as {} says\n", shown_file(run.contacts_from));
     if (run.floor.hills)
-        say(stdout, "ground   {}, {} x {} pixels; the clip's own floor is level, its feet stand at {:.4g}\n",
+        say(to, "ground   {}, {} x {} pixels; the clip's own floor is level, its feet stand at {:.4g}\n",
             shown_file(run.ground), run.floor.hills->picture.columns, run.floor.hills->picture.rows, run.floor.level);
     else
-        say(stdout, "ground   level, feet stand at {:.4g}\n", run.floor.level);
-    say(stdout, "body     moved by {}\n", shown(run.motion.carrier));
-    say(stdout, "{:<35}{:>9}{:>10}\n", "", "before", "after");
+        say(to, "ground   level, feet stand at {:.4g}\n", run.floor.level);
+    say(to, "body     moved by {}\n", shown(run.motion.carrier));
+    say(to, "{:<35}{:>9}{:>10}\n", "", "before", "after");
     for (const Measure& each : kMeasures)
-        say(stdout, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value,
-            each.unit);
+        say(to, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value, each.unit);
     const BodyMove body(run);
-    say(stdout, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.most,
-        body.down);
+    say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.most, body.down);
     for (const std::string& name : {run.out, run.export_contacts})
         if (!name.empty())
-            say(stdout, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
+            say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
 }
 
 nlohmann::ordered_json json_of(const FeetRun& run)

@@ -3,6 +3,7 @@
 // What `swivel feet` says of one clip: its legs, when they are in contact, and how its feet skate before and after.
 #pragma once
 
+#include <cstdio>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ struct FeetRun {
     Skating before, after;
 };
 
-void print_feet(const FeetRun& run);  // on stdout
+void print_feet(const FeetRun& run, std::FILE* to);
 nlohmann::ordered_json json_of(const FeetRun& run);
 
 }  // namespace swivel::tools

@@ -27,6 +27,8 @@ namespace {
 
 using formats::Clip;
 
+constexpr double kLeastBone = 1e-6;  // of its limb
+
 std::vector<int> all_bones(const Clip& clip)
 {
     std::vector<int> bones;
@@ -42,27 +44,28 @@ std::string names_of(const Clip& clip, const std::vector<int>& joints)
     return names.empty() ? "none" : formats::printable(names, formats::kMostQuoted);
 }
 
-void require_files(const RetargetOptions& options, const MotionFile& source, const MotionFile& target)
+// A bone of no length has no direction, and its limb no knee or elbow.
+void require_bones(const std::string& file, const Clip& clip, const LimbJoints& joints)
 {
-    const auto beside = [](const MotionFile& file) { return file.files_beside(); };
-    for (const std::string& output : {options.out, options.export_map}) {
-        if (output.empty()) continue;
-        const auto refuse_if = [&](bool is_lost, const char* what) {
-            if (is_lost) throw CommandError(2, fmt::format("{}: is {}, too; name another file to write", output, what));
+    const std::vector<formats::JointPose> pose_w = formats::rest_pose(clip);
+    const auto length = [&](std::size_t n) {
+        const auto place_w = [&](std::size_t at) -> const Eigen::Vector3d& {
+            return pose_w[static_cast<std::size_t>(joints[at])].position;
         };
-        refuse_if(would_be_lost(output, options.source), "SOURCE");
-        refuse_if(would_be_lost(output, options.target), "TARGET");
-        refuse_if(!options.map.empty() && would_be_lost(output, options.map), "the table of pairs");
-        for (const MotionFile* file : {&source, &target})
-            for (const std::filesystem::path& each : beside(*file))
-                refuse_if(would_be_lost(output, each.string()), "a buffer or image of SOURCE or TARGET");
-    }
-    if (!options.out.empty() && options.out == options.export_map)
-        throw CommandError(2, fmt::format("{}: is another output, too; name another file to write", options.out));
+        return (place_w(n + 1) - place_w(n)).norm();
+    };
+    for (std::size_t n = 0; n < 2; ++n)
+        if (!(length(n) > kLeastBone * (length(0) + length(1))))
+            throw formats::InputError(
+                file,
+                fmt::format("the bone from {} to {} has no length at rest; leave its limb out, or give other "
+                            "joints by --map FILE",
+                            printable_name(joint_at(clip, joints[n])), printable_name(joint_at(clip, joints[n + 1]))));
 }
 
-// Both bodies need hips and a leg that the other has, too.
-void require_bodies(const RetargetOptions& options, const JointPairs& pairs)
+// Both bodies need hips and a leg that the other has, too. Limbs that both have need bones.
+void require_bodies(const RetargetOptions& options, const JointPairs& pairs, const Clip& source_clip,
+                    const Clip& target_clip)
 {
     const auto refuse = [](const std::string& file, const char* what) {
         throw formats::InputError(
@@ -74,8 +77,12 @@ void require_bodies(const RetargetOptions& options, const JointPairs& pairs)
     if (joints_of(source, "hips").empty()) refuse(options.source, "hips");
     if (joints_of(target, "hips").empty()) refuse(options.target, "hips");
     const KnownLimbs from = limbs_of(source), to = limbs_of(target);
-    if ((from[2] && to[2]) || (from[3] && to[3])) return;
-    refuse(from[2] || from[3] ? options.target : options.source, "leg");
+    if (!(from[2] && to[2]) && !(from[3] && to[3])) refuse(from[2] || from[3] ? options.target : options.source, "leg");
+    for (std::size_t n = 0; n < from.size(); ++n) {
+        if (!from[n] || !to[n]) continue;
+        require_bones(options.source, source_clip, *from[n]);
+        require_bones(options.target, target_clip, *to[n]);
+    }
 }
 
 // The joints that ever leave their rest, with the hips' way.
@@ -107,25 +114,25 @@ private:
     std::vector<formats::JointKeys> keys_;
 };
 
-void print_pairs(const Clip& source, const Clip& target, const JointPairs& pairs)
+void print_pairs(std::FILE* to, const Clip& source, const Clip& target, const JointPairs& pairs)
 {
     const auto count = std::ranges::count_if(pairs, &PairedPart::is_paired);
     const auto parts =
         std::ranges::count_if(pairs, [](const auto& each) { return each.is_paired() && !each.name.empty(); });
-    say(stdout, "paired    {} parts of the body, {} more joints by their names\n", parts, count - parts);
-    say(stdout, "at rest   of TARGET: {}\n", names_of(target, unpaired_bones(pairs, target, BodySide::target)));
-    say(stdout, "unused    of SOURCE: {}\n", names_of(source, unpaired_bones(pairs, source, BodySide::source)));
+    say(to, "paired    {} parts of the body, {} more joints by their names\n", parts, count - parts);
+    say(to, "at rest   of TARGET: {}\n", names_of(target, unpaired_bones(pairs, target, BodySide::target)));
+    say(to, "unused    of SOURCE: {}\n", names_of(source, unpaired_bones(pairs, source, BodySide::source)));
 }
 
-void print_motion(const Retargeted& motion, const std::vector<GoalMiss>& misses)
+void print_motion(std::FILE* to, const Retargeted& motion, const std::vector<GoalMiss>& misses)
 {
-    say(stdout, "lengths   {:.6g} of TARGET for 1 of SOURCE, by the legs\n", motion.leg_ratio);
+    say(to, "lengths   {:.6g} of TARGET for 1 of SOURCE, by the legs\n", motion.leg_ratio);
     for (const GoalMiss& miss : misses) {
         const LimbWords& words = words_of(miss.limb.kind);
         if (!miss.problem.empty())
-            say(stdout, "{:<9} not solved: {}\n", plain_name(miss.limb), miss.problem);
+            say(to, "{:<9} not solved: {}\n", plain_name(miss.limb), miss.problem);
         else
-            say(stdout, "{:<9} {} from its goal: {:.2g} of the limb's length in the mean, most {:.2g} in frame {}\n",
+            say(to, "{:<9} {} from its goal: {:.2g} of the limb's length in the mean, most {:.2g} in frame {}\n",
                 plain_name(miss.limb), words.end_joint, miss.mean, miss.most, miss.most_frame);
     }
 }
@@ -140,15 +147,20 @@ void run_retarget(const RetargetOptions& options)
         throw CommandError(2, "more than one of SOURCE, TARGET and --map is -, standard input; name the others");
     MotionFile source_file(options.source, options.motion), target_file(options.target, {});
     if (!options.out.empty()) target_file.require_can_write(options.out, "TARGET", "");
-    require_files(options, source_file, target_file);
+    const std::string outputs[] = {options.out, options.export_map};
+    const ReadFile read[] = {
+        {options.source, "SOURCE"}, {options.target, "TARGET"}, {options.map, "the table of pairs"}};
+    require_own_outputs(outputs, read);
+    require_not_beside(outputs, source_file);
+    require_not_beside(outputs, target_file);
     const Clip &source = source_file.clip(), &target = target_file.clip();
     source_file.sample(all_bones(source));
-    target_file.sample({});
+    target_file.sample(all_bones(target));
     const JointPairs pairs =
         options.map.empty() ? pair_joints(source, target) : read_joint_map(options.map, source, target);
     if (!options.export_map.empty()) write_joint_map(options.export_map, pairs, source, target);
     if (source.frame_time == 0) throw formats::InputError(options.source, "its keys lie at uneven times; give --fps");
-    require_bodies(options, pairs);
+    require_bodies(options, pairs, source, target);
     Retargeted motion = retarget(source, target, pairs);
     const std::vector<GoalMiss> misses =
         solve_limbs(motion, parts_of(pairs, BodySide::target), options.map.empty() ? options.target : options.map);
@@ -157,14 +169,15 @@ void run_retarget(const RetargetOptions& options)
                           formats::NewFrames{source.frame_count, source.frame_time,
                                              std::filesystem::path(title_of(options.source)).stem().string()});
     if (options.quiet) return;
-    say(stdout, "source    {}: {}, {} frames\n", shown_file(options.source), source_file.describe(),
-        source.frame_count);
-    for (const std::string& note : source_file.notes()) say(stdout, "note: {}\n", note);
-    say(stdout, "target    {}: {}\n", shown_file(options.target), target_file.describe());
-    print_pairs(source, target, pairs);
-    print_motion(motion, misses);
-    for (const std::string& name : {options.out, options.export_map})
-        if (!name.empty()) say(stdout, "written   {}\n", shown_file(name));
+    std::FILE* const to = report_stream(outputs);
+    say(to, "source    {}: {}, {} frames\n", shown_file(options.source), source_file.describe(), source.frame_count);
+    for (const std::string& note : source_file.notes()) say(to, "note      {}\n", note);
+    say(to, "target    {}: {}\n", shown_file(options.target), target_file.describe());
+    print_pairs(to, source, target, pairs);
+    print_motion(to, motion, misses);
+    for (const std::string& name : outputs)
+        if (!name.empty())
+            say(to, "written   {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
 }
 
 }  // namespace swivel::tools

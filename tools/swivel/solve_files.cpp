@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 
 #include "tools/cli/command_error.h"
 #include "tools/formats/text.h"
@@ -18,26 +19,31 @@ namespace {
 
 using formats::is_standard_stream;
 
-// Whether what is written to the one would replace the other.
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b)
+// Equal for two files if what is written to the one would replace the other. Empty for what is never replaced, such as
+// a device.
+std::string key_of(const struct stat& file)
 {
+    return S_ISREG(file.st_mode) ? fmt::format("{}:{}", file.st_dev, file.st_ino) : std::string();
+}
+std::string key_of(const std::filesystem::path& path)
+{
+    struct stat file;
+    if (::stat(path.c_str(), &file) == 0) return key_of(file);
     std::error_code ignored;
-    if (std::filesystem::exists(a, ignored)) {
-        const bool loses = std::filesystem::is_regular_file(a, ignored);
-        return loses && std::filesystem::equivalent(a, b, ignored);
-    }
-    const auto whole = [&](const std::filesystem::path& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
-    };
-    return !whole(a).empty() && whole(a) == whole(b);
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored).string();
 }
 
-// Whether standard input is that file, as with `< FILE`.
-bool is_standard_input(const std::string& file)
+// Of what is read by that name: standard input may be a file, as with `< FILE`.
+std::string read_key(const std::string& name)
 {
-    struct stat named, input;
-    return ::stat(file.c_str(), &named) == 0 && ::fstat(STDIN_FILENO, &input) == 0 && S_ISREG(named.st_mode) &&
-           named.st_dev == input.st_dev && named.st_ino == input.st_ino;
+    struct stat input;
+    if (!is_standard_stream(name)) return key_of(std::filesystem::path(name));
+    return ::fstat(STDIN_FILENO, &input) == 0 ? key_of(input) : std::string();
+}
+
+void refuse(const std::string& output, const char* what)
+{
+    throw CommandError(2, fmt::format("{}: is {}, too; name another file to write", output, what));
 }
 
 }  // namespace
@@ -57,32 +63,34 @@ OutKind out_kind(const std::string& out, std::uint32_t characters)
     return OutKind::motion;
 }
 
-bool would_be_lost(const std::string& file, const std::string& name)
-{
-    return is_standard_stream(name) ? is_standard_input(file) : is_same_file(file, name);
-}
-
 void require_one_reader(const SolveOptions& options, const std::string& targets)
 {
     if (std::ranges::count_if(std::array{options.file, options.crowd, targets}, is_standard_stream) > 1)
         throw CommandError(2, "more than one of FILE, --crowd and --targets is -, standard input; name the others");
 }
 
-void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read, const MotionFile& clip)
+void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read)
 {
-    for (std::size_t n = 0; n < outputs.size(); ++n) {
-        const std::string& file = outputs[n];
-        if (file.empty()) continue;
-        const auto refuse_if = [&](bool is_lost, const char* what) {
-            if (is_lost) throw CommandError(2, fmt::format("{}: is {}, too; name another file to write", file, what));
-        };
-        for (std::size_t other = 0; other < n; ++other)
-            refuse_if(!outputs[other].empty() && is_same_file(file, outputs[other]), "another output");
-        if (is_standard_stream(file)) continue;  // reading from - is something else
-        for (const ReadFile& each : read) refuse_if(!each.name.empty() && would_be_lost(file, each.name), each.what);
-        for (const std::filesystem::path& beside : clip.files_beside())
-            refuse_if(is_same_file(file, beside), "a buffer or image of the clip");
+    std::map<std::string, const char*> taken;
+    for (const ReadFile& each : read)
+        if (!each.name.empty()) taken.emplace(read_key(each.name), each.what);
+    taken.erase("");
+    for (const std::string& output : outputs) {
+        if (output.empty()) continue;
+        const std::string key = is_standard_stream(output) ? output : key_of(std::filesystem::path(output));
+        if (key.empty()) continue;
+        const auto [other, is_own] = taken.emplace(key, "another output");
+        if (!is_own) refuse(output, other->second);
     }
+}
+
+void require_not_beside(std::span<const std::string> outputs, const MotionFile& clip)
+{
+    for (const std::filesystem::path& beside : clip.files_beside())
+        for (const std::string& output : outputs)
+            if (!output.empty() && !is_standard_stream(output) && !key_of(beside).empty() &&
+                key_of(std::filesystem::path(output)) == key_of(beside))
+                refuse(output, "a buffer or image of the clip");
 }
 
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets)
@@ -91,13 +99,18 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
     const ReadFile read[] = {{options.file, "the clip"},
                              {targets == "clip" ? "" : targets, "the table of targets"},
                              {options.crowd, "the crowd file"}};
-    require_own_outputs(outputs, read, clip);
+    require_own_outputs(outputs, read);
+    require_not_beside(outputs, clip);
+}
+
+std::FILE* report_stream(std::span<const std::string> outputs)
+{
+    return std::ranges::any_of(outputs, is_standard_stream) ? stderr : stdout;
 }
 
 std::FILE* report_stream(const SolveOptions& options)
 {
-    const auto outputs = {options.out, options.export_targets, options.view};
-    return std::ranges::any_of(outputs, is_standard_stream) ? stderr : stdout;
+    return report_stream(std::array{options.out, options.export_targets, options.view});
 }
 
 }  // namespace swivel::tools

@@ -28,16 +28,16 @@ struct ReadFile {
     std::string name;
     const char* what;
 };
-// Refuses an output that is one of these files, lies beside the clip, or is another output. Empty names are none.
-// Throws CommandError.
-void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read, const MotionFile& clip);
-// Whether writing to the file would replace what is read by that name, which may be standard input.
-bool would_be_lost(const std::string& file, const std::string& name);
+// Refuses an output that is one of these files, or is another output. Empty names are none. Throws CommandError.
+void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read);
+// Refuses an output that is a file beside the clip. Throws CommandError.
+void require_not_beside(std::span<const std::string> outputs, const MotionFile& clip);
 
 // Nothing that is read is written over, and nothing that is written. Throws CommandError.
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets);
 
 // Where reports go: stderr, where stdout is for data.
+std::FILE* report_stream(std::span<const std::string> outputs);
 std::FILE* report_stream(const SolveOptions& options);
 
 }  // namespace swivel::tools
