@@ -129,6 +129,15 @@ Slide slide_of(const Toes& toes, const Toes& source)
     return slide;
 }
 
+// The most keys that a channel of the first animation has: in these figures all others have keys at some of the same.
+std::vector<double> key_times(const PlainGltf& gltf)
+{
+    std::vector<double> most;
+    for (const auto& sampler : gltf.json["animations"][0]["samplers"])
+        if (const auto& times = plain_numbers(gltf, sampler["input"]); times.size() > most.size()) most = times;
+    return most;
+}
+
 }  // namespace
 
 TEST_CASE("retarget: a motion on its own figure is the same motion")
@@ -156,8 +165,7 @@ TEST_CASE("retarget: a motion on its own figure is the same motion")
         INFO(name);
         retargeted(folder, path, path, "same.glb");
         const PlainGltf before = plain_gltf_of(path), after = plain_gltf_of(folder / "same.glb");
-        const auto& times = plain_numbers(before, before.json["animations"][0]["samplers"][0]["input"]);
-        const auto& new_times = plain_numbers(after, after.json["animations"][0]["samplers"][0]["input"]);
+        const std::vector<double> times = key_times(before), new_times = key_times(after);
         REQUIRE(new_times.size() == times.size());
         double turn = 0;
         for (std::size_t n = 0; n < times.size(); ++n)
