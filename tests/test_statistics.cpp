@@ -98,8 +98,9 @@ TEST_CASE("statistics: errors are counted from the targets as they were asked fo
     for (const swivel::formats::Target& target : crowd.targets()) {
         const std::size_t limb = target.limb == limbs[0].name ? 0 : 1;
         const GoalCrowd& goals = crowd.goal_crowd();
-        const Eigen::Vector3d origin = crowd.motion().origin(goals.clip_frame(target.character), limb) +
-                                       Eigen::Vector3d(goals.characters()[target.character].place);
+        const goal_character& who = goals.characters()[target.character];
+        const Eigen::Vector3d origin =
+            who.size * crowd.motion().origin(goals.clip_frame(target.character), limb) + Eigen::Vector3d(who.place);
         Eigen::Vector3d wanted = target.position - origin, wrist;
         if (limbs[limb].mirrored) wanted.x() = -wanted.x();
         goals.crowds().forward(limb, target.character, 1, {nullptr, 0}, {wrist.data(), sizeof wrist}, {nullptr, 0});
