@@ -22,7 +22,7 @@ struct FitStage {
     std::vector<std::vector<Float3>> targets;
     swivel_fit fit = swivel_default_fit();
 
-    explicit FitStage(std::uint64_t seed) : bodies(seed, Ground::still)
+    explicit FitStage(std::uint64_t seed) : bodies(seed, Ground::still, 80)
     {
         Random random{seed + 1};
         fit.drop = 0.5f, fit.rise = 0.4f;
@@ -96,7 +96,7 @@ TEST_CASE("a body is shifted so that all its limbs reach")
     stage.solve(crowd, 0);
     int far_count = 0;
     for (std::uint32_t n = 0; n < stage.bodies.body_count; ++n) far_count += std::fabs(stage.shift(crowd, n)) > 0.01;
-    REQUIRE(far_count > 10);  // in the first solve it is there at once
+    REQUIRE(far_count > 20);  // in the first solve it is there at once
     for (std::uint32_t n = 0; n < stage.bodies.body_count; ++n) {
         const std::vector<JointAt> was = joints_at(stage.bodies.skeleton, stage.bodies.bodies[n]),
                                    is = joints_at(stage.bodies.skeleton,
