@@ -123,7 +123,7 @@ TEST_CASE("where limbs conflict, none is much farther out of reach than it must 
     }
     INFO("mean " << sum / count << ", most " << most);
     CHECK(sum / count <= 0.030);
-    CHECK(most <= 0.25);  // m; of 20,000 figures the most was 0.224
+    CHECK(most <= 0.219);  // m; of 20,000 figures the most was 0.224
 }
 
 TEST_CASE("a limb asks for its share of a shift, and allows more")
