@@ -201,9 +201,9 @@ struct Planner {
 };
 
 // Below the first joint's first place, as low as any joint ever is.
-Vector3d foot_of(const formats::Clip& clip)
+Eigen::Vector3d foot_of(const formats::Clip& clip)
 {
-    Vector3d foot = Vector3d::Zero();
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
     double ground = std::numeric_limits<double>::infinity();
     std::vector<formats::JointPose> pose_w(clip.joints.size());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
