@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/cli/streams.h"
+#include "tools/formats/text.h"
 #include "tools/rig/limb_words.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_report.h"
