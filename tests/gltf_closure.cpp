@@ -3,26 +3,29 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 namespace swivel::test {
+
+namespace {
+
+double angle_between(const Eigen::Affine3d& a, const Eigen::Affine3d& b)
+{
+    const Eigen::Matrix3d turn = plain_axes(a).transpose() * plain_axes(b);
+    const Eigen::Vector3d axis(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+    return std::atan2(axis.norm(), turn.trace() - 1);
+}
+
+}  // namespace
 
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs)
 {
     const int written = std::max(animation, 0);
-    const auto& channels = to.json.at("animations").at(static_cast<std::size_t>(written)).at("channels");
-    const auto& samplers = to.json.at("animations").at(static_cast<std::size_t>(written)).at("samplers");
-    const auto times_of = [&](int node) -> const std::vector<double>& {
-        for (const auto& channel : channels)
-            if (channel.at("target").value("node", -1) == node && channel.at("target").at("path") == "rotation")
-                return plain_numbers(to, samplers.at(channel.at("sampler").get<std::size_t>()).at("input"));
-        FAIL("node " << node << " has no rotation keys");
-        throw 0;
-    };
     std::vector<bool> solved(to.nodes().size());
     for (const LimbNodes& limb : limbs)
         for (const int node : limb) solved.at(static_cast<std::size_t>(node)) = true;
     Closure worst;
-    for (const double time : times_of(limbs.at(0)[0])) {
+    for (const double time : key_times(to, limbs.at(0)[0], "rotation", written)) {
         ++worst.frames;
         for (const LimbNodes& limb : limbs) {
             std::array<Eigen::Affine3d, 3> before, after;
@@ -41,6 +44,11 @@ Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const
                  (place(after[1]) - place(before[1])).norm() / length);
             keep(worst.orientation, (plain_axes(after[2]) - plain_axes(before[2])).norm());
             keep(worst.others, (place(after[0]) - place(before[0])).norm() / length);
+            const double sine = upper.normalized().cross(lower.normalized()).norm();
+            for (const int node : limb)
+                keep(worst.turn,
+                     angle_between(plain_local(from, animation, node, time), plain_local(to, written, node, time)) /
+                         (2e-6 + 4e-7 * length * length / (upper.norm() * lower.norm() * sine)));
         }
         for (int node = 0; node < static_cast<int>(solved.size()); ++node)
             if (!solved[static_cast<std::size_t>(node)])
@@ -54,12 +62,13 @@ Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const
 void require_closed(const Closure& worst)
 {
     INFO("end " << worst.end << ", bent " << worst.lower_bent << ", straight " << worst.lower_straight
-                << ", orientation " << worst.orientation << ", others " << worst.others);
+                << ", orientation " << worst.orientation << ", others " << worst.others << ", turn " << worst.turn);
     CHECK(worst.end <= 1e-5);
     CHECK(worst.lower_bent <= 1e-5);
     CHECK(worst.lower_straight <= 2e-3);
     CHECK(worst.orientation <= 2e-5);
     CHECK(worst.others <= 1e-12);
+    CHECK(worst.turn <= 1);
     CHECK(worst.frames > 0);
 }
 

@@ -79,6 +79,16 @@ const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index)
     return gltf.accessors[index] = numbers;
 }
 
+std::vector<double> key_times(const PlainGltf& gltf, int node, const std::string& path, int animation)
+{
+    const auto& of = gltf.json.at("animations").at(static_cast<std::size_t>(animation));
+    for (const auto& channel : of.at("channels"))
+        if (channel.at("target").value("node", -1) == node && channel.at("target").at("path") == path)
+            return plain_numbers(gltf, of.at("samplers").at(channel.at("sampler").get<std::size_t>()).at("input"));
+    FAIL("node " << node << " has no keys of " << path);
+    return {};
+}
+
 Eigen::VectorXd plain_value(const PlainGltf& gltf, int animation, int node, const std::string& path, double time,
                             const Eigen::VectorXd& rest)
 {

@@ -40,6 +40,9 @@ PlainGltf plain_gltf_of(const fs::path& path);
 // An accessor's elements, one after the other.
 const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index);
 
+// When an animation has keys of a node: of its rotation, or of another path. Fails the test if it has none.
+std::vector<double> key_times(const PlainGltf& gltf, int node, const std::string& path = "rotation", int animation = 0);
+
 // The value of one node's channel at a time, as the specification's appendix C has it; `rest` where there is none.
 Eigen::VectorXd plain_value(const PlainGltf& gltf, int animation, int node, const std::string& path, double time,
                             const Eigen::VectorXd& rest);

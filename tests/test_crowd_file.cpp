@@ -67,15 +67,15 @@ const fs::path kSource = SWIVEL_SOURCE_DIR;
 TEST_CASE("crowd file: the special table goes before the general one, and says whose side it is for")
 {
     const CrowdFile file = read(
-        "[limb.left_arm]\npriority = 9\n[limb.all]\npriority = 1\ntwist_bones = 1\nhand = true\n"
-        "[limb.arms]\npriority = 2\ntwist_bones = 2\n[limb.right]\npriority = 3\n"
+        "[limb.left_arm]\nweights.hand = 0.9\n[limb.all]\nweights.hand = 0.1\ntwist_bones = 1\nhand = true\n"
+        "[limb.arms]\nweights.hand = 0.2\ntwist_bones = 2\n[limb.right]\nweights.hand = 0.3\n"
         "[limb.all.limits]\nhumeral_twist_deg = [0, 10]\nforearm_twist_deg = [0, 10]\n"
         "[limb.right_arm.limits]\nforearm_twist_deg = [0, 20]\n[limb.right.pole]\nangle_deg = 4\n");
-    const auto priority = [&](LimbName limb) { return settings_of(file, limb).priority->value; };
-    CHECK(priority(kLeftArm) == 9);
-    CHECK(priority(kRightArm) == 3);
-    CHECK(priority(kLeftLeg) == 1);
-    CHECK(priority(kRightLeg) == 3);
+    const auto weight = [&](LimbName limb) { return settings_of(file, limb).hand_weight->value; };
+    CHECK(weight(kLeftArm) == 0.9);
+    CHECK(weight(kRightArm) == 0.3);
+    CHECK(weight(kLeftLeg) == 0.1);
+    CHECK(weight(kRightLeg) == 0.3);
     CHECK(settings_of(file, kRightArm).twist_bones->value == 2);
     CHECK(settings_of(file, kRightLeg).twist_bones->value == 1);
     CHECK(settings_of(file, kRightArm).hand->line == 6);

@@ -99,17 +99,6 @@ Words tokens_of(const std::string& line)
     return words;
 }
 
-// The times of a node's keys in the first animation.
-std::vector<double> key_times(const PlainGltf& gltf, int node, const std::string& path)
-{
-    const json& animation = gltf.json.at("animations").at(0);
-    for (const json& channel : animation.at("channels"))
-        if (channel.at("target").at("node") == node && channel.at("target").at("path") == path)
-            return plain_numbers(gltf,
-                                 animation.at("samplers").at(channel.at("sampler").get<std::size_t>()).at("input"));
-    return {};
-}
-
 }  // namespace
 
 TEST_CASE("feet: recorded feet stand where legs or way do not fit the clip")

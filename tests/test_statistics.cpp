@@ -84,7 +84,7 @@ TEST_CASE("statistics: errors are counted from the targets as they were asked fo
     CrowdPlan plan;
     plan.characters = 30;
     plan.limbs.resize(limbs.size());
-    ClipCrowd crowd(clip, limbs, plan, "test");
+    ClipCrowd crowd(clip, limbs, plan);
     swivel::formats::Target given;
     given.frame = 1;
     given.limb = limbs[0].name;
@@ -98,14 +98,17 @@ TEST_CASE("statistics: errors are counted from the targets as they were asked fo
     for (const swivel::formats::Target& target : crowd.targets()) {
         const std::size_t limb = target.limb == limbs[0].name ? 0 : 1;
         const GoalCrowd& goals = crowd.goal_crowd();
-        const goal_character& who = goals.characters()[target.character];
-        const Eigen::Vector3d origin =
-            who.size * crowd.motion().origin(goals.clip_frame(target.character), limb) + Eigen::Vector3d(who.place);
-        Eigen::Vector3d wanted = target.position - origin, wrist;
-        if (limbs[limb].mirrored) wanted.x() = -wanted.x();
-        goals.crowds().forward(limb, target.character, 1, {nullptr, 0}, {wrist.data(), sizeof wrist}, {nullptr, 0});
-        const goal_input& input = goals.input(limb, target.character);
-        const double length = double{input.lengths[0]} + input.lengths[1];
+        const std::uint32_t who = target.character;
+        const goal_input& input = goals.input(limb, who);
+        const auto place = [&](std::size_t n) { return Eigen::Vector3f(input.places[n]).cast<double>().eval(); };
+        const auto row = crowd.pose(limb, who);
+        const double size = goals.characters()[who].size;
+        const Eigen::Quaterniond upper = quaternion(input.rotations[0]) * quaternion(row.shoulder);
+        const Eigen::Vector3d arm = upper * (place(2) + quaternion(row.elbow) * place(3));
+        const Eigen::Vector3d wrist = size * (place(0) + arm),
+                              wanted = target.position - Eigen::Vector3d(goals.root(who).place);
+        const auto& lengths = crowd.motion().sources(limb)[goals.clip_frame(who)].lengths;
+        const double length = size * (lengths[0] + lengths[1]);
         worst = std::max(worst, (wrist - wanted).norm() / length);
         worst_rounded = std::max(worst_rounded, (wrist - wanted.cast<float>().cast<double>()).norm() / length);
     }

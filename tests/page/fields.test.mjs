@@ -65,6 +65,39 @@ test('a limit of the crowd file can be switched off and on', async () => {
   });
 });
 
+test('weights say how much of the clip is kept, and a pole\'s counts where it is moved', async () => {
+  const place = write('weights.html', 'view', clip, '--characters', '4', '--frames', '30', '--crowd', file('weights.toml', '[limb.left_arm]\nweights.position = 0.5\n'));
+  await visit(place, async (page) => {
+    await page.getByText('Limits and weights').click();
+    await choose(page, 'left_arm');
+    const weights = box(page, 'WEIGHTS').locator('xpath=ancestor::div[1]'), weigh = (name, value) => weights.getByLabel(name).fill(value);
+    const state = () => page.evaluate(() => swivelPage.stage.digestState());
+    const joint = (name) => page.evaluate((part) => swivelPage.stage.pose(swivelPage.selection.limb, 1)[part], name);
+    const move = (part, by) => page.evaluate(([which, step]) => {
+      const { stage, selection: { limb } } = swivelPage;
+      swivelPage.drag(which, stage.goal(limb, 1, which).map((coordinate, axis) => coordinate + step[axis]));
+    }, [part, by]);
+    const apart = (a, b) => Math.hypot(...a.map((coordinate, axis) => coordinate - b[axis]));
+    assert.deepEqual([await bars(page, 'WEIGHTS'), await state()], [[0.5, 1, 1], 'equal']);
+    await weigh('Pole', '0');
+    assert.deepEqual([await bars(page, 'WEIGHTS'), await state()], [[0.5, 1, 0], 'changed']);
+    const [wrist, elbow] = [await joint('wrist'), await joint('elbow')];
+    await move('pole', [9, 1, 3]);
+    assert.ok(apart(await joint('elbow'), elbow) === 0, 'a pole of no weight says nothing');
+    await weigh('Pole', '1');
+    assert.ok(apart(await joint('elbow'), elbow) > 0.1, 'a pole that is moved counts');
+    await page.evaluate(() => swivelPage.letAllGo());
+    await move('target', [0, -2, 0]);
+    const half = apart(await joint('wrist'), wrist);
+    await box(page, 'WEIGHTS').uncheck();
+    const whole = apart(await joint('wrist'), wrist);
+    assert.ok(half > 0.1 && Math.abs(whole / half - 2) < 1e-3, `${half} ${whole}`);
+    await box(page, 'WEIGHTS').check();
+    await weigh('Position', '0');
+    assert.ok(apart(await joint('wrist'), wrist) < 1e-4);
+  });
+});
+
 test('a change that fails leaves the crowd as it was, and is told', async () => {
   await visit(write('full.html', 'demo', '--characters', '12', '--frames', '30'), async (page) => {
     await page.getByText('Limits and weights').click();

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Solves one limb with the native library: reads its features, its binding behind the size and its goal_input as bytes,
-// and prints the bits of its rotations and of its elbow and wrist. The page's must be the same.
+// Solves one limb with the native library: reads as bytes its features, the rest places and rotations of its four
+// joints, where its elbow bends, its goal_root and its goal_input. Prints the bits of its joints' rotations and of its
+// elbow and wrist. The page's must be the same.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
-#include <vector>
+#include <span>
 
-#include "tools/crowd/limb_setup.h"
+#include "swivel/swivel.hpp"
+#include "tools/crowd/goals.h"
 
 namespace {
 
 template <class Value>
-Value read()
+void read(Value& value)
 {
-    Value value;
     if (std::fread(&value, sizeof value, 1, stdin) != 1) std::exit(2);
-    return value;
 }
 
 template <class Word, class Value, std::size_t count>
@@ -33,21 +33,26 @@ void print(const Value (&values)[count])
 
 int main()
 {
-    const auto features = read<std::uint64_t>();
-    auto binding = swivel_default_binding();
-    const std::span<char> numbers = swivel::tools::bytes_behind_size(binding);
-    if (std::fread(numbers.data(), numbers.size(), 1, stdin) != 1) std::exit(2);
-    const auto input = read<goal_input>();
-    swivel::Crowd crowd({swivel::group(1, binding, features)});
-    swivel::check(swivel_goals_write(crowd.get(), 0, 1, &input));
-    crowd.solve();
-    float shoulder[1][4], elbow[1][4];
-    double elbow_place[3], wrist_place[3];
-    crowd.read(SWIVEL_SHOULDER, 0, shoulder);
-    crowd.read(SWIVEL_ELBOW, 0, elbow);
-    swivel::check(swivel_forward(crowd.get(), 0, 0, 1, {elbow_place, 24}, {wrist_place, 24}, {nullptr, 0}));
-    print<std::uint32_t>(shoulder[0]);
-    print<std::uint32_t>(elbow[0]);
-    print<std::uint64_t>(elbow_place);
-    print<std::uint64_t>(wrist_place);
+    swivel_features features;
+    float places[GOAL_JOINTS][3], rotations[GOAL_JOINTS][4];
+    swivel_limb_joints joints = swivel_default_limb_joints(1, 2, 3);
+    goal_root root;
+    goal_input input;
+    read(features), read(places), read(rotations), read(joints.bend), read(root), read(input);
+    constexpr std::int32_t parents[GOAL_JOINTS] = {-1, 0, 1, 2};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = GOAL_JOINTS;
+    skeleton.parents = {parents, sizeof parents[0]};
+    skeleton.translations = {places, sizeof places[0]};
+    skeleton.rotations = {rotations, sizeof rotations[0]};
+    const swivel_group_def limb = swivel::body_group(joints, features);
+    swivel::Crowd crowd(skeleton, 1, std::span(&limb, 1));
+    float pose[4 * GOAL_JOINTS] = {};
+    swivel_job job = swivel_default_job();
+    swivel::check(swivel_goals_solve(crowd.get(), &root, &input, pose, &job));
+    double elbow[3], wrist[3];
+    swivel::check(swivel_forward(crowd.get(), 0, 0, 1, {elbow, sizeof elbow}, {wrist, sizeof wrist}, {nullptr, 0}));
+    print<std::uint32_t>(pose);
+    print<std::uint64_t>(elbow);
+    print<std::uint64_t>(wrist);
 }

@@ -133,6 +133,11 @@ test('bad input is a dash, and its target is shown as it was given', async () =>
   await visit(write('bad.html', 'view', clip, '--frames', '1', '--targets', csv), async (page) => {
     const fact = (name) => page.evaluate((which) => [...document.querySelectorAll('aside dt')].find((each) => each.textContent === which).nextSibling.textContent, name);
     assert.equal(await fact('Off by'), '–');
+    const off = await page.evaluate(() => {
+      const { stage } = swivelPage, [limb] = stage.limbs, drawn = swivelPage.readback(limb, 1), { elbow, wrist } = stage.pose(limb, 0);
+      return Math.max(...[elbow, wrist].flatMap((joint, n) => joint.map((c, axis) => Math.abs(c - drawn[n][axis]))));
+    });
+    assert.ok(off < 1e-4, `it is drawn ${off} from its rest pose`);
     assert.match(await fact('Target'), /^1e\+30, 0\.0+, 0\.0+$/);
     await page.evaluate(() => swivelPage.selectNext());
     assert.match(await fact('Target'), /^1\.0+, 0\.0+, -2\.0+$/);

@@ -125,11 +125,14 @@ ChunkGoals Cache::goals(ChunkAt at) const
 {
     ChunkGoals goals;
     const ChunkPlace place{at.time, 0, at.column};
-    for (std::size_t n = 0; n < arrays_.given.size(); ++n) {
-        std::vector<float>& numbers = *std::array{&goals.target, &goals.pole, &goals.hand}[n];
-        numbers.resize(arrays_.given[n].chunk_bytes() / sizeof(float));
-        if (!read_made(arrays_.given[n], place, std::as_writable_bytes(std::span(numbers)))) numbers.clear();
-    }
+    if (arrays_.given.empty()) return goals;
+    const auto read = [&](const ZarrArray& array, auto& numbers) {
+        numbers.resize(array.chunk_bytes() / sizeof numbers[0]);
+        if (!read_made(array, place, std::as_writable_bytes(std::span(numbers)))) numbers.clear();
+    };
+    read(arrays_.given[0], goals.target);
+    read(arrays_.given[1], goals.pole);
+    read(arrays_.given[2], goals.hand);
     return goals;
 }
 

@@ -24,10 +24,11 @@ struct ChunkAt {
 // them as wide as a whole chunk. Floats are kept as their bits; those of nobody are NaN.
 using Results = std::vector<std::vector<std::uint32_t>>;
 
-// What a chunk is asked for beside the formula: [frame][limb][character][3, 3 and 4]; x of the target is NaN where the
-// formula holds. Empty: nowhere.
+// What a chunk is asked for beside the formula, in the world: [frame][limb][character][3, 3 and 4]; x of target and of
+// pole is NaN where the formula's counts. Empty: everywhere.
 struct ChunkGoals {
-    std::vector<float> target, pole, hand;
+    std::vector<double> target, pole;
+    std::vector<float> hand;
 };
 
 // All calls throw InputError, naming the file, where one may not be read or written.

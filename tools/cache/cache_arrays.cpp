@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
-
 #include "tools/cache/digest.h"
 #include "tools/cache/members.h"
 
@@ -12,10 +10,14 @@ namespace swivel::tools {
 
 namespace {
 
-constexpr std::tuple<const char*, std::uint64_t, const char*> kGiven[] = {
-    {"target", 3, "target of one's own, as solved: from the shoulder, mirrored for mirrored limbs; NaN: the clip's"},
-    {"pole", 3, "pole of one's own, as solved"},
-    {"hand", 4, "orientation of the hand of one's own, as solved, x y z w"}};
+struct GivenArray {
+    const char *name, *type;
+    std::uint64_t count;
+    const char* meaning;
+};
+constexpr GivenArray kGiven[] = {{"target", "<f8", 3, "target of one's own, in the world; NaN: the clip's"},
+                                 {"pole", "<f8", 3, "pole of one's own, in the world; NaN: the clip's"},
+                                 {"hand", "<f4", 4, "world rotation of the hand of one's own, x y z w"}};
 
 // Frames, limbs and characters of the whole crowd, and of one chunk.
 ZarrArray by_character(const CachedCrowd& crowd, std::string name, std::string type, std::string meaning,
@@ -92,8 +94,8 @@ CacheArrays::CacheArrays(const CachedCrowd& crowd)
                          "joints in the world, the clip's unit"));
     for (const Member& member : kCharacterMembers) characters.push_back(character_array(crowd, member));
     if (crowd.has_given)
-        for (const auto& [name, count, meaning] : kGiven)
-            given.push_back(by_character(crowd, fmt::format("given/{}", name), "<f4", meaning, {count}, {"part"}));
+        for (const auto& [name, type, count, meaning] : kGiven)
+            given.push_back(by_character(crowd, fmt::format("given/{}", name), type, meaning, {count}, {"part"}));
 }
 
 std::vector<ZarrArray> CacheArrays::made() const

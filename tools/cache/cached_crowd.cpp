@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "tools/cache/digest.h"
-#include "tools/crowd/limb_crowds.h"
+#include "tools/crowd/goal_crowd.h"
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
@@ -20,22 +20,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;
 constexpr std::uint32_t kLimbsInChunk = 65'536;
 constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
 constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
 constexpr std::int64_t kMostJoints = 1'000'000;  // more than the attributes have room for
 
-// The rotations of a binding, by the names of swivel_binding.
-constexpr std::pair<const char*, float (swivel_binding::*)[4]> kBindingRotations[] = {
-    {"parent_from_arm", &swivel_binding::parent_from_arm},
-    {"upper_from_arm", &swivel_binding::upper_from_arm},
-    {"elbow_parent_from_arm", &swivel_binding::elbow_parent_from_arm},
-    {"fore_from_arm", &swivel_binding::fore_from_arm},
-    {"wrist_parent_from_arm", &swivel_binding::wrist_parent_from_arm},
-    {"shoulder_rest", &swivel_binding::shoulder_rest},
-    {"elbow_rest", &swivel_binding::elbow_rest},
-    {"wrist_rest", &swivel_binding::wrist_rest}};
+// The numbers of a chain, by the names of swivel_chain.
+constexpr std::pair<const char*, float (swivel_chain::*)[4]> kChainRotations[] = {
+    {"shoulder_rotation", &swivel_chain::shoulder_rotation},
+    {"elbow_rotation", &swivel_chain::elbow_rotation},
+    {"wrist_rotation", &swivel_chain::wrist_rotation}};
+constexpr std::pair<const char*, float (swivel_chain::*)[3]> kChainVectors[] = {
+    {"elbow_offset", &swivel_chain::elbow_offset},
+    {"wrist_offset", &swivel_chain::wrist_offset},
+    {"bend", &swivel_chain::bend}};
 
 // A number within its range. JSON's own conversions would wrap, cut or round others.
 std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std::uint32_t most)
@@ -63,14 +62,11 @@ int place_of(const Json& json)
     return json.get<int>();
 }
 
-Json json_of(const swivel_binding& binding)
+Json json_of(const swivel_chain& chain)
 {
     Json out;
-    for (const auto& [name, rotation] : kBindingRotations) out[name] = binding.*rotation;
-    out["lengths"] = binding.lengths;
-    out["twist_bone_count"] = binding.twist_bone_count;
-    out["twist_parent_from_arm"] = binding.twist_parent_from_arm;
-    out["twist_from_arm"] = binding.twist_from_arm;
+    for (const auto& [name, rotation] : kChainRotations) out[name] = chain.*rotation;
+    for (const auto& [name, vector] : kChainVectors) out[name] = chain.*vector;
     return out;
 }
 
@@ -92,15 +88,12 @@ void get(const Json& json, Number (&to)[Count])
             json[n].get_to(to[n]);  // throws for what is no number
 }
 
-swivel_binding binding_of(const Json& json)
+swivel_chain chain_of(const Json& json)
 {
-    swivel_binding binding = swivel_default_binding();
-    for (const auto& [name, rotation] : kBindingRotations) get(json.at(name), binding.*rotation);
-    get(json.at("lengths"), binding.lengths);
-    binding.twist_bone_count = whole(json, "twist_bone_count", 0, SWIVEL_MOST_TWIST_BONES);
-    get(json.at("twist_parent_from_arm"), binding.twist_parent_from_arm);
-    get(json.at("twist_from_arm"), binding.twist_from_arm);
-    return binding;
+    swivel_chain chain = swivel_default_chain();
+    for (const auto& [name, rotation] : kChainRotations) get(json.at(name), chain.*rotation);
+    for (const auto& [name, vector] : kChainVectors) get(json.at(name), chain.*vector);
+    return chain;
 }
 
 Json json_of(const goal_plan& goals)
@@ -109,11 +102,14 @@ Json json_of(const goal_plan& goals)
             {"target_offset", goals.target_offset},
             {"effector", goals.effector},
             {"pole_fixed", goals.pole_fixed},
+            {"shoulder_place", goals.shoulder_place},
+            {"bones", goals.bones},
+            {"weights", goals.weights},
             {"has_target_point", goals.has_target_point},
             {"has_pole_fixed", goals.has_pole_fixed},
             {"pole", goals.pole},
-            {"hand_is_local", goals.hand_is_local},
-            {"is_mirrored", goals.is_mirrored}};
+            {"holds_pole", goals.holds_pole},
+            {"hand_is_local", goals.hand_is_local}};
 }
 
 goal_plan goals_of(const Json& json)
@@ -123,11 +119,14 @@ goal_plan goals_of(const Json& json)
     get(json.at("target_offset"), goals.target_offset);
     get(json.at("effector"), goals.effector);
     get(json.at("pole_fixed"), goals.pole_fixed);
+    get(json.at("shoulder_place"), goals.shoulder_place);
+    get(json.at("bones"), goals.bones);
+    get(json.at("weights"), goals.weights);
     goals.has_target_point = yes_or_no(json, "has_target_point");
     goals.has_pole_fixed = yes_or_no(json, "has_pole_fixed");
     goals.pole = one_of(json, "pole", GOAL_POLE_NORMAL);
+    goals.holds_pole = yes_or_no(json, "holds_pole");
     goals.hand_is_local = yes_or_no(json, "hand_is_local");
-    goals.is_mirrored = yes_or_no(json, "is_mirrored");
     return goals;
 }
 
@@ -176,8 +175,8 @@ Json json_of(const CachedLimb& limb)
               {"features", setup.features},
               {"shoulder_order", setup.shoulder_order},
               {"wrist_order", setup.wrist_order},
-              {"priority", setup.priority},
-              {"binding", json_of(setup.binding)},
+              {"mirrored", setup.mirrored ? 1 : 0},
+              {"chain", json_of(setup.chain)},
               {"goals", json_of(setup.goals)},
               {"fixed", std::move(fixed)}};
     if (setup.region) json["region"] = json_of(*setup.region);
@@ -196,8 +195,8 @@ CachedLimb limb_of(const Json& json)
     json.at("features").get_to(setup.features);
     setup.shoulder_order = one_of(json, "shoulder_order", SWIVEL_ZYX);
     setup.wrist_order = one_of(json, "wrist_order", SWIVEL_ZYX);
-    json.at("priority").get_to(setup.priority);
-    setup.binding = binding_of(json.at("binding"));
+    setup.mirrored = yes_or_no(json, "mirrored");
+    setup.chain = chain_of(json.at("chain"));
     setup.goals = goals_of(json.at("goals"));
     for (const Json& each : json.at("fixed")) {
         FixedField& fixed = setup.fields.emplace_back();
@@ -224,11 +223,14 @@ void require_sane(const CachedCrowd& crowd)
 }
 
 // The solver knows what it takes: features that go together, unit rotations, fields that there are.
-void require_solvable(const CachedCrowd& crowd, const std::filesystem::path& path)
+void require_solvable(const CachedCrowd& crowd)
 {
     std::vector<LimbSetup> setups;
     for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
-    LimbCrowds(setups, 1, 0, path);
+    const goal_source none{};
+    GoalCrowd crowd_of_one(setups, std::vector(setups.size(), std::span(&none, 1)), {goal_character{1, {}, 0, 0}}, 0);
+    crowd_of_one.set_frame(0);
+    crowd_of_one.solve();  // it may need what no cache has, such as the time
 }
 
 std::string digest_text(const Json& attributes)
@@ -279,11 +281,12 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
     if (has(SWIVEL_WITH_MOST_SWIVEL))
         fields.push_back({SWIVEL_NORMAL, "normal", "unit normal of the swivel plane, arm frame", {3}, {"xyz"}});
     if (twist_bones > 0)
-        fields.push_back({SWIVEL_TWIST_BONES,
-                          "twist_bones",
-                          "rotations of the twist bones, x y z w",
-                          {twist_bones, 4},
-                          {"twist_bone", "xyzw"}});
+        fields.push_back(
+            {SWIVEL_TWIST_BONES,
+             "twist_bones",
+             "by how much each twist bone turns from where the clip would have it, about the forearm, x y z w",
+             {twist_bones, 4},
+             {"twist_bone", "xyzw"}});
     if (has(SWIVEL_WITH_CLAVICLE))
         fields.push_back(
             {SWIVEL_CLAVICLE_TURN, "clavicle_turn", "turn of the shoulder's parent joint, x y z w", {4}, {"xyzw"}});
@@ -345,7 +348,7 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
             crowd.joints.push_back({joint.at("name").get<std::string>(), place_of(joint.at("parent"))});
         for (const Json& limb : attributes.at("limbs")) crowd.limbs.push_back(limb_of(limb));
         require_sane(crowd);
-        require_solvable(crowd, path);
+        require_solvable(crowd);
     } catch (const formats::InputError&) {
         throw;
     } catch (const std::exception& error) {  // the digest holds, so another program wrote it

@@ -2,6 +2,7 @@
 #include "tools/cache/column.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "tools/cache/digest.h"
@@ -12,34 +13,45 @@ namespace {
 
 constexpr std::uint32_t kNoNumber = 0x7fc00000;  // a float that is NaN
 
+// The first joint whose local rotation a field of the results is, among GOAL_JOINTS; 0: it is none.
+std::size_t joint_of(swivel_field field)
+{
+    return field == SWIVEL_SHOULDER      ? 1
+           : field == SWIVEL_ELBOW       ? 2
+           : field == SWIVEL_WRIST       ? 3
+           : field == SWIVEL_TWIST_BONES ? GOAL_JOINTS
+                                         : 0;
+}
+
 }  // namespace
 
-Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters,
-               const std::filesystem::path& folder)
+Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters)
     : cached_(crowd),
       index_(index),
       fields_(result_fields(crowd)),
       setups_(setups_of(crowd)),
-      crowd_(setups_, sources_of(crowd), std::move(characters), 0, folder)
+      crowd_(setups_, sources_of(crowd), std::move(characters), 0)
 {
-}
-
-void Column::solve_frame(const ChunkGoals& goals, std::uint32_t frame)
-{
-    put_given(cached_, goals, frame, 0, crowd_);
-    crowd_.write_inputs();
-    crowd_.crowds().solve();
 }
 
 void Column::read_frame(std::uint32_t frame, Results& results) const
 {
     for (std::size_t n = 0; n < fields_.size(); ++n)
         for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
-            if (!crowd_.crowds().has(limb, fields_[n].field)) continue;
+            const swivel_field field = fields_[n].field;
             const std::size_t count = fields_[n].count();
-            const std::size_t at = cached_.place(frame, limb, 0) * count;
-            crowd_.crowds().read(limb, fields_[n].field, 0, crowd_.character_count(),
-                                 {&results[n][at], count * sizeof(std::uint32_t)});
+            if (!crowd_.has(limb, field)) continue;
+            std::uint32_t* to = &results[n][cached_.place(frame, limb, 0) * count];
+            const std::size_t joint = joint_of(field);
+            if (joint == 0) {
+                crowd_.read(limb, field, 0, crowd_.character_count(), {to, count * sizeof *to});
+                continue;
+            }
+            const std::size_t joints = field == SWIVEL_TWIST_BONES ? setups_[limb].twist_bone_count() : 1;
+            for (std::uint32_t who = 0; who < crowd_.character_count(); ++who, to += count)
+                for (std::size_t part = 0; part < joints; ++part)
+                    std::ranges::transform(crowd_.rotation(limb, who, joint + part), to + 4 * part,
+                                           [](float number) { return std::bit_cast<std::uint32_t>(number); });
         }
 }
 
@@ -47,9 +59,9 @@ void Column::restore(const Results& state)
 {
     for (std::size_t n = 0; n < fields_.size(); ++n)
         for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
-            if (fields_[n].field != SWIVEL_NORMAL || !crowd_.crowds().has(limb, SWIVEL_NORMAL)) continue;
+            if (fields_[n].field != SWIVEL_NORMAL || !crowd_.has(limb, SWIVEL_NORMAL)) continue;
             const std::size_t count = fields_[n].count(), at = cached_.place(0, limb, 0) * count;
-            crowd_.crowds().restore_normals(limb, std::span(state[n]).subspan(at, crowd_.character_count() * count));
+            crowd_.restore(limb, SWIVEL_NORMAL, std::span(state[n]).subspan(at, crowd_.character_count() * count));
         }
 }
 
@@ -58,10 +70,10 @@ std::uint64_t Column::solve(std::uint32_t time, const ChunkGoals& goals, Results
     std::vector<std::uint64_t> words;
     for (std::uint32_t frame = 0; frame < cached_.frames_in(time); ++frame) {
         crowd_.set_frame(time * cached_.chunk.frames + frame);
-        solve_frame(goals, frame);
+        put_given(cached_, goals, frame, 0, crowd_);
+        crowd_.solve();
         read_frame(frame, results);
-        const std::vector<std::uint64_t> of_frame = crowd_.crowds().digests();
-        words.insert(words.end(), of_frame.begin(), of_frame.end());
+        words.push_back(crowd_.digest());
     }
     return digest_of(words);
 }
@@ -78,8 +90,11 @@ void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t
             if (std::isnan(goals.target[3 * at])) continue;
             goal_input& input = crowd.input(limb, first + n);
             std::copy_n(&goals.target[3 * at], 3, input.target);
-            std::copy_n(&goals.pole[3 * at], 3, input.pole);
             std::copy_n(&goals.hand[4 * at], 4, input.hand);
+            if (!std::isnan(goals.pole[3 * at])) {
+                std::copy_n(&goals.pole[3 * at], 3, input.pole);
+                input.weights[2] = cached.limbs[limb].setup.goals.weights[2];
+            }
             if (places) places->push_back({limb, first + n});
         }
 }

@@ -3,7 +3,6 @@
 // Solves chunks of a cache: the characters of one column, frame by frame.
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "tools/cache/cache.h"
@@ -14,8 +13,7 @@ namespace swivel::tools {
 class Column {
 public:
     // crowd must outlive the column. index: which column of it these are the characters of.
-    Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters,
-           const std::filesystem::path& folder);
+    Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters);
     std::uint32_t index() const { return index_; }
 
     // Starts from the last results of the chunk before, where state is carried.
@@ -25,7 +23,6 @@ public:
     std::uint64_t solve(std::uint32_t time, const ChunkGoals& goals, Results& results);
 
 private:
-    void solve_frame(const ChunkGoals& goals, std::uint32_t frame);
     void read_frame(std::uint32_t frame, Results& results) const;
 
     const CachedCrowd& cached_;

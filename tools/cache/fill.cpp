@@ -137,7 +137,7 @@ std::unique_ptr<Column> Filling::take_column(const Work& work)
         }
         if (column && column->index() == work.at.column) return column;
     }
-    return std::make_unique<Column>(cache_.crowd(), work.at.column, *work.characters, cache_.folder());
+    return std::make_unique<Column>(cache_.crowd(), work.at.column, *work.characters);
 }
 
 void Filling::solve(Work& work)

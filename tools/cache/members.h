@@ -29,6 +29,7 @@ constexpr Member kSourceMembers[] = {
     {"hand", "<f8", offsetof(goal_source, hand), 4, "world rotation of the hand, x y z w"},
     {"lengths", "<f8", offsetof(goal_source, lengths), 2, "upper arm and forearm, the clip's unit"},
     {"origin", "<f8", offsetof(goal_source, origin), 3, "the shoulder in the world, the clip's unit"},
+    {"root", "<f8", offsetof(goal_source, root), 3, "where the pose hangs, in the world, the clip's unit"},
     {"parent", "<f4", offsetof(goal_source, parent), 4, "world rotation of the shoulder's parent joint, x y z w"},
     {"shoulder", "<f4", offsetof(goal_source, shoulder), 4, "the clip's own local rotation, x y z w"},
     {"elbow_local", "<f4", offsetof(goal_source, elbow_local), 4, "the clip's own local rotation, x y z w"},

@@ -36,7 +36,7 @@ goal_character CharacterStream::next()
 {
     const std::uint32_t n = made_++;
     if (n == 0) return {1, {0, 0, 0}, 0, 0};
-    const double size = plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_);
+    const double size = static_cast<float>(plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_));
     const auto start = static_cast<std::uint32_t>(random_() % starts_);
     const Eigen::Vector3d place =
         Eigen::Vector3d(spacing_ * (n % columns_), 0, spacing_ * (n / columns_)) + (1 - size) * plan_.foot;

@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using formats::PoleKind;
 
 static_assert(formats::kMostTwistBones == SWIVEL_MOST_TWIST_BONES);  // a format knows no solver
 
@@ -31,12 +30,6 @@ void store(const Quaterniond& q, Numbers& to)
         to[n] = static_cast<std::remove_reference_t<decltype(to[n])>>(q.coeffs()[static_cast<Eigen::Index>(n)]);
 }
 
-template <std::size_t count>
-void round_to(float (&to)[count], const double (&from)[count])
-{
-    for (std::size_t n = 0; n < count; ++n) to[n] = static_cast<float>(from[n]);
-}
-
 std::vector<std::span<const goal_source>> sources_of(const ClipMotion& motion, std::size_t limb_count)
 {
     std::vector<std::span<const goal_source>> sources;
@@ -46,15 +39,14 @@ std::vector<std::span<const goal_source>> sources_of(const ClipMotion& motion, s
 
 }  // namespace
 
-ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
-                     const std::filesystem::path& file)
+ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
     : clip_(clip),
       motion_(clip, limbs),
       limbs_(limbs),
       plans_(plan.limbs),
       setups_(limb_setups(limbs, plan)),
       crowd_(setups_, sources_of(motion_, limbs.size()), characters_of(plan, limbs, motion_.frame_count()),
-             plan.budget_blocks, file)
+             plan.budget_blocks)
 {
     given_at_.resize(limbs.size(), std::vector<std::int32_t>(plan.characters));
     rows_.resize(limbs.size() * plan.characters);
@@ -81,61 +73,41 @@ const formats::Target* ClipCrowd::given(std::size_t limb, std::uint32_t characte
 }
 
 // What a given target leaves out stays as the plan has it.
-goal ClipCrowd::asked(std::size_t limb, std::uint32_t character) const
-{
-    const LimbPlan& plan = plans_[limb];
-    goal asked =
-        swivel_goal(&setups_[limb].goals, &motion_.sources(limb)[clip_frame(character)], characters()[character].size);
-    const formats::Target* const target = given(limb, character);
-    if (!target) return asked;
-    const Vector3d at = origin(limb, character);
-    store(as_solved(limb, target->position - at + plan.target_offset), asked.target);
-    if (target->has_pole && !plan.pole_fixed)
-        store(as_solved(limb, plan.pole == PoleKind::point ? Vector3d(target->pole - at) : target->pole), asked.pole);
-    if (target->has_orientation && !plan.has(SWIVEL_WITH_AIM)) store(as_solved(limb, target->orientation), asked.hand);
-    return asked;
-}
-
 void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
 {
-    const goal from = asked(limb, character);
+    const LimbPlan& plan = plans_[limb];
+    const formats::Target& target = *given(limb, character);
     goal_input& input = crowd_.input(limb, character);
-    round_to(input.target, from.target);
-    round_to(input.pole, from.pole);
-    round_to(input.hand, from.hand);
+    store(target.position + plan.target_offset, input.target);
+    if (target.has_pole && !plan.pole_fixed) {
+        store(target.pole, input.pole);
+        input.weights[2] = setups_[limb].goals.weights[2];
+    }
+    if (target.has_orientation && !plan.has(SWIVEL_WITH_AIM)) store(target.orientation, input.hand);
 }
 
-// In double, as it was given or made.
+// As it was given or made, before the plan's offset.
 formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) const
 {
-    const LimbPlan& plan = plans_[limb];
-    const std::size_t at_frame = clip_frame(character);
-    const goal asked =
-        swivel_goal(&setups_[limb].goals, &motion_.sources(limb)[at_frame], characters()[character].size);
-    const Vector3d at = origin(limb, character), pole = as_solved(limb, Vector3d(asked.pole));
+    const goal_input& input = crowd_.input(limb, character);
+    const formats::Target* const told = given(limb, character);
     formats::Target target;
-    target.position = at + (as_solved(limb, Vector3d(asked.target)) - plan.target_offset);
-    target.pole = plan.pole == PoleKind::point ? Vector3d(at + pole) : pole;
-    target.orientation = as_solved(limb, motion_.at(at_frame, limb).hand);
-    if (const formats::Target* const told = given(limb, character)) {
-        target.position = told->position;
-        if (told->has_pole && !plan.pole_fixed) target.pole = told->pole;
-        if (told->has_orientation) target.orientation = told->orientation;
-    }
+    target.position = told ? told->position : Vector3d(Vector3d(input.target) - plans_[limb].target_offset);
+    target.pole = Vector3d(input.pole);
+    target.orientation =
+        told && told->has_orientation ? told->orientation : motion_.at(clip_frame(character), limb).hand;
     target.frame = static_cast<std::uint32_t>(frame_);
     target.character = character;
     target.limb = limbs_[limb].name;
-    target.has_pole = target.has_orientation = true;
+    target.has_pole = crowd_.has(limb, SWIVEL_POLE) && (!plans_[limb].has(SWIVEL_WITH_WEIGHTS) || input.weights[2] > 0);
+    target.has_orientation = true;
     return target;
 }
 
-Vector3d ClipCrowd::as_solved(std::size_t limb, const Vector3d& v) const
+double ClipCrowd::length(std::size_t limb, std::uint32_t character) const
 {
-    return limbs_[limb].mirrored ? formats::mirrored(v) : v;
-}
-Quaterniond ClipCrowd::as_solved(std::size_t limb, const Quaterniond& q) const
-{
-    return limbs_[limb].mirrored ? formats::mirrored(q) : q;
+    const goal_source& source = motion_.sources(limb)[clip_frame(character)];
+    return characters()[character].size * (source.lengths[0] + source.lengths[1]);
 }
 
 void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> given)
@@ -149,7 +121,6 @@ void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> gi
         given_at_[limb][given_[n].character] = static_cast<std::int32_t>(n);
         set_given(limb, given_[n].character);
     }
-    crowd_.write_inputs();
 }
 
 std::vector<GivenPlace> ClipCrowd::given_places() const
@@ -162,7 +133,7 @@ std::vector<GivenPlace> ClipCrowd::given_places() const
 void ClipCrowd::solve(Statistics& statistics)
 {
     const auto before = std::chrono::steady_clock::now();
-    crowd_.crowds().solve();
+    crowd_.solve();
     statistics.solve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
@@ -174,10 +145,11 @@ formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) cons
     const auto is_none = [](const Quaterniond& q) { return q.vec().isZero(0); };
     // The joints of most skeletons are the solver's own, to the last bit.
     if (chain.is_plain && is_none(from.upper_aim) && is_none(from.fore_aim)) return row;
+    const auto unaimed = [&](const Quaterniond& aimed) { return limbs_[limb].as_solved(aimed).conjugate(); };
     const Quaterniond shoulder = quaternion(row.shoulder), fore = shoulder * quaternion(row.elbow);
     const std::array<Quaterniond, 3> own = local_rotations(
         clip_, clip_frame(character), chain,
-        {shoulder * from.upper_aim.conjugate(), fore * from.fore_aim.conjugate(), fore * quaternion(row.wrist)});
+        {shoulder * unaimed(from.upper_aim), fore * unaimed(from.fore_aim), fore * quaternion(row.wrist)});
     store(own[0], row.shoulder);
     store(own[1], row.elbow);
     store(own[2], row.wrist);
@@ -193,35 +165,34 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
     row.size = who.size;
     row.start = who.start;
     row.limb = limbs_[limb].name;
-    crowds().read(limb, SWIVEL_SHOULDER, character, 1, {row.shoulder.data(), sizeof row.shoulder});
-    crowds().read(limb, SWIVEL_ELBOW, character, 1, {row.elbow.data(), sizeof row.elbow});
-    if (crowds().has(limb, SWIVEL_WRIST))
-        crowds().read(limb, SWIVEL_WRIST, character, 1, {row.wrist.data(), sizeof row.wrist});
+    row.shoulder = crowd_.rotation(limb, character, 1);
+    row.elbow = crowd_.rotation(limb, character, 2);
+    if (crowd_.has(limb, SWIVEL_WRIST))
+        row.wrist = crowd_.rotation(limb, character, 3);
     else
-        store(in_clip(limb, character).local_wrist(), row.wrist);
-    crowds().read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
+        store(limbs_[limb].as_solved(in_clip(limb, character).local_wrist()), row.wrist);
+    crowd_.read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
     return row;
 }
 
 Quaterniond ClipCrowd::clavicle(std::size_t limb, std::uint32_t character) const
 {
     float turn[4];
-    crowds().read(limb, SWIVEL_CLAVICLE_TURN, character, 1, {turn, sizeof turn});
+    crowd_.read(limb, SWIVEL_CLAVICLE_TURN, character, 1, {turn, sizeof turn});
     return in_clip(limb, character).local_parent * Quaterniond(turn[3], turn[0], turn[1], turn[2]);
 }
 
 formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseExtra extra;
-    if (crowds().has(limb, SWIVEL_STRETCH))
-        crowds().read(limb, SWIVEL_STRETCH, character, 1, {&extra.stretch, sizeof extra.stretch});
+    if (crowd_.has(limb, SWIVEL_STRETCH))
+        crowd_.read(limb, SWIVEL_STRETCH, character, 1, {&extra.stretch, sizeof extra.stretch});
     if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) {
         extra.has_clavicle = true;
         store(clavicle(limb, character), extra.clavicle);
     }
     extra.twist_count = plans_[limb].twist_count();
-    if (extra.twist_count > 0)
-        crowds().read(limb, SWIVEL_TWIST_BONES, character, 1, {extra.twist.data(), sizeof extra.twist});
+    for (unsigned n = 0; n < extra.twist_count; ++n) extra.twist[n] = crowd_.rotation(limb, character, GOAL_JOINTS + n);
     return extra;
 }
 

@@ -19,16 +19,14 @@ namespace swivel::tools {
 
 class ClipCrowd {
 public:
-    // Its characters are characters_of() the plan. The incoming pose is the clip's. limbs and plan must outlive the
-    // crowd. file: of the plan, for messages. Memory grows with characters and with frames, not with their product. The
-    // clip must outlive the crowd, too.
-    ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
-              const std::filesystem::path& file);
+    // Its characters are characters_of() the plan. The incoming pose is the clip's. limbs, plan and clip must outlive
+    // the crowd. Memory grows with characters and with frames, not with their product.
+    ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan);
 
     std::uint32_t character_count() const { return crowd_.character_count(); }
 
     // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world. Limbs without
-    // one take their plan's point or follow the clip. Without a pole elbows and knees lean as the clip's do, without an
+    // one take their plan's point or follow the clip. Without a pole elbows and knees go as the clip's do, without an
     // orientation hands and feet keep the clip's. Every character and limb in given must exist.
     void set_frame(std::size_t frame, std::span<const formats::Target> given);
 
@@ -61,19 +59,9 @@ public:
 private:
     std::size_t clip_frame(std::uint32_t character) const { return crowd_.clip_frame(character); }
     std::span<const goal_character> characters() const { return crowd_.characters(); }
-    const LimbCrowds& crowds() const { return crowd_.crowds(); }
     const LimbInClip& in_clip(std::size_t limb, std::uint32_t character) const
     {
         return motion_.at(clip_frame(character), limb);
-    }
-    // What lies in the world, as the limb is solved: mirrored where the limb is. And the way back.
-    Eigen::Vector3d as_solved(std::size_t limb, const Eigen::Vector3d& v) const;
-    Eigen::Quaterniond as_solved(std::size_t limb, const Eigen::Quaterniond& q) const;
-    // The upper joint of that character in the world: what targets are counted from.
-    Eigen::Vector3d origin(std::size_t limb, std::uint32_t character) const
-    {
-        const goal_character& who = characters()[character];
-        return who.size * motion_.origin(clip_frame(character), limb) + Eigen::Vector3d(who.place);
     }
     std::size_t limb_index(formats::LimbName name) const;  // of one that is solved
     bool follows_clip(std::size_t limb, std::uint32_t character) const;
@@ -81,15 +69,20 @@ private:
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
     formats::Target target(std::size_t limb, std::uint32_t character) const;
     const formats::Target* given(std::size_t limb, std::uint32_t character) const;  // in this frame; null: none
-    // The goal of this frame, in double: before the solver's input is rounded.
-    goal asked(std::size_t limb, std::uint32_t character) const;
     void set_given(std::size_t limb, std::uint32_t character);
+    double length(std::size_t limb, std::uint32_t character) const;  // of both bones
     formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
     // Fills in rows of all characters and limbs.
     template <class Row, class Make>
     std::span<const Row> rows_of(std::vector<Row>& rows, const Make& make) const;
     void measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end, LimbStatistics& statistics) const;
-    void measure_against_clip(std::size_t limb, const PoseName& pose, const Eigen::Vector3d& elbow,
+    // Where a pose has its joints, in the world.
+    struct Reached {
+        Eigen::Vector3d elbow, wrist;
+        Eigen::Quaterniond upper, fore, hand;
+    };
+    Reached reached(std::size_t limb, const formats::PoseRow& row) const;
+    void measure_against_clip(std::size_t limb, const PoseName& pose, const Reached& at,
                               LimbStatistics& statistics) const;
 
     const formats::Clip& clip_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a solved crowd's errors are, and how far it is from its clip, by forward kinematics in double.
+// What a solved crowd's errors are, and how far it is from its clip, by forward kinematics of its poses in double.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -44,65 +44,72 @@ void ClipCrowd::measure(Statistics& statistics) const
         });
 }
 
+ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& row) const
+{
+    const goal_input& input = crowd_.input(limb, row.character);
+    float stretch = 1;
+    if (crowd_.has(limb, SWIVEL_STRETCH))
+        crowd_.read(limb, SWIVEL_STRETCH, row.character, 1, {&stretch, sizeof stretch});
+    const double size = characters()[row.character].size, bone = size * stretch;
+    const auto place = [&](std::size_t joint) { return Vector3d(Eigen::Vector3f(input.places[joint]).cast<double>()); };
+    const auto as_solved = [&](const std::array<float, 4>& q) { return limbs_[limb].as_solved(quaternion(q)); };
+    const Quaterniond parent = plans_[limb].has(SWIVEL_WITH_CLAVICLE)
+                                   ? quaternion(crowd_.rotation(limb, row.character, 0))
+                                   : quaternion(input.rotations[0]);
+    const Quaterniond upper = parent * as_solved(row.shoulder), fore = upper * as_solved(row.elbow);
+    const Vector3d shoulder = Vector3d(crowd_.root(row.character).place) + size * (place(0) + parent * place(1));
+    const Vector3d elbow = shoulder + bone * (upper * place(2));
+    return {elbow, elbow + bone * (fore * place(3)), upper, fore, fore * as_solved(row.wrist)};
+}
+
 void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end,
                               LimbStatistics& statistics) const
 {
-    struct Reached {
-        double elbow[3], wrist[3], hand[4];
-    };
-    std::vector<Reached> reached(end - begin);
-    std::vector<std::uint32_t> flags(end - begin);
     const LimbPlan& plan = plans_[limb];
     const bool hand = plan.has(SWIVEL_WITH_HAND), aims = plan.has(SWIVEL_WITH_AIM);
     statistics.has_effector = !plan.effector.isZero(0);
-    crowds().forward(limb, begin, end - begin, {reached[0].elbow, sizeof(Reached)}, {reached[0].wrist, sizeof(Reached)},
-                     {hand ? reached[0].hand : nullptr, sizeof(Reached)});
-    crowds().read(limb, SWIVEL_FLAGS, begin, end - begin, {flags.data(), sizeof flags[0]});
     std::vector<double> residuals(end - begin);
-    if (aims) crowds().residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
+    if (aims) crowd_.residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
     for (std::uint32_t n = begin; n < end; ++n) {
-        if (!crowds().solved(limb, n)) continue;
-        const Reached& at = reached[n - begin];
-        const goal wanted = asked(limb, n);
-        const float(&lengths)[2] = crowd_.input(limb, n).lengths;
-        const double length = double{lengths[0]} + lengths[1];
+        if (!crowd_.solved(n)) continue;
+        const formats::PoseRow row = solved_pose(limb, n);
+        const Reached at = reached(limb, row);
         const PoseName pose{frame_, n, limbs_[limb].name};
-        const Vector3d effector = characters()[n].size * (Quaterniond(at.hand) * plan.effector);
+        const Vector3d end_point = at.wrist + characters()[n].size * (at.hand * plan.effector);
         const double distance =
-            aims ? residuals[n - begin] : (Vector3d(at.wrist) + effector - Vector3d(wanted.target)).norm() / length;
-        const std::uint32_t word = flags[n - begin];
-        statistics.add_flags(word, distance, pose);
-        if (word & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
+            aims ? residuals[n - begin] : (end_point - Vector3d(crowd_.input(limb, n).target)).norm() / length(limb, n);
+        statistics.add_flags(row.flags, distance, pose);
+        if (row.flags & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
+        const bool is_reached = (row.flags & SWIVEL_REACHED) != 0;
         if (aims)
-            (word & SWIVEL_REACHED ? statistics.aimed : statistics.aim_missed).add(distance, pose);
-        else if (!plan.blends_position)
-            (word & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(distance, pose);
-        if (hand && !plan.blends_hand && !aims)
-            statistics.orientation.add(angle(Quaterniond(wanted.hand).conjugate() * Quaterniond(at.hand)), pose);
-        measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);
+            (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose);
+        else if (!plan.blends_position())
+            (is_reached ? statistics.reached : statistics.missed).add(distance, pose);
+        if (hand && !plan.blends_hand() && !aims)
+            statistics.orientation.add(angle(target(limb, n).orientation.conjugate() * at.hand), pose);
+        measure_against_clip(limb, pose, at, statistics);
     }
 }
 
-void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, const Vector3d& elbow,
+void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, const Reached& at,
                                      LimbStatistics& statistics) const
 {
     const std::uint32_t character = pose.character;
     const LimbInClip& from = in_clip(limb, character);
-    const Vector3d wanted = characters()[character].size * from.elbow;
-    const float(&lengths)[2] = crowd_.input(limb, character).lengths;
-    const double difference = (elbow - wanted).norm() / (double{lengths[0]} + lengths[1]);
+    const goal_character& who = characters()[character];
+    const Vector3d wanted = Vector3d(who.place) + who.size * (motion_.origin(clip_frame(character), limb) + from.elbow);
+    const double difference = (at.elbow - wanted).norm() / length(limb, character);
     if (!follows_clip(limb, character)) return statistics.given.add(difference, pose);
     const Vector3d upper = from.elbow.normalized(), fore = (from.wrist - from.elbow).normalized();
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
     (bent ? statistics.bent : statistics.straight).add(difference, pose);
     if (character != 0) return;
 
-    const formats::PoseRow row = solved_pose(limb, character);
-    const Quaterniond shoulder_w = from.parent * quaternion(row.shoulder);
-    const Quaterniond turned = from.upper.conjugate() * shoulder_w;
-    statistics.upper_swing.add(swing(turned, limbs_[limb].upper_bone), pose);
-    statistics.upper_twist.add(twist(turned, limbs_[limb].upper_bone), pose);
-    statistics.lower.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)), pose);
+    const Quaterniond turned = from.upper.conjugate() * at.upper;
+    const Vector3d bone = limbs_[limb].as_solved(limbs_[limb].upper_bone);
+    statistics.upper_swing.add(swing(turned, bone), pose);
+    statistics.upper_twist.add(twist(turned, bone), pose);
+    statistics.lower.add(angle(from.fore.conjugate() * at.fore), pose);
 }
 
 }  // namespace swivel::tools

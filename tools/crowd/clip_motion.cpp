@@ -14,19 +14,22 @@ using formats::JointPose;
 
 LimbInClip limb_in(const Limb& limb, const ChainPose& pose, const JointPose& parent_w)
 {
-    const Quaterniond parent = parent_w.mirrored ? formats::mirrored(parent_w.rotation) : parent_w.rotation;
+    const Quaterniond& parent = parent_w.rotation;
     const auto from_shoulder = [&](std::size_t part) {
-        return Vector3d(parent_w.scale * (parent * (pose.position[part] - pose.position[0])));
+        return Vector3d(parent_w.scale * (parent * limb.as_solved(Vector3d(pose.position[part] - pose.position[0]))));
+    };
+    const auto aimed = [&](const Vector3d& at_rest, const Vector3d& bone) {
+        return aim(limb.as_solved(at_rest), limb.as_solved(bone));
     };
     LimbInClip in;
     in.elbow = from_shoulder(1);
     in.wrist = from_shoulder(2);
-    in.upper_aim = aim(limb.upper_bone, pose.upper_bone());
-    in.fore_aim = aim(limb.lower_bone, pose.lower_bone());
+    in.upper_aim = aimed(limb.upper_bone, pose.upper_bone());
+    in.fore_aim = aimed(limb.lower_bone, pose.lower_bone());
     in.parent = parent;
-    in.upper = parent * pose.turn[0] * in.upper_aim;
-    in.fore = parent * pose.turn[1] * in.fore_aim;
-    in.hand = parent * pose.turn[2];
+    in.upper = parent * limb.as_solved(pose.turn[0]) * in.upper_aim;
+    in.fore = parent * limb.as_solved(pose.turn[1]) * in.fore_aim;
+    in.hand = parent * limb.as_solved(pose.turn[2]);
     return in;
 }
 
@@ -37,7 +40,20 @@ void put(const auto& from, Number (&to)[Count])
     for (std::size_t n = 0; n < Count; ++n) to[n] = static_cast<Number>(from[static_cast<Eigen::Index>(n)]);
 }
 
-goal_source source_of(const LimbInClip& in, const Vector3d& origin)
+// The middle of the arms' shoulders, or else of the legs' hips: floats are finest there. In the joints' order, so that
+// that of the limbs does not matter.
+Vector3d root_of(std::span<const Limb> limbs, std::span<const JointPose> pose_w)
+{
+    Vector3d sum = Vector3d::Zero();
+    double count = 0;
+    for (std::size_t joint = 0; joint < pose_w.size(); ++joint)
+        for (const Limb& limb : limbs)
+            if (limb.name.kind == limbs[0].name.kind && limb.upper() == static_cast<int>(joint))
+                sum += pose_w[joint].position, ++count;
+    return sum / count;
+}
+
+goal_source source_of(const LimbInClip& in, const Vector3d& origin, const Vector3d& root)
 {
     goal_source source;
     put(in.elbow, source.elbow);
@@ -45,6 +61,7 @@ goal_source source_of(const LimbInClip& in, const Vector3d& origin)
     put(in.hand.coeffs(), source.hand);
     put(Eigen::Vector2d(in.upper_length(), in.fore_length()), source.lengths);
     put(origin, source.origin);
+    put(root, source.root);
     put(in.parent.coeffs(), source.parent);
     put(in.local_shoulder().coeffs(), source.shoulder);
     put(in.local_elbow().coeffs(), source.elbow_local);
@@ -73,6 +90,7 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs)
     std::vector<JointPose> pose_w(clip.joints.size());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         formats::world_pose(clip, frame, pose_w);
+        const Vector3d root = root_of(limbs, pose_w);
         for (std::size_t n = 0; n < limbs.size(); ++n) {
             const Limb& limb = limbs[n];
             const int parent = joint_at(clip, limb.upper()).parent;
@@ -81,7 +99,8 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs)
             if (parent >= 0)
                 limbs_.back().local_parent =
                     clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(parent)];
-            sources_[n].push_back(source_of(limbs_.back(), pose_w[static_cast<std::size_t>(limb.upper())].position));
+            sources_[n].push_back(
+                source_of(limbs_.back(), pose_w[static_cast<std::size_t>(limb.upper())].position, root));
         }
     }
     for (std::size_t n = 0; n < limbs.size(); ++n) settle_lengths(sources_[n], limbs[n].bound.lengths);

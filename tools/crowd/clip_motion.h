@@ -11,9 +11,8 @@
 
 namespace swivel::tools {
 
-// One limb in one frame, as the solver sees it: two bones that at rest point where the limb's do. Places relative to
-// its shoulder, rotations in the world, both in the world's mirror image (x turned over) for a mirrored limb.
-// Words are an arm's.
+// One limb in one frame, as the solver sees it: two bones that at rest point where the limb's do. All is in the world's
+// axes, and places are counted from its shoulder. Joints have the axes that the limb is solved in. Words are an arm's.
 struct LimbInClip {
     Eigen::Vector3d elbow, wrist;
     Eigen::Quaterniond parent, hand, upper, fore;
@@ -35,7 +34,7 @@ public:
 
     std::size_t frame_count() const { return frame_count_; }
     const LimbInClip& at(std::size_t frame, std::size_t limb) const { return limbs_[frame * limb_count_ + limb]; }
-    // The limb's shoulder in the world: near it single precision is finest.
+    // The limb's shoulder in the world.
     Eigen::Vector3d origin(std::size_t frame, std::size_t limb) const
     {
         return Eigen::Vector3d(sources_[limb][frame].origin);

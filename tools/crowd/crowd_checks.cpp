@@ -76,8 +76,6 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
     if (s.step_wins && s.step_wins->value && !s.most_swivel_deg_per_frame && !s.most_swivel_deg_per_second)
         refuse(file, *s.step_wins,
                "means nothing without most_deg_per_second or most_deg_per_frame; give that, or take this out");
-    if (s.priority && !file.budget_blocks)
-        refuse(file, *s.priority, "means nothing without budget.blocks; give that, or take this out");
 }
 
 void require_solved(const CrowdFile& file, std::span<const Limb> limbs)

@@ -48,26 +48,37 @@ void put(const Eigen::Vector3d& v, double (&to)[3])
 // The plan as the formula of goals takes it.
 goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
 {
-    const auto as_solved = [&](const Eigen::Vector3d& v) { return limb.mirrored ? formats::mirrored(v) : v; };
     goal_plan goals{};
-    if (plan.target_point) put(as_solved(*plan.target_point), goals.target_point);
-    put(as_solved(plan.target_offset), goals.target_offset);
+    if (plan.target_point) put(*plan.target_point, goals.target_point);
+    put(plan.target_offset, goals.target_offset);
     put(plan.effector, goals.effector);
-    if (plan.pole_fixed) put(as_solved(*plan.pole_fixed), goals.pole_fixed);
+    if (plan.pole_fixed) put(*plan.pole_fixed, goals.pole_fixed);
+    if (plan.clavicle) put(*plan.clavicle, goals.shoulder_place);
+    put(limb.as_solved(limb.upper_bone), goals.bones[0]);
+    put(limb.as_solved(limb.lower_bone), goals.bones[1]);
+    std::ranges::copy(plan.weights, goals.weights);
     goals.has_target_point = plan.target_point.has_value();
     goals.has_pole_fixed = plan.pole_fixed.has_value();
     goals.pole = plan.pole == PoleKind::point    ? GOAL_POLE_POINT
                  : plan.pole == PoleKind::normal ? GOAL_POLE_NORMAL
                                                  : GOAL_POLE_DIRECTION;
+    goals.holds_pole = plan.holds_pole;
     goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
-    goals.is_mirrored = limb.mirrored;
     return goals;
 }
 
 // Fills in one limb's plan, key by key.
 struct Planner {
     const LimbSettings& from;
+    const formats::Clip& clip;
+    const Limb& limb;
     LimbPlan plan{};
+
+    // What is in the end joint's axes, in those that it is solved in.
+    Eigen::Vector3d in_hand(const Eigen::Vector3d& v) const
+    {
+        return parent_at_rest(clip, limb.end()).mirrored ? formats::mirrored(v) : v;
+    }
 
     template <std::size_t Count>
     void put(swivel_features feature, swivel_field field, const std::array<float, Count>& value, bool mirrored = false,
@@ -86,12 +97,12 @@ struct Planner {
         if (from.target_offset) plan.target_offset = from.target_offset->value;
         if (from.hand && !from.hand->value) plan.features &= ~SWIVEL_WITH_HAND;
         if (from.effector) {
-            plan.effector = from.effector->value;
-            plan.features |= SWIVEL_WITH_EFFECTOR;
+            plan.effector = in_hand(from.effector->value);
+            const Eigen::Vector3f point = plan.effector.cast<float>();
+            put(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, std::array{point.x(), point.y(), point.z()});
         }
         if (from.twist_bones)
             plan.features |= static_cast<swivel_features>(from.twist_bones->value) * SWIVEL_WITH_TWIST_BONES;
-        if (from.priority) plan.priority = static_cast<float>(from.priority->value);
     }
 
     void pole()
@@ -100,42 +111,40 @@ struct Planner {
         if (from.pole_fixed) plan.pole_fixed = from.pole_fixed->value;
         if (plan.pole == PoleKind::direction) plan.features |= SWIVEL_POLE_DIRECTION;
         if (plan.pole == PoleKind::normal) plan.features |= SWIVEL_POLE_NORMAL;
-        if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING;
-        if (plan.pole == PoleKind::hand) plan.features |= SWIVEL_POLE_HAND | SWIVEL_WITH_INCOMING;
+        if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING;
+        if (plan.pole == PoleKind::hand) plan.features |= SWIVEL_POLE_HAND;
         if (from.pole_angle_deg)
             put(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, turn(kRadians * from.pole_angle_deg->value),
                 from.pole_angle_deg->mirrored);
+        plan.holds_pole = from.pole_angle_deg || plan.pole == PoleKind::hand;
         plan.follows_pole = !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg &&
-                            plan.pole != PoleKind::incoming && plan.pole != PoleKind::hand;
+                            plan.pole != PoleKind::hand;
     }
 
     void aim()
     {
         if (!from.aim) return;
-        const Eigen::Vector3d& axis = from.aim->value.axis;
+        plan.features &= ~SWIVEL_WITH_WEIGHTS;
+        const Eigen::Vector3d axis = in_hand(from.aim->value.axis);
         std::array<float, 5> value;
         check(swivel_aim(axis.data(), kRadians * from.aim->value.flexion_deg, value.data()));
         put(SWIVEL_WITH_AIM, SWIVEL_AIM, value);
     }
 
-    void clavicle(const formats::Clip& clip, const Limb& limb)
+    void clavicle()
     {
         if (!from.clavicle_share) return;
-        const Eigen::Vector3d& offset = formats::joint_at(clip, limb.upper()).offset;
-        const Eigen::Vector3f bone = (limb.scale * offset).cast<float>();
-        put(SWIVEL_WITH_CLAVICLE, SWIVEL_CLAVICLE,
-            std::array{bone.x(), bone.y(), bone.z(), static_cast<float>(from.clavicle_share->value)});
+        plan.clavicle = limb.scale * formats::joint_at(clip, limb.upper()).offset;
+        put(SWIVEL_WITH_CLAVICLE, SWIVEL_CLAVICLE, std::array{static_cast<float>(from.clavicle_share->value)});
     }
 
     void weights()
     {
-        if (!from.position_weight && !from.hand_weight && !from.pole_weight) return;
-        const auto weight = [](const Maybe<double>& given) { return given ? static_cast<float>(given->value) : 1.0f; };
-        const std::array value{weight(from.position_weight), weight(from.hand_weight), weight(from.pole_weight)};
-        plan.features |= SWIVEL_WITH_INCOMING;
-        put(SWIVEL_WITH_WEIGHTS, SWIVEL_WEIGHTS, value);
-        plan.blends_position = value[0] < 1;
-        plan.blends_hand = value[1] < 1;
+        std::size_t n = 0;
+        for (const Maybe<double>* given : {&from.position_weight, &from.hand_weight, &from.pole_weight}) {
+            if (*given) plan.weights[n] = static_cast<float>((*given)->value);
+            ++n;
+        }
     }
 
     void reach()
@@ -149,12 +158,12 @@ struct Planner {
                        number(from.least_distance, 0)});
     }
 
-    void swivel(double frame_time)
+    void swivel()
     {
         double most_deg = 180;
         if (from.most_swivel_deg_per_frame) most_deg = from.most_swivel_deg_per_frame->value;
         if (from.most_swivel_deg_per_second)
-            most_deg = std::min(180.0, frame_time * from.most_swivel_deg_per_second->value);
+            most_deg = std::min(180.0, clip.frame_time * from.most_swivel_deg_per_second->value);
         if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)
             put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(kRadians * most_deg));
         if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
@@ -258,14 +267,14 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
         require_sense(*file, settings);
         require_own_clavicle(*file, settings, clip, limbs[n]);
         require_even_frames(*file, settings, clip);
-        Planner planner{settings};
+        Planner planner{settings, clip, limbs[n]};
         planner.goal();
         planner.pole();
         planner.aim();
-        planner.clavicle(clip, limbs[n]);
+        planner.clavicle();
         planner.weights();
         planner.reach();
-        planner.swivel(clip.frame_time);
+        planner.swivel();
         planner.limits();
         if (settings.region) {
             planner.plan.features |= SWIVEL_WITH_REGION;
@@ -281,8 +290,8 @@ std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan&
     std::vector<LimbSetup> setups;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         const LimbPlan& limb = plan.limbs[n];
-        setups.push_back({limbs[n].bound, limb.features, limb.shoulder_order, limb.wrist_order, limb.fields,
-                          limb.priority, goal_plan_of(limb, limbs[n]), limb.region});
+        setups.push_back({limbs[n].rest, limb.features, limb.shoulder_order, limb.wrist_order, limb.fields,
+                          goal_plan_of(limb, limbs[n]), limb.region, limbs[n].mirrored});
     }
     return setups;
 }

@@ -16,21 +16,23 @@
 namespace swivel::tools {
 
 struct LimbPlan {
-    swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
+    swivel_features features = SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_RECORD;
     swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
     std::vector<FixedField> fields;
     std::optional<swivel_region> region;
 
     std::optional<Eigen::Vector3d> target_point;              // in the clip
     Eigen::Vector3d target_offset = Eigen::Vector3d::Zero();  // added to targets; world axes
-    Eigen::Vector3d effector = Eigen::Vector3d::Zero();       // in the end joint's frame, of a character of size 1
-    formats::PoleKind pole = formats::PoleKind::point;
-    std::optional<Eigen::Vector3d> pole_fixed;  // world axes; a point is counted from the upper joint
-    float priority = 1;
-    bool follows_pole = true;      // elbows go where the clip's go, unless limits forbid
-    bool blends_position = false;  // the end is not at the target, by its weight
-    bool blends_hand = false;
+    Eigen::Vector3d effector = Eigen::Vector3d::Zero();       // in the end joint's frame as solved, of size 1
+    std::optional<Eigen::Vector3d> clavicle;                  // with one: the shoulder's place in its frame
+    formats::PoleKind pole = formats::PoleKind::point;        // of poles that are given
+    std::optional<Eigen::Vector3d> pole_fixed;                // world axes; a point is counted from the upper joint
+    std::array<float, 3> weights{1, 1, 1};                    // of position, hand, and a pole that is given
+    bool holds_pole = false;                                  // the pole counts though it is the clip's own
+    bool follows_pole = true;                                 // elbows go where the clip's go, unless limits forbid
 
+    bool blends_position() const { return weights[0] < 1; }  // the end is not at the target
+    bool blends_hand() const { return weights[1] < 1; }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
     unsigned twist_count() const
     {
@@ -46,7 +48,7 @@ struct CrowdPlan {
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();  // in the clip: where characters of all sizes stand alike
     bool stagger = true;                             // characters start anywhere in the clip, or in the first `starts`
     std::size_t starts = 0;                          // frames of it; 0: all
-    std::uint32_t budget_blocks = 0;                 // solved in a frame; 0: all
+    std::uint32_t budget_blocks = 0;                 // of 16 characters, solved in a frame; 0: all
     std::vector<LimbPlan> limbs;                     // one for each limb solved
 };
 

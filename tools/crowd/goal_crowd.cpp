@@ -1,55 +1,133 @@
 // SPDX-License-Identifier: MIT
 #include "tools/crowd/goal_crowd.h"
 
+#include <algorithm>
+
 #include "tools/crowd/parallel.h"
 
 namespace swivel::tools {
 
-GoalCrowd::GoalCrowd(std::span<const LimbSetup> limbs, std::vector<std::span<const goal_source>> sources,
-                     std::vector<goal_character> characters, std::uint32_t budget_blocks,
-                     const std::filesystem::path& file)
-    : limbs_(limbs),
-      sources_(std::move(sources)),
-      characters_(std::move(characters)),
-      inputs_(limbs.size(), std::vector<goal_input>(characters_.size())),
-      crowds_(limbs, character_count(), budget_blocks, file)
+namespace {
+
+Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
 {
-    for (std::size_t limb = 0; limb < limbs.size(); ++limb)
-        if (crowds_.has(limb, SWIVEL_EFFECTOR)) write_effectors(limb);
+    const LimbSkeleton of = skeleton_of(limbs);
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = static_cast<std::uint32_t>(of.parents.size());
+    skeleton.parents = {of.parents.data(), sizeof of.parents[0]};
+    skeleton.translations = {of.translations.data(), sizeof of.translations[0]};
+    skeleton.rotations = {of.rotations.data(), sizeof of.rotations[0]};
+    std::vector<swivel_limb_joints> joints;
+    for (const LimbSkeleton::OfLimb& limb : of.limbs) {
+        swivel_limb_joints& to =
+            joints.emplace_back(swivel_default_limb_joints(limb.shoulder, limb.shoulder + 1, limb.shoulder + 2));
+        to.twist_bone_count = static_cast<std::uint32_t>(limb.twist_bones.size());
+        to.twist_bones = limb.twist_bones.data();
+        std::ranges::copy(limb.bend, to.bend);
+    }
+    std::vector<swivel_group_def> groups;
+    for (std::size_t n = 0; n < limbs.size(); ++n) {
+        swivel_group_def& group = groups.emplace_back(swivel_default_body_group_def(&joints[n]));
+        group.features = limbs[n].features;
+        group.on_bad_input = SWIVEL_REST_POSE;  // the same in whatever order frames are solved
+        group.shoulder_order = limbs[n].shoulder_order;
+        group.wrist_order = limbs[n].wrist_order;
+        if (limbs[n].region) group.region = &*limbs[n].region;
+    }
+    Crowd crowd(skeleton, characters, groups);
+    for (std::uint32_t n = 0; n < groups.size(); ++n)
+        for (const FixedField& fixed : limbs[n].fields)
+            check(swivel_write(crowd.get(), fixed.field, n, 0, characters, {fixed.value.data(), 0}));
+    return crowd;
 }
 
-// They go with a character's size and stay the same.
-void GoalCrowd::write_effectors(std::size_t limb)
+}  // namespace
+
+GoalCrowd::GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::span<const goal_source>>& sources,
+                     std::vector<goal_character> characters, std::uint32_t budget_blocks)
+    : limbs_(limbs),
+      frame_count_(static_cast<std::uint32_t>(sources[0].size())),
+      characters_(std::move(characters)),
+      crowd_(crowd_of(limbs, character_count())),
+      roots_(characters_.size()),
+      inputs_(characters_.size() * limbs.size()),
+      pose_size_(swivel_goal_pose_size(crowd_.get())),
+      budget_blocks_(budget_blocks)
 {
-    std::vector<std::array<float, 3>> values(characters_.size());
-    for (std::size_t n = 0; n < characters_.size(); ++n)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            values[n][axis] = static_cast<float>(characters_[n].size * limbs_[limb].goals.effector[axis]);
-    crowds_.write(limb, SWIVEL_EFFECTOR, values[0].data(), sizeof values[0]);
+    poses_.resize(characters_.size() * pose_size_);
+    std::size_t place = 0;
+    for (std::size_t limb = 0; limb < limbs.size(); ++limb) {
+        plans_.push_back(limbs[limb].goals);
+        sources_.push_back(sources[limb].data());
+        pose_place_.push_back(place);
+        place += 4 * (GOAL_JOINTS + limbs[limb].twist_bone_count());
+    }
 }
 
 std::uint32_t GoalCrowd::clip_frame(std::uint32_t character) const
 {
-    return static_cast<std::uint32_t>((std::uint64_t{frame_} + characters_[character].start) % sources_[0].size());
+    return static_cast<std::uint32_t>((std::uint64_t{frame_} + characters_[character].start) % frame_count_);
 }
 
 void GoalCrowd::set_frame(std::uint32_t frame)
 {
     frame_ = frame;
-    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-        for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-            swivel_goals(&limbs_[limb].goals, sources_[limb].data(), static_cast<std::uint32_t>(sources_[limb].size()),
-                         frame, &characters_[begin], end - begin, &inputs_[limb][begin]);
-        });
-        if (!crowds_.has(limb, SWIVEL_NORMAL)) continue;
+    const auto limb_count = static_cast<std::uint32_t>(limbs_.size());
+    for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
+        swivel_goals(plans_.data(), sources_.data(), limb_count, frame_count_, frame, &characters_[begin], end - begin,
+                     &roots_[begin], &inputs_[std::size_t{begin} * limb_count]);
+    });
+    for (std::uint32_t limb = 0; limb < limb_count; ++limb) {
+        if (!has(limb, SWIVEL_NORMAL)) continue;
         for (std::uint32_t n = 0; n < character_count(); ++n)
-            if (clip_frame(n) == 0) crowds_.reset(limb, n);
+            if (clip_frame(n) == 0) check(swivel_reset(crowd_.get(), limb, n, 1));
     }
 }
 
-void GoalCrowd::write_inputs()
+void GoalCrowd::solve()
 {
-    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) crowds_.write_goals(limb, inputs_[limb]);
+    swivel_job job = swivel_default_job();
+    job.on_this_thread = is_one_thread();
+    if (budget_blocks_ > 0 && began_) {
+        constexpr float kAlike = 1;
+        const swivel_in priorities{&kAlike, 0};
+        urgency_.resize(swivel_block_count(crowd_.get()));
+        active_.resize((urgency_.size() + 1) / 2);
+        crowd_.choose({&priorities, 1}, urgency_, budget_blocks_, active_);
+        job.mask = active_.data();
+        job.mask_word_count = static_cast<std::uint32_t>(active_.size());
+    }
+    began_ = true;
+    check(swivel_goals_solve(crowd_.get(), roots_.data(), inputs_.data(), poses_.data(), &job));
+}
+
+std::array<float, 4> GoalCrowd::rotation(std::size_t limb, std::uint32_t character, std::size_t joint) const
+{
+    const std::size_t at = character * pose_size_ + pose_place_[limb] + 4 * joint;
+    return limbs_[limb].own(std::span<const float, 4>(&poses_[at], 4));
+}
+
+bool GoalCrowd::has(std::size_t limb, swivel_field field) const
+{
+    return swivel_field_row_count(crowd_.get(), static_cast<std::uint32_t>(limb), field) > 0;
+}
+
+void GoalCrowd::read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count,
+                     swivel_out to) const
+{
+    check(swivel_read(crowd_.get(), field, static_cast<std::uint32_t>(limb), first, count, to));
+}
+
+void GoalCrowd::residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const
+{
+    check(swivel_residuals(crowd_.get(), static_cast<std::uint32_t>(limb), first, count, distance));
+}
+
+void GoalCrowd::restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers)
+{
+    const std::size_t stride = numbers.size_bytes() / character_count();
+    check(swivel_write(crowd_.get(), field, static_cast<std::uint32_t>(limb), 0, character_count(),
+                       {reinterpret_cast<const float*>(numbers.data()), stride}));
 }
 
 }  // namespace swivel::tools

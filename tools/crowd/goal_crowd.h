@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd whose limbs are asked for what the formula of goals gives, frame by frame. Knows the solver's terms; no clip,
-// no file format.
+// A crowd of bodies whose limbs are asked for what the formula of goals gives, frame by frame. Knows the solver's
+// terms; no clip, no file format.
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <vector>
 
-#include "tools/crowd/limb_crowds.h"
+#include "tools/crowd/limb_setup.h"
 
 namespace swivel::tools {
 
@@ -20,39 +19,65 @@ struct GivenPlace {
 
 class GoalCrowd {
 public:
-    // sources: of each limb, one for each frame of the clip; they must outlive the crowd, and so must limbs.
-    // budget_blocks: blocks of 16 limbs that a frame solves; 0: all. Throws as LimbCrowds does, naming file.
-    GoalCrowd(std::span<const LimbSetup> limbs, std::vector<std::span<const goal_source>> sources,
-              std::vector<goal_character> characters, std::uint32_t budget_blocks, const std::filesystem::path& file);
+    // sources: of each limb, one for each frame of the clip; they must outlive the crowd, and so must limbs, of which
+    // there are 1 to GOAL_MOST_LIMBS. budget_blocks: blocks of 16 characters that a frame solves; 0: all.
+    GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::span<const goal_source>>& sources,
+              std::vector<goal_character> characters, std::uint32_t budget_blocks);
 
     std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
     std::span<const goal_character> characters() const { return characters_; }
     std::span<const LimbSetup> limbs() const { return limbs_; }
-    std::span<const goal_source> sources(std::size_t limb) const { return sources_[limb]; }
     // The frame of the clip that a character shows, since the last set_frame().
     std::uint32_t clip_frame(std::uint32_t character) const;
 
     // Fills the inputs of a frame by the formula. A limb's swivel is forgotten where the clip starts again: from its
     // end to its start is no motion.
     void set_frame(std::uint32_t frame);
-    // What a limb is asked for in this frame: it may be changed until write_inputs().
-    goal_input& input(std::size_t limb, std::uint32_t character) { return inputs_[limb][character]; }
-    const goal_input& input(std::size_t limb, std::uint32_t character) const { return inputs_[limb][character]; }
-    // Hands the inputs to the solver.
-    void write_inputs();
+    // Where all places of a character are counted from.
+    const goal_root& root(std::uint32_t character) const { return roots_[character]; }
+    // What a limb is asked for in this frame: it may be changed until solve().
+    goal_input& input(std::size_t limb, std::uint32_t character) { return inputs_[character * limbs_.size() + limb]; }
+    const goal_input& input(std::size_t limb, std::uint32_t character) const
+    {
+        return inputs_[character * limbs_.size() + limb];
+    }
 
-    LimbCrowds& crowds() { return crowds_; }
-    const LimbCrowds& crowds() const { return crowds_; }
+    // Solves all characters; with a budget all in the first call, and blocks of 16 in turns after that.
+    void solve();
+    // Whether the last solve() solved a character.
+    bool solved(std::uint32_t character) const
+    {
+        return active_.empty() || (active_[character / 32] >> character % 32 & 1u) != 0;
+    }
+
+    // The local rotation of one of a limb's joints, by its place among GOAL_JOINTS: x, y, z, w in the joint's own axes.
+    std::array<float, 4> rotation(std::size_t limb, std::uint32_t character, std::size_t joint) const;
+    // Whether the limb has a field; and what it is in rows, of some characters, as swivel_read() has it.
+    bool has(std::size_t limb, swivel_field field) const;
+    void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
+    // As swivel_residuals() has them.
+    void residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const;
+    // Puts a field that is carried back, as bits: what the next solve starts from.
+    void restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers);
+    // Of all results; see swivel_goals_digest().
+    std::uint64_t digest() const { return swivel_goals_digest(crowd_.get(), poses_.data()); }
 
 private:
-    void write_effectors(std::size_t limb);
-
     std::span<const LimbSetup> limbs_;
-    std::vector<std::span<const goal_source>> sources_;
+    std::vector<goal_plan> plans_;
+    std::vector<const goal_source*> sources_;  // by limb
+    std::uint32_t frame_count_;                // of the clip
     std::vector<goal_character> characters_;
-    std::vector<std::vector<goal_input>> inputs_;  // [limb][character]
-    std::uint32_t frame_ = 0;
-    LimbCrowds crowds_;
+    Crowd crowd_;
+    std::vector<goal_root> roots_;
+    std::vector<goal_input> inputs_;       // [character][limb]
+    std::vector<float> poses_;             // as swivel_goals_solve() has them
+    std::vector<std::size_t> pose_place_;  // by limb, within a character's
+    std::size_t pose_size_;
+    std::uint32_t frame_ = 0, budget_blocks_;
+    std::vector<float> urgency_;         // of blocks
+    std::vector<std::uint32_t> active_;  // bits of characters that were solved; empty: all
+    bool began_ = false;
 };
 
 }  // namespace swivel::tools

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The goals of a crowd that performs a clip: what each character's limb is asked for in a frame. One source for the
-// command and the page: only + - * and plain structures, so both get the same bits. No Eigen, whose vector code adds in
-// another order. The structures have one layout on all little-endian machines, so a page holds them as bytes.
+// The goals of a crowd that performs a clip: what each character's pose is, and what its limbs are asked for in a
+// frame. One source for the command and the page: only + - * and plain structures, so both get the same bits. No Eigen,
+// whose vector code adds in another order. The structures have one layout on all little-endian machines, so a page
+// holds them as bytes.
 #pragma once
 
 #include <stdint.h>
@@ -11,21 +12,21 @@
 
 extern "C" {
 
-// One limb in one frame of the clip, as the solver sees it: two bones that at rest point where the limb's do. Places
-// are relative to the limb's shoulder and rotations are in the world. For a mirrored limb all of them but `origin` are
-// in the world's mirror image, x turned over. Words are an arm's. Quaternions are x, y, z, w.
+// One limb in one frame of the clip: two bones that at rest point where the limb's do. All is in the world's axes, but
+// the clip's own pose; elbow and wrist are counted from the shoulder. Words are an arm's. Quaternions are x, y, z, w.
 typedef struct goal_source {
     double elbow[3], wrist[3];
     double hand[4];
     double lengths[2];                                  // upper arm, forearm
     double origin[3];                                   // the shoulder in the world
+    double root[3];                                     // where the pose hangs; the same of all limbs
     float parent[4];                                    // of the joint above
     float shoulder[4], elbow_local[4], wrist_local[4];  // the clip's own pose between the two bones
 } goal_source;
 
 // A character of the crowd; the first is the clip's own. What is at x in the clip is at place + size * x.
 typedef struct goal_character {
-    double size;
+    double size;  // one that a float holds
     double place[3];
     uint32_t start;  // frame of the clip that it starts at
     uint32_t reserved;
@@ -34,41 +35,70 @@ typedef struct goal_character {
 // What a goal's pole is.
 enum goal_pole { GOAL_POLE_POINT = 0, GOAL_POLE_DIRECTION = 1, GOAL_POLE_NORMAL = 2 };  // of the swivel plane
 
-// What a limb is asked for beside the clip's motion. Vectors are as solved: mirrored for a mirrored limb.
+// What a limb is asked for beside the clip's motion.
 typedef struct goal_plan {
     double target_point[3], target_offset[3];
-    double effector[3];  // in the end joint's frame, of a character of size 1
-    double pole_fixed[3];
+    double effector[3];        // in the end joint's frame, of a character of size 1
+    double pole_fixed[3];      // points from the shoulder
+    double shoulder_place[3];  // in the frame of the joint above, where that turns, too; else zeros
+    double bones[2][3];        // where upper arm and forearm point at rest, in the frames of shoulder and elbow; unit
+    float weights[3];          // of target, hand, and a pole that is given
     uint32_t has_target_point, has_pole_fixed;  // 0 or 1
     uint32_t pole;                              // a goal_pole
+    uint32_t holds_pole;                        // 1: the clip's own pole counts, too; 0: the elbow goes as in the clip
     uint32_t hand_is_local;  // 1: the hand goal is the wrist's own local rotation, for SWIVEL_WITH_AIM
-    uint32_t is_mirrored;
-    uint32_t reserved;
 } goal_plan;
 
-// What a limb is asked for; hand is as the plan says.
+// What a limb is asked for, in the world. Pole and hand are as the plan says.
 typedef struct goal {
     double target[3], pole[3], hand[4];
 } goal;
 
-// What the solver takes of a limb, as float fields of these names have it.
+// Where a character's pose hangs: all its places are from here.
+typedef struct goal_root {
+    double place[3];  // in the world
+    float size;
+    uint32_t reserved;
+} goal_root;
+
+// What the solver takes of a limb: fields of these names, and the incoming pose of its joints as GOAL_JOINTS has them.
+// Places are in the parent's frame, of a character of size 1.
 typedef struct goal_input {
-    float target[3], pole[3], lengths[2], position[3], rotation[4], hand[4];
-    float shoulder[4], elbow[4], wrist[4];  // the incoming pose
+    double target[3], pole[3];  // in the world
+    float hand[4], weights[3];
+    float places[4][3];
+    float rotations[5][4];  // the last one, no turn, is each twist bone's: the clip has none of these
+    float reserved;
 } goal_input;
 
-static_assert(sizeof(goal_source) == 184 && sizeof(goal_character) == 40 && sizeof(goal_plan) == 120 &&
-              sizeof(goal_input) == 124);
+static_assert(sizeof(goal_source) == 208 && sizeof(goal_character) == 40 && sizeof(goal_plan) == 200 &&
+              sizeof(goal_root) == 32 && sizeof(goal_input) == 208);
 
-// The goal of a character of that size. Any thread; no allocation.
-goal swivel_goal(const goal_plan* plan, const goal_source* source, double size);
+// Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
+// them.
+enum { GOAL_JOINTS = 4 };
+enum { GOAL_MOST_LIMBS = 8 };  // of a character
 
-// Fills the inputs of one limb for count characters. sources: one for each frame of the clip. Character c shows frame
-// (frame + start) % frame_count. Any thread; no allocation.
-void swivel_goals(const goal_plan* plan, const goal_source* sources, uint32_t frame_count, uint32_t frame,
-                  const goal_character* characters, uint32_t count, goal_input* inputs);
+// The goal of a limb of a character. Any thread; no allocation.
+goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 
-// Writes inputs to the crowd's fields, as far as it has them; count: all limbs of the group.
-swivel_status swivel_goals_write(swivel_crowd* crowd, uint32_t group, uint32_t count, const goal_input* inputs);
+// Fills what count characters are asked for: roots has count of them, inputs [character][limb]. plans: of each limb.
+// sources: of each limb, one for each frame of the clip. Character c shows frame (frame + start) % frame_count. Any
+// thread; no allocation.
+void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame_count,
+                  uint32_t frame, const goal_character* characters, uint32_t count, goal_root* roots,
+                  goal_input* inputs);
+
+// Solves a crowd of bodies with a group for each limb, and joints as GOAL_JOINTS says. roots and inputs are of all
+// bodies. poses: local rotations as solved, swivel_goal_pose_size() floats for each body: x, y, z, w of the four joints
+// of each limb, then of its twist bones. Joints that are not solved stay as they are: start with zeros. job: which
+// bodies, and on which threads; its frames and pose are overwritten. Fails as swivel_solve() does, and for more than
+// GOAL_MOST_LIMBS groups.
+swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_root* roots, const goal_input* inputs, float* poses,
+                                 swivel_job* job);
+uint32_t swivel_goal_pose_size(const swivel_crowd* crowd);
+
+// Of all results: starts as swivel_digest(), then takes the poses of all bodies, as that takes a lane's numbers.
+uint64_t swivel_goals_digest(const swivel_crowd* crowd, const float* poses);
 
 }  // extern "C"

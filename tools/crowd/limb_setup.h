@@ -21,14 +21,19 @@ struct FixedField {
 };
 
 struct LimbSetup {
-    swivel_binding binding = swivel_default_binding();
+    swivel_chain chain = swivel_default_chain();  // at rest; the clip's unit
     swivel_features features;
     swivel_euler_order shoulder_order, wrist_order;
     std::vector<FixedField> fields;
-    float priority;
     goal_plan goals;
     std::optional<swivel_region> region;  // with SWIVEL_WITH_REGION
+    bool mirrored = false;                // the joints' axes, as solved, have x turned over
 
+    // A rotation as solved in the joints' own axes.
+    std::array<float, 4> own(std::span<const float, 4> q) const
+    {
+        return {q[0], mirrored ? -q[1] : q[1], mirrored ? -q[2] : q[2], q[3]};
+    }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
     unsigned twist_bone_count() const
     {
@@ -36,14 +41,21 @@ struct LimbSetup {
     }
 };
 
-// The bytes behind a binding's size. They are the same on every platform, which the width of the size is not.
-inline std::span<char> bytes_behind_size(swivel_binding& binding)
-{
-    return {reinterpret_cast<char*>(binding.parent_from_arm),
-            reinterpret_cast<char*>(binding.twist_from_arm + SWIVEL_MOST_TWIST_BONES)};
-}
+// The limbs of a character as one skeleton: joints as GOAL_JOINTS says, each limb's own below a root of its own.
+struct LimbSkeleton {
+    std::vector<std::int32_t> parents;
+    std::vector<std::array<float, 3>> translations;
+    std::vector<std::array<float, 4>> rotations;
+    struct OfLimb {
+        std::uint32_t shoulder;  // the elbow is the next one, then come the wrist and the twist bones
+        std::vector<std::uint32_t> twist_bones;
+        std::array<float, 3> bend;
+    };
+    std::vector<OfLimb> limbs;
+};
+LimbSkeleton skeleton_of(std::span<const LimbSetup> limbs);
 
-// The same of a region.
+// The bytes behind a region's size. They are the same on every platform, which the width of the size is not.
 inline std::span<char> bytes_behind_size(swivel_region& region)
 {
     return {reinterpret_cast<char*>(&region.cut_count),

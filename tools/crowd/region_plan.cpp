@@ -32,7 +32,8 @@ std::vector<std::array<float, 3>> directions_in(const formats::Clip& clip, const
     std::vector<std::array<float, 3>> directions;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const ChainPose pose = chain_pose(clip, frame, limb.chain);
-        directions.push_back(floats(arm.conjugate() * (pose.position[1] - pose.position[0]).normalized()));
+        const Eigen::Vector3d bone = (pose.position[1] - pose.position[0]).normalized();
+        directions.push_back(floats(arm.conjugate() * limb.as_solved(bone)));
     }
     return directions;
 }

@@ -11,7 +11,6 @@
 namespace swivel::formats {
 namespace {
 
-constexpr double kMostPriority = 1e15;  // above it the solver counts no further
 constexpr std::array<std::string_view, 9> kSelectors = {"all",      "arms",      "legs",     "left",     "right",
                                                         "left_arm", "right_arm", "left_leg", "right_leg"};
 constexpr std::array<std::string_view, 5> kPoleKinds = {"point", "direction", "normal", "incoming", "hand"};
@@ -199,7 +198,6 @@ LimbSettings read_limb(TomlTable table, bool is_one)
     read_swivel(table.table("swivel"), to);
     read_limits(table.table("limits"), to);
     to.twist_bones = table.whole("twist_bones", 0, kMostTwistBones);
-    to.priority = table.number("priority", 0, kMostPriority);
     table.finish();
     return to;
 }
@@ -260,8 +258,7 @@ auto members(Settings& s)
                     s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight, s.pole_weight,
                     s.soft_far, s.soft_near, s.least_distance, s.most_stretch, s.most_swivel_deg_per_frame,
                     s.most_swivel_deg_per_second, s.step_wins, s.flexion_deg, s.humeral_twist_deg, s.forearm_twist_deg,
-                    s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.region, s.twist_bones,
-                    s.priority);
+                    s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.region, s.twist_bones);
 }
 
 void merge(LimbSettings& to, const LimbSettings& from, bool mirrored)

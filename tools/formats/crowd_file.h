@@ -76,7 +76,6 @@ struct LimbSettings {
     Maybe<RegionLimit> region;
 
     Maybe<std::int64_t> twist_bones;  // 0 to 7
-    Maybe<double> priority;           // 0 to 1e15
 };
 
 // One table [limb.SELECTOR].

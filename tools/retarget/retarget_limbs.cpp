@@ -66,24 +66,11 @@ void put(const Clip& clip, std::size_t frame, const Limb& limb, const std::array
         rotations[frame * clip.joints.size() + static_cast<std::size_t>(limb.joints[n])] = turns[n];
 }
 
-// The clip's own turns, brought by the least turns to where the solver has elbow and end. So twists, and bends that the
-// solver's elbow does not know, stay.
-std::array<Eigen::Quaterniond, 3> corrected(const Clip& clip, const Clip& solved, std::size_t frame,
-                                            const LimbChain& chain)
-{
-    const ChainPose from = chain_pose(clip, frame, chain), to = chain_pose(solved, frame, chain);
-    const Eigen::Quaterniond upper = aim(from.position[1] - from.position[0], to.position[1] - to.position[0]);
-    const Eigen::Quaterniond lower =
-        aim(upper * (from.position[2] - from.position[1]), to.position[2] - to.position[1]) * upper;
-    return local_rotations(clip, frame, chain, {upper * from.turn[0], lower * from.turn[1], from.turn[2]});
-}
-
-NewRotations new_rotations(const Retargeted& motion, const std::vector<Limb>& limbs, const std::filesystem::path& file)
+NewRotations new_rotations(const Retargeted& motion, const std::vector<Limb>& limbs)
 {
     const CrowdPlan plan = plan_crowd(nullptr, motion.clip, limbs);
-    ClipCrowd crowd(motion.clip, limbs, plan, file);
+    ClipCrowd crowd(motion.clip, limbs, plan);
     Statistics statistics;
-    Clip solved = motion.clip;
     NewRotations rotations;
     for (std::size_t frame = 0; frame < motion.clip.frame_count; ++frame) {
         const std::vector<Target> goals = unmet(motion, frame, limbs);
@@ -92,10 +79,8 @@ NewRotations new_rotations(const Retargeted& motion, const std::vector<Limb>& li
         for (const Target& goal : goals) {
             const auto at = std::ranges::find(limbs, goal.limb, &Limb::name);
             const formats::PoseRow row = crowd.pose(static_cast<std::size_t>(at - limbs.begin()), 0);
-            NewRotations turns;
-            put(solved, frame, *at, {quaternion(row.shoulder), quaternion(row.elbow), quaternion(row.wrist)}, turns);
-            for (const auto& [joint, turn] : turns) solved.rotation[joint] = turn;
-            put(solved, frame, *at, corrected(motion.clip, solved, frame, at->chain), rotations);
+            put(motion.clip, frame, *at, {quaternion(row.shoulder), quaternion(row.elbow), quaternion(row.wrist)},
+                rotations);
         }
     }
     return rotations;
@@ -138,7 +123,7 @@ std::vector<GoalMiss> solve_limbs(Retargeted& motion, const std::vector<BodyPart
         if (!finding.limb && miss != misses.end()) miss->problem = problem_text(finding);
     }
     if (!limbs.empty())
-        for (const auto& [joint, turn] : new_rotations(motion, limbs, file)) motion.clip.rotation[joint] = turn;
+        for (const auto& [joint, turn] : new_rotations(motion, limbs)) motion.clip.rotation[joint] = turn;
     measure(motion, joints, misses);
     return misses;
 }

@@ -55,15 +55,17 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
     if (clip.frame_count < 2) return std::nullopt;
     LimbRange range{};
     range.bend = to_three_decimals(limb.bend);
-    const swivel_binding bound = bind(rest_chain(clip, limb.chain, range.bend.stableNormalized()));
-    const Quaterniond arm_from_parent = quaternion(bound.parent_from_arm).conjugate();
+    swivel_chain rest = limb.rest;
+    const Eigen::Vector3f bend = limb.as_solved(Vector3d(range.bend.stableNormalized())).cast<float>();
+    std::copy_n(bend.data(), 3, rest.bend);
+    const Quaterniond arm_from_parent = quaternion(bind(rest).parent_from_arm).conjugate();
     std::vector<Vector3d> upper;
     Vector3d sum = Vector3d::Zero();
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const ChainPose pose = chain_pose(clip, frame, limb.chain);
         const Vector3d bone = pose.position[1] - pose.position[0], lower = pose.position[2] - pose.position[1];
         if (!(bone.norm() > 0) || !(lower.norm() > 0)) continue;
-        upper.push_back(arm_from_parent * bone.normalized());
+        upper.push_back(arm_from_parent * limb.as_solved(Vector3d(bone.normalized())));
         sum += upper.back();
         take(range.from_z, degrees_between(upper.back(), Vector3d::UnitZ()));
         take(range.flexion, degrees_between(bone, lower));

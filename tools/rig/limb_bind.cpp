@@ -49,10 +49,18 @@ swivel_chain chain_at(const ChainPose& rest, const Vector3d& bend)
     return chain;
 }
 
-swivel_binding bind_rest(const ChainPose& rest, const Vector3d& bend)
+// The limb at rest in the axes that it is solved in, with lengths as they are in the world.
+swivel_chain solved_chain(const Limb& limb, ChainPose rest)
+{
+    for (Quaterniond& turn : rest.turn) turn = limb.as_solved(turn);
+    for (Vector3d& position : rest.position) position = limb.scale * limb.as_solved(position);
+    return chain_at(rest, limb.as_solved(limb.bend));
+}
+
+swivel_binding bind_chain(const swivel_chain& chain)
 {
     try {
-        return bind(chain_at(rest, bend));
+        return bind(chain);
     } catch (const Error& error) {
         throw CannotBind(error.what(), "");
     }
@@ -61,12 +69,7 @@ swivel_binding bind_rest(const ChainPose& rest, const Vector3d& bend)
 // The arm frame's axes in the world, by those of the upper joint's parent.
 Eigen::Matrix3d axes_of(const swivel_binding& binding, const JointPose& parent_w)
 {
-    Eigen::Matrix3d axes_w = quaternion(binding.parent_from_arm).toRotationMatrix();
-    for (int n = 0; n < 3; ++n) {
-        const Vector3d axis = axes_w.col(n);
-        axes_w.col(n) = parent_w.rotation * (parent_w.mirrored ? formats::mirrored(axis) : axis);
-    }
-    return axes_w;
+    return (parent_w.rotation * quaternion(binding.parent_from_arm)).toRotationMatrix();
 }
 
 // Where the user gave a bend, for people.
@@ -144,8 +147,8 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
         if (std::string note = clip_against(clip, name, limb.chain, rest, bend.direction); !note.empty())
             limb.notes.push_back(std::move(note));
     }
-    limb.bound = bind_rest(rest, limb.bend);
-    for (float& length : limb.bound.lengths) length = static_cast<float>(limb.scale * static_cast<double>(length));
+    limb.rest = solved_chain(limb, rest);
+    limb.bound = bind_chain(limb.rest);
     limb.axes_w = axes_of(limb.bound, parent_w);
     return limb;
 }

@@ -21,7 +21,8 @@ struct Limb {
     LimbJoints joints{-1, -1, -1};                         // shoulder, elbow and wrist, or hip, knee and ankle
     LimbChain chain;                                       // these and what lies between
     std::string from;                                      // who names these, for people; see FoundJoints
-    swivel_binding bound = swivel_default_binding();       // lengths at rest, in the world
+    swivel_chain rest = swivel_default_chain();            // as the solver takes it, in the world's unit
+    swivel_binding bound = swivel_default_binding();       // of it
     Eigen::Vector3d upper_bone = Eigen::Vector3d::Zero();  // its direction at rest, in the upper joint's axes
     Eigen::Vector3d lower_bone = Eigen::Vector3d::Zero();  // the same of the lower bone, in the lower joint's
     Eigen::Vector3d bend = Eigen::Vector3d::Zero();        // where flexion carries the lower bone, in the upper
@@ -30,12 +31,19 @@ struct Limb {
     std::vector<std::string> notes;                        // what the user should know of it
     double scale = 1;                                      // world lengths for one of the upper joint's parent, at rest
     double unevenness = 0;  // uneven scales put the wrist off by at most this share of the limb's length
-    bool mirrored = false;  // the upper joint's parent is mirrored: the limb is solved in the mirror image
+    bool mirrored = false;  // the upper joint's parent is mirrored: joints are solved in axes whose x is turned over
     Eigen::Matrix3d axes_w = Eigen::Matrix3d::Zero();  // columns: the arm frame's x, y and z at rest, in the world
 
     int upper() const { return joints[0]; }
     int lower() const { return joints[1]; }
     int end() const { return joints[2]; }
+
+    // What is in the joints' own axes, in those that the limb is solved in; and back.
+    template <class Geometry>
+    Geometry as_solved(const Geometry& of) const
+    {
+        return mirrored ? formats::mirrored(of) : of;
+    }
 };
 
 // A rotation as the solver has it, x, y, z, w, made unit.

@@ -46,10 +46,11 @@ void add_solve(CLI::App& app)
         app.add_subcommand("solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it");
     auto options = std::make_shared<SolveOptions>();
     add_crowd_of_clip(*command, *options);
-    takes(command->add_option("--export-targets", options->export_targets,
-                              "Write the clip's wrists, poles and hands, or those given, as a table to edit and to "
-                              "give back by --targets"),
-          file_name());
+    takes(
+        command->add_option("--export-targets", options->export_targets,
+                            "Write the clip's wrists and hands, or the goals that are given, as a table to edit and to "
+                            "give back by --targets"),
+        file_name());
     takes(command->add_option(
               "-o,--out", options->out,
               "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A .bvh "

@@ -51,7 +51,7 @@ Statistics solve_demo(const DemoOptions& options)
     const formats::Clip clip = demo_clip(std::min<std::size_t>(options.frames, kDemoFrames));
     const std::vector<Limb> limbs = demo_limbs(clip);
     const CrowdPlan plan = demo_plan(options, limbs.size());
-    ClipCrowd crowd(clip, limbs, plan, "demo");
+    ClipCrowd crowd(clip, limbs, plan);
     Statistics statistics;
     {
         Progress progress("frames", options.frames, options.quiet);

@@ -49,7 +49,7 @@ public:
     ColumnReplay(const Cache& cache, std::uint32_t index)
         : cache_(cache),
           characters_(cache.characters(index)),
-          column_(cache.crowd(), index, characters_, cache.folder()),
+          column_(cache.crowd(), index, characters_),
           results_(empty_results(cache.crowd()))
     {
     }

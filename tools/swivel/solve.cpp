@@ -39,7 +39,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
     std::optional<ViewPage> page;
     if (!options.view.empty()) page.emplace(options.view);
-    ClipCrowd crowd(file.clip(), job.limbs, job.plan, options.crowd);
+    ClipCrowd crowd(file.clip(), job.limbs, job.plan);
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
     std::optional<formats::TargetsCsv> exported;

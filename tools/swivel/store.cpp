@@ -38,15 +38,14 @@ public:
             ChunkGoals& goals = columns_[place.character / crowd_.chunk.characters];
             if (goals.target.empty()) {
                 const std::size_t count = crowd_.chunk.frames * limbs * wide;
-                const float none = std::numeric_limits<float>::quiet_NaN();
-                goals.target.assign(3 * count, none);
-                goals.pole.assign(3 * count, none);
-                goals.hand.assign(4 * count, none);
+                goals.target.assign(3 * count, std::numeric_limits<double>::quiet_NaN());
+                goals.pole = goals.target;
+                goals.hand.assign(4 * count, std::numeric_limits<float>::quiet_NaN());
             }
             const std::size_t at = (frame * limbs + place.limb) * wide + place.character % wide;
             const goal_input& input = solved.goal_crowd().input(place.limb, place.character);
             std::copy_n(input.target, 3, &goals.target[3 * at]);
-            std::copy_n(input.pole, 3, &goals.pole[3 * at]);
+            if (input.weights[2] > 0) std::copy_n(input.pole, 3, &goals.pole[3 * at]);
             std::copy_n(input.hand, 4, &goals.hand[4 * at]);
         }
     }
@@ -80,7 +79,7 @@ void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFil
 {
     const CachedCrowd& crowd = maker.crowd();
     if (!crowd.has_given) return;
-    ClipCrowd given(file.clip(), job.limbs, job.plan, options.crowd.crowd);
+    ClipCrowd given(file.clip(), job.limbs, job.plan);
     Progress progress("frames", crowd.frame_count, options.crowd.quiet);
     for (std::uint32_t time = 0; time < crowd.time_count(); ++time) {
         GoalChunks chunks(crowd, time);
@@ -125,7 +124,6 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
         throw formats::InputError(
             options.crowd.crowd,
             "has a budget, which is for live crowds: a cache solves all limbs; leave [budget] out");
-    const LimbCrowds one(limb_setups(job.limbs, job.plan), 1, 0, options.crowd.crowd);
     CachedCrowd crowd = cached_clip({title_of(options.crowd.file), file.describe()}, clip, job.limbs, job.plan,
                                     ClipMotion(clip, job.limbs));
     crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);

@@ -68,7 +68,7 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     ViewPage page(options.view);
     const std::vector<LimbSetup> setups = setups_of(crowd);
     const ThreadLimit limit(options.threads);
-    GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0, cache.folder());
+    GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0);
     GivenGoals goals(cache);
     const std::uint32_t frames = crowd.clip_frames;  // the page plays the clip round and round
     Progress progress("frames", frames, options.quiet);
@@ -76,8 +76,7 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
         progress.show(frame);
         solved.set_frame(frame);
         const std::vector<GivenPlace> given = goals.put(frame, solved);
-        solved.write_inputs();
-        solved.crowds().solve();
+        solved.solve();
         page.add_frame(solved, given);
     }
     page.commit(crowd, solved);

@@ -51,19 +51,19 @@ std::string base64_of(std::span<const Value> values)
     return formats::base64_of({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
 }
 
-Json json_of_limb(const CachedLimb& limb, const LimbCrowds::Place& place)
+Json json_of_limb(const CachedLimb& limb, const LimbSkeleton::OfLimb& joints)
 {
     const LimbSetup& setup = limb.setup;
-    swivel_binding binding = setup.binding;
     Json out{{"name", formats::limb_word(limb.name)},
-             {"mirrored", setup.goals.is_mirrored != 0},
-             {"crowd", place.crowd},
-             {"group", place.group},
-             {"binding", base64_of(std::span<const char>(bytes_behind_size(binding)))},
+             {"features", fmt::format("{}", setup.features)},
+             {"shoulder_order", setup.shoulder_order},
+             {"wrist_order", setup.wrist_order},
+             {"shoulder", joints.shoulder},
+             {"twist_bones", joints.twist_bones},
+             {"bend", joints.bend},
              {"plan", base64_of(std::span(&setup.goals, 1))},
              {"sources", base64_of(std::span<const goal_source>(limb.sources))},
-             {"effector", setup.goals.effector},
-             {"priority", setup.priority},
+             {"weights", setup.goals.weights},
              {"fixed", Json::array()},
              {"joints", limb.joints}};
     if (setup.region) {
@@ -73,13 +73,6 @@ Json json_of_limb(const CachedLimb& limb, const LimbCrowds::Place& place)
     for (const FixedField& fixed : setup.fields)
         out["fixed"].push_back({{"field", fixed.field}, {"value", fixed.value}});
     return out;
-}
-
-Json json_of(const LimbCrowds::Shape& shape)
-{
-    return {{"features", fmt::format("{}", shape.features)},
-            {"shoulder_order", shape.shoulder_order},
-            {"wrist_order", shape.wrist_order}};
 }
 
 // Appends it as a script may hold it: without the sign that could end it. Bytes that are no UTF-8 are replaced.
@@ -119,12 +112,12 @@ void ViewPage::add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> pla
     for (const GivenPlace& at : places) {
         Given& given = given_.emplace_back();
         const goal_input& input = crowd.input(at.limb, at.character);
-        given = {frame, at.character, static_cast<std::uint32_t>(at.limb), 0, {}, {}, {}};
+        given = {frame, at.character, static_cast<std::uint32_t>(at.limb), input.weights[2], {}, {}, {}};
         std::ranges::copy(input.target, given.target);
         std::ranges::copy(input.pole, given.pole);
         std::ranges::copy(input.hand, given.hand);
     }
-    digests_.push_back(crowd.crowds().digests());
+    digests_.push_back(crowd.digest());
 }
 
 void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd)
@@ -141,18 +134,15 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd)
               {"character_count", crowd.character_count()},
               {"characters", base64_of(crowd.characters())},
               {"limbs", Json::array()},
-              {"crowds", Json::array()},
               {"budget_blocks", cached.budget_blocks},
               {"given", base64_of(std::span<const Given>(given_))},
               {"digests", Json::array()}};
+    const LimbSkeleton skeleton = skeleton_of(crowd.limbs());
+    page["skeleton"] = {
+        {"parents", skeleton.parents}, {"translations", skeleton.translations}, {"rotations", skeleton.rotations}};
     for (std::size_t n = 0; n < cached.limbs.size(); ++n)
-        page["limbs"].push_back(json_of_limb(cached.limbs[n], crowd.crowds().place(n)));
-    for (const LimbCrowds::Shape& shape : crowd.crowds().shapes()) page["crowds"].push_back(json_of(shape));
-    for (const std::vector<std::uint64_t>& of_frame : digests_) {
-        Json digests = Json::array();
-        for (const std::uint64_t digest : of_frame) digests.push_back(fmt::format("{:016x}", digest));
-        page["digests"].push_back(std::move(digests));
-    }
+        page["limbs"].push_back(json_of_limb(cached.limbs[n], skeleton.limbs[n]));
+    for (const std::uint64_t digest : digests_) page["digests"].push_back(fmt::format("{:016x}", digest));
     std::string script = std::move(script_begin_);
     append_script_text(script, page);
     script += script_end_;

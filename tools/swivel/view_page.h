@@ -22,7 +22,7 @@ public:
     // file's, and InputError as OutputFile does.
     explicit ViewPage(const std::filesystem::path& path);
 
-    // Takes a frame just solved: its digests, and the goals that were given. Frames in order, from the first.
+    // Takes a frame just solved: its digest, and the goals that were given. Frames in order, from the first.
     void add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> given);
 
     // Writes the page and makes it appear; to be called once, last. cached: what the crowd performs.
@@ -31,15 +31,17 @@ public:
 private:
     // A goal of one's own, which takes the formula's place.
     struct Given {
-        std::uint32_t frame, character, limb, reserved;
-        float target[3], pole[3], hand[4];
+        std::uint32_t frame, character, limb;
+        float pole_weight;
+        double target[3], pole[3];
+        float hand[4];
     };
-    static_assert(sizeof(Given) == 56);
+    static_assert(sizeof(Given) == 80);
 
     // The program: up to the digest's place, around the crowd's, and from the script's end on.
     std::string before_, script_begin_, script_end_, after_;
     formats::OutputFile out_;
-    std::vector<std::vector<std::uint64_t>> digests_;  // [frame][crowd]
+    std::vector<std::uint64_t> digests_;  // by frame
     std::vector<Given> given_;
 };
 

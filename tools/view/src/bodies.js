@@ -2,8 +2,9 @@
 //
 // The crowd's bodies: capsules, an instance for each character. Bodies follow the clip. Limbs follow the solver:
 // their vertices find elbow and wrist from its rows.
+import { layout } from "swivel-wasm/layout.js";
 import {
-    CapsuleGeometry, Float32BufferAttribute, GLSL3, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector3, Vector4,
+    CapsuleGeometry, Float32BufferAttribute, GLSL3, InstancedBufferGeometry, Mesh, Quaternion, ShaderMaterial, Vector3, Vector4,
 } from "three";
 
 import bodyFragment from "./body.frag.glsl";
@@ -16,7 +17,6 @@ import limbFragment from "./limb.frag.glsl";
 import limbGlsl from "./limb.glsl";
 import limbVertex from "./limb.vert.glsl";
 import { floatTexture, LimbRows } from "./rows.js";
-import { rotationOf } from "./stage.js";
 
 const SUN = new Vector3(0.45, 1, 0.35);
 
@@ -44,7 +44,12 @@ function capsules(partCount, isShadow) {
     return geometry;
 }
 
-const quaternionOf = (binding, member) => new Vector4().fromArray(rotationOf(binding, member));
+/** The wrist joint's rotation relative to the hand as results have it, which has the arm frame's axes at rest. */
+function handFromArm({ swivel, skeleton }, { chain }) {
+    const { buffer } = swivel.bindJoints(skeleton, chain).bytes;
+    const rotation = (member) => new Quaternion().fromArray(new Float32Array(buffer, layout.swivel_binding[member], 4));
+    return rotation("wrist_parent_from_arm").invert().multiply(rotation("wrist_rest"));
+}
 
 export class Bodies {
     /** scale: metres of the scene for a unit of the clip. mostTexels: of a side of a texture. */
@@ -55,13 +60,14 @@ export class Bodies {
         this.meshes = [];
         this.drawnCount = 1;  // until show() says it
         this.extra = null;  // the character that is drawn beside the first ones, or null
-        const { characters } = stage, jointCount = figure.jointCount;
+        const { characters, limbs: [{ sources }] } = stage, { jointCount, frameCount } = figure;
         const positions = new Float32Array(figure.positions.length / 3 * 4);
         for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
         this.shared = {
             uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start }) => [...place, size, start, 0, 0, 0]), mostTexels),
             uPositions: floatTexture("the clip's positions", positions, mostTexels),
-            uFrame: 0, uFrameCount: figure.frameCount, uJointCount: jointCount,
+            uRoots: floatTexture("the clip's roots", Array.from({ length: frameCount }, (_, n) => [...sources.root(n), 0]).flat(), mostTexels),
+            uFrame: 0, uFrameCount: frameCount, uJointCount: jointCount,
             uDrawn: 1, uExtra: 0, uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
             uSky: rgb("#ffffff"), uEarth: rgb("#888888"), uBackground: rgb("#ffffff"), uShade: rgb("#cccccc"),
         };
@@ -78,12 +84,10 @@ export class Bodies {
         this.add(bones.length, uniforms, [crowdGlsl, capsule, bodyVertex], bodyFragment);
     }
     addLimb(limb) {
-        const { radii, tip } = this.figure.limbShape(limb), { binding } = limb;
+        const { radii, tip } = this.figure.limbShape(limb);
         const uniforms = {
-            uUpperFromArm: quaternionOf(binding, "upper_from_arm"), uElbowParentFromArm: quaternionOf(binding, "elbow_parent_from_arm"),
-            uForeFromArm: quaternionOf(binding, "fore_from_arm"), uWristParentFromArm: quaternionOf(binding, "wrist_parent_from_arm"),
-            uWristRest: quaternionOf(binding, "wrist_rest"), uMirror: limb.mirrored ? -1 : 1, uTip: tip,
-            uRadii: new Vector4(1.05 * radii[0], 0.85 * radii[0], 0.8 * radii[1], 0.75 * radii[2]), uUpperJoint: limb.joints[0], uChosen: -1,
+            uHandFromArm: handFromArm(this.stage, limb), uTip: tip,
+            uRadii: new Vector4(1.05 * radii[0], 0.85 * radii[0], 0.8 * radii[1], 0.75 * radii[2]), uChosen: -1,
             uColour: rgb(LIMB_COLOURS[limb.index % LIMB_COLOURS.length]), uChosenColour: rgb(CHOSEN), uColourBy: 0,
             uRamp: rampColours(), uFlagColours: flagColours(), uFlagMasks: flagMasks(),
         };
@@ -93,9 +97,9 @@ export class Bodies {
         this.add(3, uniforms, [crowdGlsl, limbGlsl, capsule, limbVertex], limbFragment);
         return drawn;
     }
-    /** The rows of those that are drawn. The limb's crowd is made again when its features change. */
+    /** The rows of those that are drawn. The crowd is made again when features change. */
     takeRows(drawn) {
-        const crowd = this.stage.crowdOf(drawn.limb), blocks = Math.ceil(this.drawnCount / 16);
+        const { crowd } = this.stage, blocks = Math.ceil(this.drawnCount / 16);
         const extra = this.extra === null ? null : Math.floor(this.extra / 16);
         if (drawn.crowd === crowd && drawn.rows.blocks === blocks && drawn.rows.extra === extra) return drawn.rows.update();
         drawn.rows?.dispose();

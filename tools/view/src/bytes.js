@@ -3,10 +3,11 @@
 // The page's binary data: base64 of C structures, as tools/crowd/goals.h and include/swivel/swivel.h lay them out.
 
 /** Bytes of each structure. */
-export const SIZE = { character: 40, source: 184, input: 124, plan: 120, given: 56 };
+export const SIZE = { character: 40, source: 208, plan: 200, root: 32, input: 208, given: 80 };
 
-/** Where the floats of a goal_input begin, counted in floats. */
-export const INPUT = { target: 0, pole: 3, lengths: 6, position: 8, rotation: 11, hand: 15, shoulder: 19, elbow: 23, wrist: 27, count: 31 };
+/** Where the weights of a goal_plan begin, and the goals of a goal_input. */
+export const PLAN_WEIGHTS = 168;
+export const INPUT = { target: 0, pole: 24, hand: 48, weights: 64 };
 
 /** How many bytes a text stands for. */
 export const byteCountOf = (base64) => base64.length / 4 * 3 - (base64.endsWith("==") ? 2 : base64.endsWith("=") ? 1 : 0);
@@ -30,7 +31,7 @@ export function charactersOf(bytes) {
     });
 }
 
-/** What is drawn of a limb's goal_source in each frame: its shoulder in the world, and its hand's rotation as solved. */
+/** Of a limb's goal_source in each frame: its hand's rotation, its bones' lengths, its shoulder, and the figure's root, all in the world. */
 export class Sources {
     constructor(bytes) { this.view = new DataView(bytes.buffer); }
     get frameCount() { return this.view.byteLength / SIZE.source; }
@@ -38,16 +39,19 @@ export class Sources {
         return Array.from({ length: count }, (_, n) => this.view.getFloat64(frame * SIZE.source + 8 * (first + n), true));
     }
     hand(frame) { return this.doubles(frame, 6, 4); }
+    lengths(frame) { return this.doubles(frame, 10, 2); }
     origin(frame) { return this.doubles(frame, 12, 3); }
+    root(frame) { return this.doubles(frame, 15, 3); }
 }
 
-/** Goals of one's own by frame: lists of { character, limb, target, pole, hand }. */
+/** Goals of one's own by frame: lists of { character, limb, poleWeight, target, pole, hand }. */
 export function givenOf(base64) {
-    const bytes = bytesOf(base64), words = new Uint32Array(bytes.buffer), floats = new Float32Array(bytes.buffer), frames = new Map();
-    for (let at = 0; at < words.length; at += SIZE.given / 4) {
-        const [frame, character, limb] = words.subarray(at, at + 3), part = (first, end) => floats.subarray(at + first, at + end);
+    const { buffer, length } = bytesOf(base64), frames = new Map();
+    for (let at = 0; at < length; at += SIZE.given) {
+        const [frame, character, limb] = new Uint32Array(buffer, at, 3), [poleWeight] = new Float32Array(buffer, at + 12, 1);
+        const [target, pole] = [16, 40].map((first) => new Float64Array(buffer, at + first, 3)), hand = new Float32Array(buffer, at + 64, 4);
         if (!frames.has(frame)) frames.set(frame, []);
-        frames.get(frame).push({ character, limb, target: part(4, 7), pole: part(7, 10), hand: part(10, 14) });
+        frames.get(frame).push({ character, limb, poleWeight, target, pole, hand });
     }
     return frames;
 }

@@ -58,7 +58,7 @@ const FIELDS = [
         value: range, numbers: rangeEnds },
     { name: "SHOULDER_BOX", title: "Shoulder box",
         hint: "Ranges of the shoulder's three Euler angles",
-        order: "shoulder_order", sliders: boxSliders, value: box, numbers: boxEnds },
+        order: "shoulderOrder", sliders: boxSliders, value: box, numbers: boxEnds },
     { name: "HAND_CONE", title: "Hand cone",
         hint: "How far the hand may bend away from the forearm",
         ...cone(60) },
@@ -72,7 +72,7 @@ const FIELDS = [
         value: (swivel, ends, limb) => [...axisOf(limb), ...range(swivel, ends, limb)], numbers: (value, limb) => rangeEnds(value.slice(3), limb) },
     { name: "WRIST_BOX", title: "Wrist box",
         hint: "Ranges of the wrist's three Euler angles",
-        order: "wrist_order", sliders: boxSliders, value: box, numbers: boxEnds },
+        order: "wristOrder", sliders: boxSliders, value: box, numbers: boxEnds },
     { name: "WEIGHTS", title: "Weights",
         hint: "How much each goal counts: 0 keeps the clip's pose, 1 takes the goal",
         sliders: [share("Position", 1), share("Hand", 1), share("Pole", 1)],
@@ -88,7 +88,7 @@ const FIELDS = [
         value: (swivel, [most]) => swivel.turn(most * RADIANS), numbers: (value) => [middle(value)] },
 ];
 
-/** Why a field cannot be added to a limb's crowd; nothing if it can. */
+/** Why a field cannot be added to a limb; nothing if it can. */
 function obstacle(stage, limb, field) {
     const features = stage.featuresOf(limb), name = `WITH_${field.name}`, { WITH_HAND, WITH_AIM } = Feature;
     if ((featureRules[name].needs & ~features & WITH_HAND) !== 0n) return "These limbs have no hand goals.";
@@ -97,17 +97,14 @@ function obstacle(stage, limb, field) {
 }
 
 /** What of a limb matters to a field's value. */
-function traits(stage, limb, field) {
-    return {
-        isOther: limb.name.startsWith("right") !== limb.mirrored, order: stage.data.crowds[limb.crowdIndex][field.order] ?? 0,
-        given: limb.fixed.get(field.name),
-    };
+function traits(limb, field) {
+    return { isOther: limb.name.startsWith("right"), order: limb[field.order] ?? 0, given: limb.fixed.get(field.name) };
 }
 
 /** A field's switch and sliders, for the limbs that limbsOf() names. */
 function makeField(page, field, limbsOf) {
     const { stage } = page, numbers = field.sliders.map(({ value }) => value);
-    const valueOf = (limb) => Array.from(field.value(stage.swivel, numbers, traits(stage, limb, field)));
+    const valueOf = (limb) => Array.from(field.value(stage.swivel, numbers, traits(limb, field)));
     const apply = () => {
         try {
             stage.setField(limbsOf(), field.name, on.box.checked ? valueOf : null);
@@ -141,7 +138,7 @@ function makeField(page, field, limbsOf) {
     /** Takes over what the limbs have; the first that has the field gives the numbers. */
     const follow = () => {
         const [first] = having();
-        if (first) take(field.numbers(Array.from(stage.field(first, field.name)), traits(stage, first, field)));
+        if (first) take(field.numbers(Array.from(stage.field(first, field.name)), traits(first, field)));
         show();
     };
     page.on("select", follow);

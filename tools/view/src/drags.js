@@ -21,15 +21,16 @@ export function moveGoals(stage, limb) {
     for (const [key, pin] of stage.pins) {
         const [index, character] = key.split(":").map(Number);
         if (index !== limb.index) continue;
-        for (const part of PARTS) if (pin[part]) stage.input(limb, character, part).set(stage.toSolved(limb, character, pin[part]));
+        for (const part of PARTS) if (pin[part]) stage.setGoal(limb, character, part, stage.toGoal(limb, character, part, pin[part]));
     }
 }
 /** Points go by the shift times the character's size, directions of length 1 by the shift itself. */
 function shiftAll(stage, limb, part) {
     const shift = limb.shift[part], isPoint = stage.isPoint(limb, part);
     stage.characters.forEach(({ size }, n) => {
-        const at = stage.input(limb, n, part);
-        at.set(isPoint ? at.map((number, axis) => number + size * shift[axis]) : unit(unit(at).map((number, axis) => number + shift[axis])));
+        const asked = stage.input(limb, n, part);
+        const to = isPoint ? asked.map((number, axis) => number + size * shift[axis]) : unit(unit(asked).map((number, axis) => number + shift[axis]));
+        stage.setGoal(limb, n, part, to);
     });
 }
 
@@ -45,10 +46,10 @@ export function dragEveryone(stage, limb, character, part, world) {
         if (Object.keys(rest).length > 0) stage.pins.set(key, rest);
         else stage.pins.delete(key);
     }
-    stage.askGoals(limb);
-    const asked = stage.input(limb, character, part), place = stage.toSolved(limb, character, world);
-    const shift = stage.isPoint(limb, part) ? place.map((coordinate, axis) => (coordinate - asked[axis]) / stage.characters[character].size)
-        : unit(place).map((coordinate, axis) => coordinate - unit(asked)[axis]);
+    stage.askGoals();
+    const asked = stage.input(limb, character, part), wanted = stage.toGoal(limb, character, part, world);
+    const shift = stage.isPoint(limb, part) ? wanted.map((coordinate, axis) => (coordinate - asked[axis]) / stage.characters[character].size)
+        : unit(wanted).map((coordinate, axis) => coordinate - unit(asked)[axis]);
     limb.shift = { ...limb.shift, [part]: shift };
 }
 /** A limb's goals are the clip's again, and everyone's of that limb. */

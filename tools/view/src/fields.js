@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // Values that all characters of a limb share, such as limits: the crowd file's, and the user's in their place. They decide
-// the features of crowds.
-import { Feature, featureRules, Field } from "swivel-wasm/layout.js";
+// the limb's features.
+import { Feature, Field, OnBadInput } from "swivel-wasm/layout.js";
 
 const NAMES = new Map(Object.entries(Field).map(([name, field]) => [field, name]));
+const ALL = [1, 1, 1];  // weights that say nothing
 
 /** The crowd file's values, by the field's name. */
-export const fixedOf = (fixed) => new Map(fixed.map(({ field, value }) => [NAMES.get(field), value]));
+export function fixedOf({ fixed, weights }) {
+    const values = fixed.map(({ field, value }) => [NAMES.get(field), value]);
+    return new Map(weights.every((weight) => weight === 1) ? values : [...values, ["WEIGHTS", weights]]);
+}
 
 /** What a field of a limb is: the user's, else the file's, else nothing. The user's null takes the file's away. */
 export const fieldOf = (limb, name) => (limb.own.has(name) ? limb.own.get(name) ?? undefined : limb.fixed.get(name));
@@ -18,46 +22,39 @@ export function setOwn(limb, name, value) {
     else limb.own.delete(name);
 }
 
-/**
- * The features of a crowd's groups: the file's, with those of the user's fields, without those that no limb uses any longer. What needs
- * an incoming pose has the clip's. Other needs are for the library to refuse.
- */
-function featuresFor(shape, limbs) {
-    let features = BigInt(shape.features);
-    for (const name of new Set(limbs.flatMap(({ own }) => [...own.keys()]))) {
-        const feature = Feature[`WITH_${name}`], { needs } = featureRules[`WITH_${name}`];
-        const isUsed = limbs.some((limb) => fieldOf(limb, name) !== undefined);
-        features = isUsed ? features | feature | (needs & Feature.WITH_INCOMING) : features & ~feature;
+/** The features of a limb: the file's, with those of the user's fields, without those that were taken away. Goals always have weights. */
+function featuresFor(limb) {
+    let { features } = limb;
+    for (const name of limb.own.keys()) {
+        const feature = Feature[`WITH_${name}`];
+        if (name !== "WEIGHTS") features = fieldOf(limb, name) ? features | feature : features & ~feature;
     }
     return features;
 }
 
-/** Writes what all characters share. */
-export function writeFields(crowd, limb, characters) {
-    const { group } = limb;
+/** Writes what all characters share. Weights go into the limb's plan of goals. */
+export function writeFields(crowd, limb) {
+    const group = limb.index;
     for (const name of new Set([...limb.fixed.keys(), ...limb.own.keys()])) {
         const value = fieldOf(limb, name);
-        if (value) crowd.write(Field[name], Array.from(value).slice(0, crowd.componentCount(Field[name], group)), { group });
+        if (value && name !== "WEIGHTS") crowd.write(Field[name], Array.from(value).slice(0, crowd.componentCount(Field[name], group)), { group });
     }
-    if (crowd.componentCount(Field.EFFECTOR, group) > 0)
-        crowd.write(Field.EFFECTOR, characters.flatMap(({ size }) => limb.effector.map((part) => size * part)), { group });
+    limb.weights.set(fieldOf(limb, "WEIGHTS") ?? ALL);
 }
 
-/** Makes the crowds of these limbs, with their fields; none if one fails. */
-export function makeCrowds(swivel, shapes, limbs, characters) {
-    const made = [];
+/** Makes the crowd of these limbs, with their fields. */
+export function makeCrowd(swivel, skeleton, limbs, bodyCount) {
+    const groups = limbs.map((limb) => {
+        const { chain: joints, shoulderOrder, wristOrder, region } = limb;
+        const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
+        return { ...shape, ...(region && { region: swivel.region(region) }) };
+    });
+    const crowd = swivel.bodies({ skeleton, bodyCount, groups });
     try {
-        shapes.forEach((shape, index) => {
-            const its = limbs.filter((limb) => limb.crowdIndex === index);
-            const { shoulder_order: shoulderOrder, wrist_order: wristOrder } = shape;
-            const groups = its.map(({ binding, region }) =>
-                ({ limbCount: characters.length, binding, shoulderOrder, wristOrder, ...(region ? { region: swivel.region(region) } : {}) }));
-            made.push(swivel.crowd(groups, featuresFor(shape, its)));
-            its.forEach((limb) => writeFields(made[index], limb, characters));
-        });
+        limbs.forEach((limb) => writeFields(crowd, limb));
     } catch (error) {
-        made.forEach((crowd) => crowd.dispose());
+        crowd.dispose();
         throw error;
     }
-    return made;
+    return crowd;
 }

@@ -77,15 +77,14 @@ export class Figure {
         return { a: top, b: top, radiusA: radius, radiusB: radius };
     }
 
-    /** A limb's radii, and where its hand ends, in the wrist joint's frame as solved. */
-    limbShape({ joints, mirrored, sources }) {
+    /** A limb's radii, and where its hand ends, in the wrist joint's frame. */
+    limbShape({ joints, sources }) {
         const [, lower, end] = joints;
         const radii = [this.radius(lower), this.radius(end), 0.8 * this.radius(end)];
         const tip = new Vector3(), tips = this.children(end);
         tips.forEach((joint) => tip.add(this.at(joint)));
         if (tips.length > 0) tip.divideScalar(tips.length).sub(this.at(end)).multiplyScalar(1.3);
         else tip.copy(this.at(end)).sub(this.at(lower)).multiplyScalar(0.3);
-        if (mirrored) tip.x = -tip.x;
         tip.applyQuaternion(new Quaternion().fromArray(sources.hand(0)).invert());
         return { radii, tip };
     }

@@ -13,13 +13,18 @@ import { Feature, SwivelError } from "./stage.js";
 import { number, saidOf, typeset } from "./words.js";
 
 const OFF = 1e-4;  // arm lengths between solver and steps that are worth a word: a hundred times what floats leave
+const REACHED = 1e-6, STRAIGHT = 1e-9;  // arm lengths: as near counts as there, and what the lecture's circle needs
 const TURNED = 0.1;  // degrees from the pole's own elbow that are worth a word
 
 /** Where the wrist goes, relative to the shoulder: the target less the effector, as the hand's goal turns it. */
 function wristGoal(stage, { limb, character }, { target }) {
     if (!stage.has(limb, "EFFECTOR")) return target;
-    const hand = new Quaternion().fromArray(stage.input(limb, character, "hand")).normalize();
-    return target.clone().sub(new Vector3().fromArray(stage.read(limb, character, "EFFECTOR")).applyQuaternion(hand));
+    const hand = new Quaternion().fromArray(stage.input(limb, character, "hand")).normalize(), { size } = stage.characters[character];
+    return target.clone().addScaledVector(new Vector3().fromArray(stage.read(limb, character, "EFFECTOR")).applyQuaternion(hand), -size);
+}
+/** A straight arm's wrist is at the end of its reach, whatever rounding makes of the target's distance. */
+function withinReach(wrist, reach) {
+    return Math.abs(wrist.length() - reach) < REACHED * reach ? wrist.setLength((1 - STRAIGHT) * reach) : wrist;
 }
 /** From the line between shoulder and wrist to the elbow; null if the arm is straight. */
 function offLine({ elbow, along, upper }) {
@@ -42,7 +47,7 @@ function stepsOf(stage, selection) {
     const inArm = (vector) => vector.clone().applyQuaternion(back);
     if (stage.featuresOf(selection.limb) & Feature.WITH_AIM)
         return { geometry, why: "This limb aims: its hand points at the target, and no place is given for its wrist" };
-    const wrist = inArm(wristGoal(stage, selection, geometry)), pole = inArm(poleFor(stage, selection, geometry));
+    const wrist = withinReach(inArm(wristGoal(stage, selection, geometry)), upper + fore), pole = inArm(poleFor(stage, selection, geometry));
     try {
         const made = stage.swivel.steps(wrist.toArray(), pole.toArray(), upper, fore);
         const entities = Object.fromEntries(made.entities.map((entity) => [entity.name, entity]));
@@ -79,7 +84,7 @@ function makeWords(swivel) {
         tellStep(step, limb);
         text.replaceChildren(...typeset(saidOf(limb, `The lecture's formulas have no answer here. ${why}.`)));
         list.replaceChildren();
-        closing.textContent = "The solver takes other forms of them, which hold for every arm.";
+        closing.textContent = saidOf(limb, "The solver takes other forms of them, which hold for every arm.");
     };
     return { parts: [title, text, list, closing], tell: (step, steps, limb) => (steps.made ? explain : refuse)(step, steps, limb) };
 }
@@ -100,11 +105,10 @@ function makeDrawing(view) {
         labels.replaceChildren();
     };
     /** origin: the shoulder in the world. */
-    const show = (step, { geometry, entities }, origin, isMirrored) => {
-        const { upper, fore, armAxes } = geometry, { x, y, z, w } = armAxes;
+    const show = (step, { geometry, entities }, origin) => {
+        const { upper, fore, armAxes } = geometry;
         frame.position.fromArray(origin);
-        frame.scale.set(isMirrored ? -1 : 1, 1, 1);
-        frame.quaternion.set(x, isMirrored ? -y : y, isMirrored ? -z : z, w);
+        frame.quaternion.copy(armAxes);
         if (entities) DRAW[step](entities, { upper, fore, thickness: 0.008 * (upper + fore) }, add);
         labels.replaceChildren(...places.map(({ label }) => label));
     };
@@ -134,7 +138,7 @@ export function makeLesson(page) {
         if (!box.open) return;
         const selection = page.selection ?? { limb: stage.limbs[0], character: 0 }, { limb, character } = selection;
         const steps = stepsOf(stage, selection);
-        drawing.show(step, steps, stage.shoulder(limb, character), limb.mirrored);
+        drawing.show(step, steps, stage.shoulder(limb, character));
         words.tell(step, steps, limb);
     };
     box.addEventListener("toggle", () => {

@@ -1,14 +1,14 @@
 // Upper arm, forearm and hand, parts 0, 1 and 2; an instance is a character.
 uniform vec4 uRadii;  // at shoulder, elbow, wrist and the hand's end
-uniform int uUpperJoint, uChosen;  // the chosen character, or -1
+uniform int uChosen;  // a character, or -1
 flat out uint vFlags;
 flat out float vFlexion, vMissed, vChosen;
 
 void main() {
     int character = characterOf(gl_InstanceID), n = int(part);
     vec4 place = placeOf(character);
-    Limb limb = limbOf(limbOfInstance(gl_InstanceID), place.w);
-    vec3 at = place.xyz + jointOf(character, uUpperJoint);
+    Limb limb = limbOf(limbOfInstance(gl_InstanceID));
+    vec3 at = place.xyz + rootOf(character);
     vec3 a = n == 0 ? limb.shoulder : n == 1 ? limb.elbow : limb.wrist;
     vec3 b = n == 0 ? limb.elbow : n == 1 ? limb.wrist : limb.tip;
     putCapsule(at + a, at + b, place.w * uRadii[n], place.w * uRadii[n + 1]);

@@ -2,7 +2,7 @@
 //
 // From the data that `swivel view` writes to a stage: whether command and page fit each other, and how much memory to take.
 import { instantiate } from "swivel-wasm/instantiate.js";
-import { layout, VERSION } from "swivel-wasm/layout.js";
+import { VERSION } from "swivel-wasm/layout.js";
 import wasm from "view.wasm";
 
 import { byteCountOf, SIZE } from "./bytes.js";
@@ -22,14 +22,13 @@ function check(data) {
         if (given !== bytes) throw new Error(`the command wrote ${given} bytes for ${name}, and the page's program expects ${bytes}. ${again}`);
     };
     expect("characters", data.characters, SIZE.character * data.character_count);
-    for (const { name, binding, plan, sources } of data.limbs) {
-        expect(`the binding of ${name}`, binding, layout.swivel_binding.bytes - layout.swivel_binding.parent_from_arm);
+    for (const { name, plan, sources } of data.limbs) {
         expect(`the plan of ${name}`, plan, SIZE.plan);
         expect(`the clip of ${name}`, sources, SIZE.source * clipFramesOf(data));
     }
 }
 
-/** What the module's memory must hold: the clip, and for each limb what goes in, what comes out, and crowds made anew beside the old. */
+/** What the module's memory must hold: the clip, and for each limb what goes in, what comes out, and a crowd made anew beside the old. */
 function megabytesFor(data) {
     const clip = data.limbs.reduce((sum, { sources }) => sum + byteCountOf(sources), byteCountOf(data.characters));
     const limbs = data.limbs.length * data.character_count * (2048 + SIZE.input);

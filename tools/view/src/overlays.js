@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // What the solver's geometry is for the chosen limb: spheres, their circle, swivel plane, middle line, pole, the arcs
-// that limits allow, and cones of limits. All is drawn as the limb is solved, relative to its shoulder.
-import { ConeGeometry, Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
+// that limits allow, and cones of limits. All is drawn relative to the limb's shoulder.
+import { ConeGeometry, Group, Matrix4, Mesh, Vector3 } from "three";
 
 import { CONE } from "./colours.js";
 import { checkbox, element, section } from "./dom.js";
 import { clear, dashes, disc, handle, sphere, surface, tube } from "./marks.js";
-import { Feature, flagNames, rotationOf } from "./stage.js";
+import { Feature, flagNames } from "./stage.js";
 import { saidOf } from "./words.js";
 
 const FORBIDDEN = "#e0433b", UNKNOWN = "#98a2b0", HAND_CONE = "#ffb3da";
@@ -22,16 +22,14 @@ const OVERLAYS = [
     { name: "cones", text: "Limit cones: shoulder, hand", colours: [CONE, HAND_CONE], isOn: true },
 ];
 
-/** The chosen limb as its solve has it: vectors relative to the shoulder as the clavicle moves it, and the arm frame's axes. */
+/** The chosen limb as it is solved: vectors relative to the shoulder as the clavicle moves it, the arm frame's axes, and what arm() has. */
 export function geometryOf(stage, { limb, character }) {
-    const { shift, parent } = stage.clavicle(limb, character), { elbows, wrists } = stage.joints(limb, character, 1);
-    const place = (numbers) => new Vector3().fromArray(numbers).sub(shift), input = (part) => stage.input(limb, character, part);
-    const stretch = stage.has(limb, "STRETCH") ? stage.read(limb, character, "STRETCH")[0] : 1;
-    const [upper, fore] = Array.from(input("lengths"), (length) => stretch * length);
-    const elbow = place(elbows), wrist = place(wrists), isPoint = stage.hasPole(limb) && stage.poleIsPoint(limb);
+    const { shoulder, axes: armAxes, ...arm } = stage.arm(limb, character), { elbows, wrists } = stage.joints(limb, character, 1);
+    const place = (numbers) => new Vector3().fromArray(numbers).sub(shoulder), placeOf = (world) => place(stage.fromRoot(character, world));
+    const pole = stage.input(limb, character, "pole"), isPoint = stage.hasPole(limb) && stage.poleIsPoint(limb), wrist = place(wrists);
     return {
-        elbow, wrist, upper, fore, target: place(input("target")), pole: isPoint ? place(input("pole")) : new Vector3().fromArray(input("pole")),
-        armAxes: parent.clone().multiply(new Quaternion().fromArray(rotationOf(limb.binding, "parent_from_arm"))),
+        ...arm, armAxes, elbow: place(elbows), wrist, target: placeOf(stage.input(limb, character, "target")),
+        pole: isPoint ? placeOf(pole) : new Vector3().fromArray(pole),
         along: wrist.lengthSq() > 0 ? wrist.clone().normalize() : new Vector3(0, 0, 1),
     };
 }
@@ -40,15 +38,15 @@ function circleOf({ wrist, along, upper, fore }) {
     const distance = Math.max(wrist.length(), 1e-9), at = (upper ** 2 - fore ** 2 + distance ** 2) / (2 * distance);
     return { centre: along.clone().multiplyScalar(at), radius: Math.sqrt(Math.max(0, upper ** 2 - at ** 2)) };
 }
-/** Whether a pole says where the elbow would go, or the elbow is there. */
+const followsHand = (stage, limb) => (stage.featuresOf(limb) & Feature.POLE_HAND) !== 0n;
+/** Whether it is known where the elbow would go. By the hand that is so if the elbow is there. */
 function isWishKnown(stage, { limb, character }) {
-    const isPole = (stage.featuresOf(limb) & (Feature.POLE_INCOMING | Feature.POLE_HAND)) === 0n;
-    return isPole || !flagNames(stage.flags(limb, character)).some((name) => /^(LIMITED_(?!FLEXION)|INFEASIBLE)/.test(name));
+    return !followsHand(stage, limb) || !flagNames(stage.flags(limb, character)).some((name) => /^(LIMITED_(?!FLEXION)|INFEASIBLE)/.test(name));
 }
-/** Where the elbow would go by the pole alone, or without one where it is: at right angles to the line. */
-export function wishOf(stage, { limb }, { pole, elbow, along }) {
-    const features = stage.featuresOf(limb), isNormal = (features & Feature.POLE_NORMAL) !== 0n;
-    const wish = (features & (Feature.POLE_INCOMING | Feature.POLE_HAND)) !== 0n ? elbow.clone() : isNormal ? pole.clone().cross(along) : pole.clone();
+/** Where the elbow would go by the pole alone, or without one as in the clip, or else where it is: at right angles to the line. */
+export function wishOf(stage, { limb, character }, { pole, normal, elbow, along }) {
+    const counts = stage.poleCounts(limb, character), isNormal = (stage.featuresOf(limb) & Feature.POLE_NORMAL) !== 0n;
+    const wish = followsHand(stage, limb) ? elbow.clone() : counts && !isNormal ? pole.clone() : (counts ? pole : normal).clone().cross(along);
     return wish.addScaledVector(along, -wish.dot(along)).normalize();
 }
 
@@ -117,18 +115,12 @@ function rimOf(geometry, cone, length) {
     return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(aside, 0.6 * length * Math.sin(angle));
 }
 
-/** The anchor that overlays hang on: at the limb's shoulder, mirrored where the limb is solved so. */
-function place(anchor, stage, { limb, character }) {
-    anchor.position.fromArray(stage.shoulder(limb, character));
-    anchor.scale.set(limb.mirrored ? -1 : 1, 1, 1);
-}
-
 /** The ball on the rim of the shoulder cone: a drag opens or shuts the cone, so that its rim is at a point of the scene. */
 function makeRim(page) {
     const { stage, view } = page, rim = handle(0.016 * view.figure.height, CONE);
     page.picker.addHandle("cone", rim, (world) => {
         const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
-        const at = new Vector3().fromArray(stage.toSolved(limb, character, world)).sub(stage.clavicle(limb, character).shift).normalize();
+        const at = new Vector3().fromArray(world).sub(new Vector3().fromArray(stage.shoulder(limb, character))).normalize();
         const axis = new Vector3().fromArray(stage.field(limb, "SHOULDER_CONE")).applyQuaternion(geometry.armAxes).normalize();
         page.fields.SHOULDER_CONE.set([Math.round(axis.angleTo(at) * 1800 / Math.PI) / 10]);
     });
@@ -160,7 +152,7 @@ export function makeOverlays(page) {
         rim.visible = false;
         if (!anchor.visible) return;
         const { selection } = page, geometry = geometryOf(stage, selection), length = geometry.upper + geometry.fore;
-        place(anchor, stage, selection);
+        anchor.position.fromArray(stage.shoulder(selection.limb, selection.character));
         const context = { stage, selection, length, thickness: 0.006 * length };
         for (const { name } of OVERLAYS) if (wanted[name]) draw[name](groups[name], geometry, context);
         const cone = stage.field(selection.limb, "SHOULDER_CONE");

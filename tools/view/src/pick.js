@@ -81,9 +81,9 @@ export class Picker {
         const meetThose = (limb, first, count) => {
             const { elbows, wrists } = stage.joints(limb, first, count);
             for (let n = 0; n < count; ++n) {
-                const who = first + n, elbow = stage.toWorld(limb, who, elbows.subarray(3 * n, 3 * n + 3));
+                const who = first + n, elbow = stage.toWorld(who, elbows.subarray(3 * n, 3 * n + 3));
                 meet(limb, who, stage.shoulder(limb, who), elbow);
-                meet(limb, who, elbow, stage.toWorld(limb, who, wrists.subarray(3 * n, 3 * n + 3)));
+                meet(limb, who, elbow, stage.toWorld(who, wrists.subarray(3 * n, 3 * n + 3)));
             }
         };
         for (const limb of stage.limbs) {

@@ -8,12 +8,12 @@ import crowdGlsl from "./crowd.glsl";
 import limbGlsl from "./limb.glsl";
 
 const vertex = `
-uniform int uUpperJoint, uCount;
+uniform int uCount;
 flat out vec4 vJoint;
 void main() {
     int character = characterOf(gl_VertexID / 2);
-    Limb limb = limbOf(limbOfInstance(gl_VertexID / 2), placeOf(character).w);
-    vJoint = vec4(jointOf(character, uUpperJoint) + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist), limb.missed);
+    Limb limb = limbOf(limbOfInstance(gl_VertexID / 2));
+    vJoint = vec4(rootOf(character) + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist), limb.missed);
     gl_Position = vec4((float(gl_VertexID) + 0.5) / float(2 * uCount) * 2.0 - 1.0, 0.0, 0.0, 1.0);
     gl_PointSize = 1.0;
 }`;

@@ -37,23 +37,22 @@ function blockTexture(words, rowCount) {
     return texture;
 }
 
-/** The rows of one limb's group: its first blocks of 16 characters, and one more block unless extra is null. */
+/** The rows of one limb: the first blocks of 16 characters, and one more block unless extra is null. */
 export class LimbRows {
     constructor(crowd, limb, blocks, extra, most) {
         this.most = most;
         this.blocks = blocks;
         this.extra = extra;
         this.copies = [];  // of rows, into textures that are no part of the solver's memory
-        const { group } = limb, blockCount = Math.ceil(crowd.limbCount(group) / 16);
+        const group = limb.index, { blockCount } = crowd;
         this.inputs = this.texture(crowd.inputRows(group), blockCount);
         this.results = this.texture(crowd.resultRows(group), blockCount);
         const row = (name) => (crowd.fieldRowCount(Field[name], group) > 0 ? crowd.fieldFirstRow(Field[name], group) : -1);
         this.uniforms = {
             uInputs: this.inputs, uResults: this.results,
-            uRotationRow: row("PARENT_ROTATION"), uLengthsRow: row("LENGTHS"), uTargetRow: row("TARGET"), uClavicleRow: row("CLAVICLE"),
-            uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"),
+            uTargetRow: row("TARGET"), uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"),
             uShoulderRow: row("SHOULDER"), uElbowRow: row("ELBOW"), uWristRow: row("WRIST"), uFlagsRow: row("FLAGS"),
-            uStretchRow: row("STRETCH"), uTurnRow: row("CLAVICLE_TURN"), uBlocks: blocks,
+            uStretchRow: row("STRETCH"), uRecordRow: row("RECORD"), uBlocks: blocks,
         };
     }
     texture(rows, blockCount) {

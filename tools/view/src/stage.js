@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // The crowd and its solves: goals by the formula of the command, changes by the user, one solve for all limbs. Knows the
-// solver; nothing is drawn here. World coordinates are the clip's.
+// solver; nothing is drawn here. World coordinates are the clip's. A character's root is where its pose hangs: it moves along.
 import { SwivelError } from "swivel-wasm/arguments.js";
-import { Binding } from "swivel-wasm/binding.js";
-import { carried, Feature, featureRules, Field, Flag, layout } from "swivel-wasm/layout.js";
+import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.js";
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, charactersOf, givenOf, INPUT, Sources } from "./bytes.js";
+import { bytesOf, charactersOf, givenOf, INPUT, PLAN_WEIGHTS, SIZE, Sources } from "./bytes.js";
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isPinned, isShifted, moveGoals, NO_SHIFT, unit } from "./drags.js";
-import { fieldOf, fixedOf, makeCrowds, setOwn, writeFields } from "./fields.js";
+import { fieldOf, fixedOf, makeCrowd, setOwn, writeFields } from "./fields.js";
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
     return Object.keys(Flag).filter((name) => (word & Flag[name]) !== 0);
 }
-
-/** A rotation of a binding: x, y, z, w. */
-export function rotationOf(binding, member) {
-    const bytes = binding.bytes.slice(layout.swivel_binding[member]), rotation = Array.from(new Float32Array(bytes.buffer, 0, 4));
-    return rotation.map((part) => part / Math.hypot(...rotation));
-}
-
-/** A vector in the world, as a limb is solved, and back: mirrored limbs are solved in the mirror image. */
-const mirrored = (limb, [x, y, z]) => [limb.mirrored ? -x : x, y, z];
 
 export class Stage {
     constructor(memory, data) {
@@ -34,16 +24,22 @@ export class Stage {
         this.frameCount = data.frame_count;
         this.frame = -1;  // none is solved yet
         this.seconds = 0;  // of the last solve
+        const { parents, translations, rotations } = data.skeleton;
+        this.skeleton = { parents, translations: translations.flat(), rotations: rotations.flat() };
         const characters = bytesOf(data.characters);
         this.charactersAt = this.keep(characters);
         this.characters = charactersOf(characters);
         this.given = givenOf(data.given);
         this.pins = new Map();  // goals moved alone: "limb:character" to { target, pole } in the world
+        this.plansAt = this.keep(data.limbs.flatMap(({ plan }) => Array.from(bytesOf(plan))));
         this.limbs = data.limbs.map((limb, index) => this.makeLimb(limb, index));
+        this.sourcesAt = memory.allocate(4 * this.limbs.length);
+        memory.words(this.sourcesAt, this.limbs.length).set(this.limbs.map(({ sourcesAt }) => sourcesAt));
+        this.rootsAt = memory.allocate(SIZE.root * this.characterCount);
+        this.inputsAt = memory.allocate(SIZE.input * this.limbCount);
         this.clipFrameCount = this.limbs[0].sources.frameCount;
         this.changed = false;  // by the user, since the page was opened
-        this.crowds = [];
-        this.makeCrowds();
+        this.makeCrowd();
     }
 
     get characterCount() { return this.characters.length; }
@@ -55,108 +51,120 @@ export class Stage {
         this.memory.bytes(at, bytes.length).set(bytes);
         return at;
     }
+    /** Floats that stay there, zeros at first. */
+    zeros(count) { return this.memory.floats(this.keep(new Uint8Array(4 * count)), count); }
     makeLimb(limb, index) {
-        const sources = bytesOf(limb.sources);
-        const inputsAt = this.memory.allocate(4 * INPUT.count * this.characters.length);
+        const sources = bytesOf(limb.sources), { shoulder, twist_bones: twistBones, bend } = limb;
         return {
-            index, name: limb.name, mirrored: limb.mirrored, joints: limb.joints, group: limb.group, crowdIndex: limb.crowd,
-            binding: new Binding(bytesOf(limb.binding)), region: limb.region && bytesOf(limb.region), effector: limb.effector, priority: limb.priority,
-            fixed: fixedOf(limb.fixed),
+            index, name: limb.name, joints: limb.joints, features: BigInt(limb.features), region: limb.region && bytesOf(limb.region),
+            shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order,
+            chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
+            fixed: fixedOf(limb),
             own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away
-            shift: NO_SHIFT,  // of everyone's goals, as solved, for a character of size 1
-            planAt: this.keep(bytesOf(limb.plan)), sourcesAt: this.keep(sources), sources: new Sources(sources), inputsAt,
-            inputs: this.memory.floats(inputsAt, INPUT.count * this.characters.length),
+            weights: this.memory.floats(this.plansAt + index * SIZE.plan + PLAN_WEIGHTS, 3),  // of goals, the pole's where that counts
+            shift: NO_SHIFT,  // of everyone's goals, for a character of size 1
+            sourcesAt: this.keep(sources), sources: new Sources(sources),
         };
     }
 
-    /** Makes the crowds, with the features that the user's fields need. The old ones stay if that fails. */
-    makeCrowds() {
-        const made = makeCrowds(this.swivel, this.data.crowds, this.limbs, this.characters);
-        this.crowds.forEach((crowd) => crowd.dispose());
-        this.crowds = made;
+    /** Makes the crowd, with the features that the user's fields need. The old one stays if that fails. */
+    makeCrowd() {
+        const made = makeCrowd(this.swivel, this.skeleton, this.limbs, this.characterCount);
+        this.crowd?.dispose();
+        this.crowd = made;
+        this.poses ??= this.zeros(this.memory.calls.swivel_goal_pose_size(made.crowd) * this.characterCount);
+        this.urgency ??= this.zeros(made.blockCount);  // of a budget
+        this.urgency.fill(0);
         this.carriesState = this.data.budget_blocks > 0 || this.limbs.some((limb) => this.carries(limb));
-        this.urgency = new Float32Array(made[0].blockCount);  // of a budget, which has one crowd
         this.solvedFrames = 0;  // in order, from the first on
         this.hasSolved = false;
     }
-    crowdOf(limb) { return this.crowds[limb.crowdIndex]; }
-    has(limb, name) { return this.crowdOf(limb).componentCount(Field[name], limb.group) > 0; }
+    has(limb, name) { return this.crowd.componentCount(Field[name], limb.index) > 0; }
     /** Whether a limb's solves start from its last results. */
-    carries(limb) { return carried.some((field) => this.crowdOf(limb).componentCount(field, limb.group) > 0); }
-    writeFields(limb) { writeFields(this.crowdOf(limb), limb, this.characters); }
+    carries(limb) { return carried.some((field) => this.crowd.componentCount(field, limb.index) > 0); }
 
     /** Goes to a frame and solves it. */
     setFrame(frame) {
-        if (this.carriesState && frame === 0 && this.frame >= 0) this.makeCrowds();
+        if (this.carriesState && frame === 0 && this.frame >= 0) this.makeCrowd();
         this.frame = frame;
         this.solve();
     }
     /** Solves the frame again, with whatever has changed. */
     solve() {
         const inOrder = this.solvedFrames === this.frame;
-        for (const limb of this.limbs) this.setGoals(limb);
+        this.askGoals();
+        this.limbs.forEach((limb) => moveGoals(this, limb));
+        if (this.hasSolved) this.limbs.forEach((limb) => this.forgetEnds(limb));
         const before = performance.now();
-        this.crowds.forEach((crowd) => crowd.solve(this.job()));
+        this.memory.borrow((borrowed) => this.memory.check(this.memory.calls.swivel_goals_solve(
+            this.crowd.crowd, this.rootsAt, this.inputsAt, this.poses.byteOffset, this.job(borrowed).at)));
         this.hasSolved = true;
         this.seconds = (performance.now() - before) / 1000;
         if (inOrder) ++this.solvedFrames;
         else if (this.carriesState) this.solvedFrames = -1;
     }
     /** With a budget the first solve is of all limbs. */
-    job() {
-        if (this.data.budget_blocks === 0 || !this.hasSolved) return {};
-        return { priorities: this.limbs.map((limb) => [limb.priority]), mostBlocks: this.data.budget_blocks, urgency: this.urgency };
+    job(borrowed) {
+        const job = borrowed.structure("swivel_job");
+        if (this.data.budget_blocks === 0 || !this.hasSolved) return job;
+        const alike = borrowed.words([borrowed.floats([1]), 0]);
+        return job.words("priorities", alike).words("urgency", this.urgency.byteOffset).words("most_blocks", this.data.budget_blocks);
     }
-    setGoals(limb) {
-        const { calls } = this.memory, count = this.characterCount, crowd = this.crowdOf(limb);
-        this.askGoals(limb);
-        moveGoals(this, limb);
-        this.memory.check(calls.swivel_goals_write(crowd.crowd, limb.group, count, limb.inputsAt));
-        if (this.hasSolved && this.carries(limb))
-            for (let n = 0; n < count; ++n) if (this.clipFrame(n) === 0) crowd.reset({ group: limb.group, first: n, count: 1 });
+    /** From the clip's end to its start is no motion. */
+    forgetEnds(limb) {
+        if (!this.carries(limb)) return;
+        for (let n = 0; n < this.characterCount; ++n) if (this.clipFrame(n) === 0) this.crowd.reset({ group: limb.index, first: n, count: 1 });
     }
     /** The goals as the command has them. */
-    askGoals(limb) {
-        const { calls } = this.memory;
-        calls.swivel_goals(limb.planAt, limb.sourcesAt, this.clipFrameCount, this.frame, this.charactersAt, this.characterCount, limb.inputsAt);
-        for (const given of this.given.get(this.frame) ?? [])
-            if (given.limb === limb.index)
-                for (const part of ["target", "pole", "hand"]) this.input(limb, given.character, part).set(given[part]);
+    askGoals() {
+        this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.limbs.length, this.clipFrameCount, this.frame,
+            this.charactersAt, this.characterCount, this.rootsAt, this.inputsAt);
+        for (const { character, limb, poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
+            const of = this.limbs[limb], set = (part, goal) => this.input(of, character, part).set(goal);
+            set("target", target), set("pole", pole), set("hand", hand);
+            this.input(of, character, "weights")[2] = poleWeight > 0 ? of.weights[2] : 0;
+        }
     }
 
-    /** Part of what the solver takes of a limb: a view that a solve reads. */
+    /** Part of what the solver takes of a limb: a view that a solve reads. Goals are in the world. */
     input(limb, character, part) {
-        const first = character * INPUT.count + INPUT[part];
-        const length = { target: 3, pole: 3, lengths: 2, position: 3 }[part] ?? 4;
-        return limb.inputs.subarray(first, first + length);
+        const at = this.inputsAt + (character * this.limbs.length + limb.index) * SIZE.input + INPUT[part];
+        return part === "target" || part === "pole" ? this.memory.doubles(at, 3) : this.memory.floats(at, part === "hand" ? 4 : 3);
+    }
+    /** Sets a goal for the next solve. A pole that is set counts. */
+    setGoal(limb, character, part, goal) {
+        this.input(limb, character, part).set(goal);
+        if (part === "pole") this.input(limb, character, "weights")[2] = limb.weights[2];
     }
     clipFrame(character) { return (this.frame + this.characters[character].start) % this.clipFrameCount; }
-    /** Where goals are relative to, in the world: a limb's shoulder, before its clavicle has turned. */
+    /** A limb's shoulder in the clip, before its clavicle has turned. */
     origin(limb, character) {
         const origin = limb.sources.origin(this.clipFrame(character)), { size, place } = this.characters[character];
         return origin.map((coordinate, axis) => size * coordinate + place[axis]);
     }
+    armLength(limb, character) {
+        const [upper, fore] = limb.sources.lengths(this.clipFrame(character));
+        return this.characters[character].size * (upper + fore);
+    }
+    featuresOf(limb) { return this.crowd.features(limb.index); }
     /** Poles may be points or directions; a direction is shown at the end of the limb. */
     poleIsPoint(limb) { return (this.featuresOf(limb) & Feature.POLE_DIRECTION) === 0n; }
     isPoint(limb, part) { return part === "target" || this.poleIsPoint(limb); }
     hasPole(limb) { return (this.featuresOf(limb) & (Feature.POLE_NORMAL | Feature.POLE_INCOMING | Feature.POLE_HAND)) === 0n; }
-    featuresOf(limb) { return this.crowdOf(limb).features(limb.group); }
-    toWorld(limb, character, relative, part = "target") {
+    /** Whether the elbow goes by a pole. Without one it goes as in the clip, or as the hand says. */
+    poleCounts(limb, character) {
+        if ((this.featuresOf(limb) & (Feature.POLE_INCOMING | Feature.POLE_HAND)) !== 0n) return false;
+        return !this.has(limb, "WEIGHTS") || this.input(limb, character, "weights")[2] > 0;
+    }
+    /** The goal that a place in the world stands for, and the way back. */
+    toGoal(limb, character, part, world) {
         const origin = this.origin(limb, character);
-        let vector = mirrored(limb, Array.from(relative));
-        if (!this.isPoint(limb, part)) vector = unit(vector).map((coordinate) => coordinate * this.armLength(limb, character));
-        return vector.map((coordinate, axis) => coordinate + origin[axis]);
+        return this.isPoint(limb, part) ? world : world.map((coordinate, axis) => coordinate - origin[axis]);
     }
-    toSolved(limb, character, world) {
-        const origin = this.origin(limb, character);
-        return mirrored(limb, world.map((coordinate, axis) => coordinate - origin[axis]));
+    goal(limb, character, part) {
+        const asked = this.input(limb, character, part), origin = this.origin(limb, character), length = this.armLength(limb, character);
+        return this.isPoint(limb, part) ? Array.from(asked) : unit(asked).map((coordinate, axis) => length * coordinate + origin[axis]);
     }
-    armLength(limb, character) {
-        const [upper, fore] = this.input(limb, character, "lengths");
-        return upper + fore;
-    }
-    /** A goal in the world. */
-    goal(limb, character, part) { return this.toWorld(limb, character, this.input(limb, character, part), part); }
 
     /** Moves a goal to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
     drag(limb, character, part, world, everyone) {
@@ -183,13 +191,12 @@ export class Stage {
     setField(limbs, name, valueOf) {
         const values = limbs.map((limb) => (valueOf ? valueOf(limb) : null)), before = limbs.map(({ own }) => new Map(own));
         const isNew = limbs.some((limb) => this.has(limb, name) !== (valueOf !== null));
-        const write = () => (isNew ? this.makeCrowds() : limbs.forEach((limb) => this.writeFields(limb)));
         limbs.forEach((limb, n) => setOwn(limb, name, values[n]));
         try {
-            write();
+            isNew ? this.makeCrowd() : limbs.forEach((limb) => writeFields(this.crowd, limb));
         } catch (error) {
             limbs.forEach((limb, n) => { limb.own = before[n]; });
-            if (!isNew) write();
+            limbs.forEach((limb) => writeFields(this.crowd, limb));
             throw error;
         }
         this.noteChanges();
@@ -198,47 +205,51 @@ export class Stage {
     field(limb, name) { return fieldOf(limb, name); }
 
     /** The results of one limb. */
-    read(limb, character, name) {
-        return this.crowdOf(limb).read(Field[name], { group: limb.group, first: character, count: 1 });
-    }
+    read(limb, character, name) { return this.crowd.read(Field[name], { group: limb.index, first: character, count: 1 }); }
     flags(limb, character) { return this.read(limb, character, "FLAGS")[0]; }
-    explain(limb, character) { return this.crowdOf(limb).explain(character, limb.group); }
-    residual(limb, character) { return this.crowdOf(limb).residuals({ group: limb.group, first: character, count: 1 })[0]; }
-    arcs(limb, character) { return this.crowdOf(limb).allowedArcs(character, limb.group); }
-    /** Elbow and wrist, relative to the shoulder and as solved: three numbers for each of the first characters. */
+    explain(limb, character) { return this.crowd.explain(character, limb.index); }
+    residual(limb, character) { return this.crowd.residuals({ group: limb.index, first: character, count: 1 })[0]; }
+    arcs(limb, character) { return this.crowd.allowedArcs(character, limb.index); }
+    /** Elbow and wrist from the root: three numbers for each of these characters. */
     joints(limb, first, count) {
-        const limbs = { group: limb.group, first, count }, crowd = this.crowdOf(limb);
-        return { elbows: crowd.elbows(limbs), wrists: crowd.wrists(limbs) };
+        const limbs = { group: limb.index, first, count };
+        return { elbows: this.crowd.elbows(limbs), wrists: this.crowd.wrists(limbs) };
     }
-    /** What the clavicle makes of the shoulder, as solved: how far it is moved, and its parent's rotation. */
-    clavicle(limb, character) {
-        const parent = new Quaternion().fromArray(this.input(limb, character, "rotation")).normalize(), shift = new Vector3();
-        if (!this.has(limb, "CLAVICLE")) return { shift, parent };
-        const bone = new Vector3().fromArray(this.read(limb, character, "CLAVICLE"));
-        const turn = new Quaternion().fromArray(this.read(limb, character, "CLAVICLE_TURN")).normalize();
-        return { shift: shift.copy(bone).applyQuaternion(turn).sub(bone).applyQuaternion(parent), parent: parent.multiply(turn) };
+    /**
+     * What a limb was solved from, after its clavicle has turned: its shoulder from the root, the arm frame in the world, the incoming
+     * swivel plane's normal, and both bones' lengths as they came out.
+     */
+    arm(limb, character) {
+        const record = this.read(limb, character, "RECORD"), stretch = this.has(limb, "STRETCH") ? this.read(limb, character, "STRETCH")[0] : 1;
+        const axes = new Quaternion().fromArray(record, 3), [scale, upper, fore] = record.subarray(7, 10);
+        const normal = new Vector3(1, 0, 0).applyQuaternion(new Quaternion().fromArray(record, 10)).applyQuaternion(axes);
+        return { shoulder: new Vector3().fromArray(record), axes, normal, upper: stretch * scale * upper, fore: stretch * scale * fore };
     }
+    root(character) { return this.memory.doubles(this.rootsAt + character * SIZE.root, 3); }
+    /** A place from a character's root in the world, and the way back. */
+    toWorld(character, place) { return Array.from(this.root(character), (coordinate, axis) => coordinate + place[axis]); }
+    fromRoot(character, world) { return Array.from(this.root(character), (coordinate, axis) => world[axis] - coordinate); }
     /** A limb's shoulder in the world. */
-    shoulder(limb, character) { return this.toWorld(limb, character, this.clavicle(limb, character).shift.toArray()); }
+    shoulder(limb, character) { return this.toWorld(character, this.read(limb, character, "RECORD")); }
     /** Shoulder, elbow and wrist of one limb in the world. */
     pose(limb, character) {
         const { elbows, wrists } = this.joints(limb, character, 1);
-        return {
-            shoulder: this.shoulder(limb, character),
-            elbow: this.toWorld(limb, character, elbows), wrist: this.toWorld(limb, character, wrists),
-        };
+        return { shoulder: this.shoulder(limb, character), elbow: this.toWorld(character, elbows), wrist: this.toWorld(character, wrists) };
     }
     /** The elbow's flexion in radians. */
-    flexion(limb, character) { return this.crowdOf(limb).jointAngles({ group: limb.group, first: character, count: 1 })[3]; }
+    flexion(limb, character) { return this.crowd.jointAngles({ group: limb.index, first: character, count: 1 })[3]; }
 
-    digests() { return this.crowds.map((crowd) => crowd.digest().toString(16).padStart(16, "0")); }
-    /** How this frame's digests are beside the command's: "equal", "different", "changed", "out of order" or "none". */
+    digest() {
+        const digest = this.memory.calls.swivel_goals_digest(this.crowd.crowd, this.poses.byteOffset);
+        return BigInt.asUintN(64, digest).toString(16).padStart(16, "0");
+    }
+    /** How this frame's digest is beside the command's: "equal", "different", "changed", "out of order" or "none". */
     digestState() {
         const native = this.data.digests[this.frame];
         if (!native) return "none";
         if (this.changed) return "changed";
         if (this.carriesState && this.solvedFrames < 0) return "out of order";
-        return this.digests().every((digest, n) => digest === native[n]) ? "equal" : "different";
+        return this.digest() === native ? "equal" : "different";
     }
 }
 

@@ -36,7 +36,7 @@ export function makeStatus(page) {
         speed.textContent = speedText(stage.limbCount, all);
         const state = stage.digestState();
         digest.dataset.state = state;
-        digest.textContent = `digest ${stage.digests().join(" ")}, ${DIGEST_WORDS[state](stage.data.digests[stage.frame]?.join(" "))}`;
+        digest.textContent = `digest ${stage.digest()}, ${DIGEST_WORDS[state](stage.data.digests[stage.frame])}`;
     });
     const notice = element("p", { class: "notice", role: "status" });
     page.on("say", (text) => { notice.textContent = text; });
