@@ -138,6 +138,15 @@ TEST_CASE("A fill goes on in the middle of a crowd that carries state, with diff
     }
 }
 
+TEST_CASE("A limb with bad input has the same bits whichever frames were solved before")
+{
+    const CacheStage stage("[limb.arms.reach]\nmost_stretch = 1.2\n");
+    spill(stage.folder / "t.csv", "frame,character,limb,x,y,z\n0,3,left_arm,90,0,0\n1,3,left_arm,1e300,0,0\n");
+    require_done(stage.run(stage.with_crowd({"store", "clip.bvh", "bad", "--chunk", "1,16", "--targets", "t.csv"})));
+    require_done(stage.run({"fill", "bad", "--threads", "1"}));
+    require_done(stage.run({"replay", "bad", "--frames", "1:2"}));
+}
+
 TEST_CASE("What is changed, cut or gone is named, in poses mended, in goals reported")
 {
     const CacheStage stage;
