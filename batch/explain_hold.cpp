@@ -44,6 +44,12 @@ struct Holder {
         one.take(limb);
         return distance_missed(one.group(), 0);
     }
+    // Of its arm, in the unit of the targets, from its record.
+    double length() const
+    {
+        const LimbValue record(group, limb, SWIVEL_RECORD);
+        return record[kRecordScale] * (record[kRecordLengths] + record[kRecordLengths + 1]);
+    }
     // Whether its animated hand is known. A record has the arm as the clavicle turned it.
     bool is_known() const { return has_record() && !(group.features & SWIVEL_WITH_CLAVICLE); }
     // Where it has the prop, as it is animated, in the space of the targets.
@@ -169,10 +175,11 @@ struct HeldProp {
     }
     void explain_move(bool reaches, Text& text) const
     {
-        // What rounding leaves, in shares of the first arm.
-        constexpr double kNone = 1e-5;
+        constexpr double kNone = 1e-5;  // what rounding leaves, in shares of the first arm
+        const Holder first = holder(0);
+        const double arm = first.has_record() ? first.length() : double{group.limb.rest_length};
         const double way = is_known() ? moved() : 0, most = double{group.limb.most_move};
-        const bool moves = way > kNone * double{group.limb.rest_length};
+        const bool moves = way > kNone * arm;
         if (moves) text.add("It moved by %.4g. ", way);
         if (reaches)
             text.add(moves        ? "That is no more than it must for all hands to reach it."

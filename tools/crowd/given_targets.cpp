@@ -44,7 +44,7 @@ GivenTargets::GivenTargets(const std::string& source, Between between, std::size
     for (const Target& target : rows_) {
         const auto refuse = [&](const std::string& cause) { throw formats::InputError(source, target.line, cause); };
         if (target.frame >= frame_count)
-            refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", target.frame, frame_count - 1));
+            refuse(fmt::format("frame {} does not exist; there are frames 0 to {}", target.frame, frame_count - 1));
         if (target.character >= characters)
             refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
                                target.character, characters));

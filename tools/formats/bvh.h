@@ -66,6 +66,9 @@ BvhFile bvh_of(const std::filesystem::path& path, std::string text);
 // Whether a text starts as BVH files do.
 bool is_bvh_text(std::string_view text);
 
+// Throws InputError, as write_bvh() does, for a joint that cannot take new rotations.
+void require_can_key(const BvhFile& file, int joint);
+
 // Writes `file` with the channels of these keys replaced; all other text is copied byte for byte, so without keys the
 // copy is identical. With new frames the hierarchy alone is copied, and all other channels rest: angles are 0,
 // positions the OFFSET. Numbers have nine decimals, which give a rotation back to better than 1e-9 rad. Keys are

@@ -41,8 +41,8 @@ constexpr int kSlots = 6;
                      fmt::format("joint '{}' cannot take a new {}: {}", name, what, cause));
 }
 
-// Plans the joint's rotation channels as the track's angles.
-EulerAxes claim_angles(const BvhFile& file, int joint, int first_slot, Plan& plan)
+// In the order of the joint's rotation channels.
+EulerAxes axes_of(const BvhFile& file, int joint)
 {
     const BvhJoint& at = file.joints[static_cast<std::size_t>(joint)];
     const auto require = [&](bool is_met, std::string_view cause) {
@@ -50,15 +50,23 @@ EulerAxes claim_angles(const BvhFile& file, int joint, int first_slot, Plan& pla
     };
     EulerAxes axes{};
     int count = 0;
-    for (std::size_t c = 0; c < at.channels.size(); ++c) {
-        if (is_position(at.channels[c])) continue;
+    for (const Channel channel : at.channels) {
+        if (is_position(channel)) continue;
         require(count < 3, "it has more than three rotation channels");
-        plan.slot[at.first_channel + c] = first_slot + count;
-        axes[static_cast<std::size_t>(count++)] = axis_of(at.channels[c]);
+        axes[static_cast<std::size_t>(count++)] = axis_of(channel);
     }
     require(count == 3, "it has fewer than three rotation channels");
     require(axes[0] != axes[1] && axes[1] != axes[2] && axes[0] != axes[2], "its rotation channels repeat an axis");
     return axes;
+}
+
+// Plans the joint's rotation channels as the track's angles.
+void claim_angles(const BvhFile& file, int joint, int first_slot, Plan& plan)
+{
+    const BvhJoint& at = file.joints[static_cast<std::size_t>(joint)];
+    int angle = 0;
+    for (std::size_t c = 0; c < at.channels.size(); ++c)
+        if (!is_position(at.channels[c])) plan.slot[at.first_channel + c] = first_slot + angle++;
 }
 
 // The same of its position channels.
@@ -79,7 +87,10 @@ Plan make_plan(const BvhFile& file, std::span<const JointKeys> keys)
     for (const JointKeys& each : keys) {
         const int first_slot = kSlots * static_cast<int>(plan.tracks.size());
         Track track{each};
-        if (!each.rotation.empty()) track.axes = claim_angles(file, each.joint, first_slot, plan);
+        if (!each.rotation.empty()) {
+            track.axes = axes_of(file, each.joint);
+            claim_angles(file, each.joint, first_slot, plan);
+        }
         if (!each.translation.empty()) claim_places(file, each.joint, first_slot, plan);
         plan.tracks.push_back(track);
     }
@@ -171,6 +182,8 @@ void write_new_frames(OutputFile& out, const BvhFile& file, const NewFrames& fra
 }
 
 }  // namespace
+
+void require_can_key(const BvhFile& file, int joint) { axes_of(file, joint); }
 
 void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
                const std::optional<NewFrames>& frames)

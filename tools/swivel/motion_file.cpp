@@ -126,7 +126,7 @@ void MotionFile::require_can_write(const std::filesystem::path& out, std::string
 
 void MotionFile::require_can_key(int joint) const
 {
-    if (const GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::require_can_key(*gltf, joint);
+    std::visit([joint](const auto& file) { formats::require_can_key(file, joint); }, file_);
 }
 
 void MotionFile::write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
