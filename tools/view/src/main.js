@@ -189,6 +189,7 @@ async function open(data, canvas) {
     page.follow(stage.characterCount === 1);  // a clip's figure may walk out of the picture
     followLink(page);
     page.draw();
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) page.player.start();
     return page;
 }
 
