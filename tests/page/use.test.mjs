@@ -323,7 +323,7 @@ test('a phone sees the panel below, and a touch chooses', async () => {
     assert.equal(await page.evaluate(() => swivelPage.selection?.character), 3);
     const box = await page.locator('aside').boundingBox();
     assert.ok(box.width < 400 && box.y > 300);
-    for (const part of [page.getByText('equal to the command\'s'), ...await page.getByRole('navigation').getByRole('button').all()]) {
+    for (const part of [page.getByText('The same bits as the command'), ...await page.getByRole('navigation').getByRole('button').all()]) {
       const { x, width } = await part.boundingBox();
       assert.ok(x >= 0 && x + width <= 390, `${x} ${width}`);
     }
