@@ -29,13 +29,15 @@ export function makeInspector(page) {
     const everyone = checkbox("Drag everyone's", false, (isOn) => { page.dragsEveryone = isOn; },
         { title: "A drag moves this limb of all characters by the same offset, times their size. Those moved alone go along" });
     const release = button("Let go", () => page.letGo(), { title: "Give the goals back to the clip" });
-    const body = element("div", {}, title, table, flags, why, everyone, release);
     const all = button("Let all go", () => page.letAllGo(), { title: "Give everyone's goals back to the clip" });
-    const box = section("Limb", true, none, body, all);
+    const undo = button("Undo", () => page.undo.takeBack(), { title: "Take back the last drag or change (Ctrl+Z)" });
+    const body = element("div", {}, title, table, flags, why, everyone);
+    const box = section("Limb", true, none, body, element("div", { class: "acts" }, release, undo, all));
     const show = () => {
         none.hidden = page.selection !== null;
-        body.hidden = page.selection === null;
+        body.hidden = release.hidden = page.selection === null;
         all.hidden = !stage.isAnyDragged();
+        undo.hidden = !page.undo.canTakeBack;
         if (!page.selection || !box.open) return;
         const { limb, character } = page.selection;
         title.textContent = `${limbName(limb)} of character ${character}`;

@@ -9,7 +9,7 @@ import { Quaternion, Vector3 } from "three";
 
 import { bytesOf, charactersOf, givenOf, INPUT, PLAN_WEIGHTS, SIZE, Sources } from "./bytes.js";
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isPinned, isShifted, moveGoals, NO_SHIFT, unit } from "./drags.js";
-import { fieldOf, fixedOf, makeCrowd, setOwn, writeFields } from "./fields.js";
+import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
@@ -60,7 +60,7 @@ export class Stage {
             shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order,
             chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
             fixed: fixedOf(limb),
-            own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away
+            own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away; never written to
             weights: this.memory.floats(this.plansAt + index * SIZE.plan + PLAN_WEIGHTS, 3),  // of goals, the pole's where that counts
             shift: NO_SHIFT,  // of everyone's goals, for a character of size 1
             sourcesAt: this.keep(sources), sources: new Sources(sources),
@@ -189,16 +189,31 @@ export class Stage {
 
     /** Sets a field, by its name in Field, for all characters of some limbs; null takes it away. Solves the crowd. Changes nothing if it fails. */
     setField(limbs, name, valueOf) {
-        const values = limbs.map((limb) => (valueOf ? valueOf(limb) : null)), before = limbs.map(({ own }) => new Map(own));
-        const isNew = limbs.some((limb) => this.has(limb, name) !== (valueOf !== null));
-        limbs.forEach((limb, n) => setOwn(limb, name, values[n]));
+        this.setOwn(this.limbs.map((limb) => (limbs.includes(limb) ? ownWith(limb, name, valueOf ? valueOf(limb) : null) : limb.own)));
+        this.noteChanges();
+        this.solve();
+    }
+    /** Sets the user's fields of each limb. Changes nothing if it fails. */
+    setOwn(owns) {
+        const before = this.limbs.map(({ own }) => own), features = this.limbs.map(featuresFor);
+        const set = (all) => this.limbs.forEach((limb, n) => { limb.own = all[n]; });
+        const write = () => this.limbs.forEach((limb) => writeFields(this.crowd, limb));
+        set(owns);
         try {
-            isNew ? this.makeCrowd() : limbs.forEach((limb) => writeFields(this.crowd, limb));
+            this.limbs.some((limb, n) => featuresFor(limb) !== features[n]) ? this.makeCrowd() : write();
         } catch (error) {
-            limbs.forEach((limb, n) => { limb.own = before[n]; });
-            limbs.forEach((limb) => writeFields(this.crowd, limb));
+            set(before);
+            write();
             throw error;
         }
+    }
+    /** All that the user has changed. */
+    get changes() { return { pins: new Map(this.pins), shifts: this.limbs.map(({ shift }) => shift), owns: this.limbs.map(({ own }) => own) }; }
+    /** Takes all changes back to what they were. Solves the crowd. Changes nothing if it fails. */
+    restore({ pins, shifts, owns }) {
+        this.setOwn(owns);
+        this.pins = pins;
+        this.limbs.forEach((limb, n) => { limb.shift = shifts[n]; });
         this.noteChanges();
         this.solve();
     }
