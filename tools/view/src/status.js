@@ -31,6 +31,7 @@ export function speedText(limbCount, all) {
 export function makeStatus(page) {
     const { stage } = page, speed = element("p", { class: "speed", "aria-live": "off" }), words = element("summary"), numbers = element("p");
     const digest = element("details", { class: "digest" }, words, numbers), all = [];
+    digest.addEventListener("toggle", () => page.resize());
     page.on("frame", () => {
         if (all.push(stage.seconds) > MOST_SOLVES + 1) all.splice(1, 1);
         speed.textContent = speedText(stage.limbCount, all);
