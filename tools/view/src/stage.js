@@ -7,8 +7,8 @@ import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, charactersOf, givenOf, INPUT, PLAN_WEIGHTS, SIZE, Sources } from "./bytes.js";
-import { dragEveryone, dragOne, dropAllDrags, dropDrags, isPinned, isShifted, moveGoals, NO_SHIFT, unit } from "./drags.js";
+import { bytesOf, charactersOf, givenOf, INPUT, PLAN, SIZE, Sources } from "./bytes.js";
+import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT, unit } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
 
 /** The names of a flag word's flags. */
@@ -54,14 +54,15 @@ export class Stage {
     /** Floats that stay there, zeros at first. */
     zeros(count) { return this.memory.floats(this.keep(new Uint8Array(4 * count)), count); }
     makeLimb(limb, index) {
-        const sources = bytesOf(limb.sources), { shoulder, twist_bones: twistBones, bend } = limb;
+        const sources = bytesOf(limb.sources), planAt = this.plansAt + index * SIZE.plan, { shoulder, twist_bones: twistBones, bend } = limb;
         return {
             index, name: limb.name, joints: limb.joints, features: BigInt(limb.features), region: limb.region && bytesOf(limb.region),
             shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order,
             chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
             fixed: fixedOf(limb),
             own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away; never written to
-            weights: this.memory.floats(this.plansAt + index * SIZE.plan + PLAN_WEIGHTS, 3),  // of goals, the pole's where that counts
+            weights: this.memory.floats(planAt + PLAN.weights, 3),  // of goals, the pole's where that counts
+            targetOffset: this.memory.doubles(planAt + PLAN.targetOffset, 3), hasFixedPole: this.memory.words(planAt + PLAN.hasFixedPole, 1)[0] === 1,
             shift: NO_SHIFT,  // of everyone's goals, for a character of size 1
             sourcesAt: this.keep(sources), sources: new Sources(sources),
         };
@@ -92,8 +93,7 @@ export class Stage {
     /** Solves the frame again, with whatever has changed. */
     solve() {
         const inOrder = this.solvedFrames === this.frame;
-        this.askGoals();
-        this.limbs.forEach((limb) => moveGoals(this, limb));
+        this.askMovedGoals(this.frame);
         if (this.hasSolved) this.limbs.forEach((limb) => this.forgetEnds(limb));
         const before = performance.now();
         this.memory.borrow((borrowed) => this.memory.check(this.memory.calls.swivel_goals_solve(
@@ -124,6 +124,12 @@ export class Stage {
             set("target", target), set("pole", pole), set("hand", hand);
             this.input(of, character, "weights")[2] = poleWeight > 0 ? of.weights[2] : 0;
         }
+    }
+    /** The goals of a frame as the user has moved them. Solves nothing: who looks at another frame goes back to the one that is shown. */
+    askMovedGoals(frame) {
+        this.frame = frame;
+        this.askGoals();
+        this.limbs.forEach((limb) => moveGoals(this, limb));
     }
 
     /** Part of what the solver takes of a limb: a view that a solve reads. Goals are in the world. */
@@ -184,7 +190,7 @@ export class Stage {
         this.solve();
     }
     isAnyDragged() { return this.pins.size > 0 || this.limbs.some(isShifted); }
-    isDragged(limb, character) { return isPinned(this, limb, character) || isShifted(limb); }
+    movedParts(limb, character) { return movedParts(this, limb, character); }
     noteChanges() { this.changed = this.isAnyDragged() || this.limbs.some((limb) => limb.own.size > 0); }
 
     /** Sets a field, by its name in Field, for all characters of some limbs; null takes it away. Solves the crowd. Changes nothing if it fails. */
