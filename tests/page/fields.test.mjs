@@ -108,6 +108,7 @@ test('a change that fails leaves the crowd as it was, and is told', async () => 
     await box(page, 'SHOULDER_BOX').click();
     assert.match(await page.textContent('.notice'), /^Shoulder box stays as it was: /);
     assert.equal(await box(page, 'SHOULDER_BOX').isChecked(), false);
+    assert.equal(await page.getByRole('button', { name: 'Undo' }).isVisible(), false);
     await page.evaluate(() => swivelPage.setFrame(7));
     assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
     await page.evaluate(() => window.taken.forEach((at) => swivelPage.stage.memory.free(at)));

@@ -31,9 +31,9 @@ export function write(name, ...words) {
 }
 export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding: 'utf8' });
 
-/** Opens a page; use gets playwright's page. options: of a context, and `before`, run in the page before its script. */
+/** Opens a page, which stands still; use gets playwright's page. options: of a context, and `before`, run in the page before its script. */
 export async function visit(file, use, { before, hash = '', ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 800, height: 500 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 800, height: 500 }, reducedMotion: 'reduce', ...options });
   try {
     const page = await context.newPage(), faults = [];
     page.on('console', (message) => faults.push(`console: ${message.text()}`));

@@ -22,7 +22,10 @@ test('one classic inline script, no network, the command\'s digests, a picture t
     assert.equal(await page.title(), 'swivel demo – swivel');
     assert.deepEqual(await state(page, [0, 1, 17, 239, 5]), Array(5).fill('equal'));
     const [digest, told] = await page.evaluate(() => [swivelPage.stage.digest(), document.querySelector('.digest').textContent]);
-    assert.ok(told.includes(digest) && told.includes("equal to the command's"));
+    assert.equal(told, `The same bits as the commandDigest ${digest}, the command's ${digest}`);
+    assert.deepEqual([await page.getByText('The same bits as the command').isVisible(), await page.getByText(digest).isVisible()], [true, false]);
+    await page.getByText('The same bits as the command').click();
+    assert.equal(await page.getByText(digest).isVisible(), true);
     const { share, colours } = await difference(page, () => page.evaluate(() => swivelPage.setFrame(60)));
     assert.ok(colours > 100, `${colours} colours`);
     assert.ok(share > 0.01 && share < 0.9, `${share} of the picture changed`);
@@ -137,7 +140,7 @@ test('a crowd that carries state has the command\'s digests if it is played in o
     assert.deepEqual(await state(page, [...Array(40).keys()]), Array(40).fill('equal'));
     assert.deepEqual(await state(page, [20, 21, 0, 1, 2]), ['out of order', 'out of order', 'equal', 'equal', 'equal']);
     await page.evaluate(() => swivelPage.setFrame(20));
-    assert.ok((await page.textContent('.digest')).includes('not compared: this crowd carries state, so play it from the first frame'));
+    assert.ok((await page.textContent('.digest')).includes('Not compared: this crowd carries state, so play it from the first frame'));
   });
 });
 

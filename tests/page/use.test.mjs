@@ -217,6 +217,23 @@ test('the lesson leaves keys alone while it is closed, and errors that are not t
   }, link);
 });
 
+test('the page plays at once, unless the system asks for less motion or the link names a frame', async () => {
+  const opened = async (options) => {
+    let playing;
+    await visit(demo, async (page) => {
+      playing = await page.evaluate(() => [swivelPage.player.isPlaying, document.querySelector('.play').textContent]);
+      if (playing[0]) await until(page, () => swivelPage.stage.frame, (frame) => frame > 0);
+      else assert.equal(await page.evaluate(() => swivelPage.stage.frame), options.hash ? 20 : 0);
+    }, options);
+    return playing;
+  };
+  const moves = { reducedMotion: 'no-preference' };
+  assert.deepEqual(await opened(moves), [true, 'Pause']);
+  assert.deepEqual(await opened({ ...moves, hash: '#character=3' }), [true, 'Pause']);
+  assert.deepEqual(await opened({ ...moves, ...link }), [false, 'Play']);
+  assert.deepEqual(await opened({ reducedMotion: 'reduce' }), [false, 'Play']);
+});
+
 test('play, pause and play within one picture play at one speed', async () => {
   await visit(demo, async (page) => {
     const ticks = await page.evaluate(async () => {
@@ -306,7 +323,7 @@ test('a phone sees the panel below, and a touch chooses', async () => {
     assert.equal(await page.evaluate(() => swivelPage.selection?.character), 3);
     const box = await page.locator('aside').boundingBox();
     assert.ok(box.width < 400 && box.y > 300);
-    for (const part of [page.getByText('equal to the command\'s'), ...await page.getByRole('navigation').getByRole('button').all()]) {
+    for (const part of [page.getByText('The same bits as the command'), ...await page.getByRole('navigation').getByRole('button').all()]) {
       const { x, width } = await part.boundingBox();
       assert.ok(x >= 0 && x + width <= 390, `${x} ${width}`);
     }

@@ -12,7 +12,7 @@ const browser = await chromium.launch({
     args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader"],
 });
 async function open(options) {
-    const page = await browser.newPage(options);
+    const page = await browser.newPage({ reducedMotion: "reduce", ...options });  // a still page
     await page.goto(`file://${folder}/demo.html`);
     await page.evaluate(() => window.swivelPage.ready.then(() => {}));
     return page;

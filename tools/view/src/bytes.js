@@ -5,8 +5,8 @@
 /** Bytes of each structure. */
 export const SIZE = { character: 40, source: 208, plan: 200, root: 32, input: 208, given: 80 };
 
-/** Where the weights of a goal_plan begin, and the goals of a goal_input. */
-export const PLAN_WEIGHTS = 168;
+/** Where members of a goal_plan begin, and the goals of a goal_input. */
+export const PLAN = { targetOffset: 24, weights: 168, hasFixedPole: 184 };
 export const INPUT = { target: 0, pole: 24, hand: 48, weights: 64 };
 
 /** How many bytes a text stands for. */

@@ -104,10 +104,11 @@ function traits(limb, field) {
 /** A field's switch and sliders, for the limbs that limbsOf() names. */
 function makeField(page, field, limbsOf) {
     const { stage } = page, numbers = field.sliders.map(({ value }) => value);
+    let gesture = {};  // a slider's, until it is let go
     const valueOf = (limb) => Array.from(field.value(stage.swivel, numbers, traits(limb, field)));
     const apply = () => {
         try {
-            stage.setField(limbsOf(), field.name, on.box.checked ? valueOf : null);
+            page.undo.step(page.picker.dragging ?? gesture, () => stage.setField(limbsOf(), field.name, on.box.checked ? valueOf : null));
             page.say("");
             show();
         } catch (error) {
@@ -148,7 +149,9 @@ function makeField(page, field, limbsOf) {
         take(next);
         apply();
     };
-    return { box: element("div", { class: "field" }, on, ...bars), set };
+    const box = element("div", { class: "field" }, on, ...bars);
+    box.addEventListener("change", () => { gesture = {}; });
+    return { box, set };
 }
 
 export function makeControls(page) {

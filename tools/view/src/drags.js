@@ -12,12 +12,14 @@ export function unit(vector) {
 }
 const keyOf = (limb, character) => `${limb.index}:${character}`;
 
-export const isPinned = (stage, limb, character) => stage.pins.has(keyOf(limb, character));
-export const isShifted = (limb) => PARTS.some((part) => limb.shift[part].some((number) => number !== 0));
+const isPartShifted = (limb, part) => limb.shift[part].some((number) => number !== 0);
+export const isShifted = (limb) => PARTS.some((part) => isPartShifted(limb, part));
+/** Which of a limb's goals the user has moved, "target" or "pole". */
+export const movedParts = (stage, limb, character) => PARTS.filter((part) => isPartShifted(limb, part) || stage.pins.get(keyOf(limb, character))?.[part]);
 
 /** Moves a limb's goals, which the stage has just filled in, to where the user wants them. */
 export function moveGoals(stage, limb) {
-    for (const part of PARTS) if (limb.shift[part].some((number) => number !== 0)) shiftAll(stage, limb, part);
+    for (const part of PARTS) if (isPartShifted(limb, part)) shiftAll(stage, limb, part);
     for (const [key, pin] of stage.pins) {
         const [index, character] = key.split(":").map(Number);
         if (index !== limb.index) continue;

@@ -16,14 +16,16 @@ export function fixedOf({ fixed, weights }) {
 /** What a field of a limb is: the user's, else the file's, else nothing. The user's null takes the file's away. */
 export const fieldOf = (limb, name) => (limb.own.has(name) ? limb.own.get(name) ?? undefined : limb.fixed.get(name));
 
-/** Sets the user's value; null takes the field away. */
-export function setOwn(limb, name, value) {
-    if (value || limb.fixed.has(name)) limb.own.set(name, value);
-    else limb.own.delete(name);
+/** The user's fields, with this value among them; null takes the field away. */
+export function ownWith(limb, name, value) {
+    const own = new Map(limb.own);
+    if (value || limb.fixed.has(name)) own.set(name, value);
+    else own.delete(name);
+    return own;
 }
 
 /** The features of a limb: the file's, with those of the user's fields, without those that were taken away. Goals always have weights. */
-function featuresFor(limb) {
+export function featuresFor(limb) {
     let { features } = limb;
     for (const name of limb.own.keys()) {
         const feature = Feature[`WITH_${name}`];

@@ -3,6 +3,7 @@
 // The chosen limb: its numbers, its flags, and why it is as it is.
 import { button, checkbox, element, facts, section } from "./dom.js";
 import { flagNames } from "./stage.js";
+import { lackOf, saveTable } from "./table.js";
 import { coordinate, limbName, number, saidOf } from "./words.js";
 
 const wordsOf = (flag) => flag.toLowerCase().replaceAll("_", " ");
@@ -29,20 +30,24 @@ export function makeInspector(page) {
     const everyone = checkbox("Drag everyone's", false, (isOn) => { page.dragsEveryone = isOn; },
         { title: "A drag moves this limb of all characters by the same offset, times their size. Those moved alone go along" });
     const release = button("Let go", () => page.letGo(), { title: "Give the goals back to the clip" });
-    const body = element("div", {}, title, table, flags, why, everyone, release);
     const all = button("Let all go", () => page.letAllGo(), { title: "Give everyone's goals back to the clip" });
-    const box = section("Limb", true, none, body, all);
+    const undo = button("Undo", () => page.undo.takeBack(), { title: "Take back the last drag or change (Ctrl+Z)" });
+    const save = button("Save as table", () => saveTable(page), { title: "The moved goals of all frames, for swivel solve --targets" }), lack = element("p", { class: "hint" });
+    const body = element("div", {}, title, table, flags, why, everyone);
+    const box = section("Limb", true, none, body, element("div", { class: "acts" }, release, undo, all, save), lack);
     const show = () => {
         none.hidden = page.selection !== null;
-        body.hidden = page.selection === null;
-        all.hidden = !stage.isAnyDragged();
+        body.hidden = release.hidden = page.selection === null;
+        all.hidden = save.hidden = lack.hidden = !stage.isAnyDragged();
+        undo.hidden = !page.undo.canTakeBack;
+        if (!lack.hidden) lack.textContent = lackOf(stage);
         if (!page.selection || !box.open) return;
         const { limb, character } = page.selection;
         title.textContent = `${limbName(limb)} of character ${character}`;
         table.replaceChildren(facts(rowsOf(stage, limb, character)));
         flags.replaceChildren(...flagNames(stage.flags(limb, character)).map((flag) => element("span", {}, saidOf(limb, wordsOf(flag)))));
         why.textContent = saidOf(limb, stage.explain(limb, character));
-        release.disabled = !stage.isDragged(limb, character);
+        release.disabled = stage.movedParts(limb, character).length === 0;
     };
     page.on("frame", show);
     page.on("select", show);

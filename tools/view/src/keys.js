@@ -3,7 +3,7 @@
 // The keyboard, and the help that lists it.
 import { button, element } from "./dom.js";
 
-/** Keys by KeyboardEvent.key; text: for the help. */
+/** Keys by KeyboardEvent.key; text: for the help; withCtrl: with Ctrl or a Mac's Cmd, which others are without. */
 export function keysOf(page) {
     return [
         { keys: [" "], label: "Space", text: "play or pause", act: () => page.player.toggle() },
@@ -13,6 +13,7 @@ export function keysOf(page) {
         { keys: ["End"], label: "End", text: "last frame", act: () => page.setFrame(page.stage.frameCount - 1) },
         { keys: ["n", "N"], label: "N", text: "next limb", act: () => page.selectNext() },
         { keys: ["f", "F"], label: "F", text: "follow the chosen or middle character, or stop", act: () => page.follow(page.view.followed === null) },
+        { keys: ["z"], withCtrl: true, label: "Ctrl+Z", text: "take back the last drag or change", act: () => page.undo.takeBack() },
         { keys: ["r", "R"], label: "R", text: "show the crowd again", act: () => page.home() },
         { keys: ["t", "T"], label: "T", text: "light or dark", act: () => page.toggleTheme() },
         { keys: ["p", "P"], label: "P", text: "show or hide the panel", act: () => page.togglePanel() },
@@ -24,9 +25,9 @@ export function keysOf(page) {
 export function listen(keys) {
     document.addEventListener("keydown", (event) => {
         const { target } = event;
-        if (event.ctrlKey || event.metaKey || event.altKey || target.closest?.("dialog, select, summary, .lesson")) return;
+        if (event.altKey || target.closest?.("dialog, select, summary, .lesson")) return;
         if (target.matches?.("input, button") && [" ", "ArrowLeft", "ArrowRight", "Home", "End"].includes(event.key)) return;
-        const key = keys.find((each) => each.keys.includes(event.key));
+        const key = keys.find(({ keys: names, withCtrl = false }) => names.includes(event.key) && withCtrl === (event.ctrlKey || event.metaKey));
         if (!key) return;
         event.preventDefault();
         key.act();

@@ -33,7 +33,10 @@ export function followLink(page) {
     drawFirst(page, hash, wrong);
     const frame = number(hash, "frame", stage.frameCount, wrong);
     const character = hash.has("character") ? number(hash, "character", stage.characterCount, wrong) : 0;
-    if (frame !== null) page.setFrame(frame);
+    if (frame !== null) {
+        page.player.pause();
+        page.setFrame(frame);
+    }
     const limb = limbOf(stage, hash, wrong);
     page.say(wrong.join(" "));
     if (limb === null || character === null) return;

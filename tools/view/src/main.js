@@ -22,6 +22,7 @@ import { readback } from "./readback.js";
 import { mostDrawn } from "./rows.js";
 import { View } from "./scene.js";
 import { makeStatus } from "./status.js";
+import { Undo } from "./undo.js";
 import { isWhole } from "./whole.js";
 import css from "./style.css";
 
@@ -54,6 +55,7 @@ class Page {
         this.drawnCount = Math.min(this.mostDrawn, DRAWN);
         this.view.controls.addEventListener("change", () => this.redraw());
         this.picker = new Picker(this);
+        this.undo = new Undo(this);
     }
 
     on(event, hear) { this.listeners[event].push(hear); }
@@ -110,15 +112,15 @@ class Page {
     drag(part, world) {
         if (!this.selection) return;
         const { limb, character } = this.selection;
-        this.stage.drag(limb, character, part, world, this.dragsEveryone);
+        this.undo.step(this.picker.dragging, () => this.stage.drag(limb, character, part, world, this.dragsEveryone));
         this.changed();
     }
     letGo() {
-        this.stage.letGo(this.selection.limb, this.selection.character);
+        this.undo.step(null, () => this.stage.letGo(this.selection.limb, this.selection.character));
         this.changed();
     }
     letAllGo() {
-        this.stage.letAllGo();
+        this.undo.step(null, () => this.stage.letAllGo());
         this.changed();
     }
     /** Follows the chosen character, or the one that the camera looks at from the start. */
@@ -187,6 +189,7 @@ async function open(data, canvas) {
     addEventListener("hashchange", () => followLink(page));
     page.home();
     page.follow(stage.characterCount === 1);  // a clip's figure may walk out of the picture
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) page.player.start();
     followLink(page);
     page.draw();
     return page;

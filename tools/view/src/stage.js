@@ -7,9 +7,9 @@ import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, charactersOf, givenOf, INPUT, PLAN_WEIGHTS, SIZE, Sources } from "./bytes.js";
-import { dragEveryone, dragOne, dropAllDrags, dropDrags, isPinned, isShifted, moveGoals, NO_SHIFT, unit } from "./drags.js";
-import { fieldOf, fixedOf, makeCrowd, setOwn, writeFields } from "./fields.js";
+import { bytesOf, charactersOf, givenOf, INPUT, PLAN, SIZE, Sources } from "./bytes.js";
+import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT, unit } from "./drags.js";
+import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
@@ -54,14 +54,15 @@ export class Stage {
     /** Floats that stay there, zeros at first. */
     zeros(count) { return this.memory.floats(this.keep(new Uint8Array(4 * count)), count); }
     makeLimb(limb, index) {
-        const sources = bytesOf(limb.sources), { shoulder, twist_bones: twistBones, bend } = limb;
+        const sources = bytesOf(limb.sources), planAt = this.plansAt + index * SIZE.plan, { shoulder, twist_bones: twistBones, bend } = limb;
         return {
             index, name: limb.name, joints: limb.joints, features: BigInt(limb.features), region: limb.region && bytesOf(limb.region),
             shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order,
             chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
             fixed: fixedOf(limb),
-            own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away
-            weights: this.memory.floats(this.plansAt + index * SIZE.plan + PLAN_WEIGHTS, 3),  // of goals, the pole's where that counts
+            own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away; never written to
+            weights: this.memory.floats(planAt + PLAN.weights, 3),  // of goals, the pole's where that counts
+            targetOffset: this.memory.doubles(planAt + PLAN.targetOffset, 3), hasFixedPole: this.memory.words(planAt + PLAN.hasFixedPole, 1)[0] === 1,
             shift: NO_SHIFT,  // of everyone's goals, for a character of size 1
             sourcesAt: this.keep(sources), sources: new Sources(sources),
         };
@@ -92,8 +93,7 @@ export class Stage {
     /** Solves the frame again, with whatever has changed. */
     solve() {
         const inOrder = this.solvedFrames === this.frame;
-        this.askGoals();
-        this.limbs.forEach((limb) => moveGoals(this, limb));
+        this.askMovedGoals(this.frame);
         if (this.hasSolved) this.limbs.forEach((limb) => this.forgetEnds(limb));
         const before = performance.now();
         this.memory.borrow((borrowed) => this.memory.check(this.memory.calls.swivel_goals_solve(
@@ -124,6 +124,12 @@ export class Stage {
             set("target", target), set("pole", pole), set("hand", hand);
             this.input(of, character, "weights")[2] = poleWeight > 0 ? of.weights[2] : 0;
         }
+    }
+    /** The goals of a frame as the user has moved them. Solves nothing: who looks at another frame goes back to the one that is shown. */
+    askMovedGoals(frame) {
+        this.frame = frame;
+        this.askGoals();
+        this.limbs.forEach((limb) => moveGoals(this, limb));
     }
 
     /** Part of what the solver takes of a limb: a view that a solve reads. Goals are in the world. */
@@ -184,21 +190,36 @@ export class Stage {
         this.solve();
     }
     isAnyDragged() { return this.pins.size > 0 || this.limbs.some(isShifted); }
-    isDragged(limb, character) { return isPinned(this, limb, character) || isShifted(limb); }
+    movedParts(limb, character) { return movedParts(this, limb, character); }
     noteChanges() { this.changed = this.isAnyDragged() || this.limbs.some((limb) => limb.own.size > 0); }
 
     /** Sets a field, by its name in Field, for all characters of some limbs; null takes it away. Solves the crowd. Changes nothing if it fails. */
     setField(limbs, name, valueOf) {
-        const values = limbs.map((limb) => (valueOf ? valueOf(limb) : null)), before = limbs.map(({ own }) => new Map(own));
-        const isNew = limbs.some((limb) => this.has(limb, name) !== (valueOf !== null));
-        limbs.forEach((limb, n) => setOwn(limb, name, values[n]));
+        this.setOwn(this.limbs.map((limb) => (limbs.includes(limb) ? ownWith(limb, name, valueOf ? valueOf(limb) : null) : limb.own)));
+        this.noteChanges();
+        this.solve();
+    }
+    /** Sets the user's fields of each limb. Changes nothing if it fails. */
+    setOwn(owns) {
+        const before = this.limbs.map(({ own }) => own), features = this.limbs.map(featuresFor);
+        const set = (all) => this.limbs.forEach((limb, n) => { limb.own = all[n]; });
+        const write = () => this.limbs.forEach((limb) => writeFields(this.crowd, limb));
+        set(owns);
         try {
-            isNew ? this.makeCrowd() : limbs.forEach((limb) => writeFields(this.crowd, limb));
+            this.limbs.some((limb, n) => featuresFor(limb) !== features[n]) ? this.makeCrowd() : write();
         } catch (error) {
-            limbs.forEach((limb, n) => { limb.own = before[n]; });
-            limbs.forEach((limb) => writeFields(this.crowd, limb));
+            set(before);
+            write();
             throw error;
         }
+    }
+    /** All that the user has changed. */
+    get changes() { return { pins: new Map(this.pins), shifts: this.limbs.map(({ shift }) => shift), owns: this.limbs.map(({ own }) => own) }; }
+    /** Takes all changes back to what they were. Solves the crowd. Changes nothing if it fails. */
+    restore({ pins, shifts, owns }) {
+        this.setOwn(owns);
+        this.pins = pins;
+        this.limbs.forEach((limb, n) => { limb.shift = shifts[n]; });
         this.noteChanges();
         this.solve();
     }

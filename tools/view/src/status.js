@@ -3,13 +3,13 @@
 // How much was solved, how fast, whether the bits are the command's, and what the page has to say.
 import { element } from "./dom.js";
 
-/** What a frame's digest is beside the command's. */
+/** What a frame's results are beside the command's. */
 const DIGEST_WORDS = {
-    equal: () => "equal to the command's",
-    different: (native) => `not the command's ${native}: these bits differ`,
-    changed: (native) => `changed by you from the command's ${native}`,
-    "out of order": () => "not compared: this crowd carries state, so play it from the first frame",
-    none: () => "the command solved no such frame",
+    equal: "The same bits as the command",
+    different: "Not the same bits as the command",
+    changed: "Changed by you, so not the command's bits",
+    "out of order": "Not compared: this crowd carries state, so play it from the first frame",
+    none: "Not compared: the command solved no such frame",
 };
 
 const MOST_SOLVES = 60;  // that a rate is the mean of
@@ -29,14 +29,16 @@ export function speedText(limbCount, all) {
 }
 
 export function makeStatus(page) {
-    const { stage } = page, speed = element("p", { class: "speed", "aria-live": "off" }), digest = element("p", { class: "digest" });
-    const all = [];
+    const { stage } = page, speed = element("p", { class: "speed", "aria-live": "off" }), words = element("summary"), numbers = element("p");
+    const digest = element("details", { class: "digest" }, words, numbers), all = [];
+    digest.addEventListener("toggle", () => page.resize());
     page.on("frame", () => {
         if (all.push(stage.seconds) > MOST_SOLVES + 1) all.splice(1, 1);
         speed.textContent = speedText(stage.limbCount, all);
         const state = stage.digestState();
         digest.dataset.state = state;
-        digest.textContent = `digest ${stage.digest()}, ${DIGEST_WORDS[state](stage.data.digests[stage.frame])}`;
+        words.textContent = DIGEST_WORDS[state];
+        numbers.textContent = `Digest ${stage.digest()}, the command's ${stage.data.digests[stage.frame] ?? "is none"}`;
     });
     const notice = element("p", { class: "notice", role: "status" });
     page.on("say", (text) => { notice.textContent = text; });
