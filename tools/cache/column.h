@@ -32,8 +32,8 @@ private:
     GoalCrowd crowd_;
 };
 
-// Puts the goals of one's own of a chunk's frame in the formula's place, for the limbs of a crowd whose characters
-// first and on are the chunk's. places, unless null, gets the limbs that had some.
+// Puts the user's goals in the formula's place, as a chunk has them for one of its frames. The chunk's characters are
+// the crowd's from `first` on. places, unless null, gets the limbs that had such goals.
 void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t frame, std::uint32_t first,
                GoalCrowd& crowd, std::vector<GivenPlace>* places = nullptr);
 

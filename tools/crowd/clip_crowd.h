@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd that performs a clip: every character has the clip's skeleton, its own limb lengths, place and start, and
-// targets for wrists, elbows and hands, ankles, knees and feet for each frame, taken from the clip or given. Knows
-// clips and the public interface; no file format.
+// A crowd that performs a clip. Every character has the clip's skeleton, and a size, place and start of its own. Its
+// limbs have goals in each frame, which the clip has or the user gives. Knows clips and the public interface; no file
+// format.
 #pragma once
 
 #include <span>

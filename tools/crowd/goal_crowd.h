@@ -19,8 +19,8 @@ struct GivenPlace {
 
 class GoalCrowd {
 public:
-    // sources: of each limb, one for each frame of the clip; they must outlive the crowd, and so must limbs, of which
-    // there are 1 to GOAL_MOST_LIMBS. budget_blocks: blocks of 16 characters that a frame solves; 0: all.
+    // limbs: 1 to GOAL_MOST_LIMBS. sources: of each limb, one for each frame of the clip. Both must outlive the crowd.
+    // budget_blocks: blocks of 16 characters that a frame solves; 0: all.
     GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::span<const goal_source>>& sources,
               std::vector<goal_character> characters, std::uint32_t budget_blocks);
 

@@ -89,11 +89,12 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
                   uint32_t frame, const goal_character* characters, uint32_t count, goal_root* roots,
                   goal_input* inputs);
 
-// Solves a crowd of bodies with a group for each limb, and joints as GOAL_JOINTS says. roots and inputs are of all
-// bodies. poses: local rotations as solved, swivel_goal_pose_size() floats for each body: x, y, z, w of the four joints
-// of each limb, then of its twist bones. Joints that are not solved stay as they are: start with zeros. job: which
-// bodies, and on which threads; its frames and pose are overwritten. Fails as swivel_solve() does, and for more than
-// GOAL_MOST_LIMBS groups.
+// Solves a crowd of bodies that has a group for each limb, and joints as GOAL_JOINTS says.
+// roots, inputs: of all bodies.
+// poses: become the local rotations as solved, swivel_goal_pose_size() floats for each body. A limb has x, y, z, w of
+// each of its joints. Joints that are not solved stay as they are, so start with zeros.
+// job: which bodies, and on which threads. Its frames and pose are overwritten.
+// It fails as swivel_solve() does. It also fails for more than GOAL_MOST_LIMBS groups.
 swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_root* roots, const goal_input* inputs, float* poses,
                                  swivel_job* job);
 uint32_t swivel_goal_pose_size(const swivel_crowd* crowd);

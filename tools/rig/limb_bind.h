@@ -64,7 +64,7 @@ struct GivenBend {
 swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const Eigen::Vector3d& bend);
 
 // The limb of these joints, bound. joints: as is_chain() says. At, above and between them it looks at the rest pose and
-// at every frame. Throws CannotBind for
+// at every frame. Throws CannotBind for one of these:
 // - a bone of no length;
 // - a joint between that moves the next of the three by more than 1e-3 of the bone;
 // - scales that are uneven by more than 1e-3, sheared or nothing, and mirrors that come or go;
