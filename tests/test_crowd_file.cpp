@@ -187,7 +187,7 @@ TEST_CASE("crowd file: documentation, examples and reader know the same keys")
     CHECK(documented == known);
 
     std::set<std::string> shown;
-    for (const std::string name : {"crowd.toml", "kick.toml"}) {
+    for (const std::string name : {"crowd.toml", "kick.toml", "hills.toml"}) {
         std::istringstream lines(slurp(kSource / "examples" / name));
         std::string table;
         for (std::string line; std::getline(lines, line);) {

@@ -4,7 +4,7 @@
 //   SWIVEL: the command. CLIP: a motion file. PACKAGE, MODULE: the package for the web, and the page's module, which has swivel_goals().
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
@@ -33,7 +33,8 @@ const regionBytes = ({ first, half_spaces: halfSpaces }) => Buffer.concat([
   ...halfSpaces.map(({ axis, cosine, is_edge: isEdge }) => Buffer.concat([floats(axis, [cosine]), words(isEdge)])), Buffer.alloc(20 * (64 - halfSpaces.length))]);
 const planBytes = (p) => Buffer.concat([
   doubles(p.target_point, p.target_offset, p.effector, p.pole_fixed, p.shoulder_place, p.bones.flat()), floats(p.weights),
-  words(p.has_target_point, p.has_pole_fixed, p.pole, p.holds_pole, p.hand_is_local)]);
+  words(p.has_target_point, p.has_pole_fixed, p.pole, p.holds_pole, p.hand_is_local, p.goes_along, 0)]);
+const groundBytes = ({ size, place, columns, rows }) => Buffer.concat([doubles(size, place), words(columns, rows)]);
 /** Bytes of a goal_root and a goal_input, and where the goals of that begin. */
 const ROOT = 32, INPUT = 208, GOAL = { target: 0, pole: 24, hand: 48, weights: 64 };
 
@@ -43,16 +44,17 @@ async function open(path) {
   const root = await zarr.open.v2(zarr.root(files), { kind: 'group', attrs: true }), { attrs } = root;
   const read = async (name) => (await zarr.get(await zarr.open.v2(root.resolve(name), { kind: 'array' })));
   const readAll = (...names) => Promise.all(names.map(read));
-  const members = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'root', 'parent', 'shoulder', 'elbow_local', 'wrist_local'];
+  const members = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'root', 'parent', 'shoulder', 'elbow_local', 'wrist_local', 'contact'];
   const clip = await readAll(...members.map((name) => `clip/${name}`));
   const frames = attrs.clip_frames;
   const part = ({ data, shape }, index) => data.subarray(index * shape[2], (index + 1) * shape[2]);
   const sources = attrs.limbs.map((_, limb) => Buffer.concat(Array.from({ length: frames }, (__, frame) => {
     const row = clip.map((array) => Buffer.from(part(array, limb * frames + frame).slice().buffer));
-    return Buffer.concat(row);
+    return Buffer.concat([...row, Buffer.alloc(4)]);
   })));
-  const [size, place, start] = await readAll('character/size', 'character/place', 'character/start');
-  return { attrs, read, root, sources, size: size.data, place: place.data, start: start.data };
+  const [size, place, start, wish] = await readAll('character/size', 'character/place', 'character/start', 'character/wish');
+  const heights = attrs.ground?.columns > 0 ? (await read('ground/height')).data : undefined;
+  return { attrs, read, root, sources, heights, size: size.data, place: place.data, start: start.data, wish: wish.data };
 }
 
 // ---- digests
@@ -74,8 +76,9 @@ const placesIn = (counts) => counts.reduce((places, count) => places.flatMap((pl
 
 /** Computes every digest of the goals again. Returns how many there are. */
 async function proveGoals({ root, attrs }) {
-  const names = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'root', 'parent', 'shoulder', 'elbow_local', 'wrist_local', 'position'].map((name) => `clip/${name}`);
-  names.push('character/size', 'character/place', 'character/start');
+  const names = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'root', 'parent', 'shoulder', 'elbow_local', 'wrist_local', 'contact', 'position'].map((name) => `clip/${name}`);
+  names.push('character/size', 'character/place', 'character/start', 'character/wish');
+  if (attrs.ground?.columns > 0) names.push('ground/height');
   if (attrs.has_given) names.push('given/target', 'given/pole', 'given/hand');
   let count = 0;
   const all = [];
@@ -136,14 +139,18 @@ class Column {
     this.count = Math.min(most, characters - first);
     const who = Array.from({ length: this.count }, (_, n) => first + n);
     this.characters = this.keep(Buffer.concat(who.map((c) => Buffer.concat([
-      doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c], 0)]))));
+      doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c]), floats(cache.wish[c])]))));
+    this.ground = cache.heights ? [this.keep(groundBytes(cache.attrs.ground)), this.keep(Buffer.from(cache.heights.slice().buffer))] : [0, 0];
     this.plans = this.keep(Buffer.concat(limbs.map(({ goals }) => planBytes(goals))));
     this.sources = this.keep(words(...cache.sources.map((bytes) => this.keep(bytes))));
     this.roots = memory.allocate(ROOT * this.count);
     this.inputs = memory.allocate(INPUT * limbs.length * this.count);
-    this.crowd = this.swivel.bodies({ skeleton, bodyCount: this.count, groups: limbs.map((limb, n) => ({
+    const groups = limbs.map((limb, n) => ({
       joints: chains[n], features: BigInt(limb.features), shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, onBadInput: OnBadInput.REST_POSE,
-      ...(limb.region ? { region: this.swivel.region(new Uint8Array(regionBytes(limb.region))) } : {}) })) });
+      ...(limb.region ? { region: this.swivel.region(new Uint8Array(regionBytes(limb.region))) } : {}),
+      ...(limb.clearances ? { ground: { toeClearance: limb.clearances[0], heelClearance: limb.clearances[1] }, plant: { run: 1 } } : {}) }));
+    if (limbs.some(({ features }) => BigInt(features) & Feature.WITH_FIT)) groups.push({ fit: { half: 0.05 } });
+    this.crowd = this.swivel.bodies({ skeleton, bodyCount: this.count, groups });
     limbs.forEach(({ fixed }, group) => {
       for (const { field, value } of fixed) this.crowd.write(field, value.slice(0, this.crowd.componentCount(field, group)), { group });
     });
@@ -164,22 +171,23 @@ class Column {
         if (Number.isNaN(target.data[3 * at])) return;
         memory.doubles(input + GOAL.target, 3).set(target.data.subarray(3 * at, 3 * at + 3));
         memory.floats(input + GOAL.hand, 4).set(hand.data.subarray(4 * at, 4 * at + 4));
+        memory.floats(input + GOAL.weights, 2).set(goals.weights.slice(0, 2));
         if (Number.isNaN(pole.data[3 * at])) return;
         memory.doubles(input + GOAL.pole, 3).set(pole.data.subarray(3 * at, 3 * at + 3));
         memory.floats(input + GOAL.weights, 3)[2] = goals.weights[2];
       });
   }
   solve(frame, given) {
-    const { memory, crowd, cache: { attrs: { limbs, clip_frames: frames }, start } } = this, { calls } = memory;
-    calls.swivel_goals(this.plans, this.sources, limbs.length, frames, frame, this.characters, this.count, this.roots, this.inputs);
-    limbs.forEach((_, group) => {
-      if (!carried.some((field) => crowd.componentCount(field, group) > 0)) return;
+    const { memory, crowd, cache: { attrs: { limbs, clip_frames: frames, frame_seconds: seconds }, start } } = this, { calls } = memory;
+    calls.swivel_goals(this.plans, this.sources, limbs.length, frames, frame, ...this.ground, this.characters, this.count, this.roots, this.inputs);
+    for (let group = 0; group < crowd.groupCount; ++group) {
+      if (!carried.some((field) => crowd.componentCount(field, group) > 0)) continue;
       for (let n = 0; n < this.count; ++n) if ((frame + start[this.first + n]) % frames === 0) crowd.reset({ group, first: n, count: 1 });
-    });
+    }
     if (given) this.give(frame, given);
     memory.borrow((borrowed) => {
       const job = borrowed.structure('swivel_job').at;
-      memory.check(calls.swivel_goals_solve(crowd.crowd, this.roots, this.inputs, this.poses, job));
+      memory.check(calls.swivel_goals_solve(crowd.crowd, ...this.ground, seconds, this.characters, this.roots, this.inputs, this.poses, job));
     });
   }
   digest() { return this.memory.calls.swivel_goals_digest(this.crowd.crowd, this.poses); }
@@ -218,14 +226,23 @@ const STATE = `${LIMITED}
 most_deg_per_second = 900
 `;
 
+const HILLS = `
+[crowd]
+limbs = "all"
+[ground]
+heights = "hills.png"
+size = [900, 60, 900]
+`;
+
 for (const [name, toml, options] of [
-  ['a plain crowd', '', []], ['limits, clavicles, twist bones', LIMITED, []], ['unlike limbs', UNLIKE, []], ['state', STATE, []],
+  ['a plain crowd', '', []], ['limits, clavicles, twist bones', LIMITED, []], ['unlike limbs', UNLIKE, []], ['state', STATE, []], ['hills', HILLS, []],
   ['targets of one\'s own', LIMITED, ['targets']],
 ])
   test(`wasm replays ${name}`, async () => {
     const run = (...list) => execFileSync(SWIVEL, list, { cwd: folder, stdio: 'pipe' });
     rmSync(join(folder, 'cache'), { recursive: true, force: true });
     writeFileSync(join(folder, 'crowd.toml'), toml);
+    copyFileSync(new URL('../../examples/hills.png', import.meta.url), join(folder, 'hills.png'));
     if (options[0] === 'targets') {
       run('solve', CLIP, '--limbs', 'all', '--export-targets', 'all.csv', '--quiet');
       const rows = readFileSync(join(folder, 'all.csv'), 'utf8').split('\n');
@@ -239,7 +256,7 @@ for (const [name, toml, options] of [
     const names = COMPARED.filter((name) => existsSync(join(folder, 'cache', name.toLowerCase(), '.zarray')));
     const stored = Object.fromEntries(await Promise.all(names.map(async (name) => [name, await cache.read(name.toLowerCase())])));
     assert.ok(await proveGoals(cache) > 18);
-    assert.equal(await proveState(cache), name === 'state' ? 9 : 0);
+    assert.equal(await proveState(cache), ['state', 'hills'].includes(name) ? 9 : 0);
     proveAttributes(readFileSync(join(folder, 'cache/.zattrs'), 'utf8'));
     const digests = await cache.read('digest');
     let compared = 0, solvedLimbs = 0;

@@ -81,6 +81,9 @@ void Cache::read_clip()
     }
     crowd_.positions.resize(arrays_.clip.back().chunk_bytes() / sizeof(float));
     require_made(arrays_.clip.back(), {}, std::as_writable_bytes(std::span(crowd_.positions)));
+    if (arrays_.ground.empty()) return;
+    crowd_.ground->heights.resize(arrays_.ground[0].chunk_bytes() / sizeof(float));
+    require_made(arrays_.ground[0], {}, std::as_writable_bytes(std::span(crowd_.ground->heights)));
 }
 
 // Reads a chunk of the goals and compares it with what was made. False: none was.
@@ -141,22 +144,28 @@ std::uint64_t Cache::digest(ChunkAt at) const
     return store_.read_number(arrays_.digest, {at.time, at.column}).value_or(0);
 }
 
-std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place) const
+std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place, bool is_state) const
 {
     Results results;
-    for (const ZarrArray& array : arrays) {
-        std::vector<std::uint32_t>& numbers = results.emplace_back(array.chunk_bytes() / sizeof(std::uint32_t));
+    for (std::size_t n = 0; n < arrays.size(); ++n) {
+        const ZarrArray& array = arrays[n];
+        std::vector<std::uint32_t>& numbers = results.emplace_back();
+        if (!is_state && arrays_.fields[n].is_state_alone) continue;
+        numbers.resize(array.chunk_bytes() / sizeof(std::uint32_t));
         const auto bytes = std::as_writable_bytes(std::span(numbers));
         if (store_.read_chunk(array, place, bytes) != ChunkRead::whole) return std::nullopt;
     }
     return results;
 }
 
-std::optional<Results> Cache::results(ChunkAt at) const { return read(arrays_.results, {at.time, 0, at.column}); }
+std::optional<Results> Cache::results(ChunkAt at) const
+{
+    return read(arrays_.results, {at.time, 0, at.column}, false);
+}
 
 std::optional<Results> Cache::state(ChunkAt at) const
 {
-    std::optional<Results> state = read(arrays_.state, {at.time, 0, at.column});
+    std::optional<Results> state = read(arrays_.state, {at.time, 0, at.column}, true);
     if (state && store_.read_number(arrays_.state_digest, {at.time, at.column}) != state_digest(*state)) state.reset();
     return state;
 }
@@ -173,13 +182,15 @@ Results Cache::require_state(ChunkAt at) const
 void Cache::write(ChunkAt at, const Results& results, std::uint64_t digest) const
 {
     const ChunkPlace place{at.time, 0, at.column}, number{at.time, at.column};
-    const auto write_all = [&](const std::vector<ZarrArray>& arrays, const Results& numbers) {
-        for (std::size_t n = 0; n < numbers.size(); ++n) store_.write_chunk(arrays[n], place, bytes_in(numbers[n]));
+    const auto write_all = [&](const std::vector<ZarrArray>& arrays, const Results& numbers, bool is_state) {
+        for (std::size_t n = 0; n < numbers.size(); ++n)
+            if (is_state || !arrays_.fields[n].is_state_alone)
+                store_.write_chunk(arrays[n], place, bytes_in(numbers[n]));
     };
-    if (crowd_.has_poses) write_all(arrays_.results, results);
+    if (crowd_.has_poses) write_all(arrays_.results, results, false);
     if (crowd_.carries_state()) {
         const Results last = last_frame(results, crowd_, at.time);
-        write_all(arrays_.state, last);
+        write_all(arrays_.state, last, true);
         store_.write_number(arrays_.state_digest, number, state_digest(last));
     }
     store_.write_number(arrays_.digest, number, digest);
@@ -207,8 +218,8 @@ void require_memory(const fs::path& folder, const CachedCrowd& crowd, const Cach
     };
     double bytes = 32 * chunks_of(arrays.digest);                                 // lists of work
     for (const ZarrArray& array : arrays.made()) bytes += 16 * chunks_of(array);  // digests: each, and all in one list
-    bytes += 2 * bytes_of(arrays.clip) + 2 * bytes_of(arrays.given);              // as files, and as numbers
-    bytes += 3 * (bytes_of(arrays.results) + bytes_of(arrays.state));             // and as they are solved again
+    for (const auto& made : {arrays.clip, arrays.ground, arrays.given}) bytes += 2 * bytes_of(made);  // files, numbers
+    bytes += 3 * (bytes_of(arrays.results) + bytes_of(arrays.state));  // and as they are solved again
     bytes += kSolverBytes * characters * static_cast<double>(crowd.limbs.size());
     if (bytes > kMostMemory * kMebibyte)
         throw InputError(folder, fmt::format("takes {:.0f} MiB of memory at once, more than {:.0f}; {}",

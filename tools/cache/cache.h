@@ -49,7 +49,7 @@ public:
 
     // 0: the chunk is not done, or the file of its digest is damaged, which comes to the same.
     std::uint64_t digest(ChunkAt at) const;
-    // The stored poses of a chunk; nothing if a file of them is missing or cut.
+    // The stored poses of a chunk, with no numbers of what is state alone; nothing if a file is missing or cut.
     std::optional<Results> results(ChunkAt at) const;
     // What the chunk after this one starts from; nothing if it is missing or damaged.
     std::optional<Results> state(ChunkAt at) const;
@@ -66,7 +66,7 @@ private:
     void read_clip();
     bool read_made(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
     void require_made(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
-    std::optional<Results> read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place) const;
+    std::optional<Results> read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place, bool is_state) const;
 
     CachedCrowd crowd_;
     CacheArrays arrays_;

@@ -92,6 +92,10 @@ CacheArrays::CacheArrays(const CachedCrowd& crowd)
                              {limb_count, clip_frames, member.count}, member.meaning));
     clip.push_back(whole("clip/position", "<f4", {"clip_frame", "joint", "xyz"}, {clip_frames, crowd.joints.size(), 3},
                          "joints in the world, the clip's unit"));
+    if (crowd.ground && crowd.ground->grid.columns > 0)
+        ground.push_back(whole("ground/height", "<f4", {"row", "column"},
+                               {crowd.ground->grid.rows, crowd.ground->grid.columns},
+                               "heights of the ground, as shares of its size along Y"));
     for (const Member& member : kCharacterMembers) characters.push_back(character_array(crowd, member));
     if (crowd.has_given)
         for (const auto& [name, type, count, meaning] : kGiven)
@@ -101,14 +105,15 @@ CacheArrays::CacheArrays(const CachedCrowd& crowd)
 std::vector<ZarrArray> CacheArrays::made() const
 {
     std::vector<ZarrArray> arrays = characters;
-    for (const auto& more : {clip, given}) arrays.insert(arrays.end(), more.begin(), more.end());
+    for (const auto& more : {clip, ground, given}) arrays.insert(arrays.end(), more.begin(), more.end());
     return arrays;
 }
 
 std::vector<ZarrArray> CacheArrays::filled(const CachedCrowd& crowd) const
 {
     std::vector<ZarrArray> arrays{digest};
-    if (crowd.has_poses) arrays.insert(arrays.end(), results.begin(), results.end());
+    for (std::size_t n = 0; n < fields.size(); ++n)
+        if (crowd.has_poses && !fields[n].is_state_alone) arrays.push_back(results[n]);
     if (!crowd.carries_state()) return arrays;
     arrays.insert(arrays.end(), state.begin(), state.end());
     arrays.push_back(state_digest);

@@ -20,7 +20,8 @@ struct CacheArrays {
     std::vector<ZarrArray> results, state;  // one for each field; no state where none is carried
     ZarrArray digest, state_digest;
     std::vector<ZarrArray> clip;        // sources, one array for each member of goal_source; then positions of joints
-    std::vector<ZarrArray> characters;  // size, place, start
+    std::vector<ZarrArray> ground;      // heights; none without hills
+    std::vector<ZarrArray> characters;  // one array for each member of goal_character
     std::vector<ZarrArray> given;       // target, pole, hand; none without goals of one's own
 
     // Those that are written once, when a cache is made.

@@ -74,6 +74,7 @@ void CacheMaker::write_clip()
         write(arrays_.clip[n], {}, bytes);
     }
     write(arrays_.clip.back(), {}, bytes_in(crowd_.positions));
+    if (!arrays_.ground.empty()) write(arrays_.ground[0], {}, bytes_in(crowd_.ground->heights));
 }
 
 void CacheMaker::write_characters(std::uint32_t column, std::span<const goal_character> characters)

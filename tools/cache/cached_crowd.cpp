@@ -20,10 +20,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 4;
+constexpr int kFormat = 5;
 constexpr std::uint32_t kLimbsInChunk = 65'536;
 constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
 constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
+constexpr std::uint32_t kMostHeights = 16'384;   // along a side: formats::read_height_picture() has no more
 constexpr std::int64_t kMostJoints = 1'000'000;  // more than the attributes have room for
 
 // The numbers of a chain, by the names of swivel_chain.
@@ -109,7 +110,8 @@ Json json_of(const goal_plan& goals)
             {"has_pole_fixed", goals.has_pole_fixed},
             {"pole", goals.pole},
             {"holds_pole", goals.holds_pole},
-            {"hand_is_local", goals.hand_is_local}};
+            {"hand_is_local", goals.hand_is_local},
+            {"goes_along", goals.goes_along}};
 }
 
 goal_plan goals_of(const Json& json)
@@ -127,6 +129,7 @@ goal_plan goals_of(const Json& json)
     goals.pole = one_of(json, "pole", GOAL_POLE_NORMAL);
     goals.holds_pole = yes_or_no(json, "holds_pole");
     goals.hand_is_local = yes_or_no(json, "hand_is_local");
+    goals.goes_along = yes_or_no(json, "goes_along");
     return goals;
 }
 
@@ -165,6 +168,24 @@ swivel_region region_of(const Json& json)
     return region;
 }
 
+Json json_of(const goal_ground& grid)
+{
+    return {{"size", grid.size}, {"place", grid.place}, {"columns", grid.columns}, {"rows", grid.rows}};
+}
+
+// Without its heights.
+Ground ground_of(const Json& json)
+{
+    Ground ground{};
+    get(json.at("size"), ground.grid.size);
+    get(json.at("place"), ground.grid.place);
+    ground.grid.columns = whole(json, "columns", 0, kMostHeights);
+    ground.grid.rows = whole(json, "rows", 0, kMostHeights);
+    if (std::min(ground.grid.columns, ground.grid.rows) < 2 && ground.grid.columns + ground.grid.rows > 0)
+        throw std::invalid_argument("a ground has one row or column");
+    return ground;
+}
+
 Json json_of(const CachedLimb& limb)
 {
     const LimbSetup& setup = limb.setup;
@@ -180,6 +201,7 @@ Json json_of(const CachedLimb& limb)
               {"goals", json_of(setup.goals)},
               {"fixed", std::move(fixed)}};
     if (setup.region) json["region"] = json_of(*setup.region);
+    if (setup.has(SWIVEL_WITH_GROUND)) json["clearances"] = {setup.ground.toe_clearance, setup.ground.heel_clearance};
     return json;
 }
 
@@ -204,6 +226,11 @@ CachedLimb limb_of(const Json& json)
         each.at("value").get_to(fixed.value);
     }
     if (json.contains("region")) setup.region = region_of(json.at("region"));
+    if (json.contains("clearances")) {
+        float clearances[2];
+        get(json.at("clearances"), clearances);
+        setup.ground.toe_clearance = clearances[0], setup.ground.heel_clearance = clearances[1];
+    }
     return limb;
 }
 
@@ -228,7 +255,9 @@ void require_solvable(const CachedCrowd& crowd)
     std::vector<LimbSetup> setups;
     for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
     const goal_source none{};
-    GoalCrowd crowd_of_one(setups, std::vector(setups.size(), std::span(&none, 1)), {goal_character{1, {}, 0, 0}}, 0);
+    const Ground level{};  // the cache's own heights come later
+    GoalCrowd crowd_of_one(setups, std::vector(setups.size(), std::span(&none, 1)), {goal_character{1, {}, 0, 0}}, 0,
+                           crowd.ground ? &level : nullptr, 0);
     crowd_of_one.set_frame(0);
     crowd_of_one.solve();  // it may need what no cache has, such as the time
 }
@@ -243,7 +272,9 @@ std::string digest_text(const Json& attributes)
 
 bool CachedCrowd::carries_state() const
 {
-    return std::ranges::any_of(limbs, [](const CachedLimb& limb) { return limb.setup.has(SWIVEL_WITH_MOST_SWIVEL); });
+    return std::ranges::any_of(limbs, [](const CachedLimb& limb) {
+        return limb.setup.has(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT);
+    });
 }
 
 ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count)
@@ -290,6 +321,16 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
     if (has(SWIVEL_WITH_CLAVICLE))
         fields.push_back(
             {SWIVEL_CLAVICLE_TURN, "clavicle_turn", "turn of the shoulder's parent joint, x y z w", {4}, {"xyzw"}});
+    if (has(SWIVEL_WITH_PLANT))
+        fields.push_back({SWIVEL_PLANT, "plant", "how a foot stands, as SWIVEL_PLANT", {11}, {"part"}, true});
+    if (has(SWIVEL_WITH_FIT))
+        fields.push_back({SWIVEL_SHIFT,
+                          "shift",
+                          "the body's, of each limb: as SWIVEL_SHIFT, then how much higher it is than its place says",
+                          {4},
+                          {"part"}});
+    if (has(SWIVEL_WITH_GROUND))
+        fields.push_back({SWIVEL_LIFT, "lift", "how far the ground lifts a foot, as SWIVEL_LIFT", {3}, {"part"}, true});
     return fields;
 }
 
@@ -312,6 +353,7 @@ Json attributes_of(const CachedCrowd& crowd)
              {"goals_digest", fmt::format("{:016x}", crowd.goals_digest)},
              {"joints", std::move(joints)},
              {"limbs", std::move(limbs)}};
+    if (crowd.ground) out["ground"] = json_of(crowd.ground->grid);
     out["digest"] = digest_text(out);
     return out;
 }
@@ -347,6 +389,7 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         for (const Json& joint : attributes.at("joints"))
             crowd.joints.push_back({joint.at("name").get<std::string>(), place_of(joint.at("parent"))});
         for (const Json& limb : attributes.at("limbs")) crowd.limbs.push_back(limb_of(limb));
+        if (attributes.contains("ground")) crowd.ground = ground_of(attributes.at("ground"));
         require_sane(crowd);
         require_solvable(crowd);
     } catch (const formats::InputError&) {

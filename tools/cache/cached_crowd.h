@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/cache/zarr.h"
+#include "tools/crowd/ground.h"
 #include "tools/crowd/limb_setup.h"
 #include "tools/formats/limb_name.h"
 
@@ -43,8 +44,9 @@ struct CachedCrowd {
     std::vector<CachedJoint> joints;
     std::vector<float> positions;  // [frame of the clip][joint][3], in the world
     std::vector<CachedLimb> limbs;
-    bool has_given = false;  // goals of one's own
-    bool has_poses = true;   // it keeps them; goals give the same poses again on any machine
+    std::optional<Ground> ground;  // that legs stand on
+    bool has_given = false;        // goals of one's own
+    bool has_poses = true;         // it keeps them; goals give the same poses again on any machine
     ChunkShape chunk{1, 16};
     std::uint64_t goals_digest = 0;  // of all arrays that are written once
 
@@ -78,6 +80,7 @@ struct ResultField {
     const char* meaning;
     std::vector<std::uint64_t> parts;          // numbers of a limb
     std::vector<std::string> part_dimensions;  // their names
+    bool is_state_alone = false;               // only the next frame needs it
 
     std::size_t count() const;
 };

@@ -23,6 +23,11 @@ std::size_t joint_of(swivel_field field)
                                          : 0;
 }
 
+bool is_carried(swivel_field field)
+{
+    return field == SWIVEL_NORMAL || field == SWIVEL_PLANT || field == SWIVEL_LIFT || field == SWIVEL_SHIFT;
+}
+
 }  // namespace
 
 Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters)
@@ -30,7 +35,7 @@ Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_c
       index_(index),
       fields_(result_fields(crowd)),
       setups_(setups_of(crowd)),
-      crowd_(setups_, sources_of(crowd), std::move(characters), 0)
+      crowd_(setups_, sources_of(crowd), std::move(characters), 0, ground_of(crowd), crowd.frame_seconds)
 {
 }
 
@@ -45,6 +50,8 @@ void Column::read_frame(std::uint32_t frame, Results& results) const
             const std::size_t joint = joint_of(field);
             if (joint == 0) {
                 crowd_.read(limb, field, 0, crowd_.character_count(), {to, count * sizeof *to});
+                for (std::uint32_t who = 0; field == SWIVEL_SHIFT && who < crowd_.character_count(); ++who)
+                    to[who * count + 3] = std::bit_cast<std::uint32_t>(crowd_.rise(who));
                 continue;
             }
             const std::size_t joints = field == SWIVEL_TWIST_BONES ? setups_[limb].twist_bone_count() : 1;
@@ -59,9 +66,10 @@ void Column::restore(const Results& state)
 {
     for (std::size_t n = 0; n < fields_.size(); ++n)
         for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
-            if (fields_[n].field != SWIVEL_NORMAL || !crowd_.has(limb, SWIVEL_NORMAL)) continue;
+            const swivel_field field = fields_[n].field;
+            if (!is_carried(field) || !crowd_.has(limb, field)) continue;
             const std::size_t count = fields_[n].count(), at = cached_.place(0, limb, 0) * count;
-            crowd_.restore(limb, SWIVEL_NORMAL, std::span(state[n]).subspan(at, crowd_.character_count() * count));
+            crowd_.restore(limb, field, std::span(state[n]).subspan(at, crowd_.character_count() * count));
         }
 }
 
@@ -91,6 +99,7 @@ void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t
             goal_input& input = crowd.input(limb, first + n);
             std::copy_n(&goals.target[3 * at], 3, input.target);
             std::copy_n(&goals.hand[4 * at], 4, input.hand);
+            std::copy_n(cached.limbs[limb].setup.goals.weights, 2, input.weights);
             if (!std::isnan(goals.pole[3 * at])) {
                 std::copy_n(&goals.pole[3 * at], 3, input.pole);
                 input.weights[2] = cached.limbs[limb].setup.goals.weights[2];

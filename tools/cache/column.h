@@ -40,6 +40,7 @@ void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t
 // The limbs of a crowd as GoalCrowd takes them.
 std::vector<LimbSetup> setups_of(const CachedCrowd& crowd);
 std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd);
+inline const Ground* ground_of(const CachedCrowd& crowd) { return crowd.ground ? &*crowd.ground : nullptr; }
 
 // Whole chunks' results, all of them NaN, and 0 where they are flags.
 Results empty_results(const CachedCrowd& crowd);

@@ -157,7 +157,7 @@ std::optional<Difference> Filling::difference(const Work& work) const
                             const std::vector<ZarrArray>& arrays, const char* of_what) -> std::string {
         if (!stored) return fmt::format("a file of its {} is missing or damaged", of_what);
         for (std::size_t n = 0; n < wanted.size(); ++n)
-            if ((*stored)[n] != wanted[n]) return fmt::format("{} differs", arrays[n].name);
+            if (!(*stored)[n].empty() && (*stored)[n] != wanted[n]) return fmt::format("{} differs", arrays[n].name);
         return "";
     };
     if (work.stored == 0) return Difference{work.at, "is not done", true};

@@ -33,12 +33,14 @@ constexpr Member kSourceMembers[] = {
     {"parent", "<f4", offsetof(goal_source, parent), 4, "world rotation of the shoulder's parent joint, x y z w"},
     {"shoulder", "<f4", offsetof(goal_source, shoulder), 4, "the clip's own local rotation, x y z w"},
     {"elbow_local", "<f4", offsetof(goal_source, elbow_local), 4, "the clip's own local rotation, x y z w"},
-    {"wrist_local", "<f4", offsetof(goal_source, wrist_local), 4, "the clip's own local rotation, x y z w"}};
+    {"wrist_local", "<f4", offsetof(goal_source, wrist_local), 4, "the clip's own local rotation, x y z w"},
+    {"contact", "<f4", offsetof(goal_source, contact), 1, "1 while the foot is on the ground"}};
 
 constexpr Member kCharacterMembers[] = {
     {"size", "<f8", offsetof(goal_character, size), 1, "factor of all lengths, also of the way it goes"},
     {"place", "<f8", offsetof(goal_character, place), 3, "in the world, of the clip's origin; the clip's unit"},
-    {"start", "<u4", offsetof(goal_character, start), 1, "frame of the clip that it starts at"}};
+    {"start", "<u4", offsetof(goal_character, start), 1, "frame of the clip that it starts at"},
+    {"wish", "<f4", offsetof(goal_character, wish), 1, "how far the body hangs lower where nothing else shifts it"}};
 
 // The member of all structures, side by side, and zeros up to that many rows.
 template <class Struct>

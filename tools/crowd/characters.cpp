@@ -35,12 +35,13 @@ CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> li
 goal_character CharacterStream::next()
 {
     const std::uint32_t n = made_++;
-    if (n == 0) return {1, {0, 0, 0}, 0, 0};
+    const auto wish = [&](double size) { return static_cast<float>(size * plan_.shift_wish); };
+    if (n == 0) return {1, {0, 0, 0}, 0, wish(1)};
     const double size = static_cast<float>(plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_));
     const auto start = static_cast<std::uint32_t>(random_() % starts_);
     const Eigen::Vector3d place =
         Eigen::Vector3d(spacing_ * (n % columns_), 0, spacing_ * (n / columns_)) + (1 - size) * plan_.foot;
-    return {size, {place.x(), place.y(), place.z()}, plan_.stagger ? start : 0, 0};
+    return {size, {place.x(), place.y(), place.z()}, plan_.stagger ? start : 0, wish(size)};
 }
 
 std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)

@@ -41,12 +41,12 @@ std::vector<std::span<const goal_source>> sources_of(const ClipMotion& motion, s
 
 ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
     : clip_(clip),
-      motion_(clip, limbs),
+      motion_(clip, limbs, plan),
       limbs_(limbs),
       plans_(plan.limbs),
       setups_(limb_setups(limbs, plan)),
       crowd_(setups_, sources_of(motion_, limbs.size()), characters_of(plan, limbs, motion_.frame_count()),
-             plan.budget_blocks)
+             plan.budget_blocks, plan.ground ? &*plan.ground : nullptr, clip.frame_time)
 {
     given_at_.resize(limbs.size(), std::vector<std::int32_t>(plan.characters));
     rows_.resize(limbs.size() * plan.characters);
@@ -63,7 +63,7 @@ std::size_t ClipCrowd::limb_index(formats::LimbName name) const
 bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
     const LimbPlan& plan = plans_[limb];
-    return !plan.target_point && plan.target_offset.isZero(0) && plan.follows_pole && !given(limb, character);
+    return plan.follows_clip() && !crowd_.has_ground() && !given(limb, character);
 }
 
 const formats::Target* ClipCrowd::given(std::size_t limb, std::uint32_t character) const
@@ -79,6 +79,7 @@ void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
     const formats::Target& target = *given(limb, character);
     goal_input& input = crowd_.input(limb, character);
     store(target.position + plan.target_offset, input.target);
+    std::copy_n(setups_[limb].goals.weights, 2, input.weights);
     if (target.has_pole && !plan.pole_fixed) {
         store(target.pole, input.pole);
         input.weights[2] = setups_[limb].goals.weights[2];
@@ -162,6 +163,7 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
     const goal_character& who = characters()[character];
     row.character = character;
     row.place = std::to_array(who.place);
+    row.place[1] += double{crowd_.rise(character)};
     row.size = who.size;
     row.start = who.start;
     row.limb = limbs_[limb].name;

@@ -82,6 +82,7 @@ private:
         Eigen::Quaterniond upper, fore, hand;
     };
     Reached reached(std::size_t limb, const formats::PoseRow& row) const;
+    Eigen::Vector3d target_point(std::size_t limb, std::uint32_t character) const;
     void measure_against_clip(std::size_t limb, const PoseName& pose, const Reached& at,
                               LimbStatistics& statistics) const;
 

@@ -57,9 +57,20 @@ ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& 
                                    ? quaternion(crowd_.rotation(limb, row.character, 0))
                                    : quaternion(input.rotations[0]);
     const Quaterniond upper = parent * as_solved(row.shoulder), fore = upper * as_solved(row.elbow);
-    const Vector3d shoulder = Vector3d(crowd_.root(row.character).place) + size * (place(0) + parent * place(1));
+    const goal_root& root = crowd_.root(row.character);
+    const Vector3d shoulder =
+        Vector3d(root.place) + double{root.shift} * Vector3d::UnitY() + size * (place(0) + parent * place(1));
     const Vector3d elbow = shoulder + bone * (upper * place(2));
     return {elbow, elbow + bone * (fore * place(3)), upper, fore, fore * as_solved(row.wrist)};
+}
+
+// Where the limb was sent: a foot that stands is not sent where the clip has it.
+Vector3d ClipCrowd::target_point(std::size_t limb, std::uint32_t character) const
+{
+    if (!plans_[limb].has(SWIVEL_WITH_PLANT)) return Vector3d(crowd_.input(limb, character).target);
+    float goal[7];
+    crowd_.read(limb, SWIVEL_GOAL, character, 1, {goal, sizeof goal});
+    return Vector3d(crowd_.root(character).place) + Vector3d(goal[0], goal[1], goal[2]);
 }
 
 void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end,
@@ -77,15 +88,16 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         const PoseName pose{frame_, n, limbs_[limb].name};
         const Vector3d end_point = at.wrist + characters()[n].size * (at.hand * plan.effector);
         const double distance =
-            aims ? residuals[n - begin] : (end_point - Vector3d(crowd_.input(limb, n).target)).norm() / length(limb, n);
+            aims ? residuals[n - begin] : (end_point - target_point(limb, n)).norm() / length(limb, n);
         statistics.add_flags(row.flags, distance, pose);
         if (row.flags & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
+        const float(&weights)[3] = crowd_.input(limb, n).weights;
         const bool is_reached = (row.flags & SWIVEL_REACHED) != 0;
         if (aims)
             (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose);
-        else if (!plan.blends_position())
+        else if (weights[0] == 1)
             (is_reached ? statistics.reached : statistics.missed).add(distance, pose);
-        if (hand && !plan.blends_hand() && !aims)
+        if (hand && weights[1] == 1 && !aims && !plan.has(SWIVEL_WITH_PLANT))
             statistics.orientation.add(angle(target(limb, n).orientation.conjugate() * at.hand), pose);
         measure_against_clip(limb, pose, at, statistics);
     }
@@ -97,7 +109,8 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
     const std::uint32_t character = pose.character;
     const LimbInClip& from = in_clip(limb, character);
     const goal_character& who = characters()[character];
-    const Vector3d wanted = Vector3d(who.place) + who.size * (motion_.origin(clip_frame(character), limb) + from.elbow);
+    Vector3d wanted = Vector3d(who.place) + who.size * (motion_.origin(clip_frame(character), limb) + from.elbow);
+    wanted.y() += double{crowd_.rise(character)} - double{crowd_.root(character).shift};
     const double difference = (at.elbow - wanted).norm() / length(limb, character);
     if (!follows_clip(limb, character)) return statistics.given.add(difference, pose);
     const Vector3d upper = from.elbow.normalized(), fore = (from.wrist - from.elbow).normalized();

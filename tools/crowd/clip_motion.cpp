@@ -55,7 +55,7 @@ Vector3d root_of(std::span<const Limb> limbs, std::span<const JointPose> pose_w)
 
 goal_source source_of(const LimbInClip& in, const Vector3d& origin, const Vector3d& root)
 {
-    goal_source source;
+    goal_source source{};
     put(in.elbow, source.elbow);
     put(in.wrist, source.wrist);
     put(in.hand.coeffs(), source.hand);
@@ -84,13 +84,14 @@ void settle_lengths(std::span<goal_source> sources, const float (&at_rest)[2])
 
 }  // namespace
 
-ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs)
+ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
     : limb_count_(limbs.size()), sources_(limbs.size()), frame_count_(clip.frame_count)
 {
     std::vector<JointPose> pose_w(clip.joints.size());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         formats::world_pose(clip, frame, pose_w);
-        const Vector3d root = root_of(limbs, pose_w);
+        Vector3d root = root_of(limbs, pose_w);
+        if (plan.ground) root.y() = plan.foot.y();  // lifts of feet are counted from it
         for (std::size_t n = 0; n < limbs.size(); ++n) {
             const Limb& limb = limbs[n];
             const int parent = joint_at(clip, limb.upper()).parent;
@@ -101,6 +102,8 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs)
                     clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(parent)];
             sources_[n].push_back(
                 source_of(limbs_.back(), pose_w[static_cast<std::size_t>(limb.upper())].position, root));
+            const std::vector<bool>& contact = plan.limbs[n].contact;
+            sources_[n].back().contact = frame < contact.size() && contact[frame] ? 1.0f : 0.0f;
         }
     }
     for (std::size_t n = 0; n < limbs.size(); ++n) settle_lengths(sources_[n], limbs[n].bound.lengths);

@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/crowd/goals.h"
-#include "tools/rig/limbs.h"
+#include "tools/crowd/crowd_plan.h"
 
 namespace swivel::tools {
 
@@ -29,8 +28,9 @@ struct LimbInClip {
 
 class ClipMotion {
 public:
-    // Takes what it needs from the clip; limbs are joints of it. Memory: 1,000 bytes a frame for two limbs.
-    ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs);
+    // Takes what it needs from the clip; limbs are joints of it, and the plan's. Memory: 1,000 bytes a frame for two
+    // limbs.
+    ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan);
 
     std::size_t frame_count() const { return frame_count_; }
     const LimbInClip& at(std::size_t frame, std::size_t limb) const { return limbs_[frame * limb_count_ + limb]; }

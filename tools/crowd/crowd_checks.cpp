@@ -78,6 +78,21 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
                "means nothing without most_deg_per_second or most_deg_per_frame; give that, or take this out");
 }
 
+void require_can_stand(const CrowdFile& file, const LimbSettings& s)
+{
+    const auto check = [&](const auto&... given) {
+        const auto check_one = [&](const auto& each) {
+            if (each)
+                refuse(file, *each,
+                       fmt::format("keeps a leg from standing on the ground of line {}; take one of them out",
+                                   file.ground->line));
+        };
+        (check_one(given), ...);
+    };
+    check(s.aim, s.target_point, s.soft_far, s.soft_near, s.most_stretch, s.least_distance);
+    if (s.hand && !s.hand->value) check(s.hand);
+}
+
 void require_solved(const CrowdFile& file, std::span<const Limb> limbs)
 {
     for (const formats::LimbSection& section : file.sections) {

@@ -22,6 +22,9 @@ void require_solved(const formats::CrowdFile& file, std::span<const Limb> limbs)
 // No key of a limb does nothing because of another.
 void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& settings);
 
+// Nothing is asked of a leg that keeps it from standing on ground.
+void require_can_stand(const formats::CrowdFile& file, const formats::LimbSettings& settings);
+
 // With a clavicle: the joint above the limb is there, some way from it, and carries nothing else that it would turn
 // along.
 void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,

@@ -64,6 +64,7 @@ goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
                                                  : GOAL_POLE_DIRECTION;
     goals.holds_pole = plan.holds_pole;
     goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
+    goals.goes_along = !plan.has(SWIVEL_WITH_PLANT) && plan.follows_clip();
     return goals;
 }
 
@@ -267,6 +268,7 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
         require_sense(*file, settings);
         require_own_clavicle(*file, settings, clip, limbs[n]);
         require_even_frames(*file, settings, clip);
+        if (file->ground && limbs[n].name.kind == formats::LimbKind::leg) require_can_stand(*file, settings);
         Planner planner{settings, clip, limbs[n]};
         planner.goal();
         planner.pole();
@@ -291,7 +293,7 @@ std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan&
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         const LimbPlan& limb = plan.limbs[n];
         setups.push_back({limbs[n].rest, limb.features, limb.shoulder_order, limb.wrist_order, limb.fields,
-                          goal_plan_of(limb, limbs[n]), limb.region, limbs[n].mirrored});
+                          goal_plan_of(limb, limbs[n]), limb.region, limb.ground, limbs[n].mirrored});
     }
     return setups;
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/crowd/ground.h"
 #include "tools/crowd/limb_setup.h"
 #include "tools/formats/crowd_file.h"
 #include "tools/rig/limbs.h"
@@ -20,6 +21,8 @@ struct LimbPlan {
     swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
     std::vector<FixedField> fields;
     std::optional<swivel_region> region;
+    swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
+    std::vector<bool> contact;                       // then: in which frames of the clip the foot is on the ground
 
     std::optional<Eigen::Vector3d> target_point;              // in the clip
     Eigen::Vector3d target_offset = Eigen::Vector3d::Zero();  // added to targets; world axes
@@ -31,8 +34,8 @@ struct LimbPlan {
     bool holds_pole = false;                                  // the pole counts though it is the clip's own
     bool follows_pole = true;                                 // elbows go where the clip's go, unless limits forbid
 
-    bool blends_position() const { return weights[0] < 1; }  // the end is not at the target
-    bool blends_hand() const { return weights[1] < 1; }
+    // Nothing is asked of it that the clip does not do.
+    bool follows_clip() const { return !target_point && target_offset.isZero(0) && follows_pole; }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
     unsigned twist_count() const
     {
@@ -49,6 +52,8 @@ struct CrowdPlan {
     bool stagger = true;                             // characters start anywhere in the clip, or in the first `starts`
     std::size_t starts = 0;                          // frames of it; 0: all
     std::uint32_t budget_blocks = 0;                 // of 16 characters, solved in a frame; 0: all
+    std::optional<Ground> ground;                    // that legs stand on: see tools/feet/standing.h
+    double shift_wish = 0;                           // then: of a body of size 1
     std::vector<LimbPlan> limbs;                     // one for each limb solved
 };
 

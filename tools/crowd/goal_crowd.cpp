@@ -33,9 +33,13 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         group.shoulder_order = limbs[n].shoulder_order;
         group.wrist_order = limbs[n].wrist_order;
         if (limbs[n].region) group.region = &*limbs[n].region;
+        group.ground = limbs[n].ground;
+        group.plant.run = GOAL_PLANT_RUN;
     }
+    if (std::ranges::any_of(limbs, [](const LimbSetup& limb) { return limb.has(SWIVEL_WITH_FIT); }))
+        groups.push_back(swivel_default_fit_group_def()), groups.back().fit.half = GOAL_FIT_HALF;
     Crowd crowd(skeleton, characters, groups);
-    for (std::uint32_t n = 0; n < groups.size(); ++n)
+    for (std::uint32_t n = 0; n < limbs.size(); ++n)
         for (const FixedField& fixed : limbs[n].fields)
             check(swivel_write(crowd.get(), fixed.field, n, 0, characters, {fixed.value.data(), 0}));
     return crowd;
@@ -44,7 +48,8 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
 }  // namespace
 
 GoalCrowd::GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::span<const goal_source>>& sources,
-                     std::vector<goal_character> characters, std::uint32_t budget_blocks)
+                     std::vector<goal_character> characters, std::uint32_t budget_blocks, const Ground* ground,
+                     double frame_seconds)
     : limbs_(limbs),
       frame_count_(static_cast<std::uint32_t>(sources[0].size())),
       characters_(std::move(characters)),
@@ -52,7 +57,9 @@ GoalCrowd::GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::sp
       roots_(characters_.size()),
       inputs_(characters_.size() * limbs.size()),
       pose_size_(swivel_goal_pose_size(crowd_.get())),
-      budget_blocks_(budget_blocks)
+      budget_blocks_(budget_blocks),
+      ground_(ground),
+      frame_seconds_(static_cast<float>(frame_seconds))
 {
     poses_.resize(characters_.size() * pose_size_);
     std::size_t place = 0;
@@ -69,19 +76,27 @@ std::uint32_t GoalCrowd::clip_frame(std::uint32_t character) const
     return static_cast<std::uint32_t>((std::uint64_t{frame_} + characters_[character].start) % frame_count_);
 }
 
+float GoalCrowd::rise(std::uint32_t character) const
+{
+    if (!ground_) return 0;
+    const goal_character& who = characters_[character];
+    const goal_root& root = roots_[character];
+    const double height = who.place[1] + who.size * sources_[0][clip_frame(character)].root[1];
+    return static_cast<float>(root.place[1] + double{root.shift} - height);
+}
+
 void GoalCrowd::set_frame(std::uint32_t frame)
 {
     frame_ = frame;
     const auto limb_count = static_cast<std::uint32_t>(limbs_.size());
     for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-        swivel_goals(plans_.data(), sources_.data(), limb_count, frame_count_, frame, &characters_[begin], end - begin,
-                     &roots_[begin], &inputs_[std::size_t{begin} * limb_count]);
+        swivel_goals(plans_.data(), sources_.data(), limb_count, frame_count_, frame, grid(), heights(),
+                     &characters_[begin], end - begin, &roots_[begin], &inputs_[std::size_t{begin} * limb_count]);
     });
-    for (std::uint32_t limb = 0; limb < limb_count; ++limb) {
-        if (!has(limb, SWIVEL_NORMAL)) continue;
-        for (std::uint32_t n = 0; n < character_count(); ++n)
-            if (clip_frame(n) == 0) check(swivel_reset(crowd_.get(), limb, n, 1));
-    }
+    for (std::uint32_t n = 0; n < character_count(); ++n)
+        if (clip_frame(n) == 0)
+            for (std::uint32_t group = 0; group < swivel_group_count(crowd_.get()); ++group)
+                check(swivel_reset(crowd_.get(), group, n, 1));
 }
 
 void GoalCrowd::solve()
@@ -98,7 +113,8 @@ void GoalCrowd::solve()
         job.mask_word_count = static_cast<std::uint32_t>(active_.size());
     }
     began_ = true;
-    check(swivel_goals_solve(crowd_.get(), roots_.data(), inputs_.data(), poses_.data(), &job));
+    check(swivel_goals_solve(crowd_.get(), grid(), heights(), frame_seconds_, characters_.data(), roots_.data(),
+                             inputs_.data(), poses_.data(), &job));
 }
 
 std::array<float, 4> GoalCrowd::rotation(std::size_t limb, std::uint32_t character, std::size_t joint) const
@@ -109,13 +125,13 @@ std::array<float, 4> GoalCrowd::rotation(std::size_t limb, std::uint32_t charact
 
 bool GoalCrowd::has(std::size_t limb, swivel_field field) const
 {
-    return swivel_field_row_count(crowd_.get(), static_cast<std::uint32_t>(limb), field) > 0;
+    return swivel_field_row_count(crowd_.get(), group_of(limb, field), field) > 0;
 }
 
 void GoalCrowd::read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count,
                      swivel_out to) const
 {
-    check(swivel_read(crowd_.get(), field, static_cast<std::uint32_t>(limb), first, count, to));
+    check(swivel_read(crowd_.get(), field, group_of(limb, field), first, count, to));
 }
 
 void GoalCrowd::residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const
@@ -126,7 +142,7 @@ void GoalCrowd::residuals(std::size_t limb, std::uint32_t first, std::uint32_t c
 void GoalCrowd::restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers)
 {
     const std::size_t stride = numbers.size_bytes() / character_count();
-    check(swivel_write(crowd_.get(), field, static_cast<std::uint32_t>(limb), 0, character_count(),
+    check(swivel_write(crowd_.get(), field, group_of(limb, field), 0, character_count(),
                        {reinterpret_cast<const float*>(numbers.data()), stride}));
 }
 

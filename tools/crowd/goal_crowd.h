@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/crowd/ground.h"
 #include "tools/crowd/limb_setup.h"
 
 namespace swivel::tools {
@@ -21,8 +22,10 @@ class GoalCrowd {
 public:
     // limbs: 1 to GOAL_MOST_LIMBS. sources: of each limb, one for each frame of the clip. Both must outlive the crowd.
     // budget_blocks: blocks of 16 characters that a frame solves; 0: all.
+    // ground: what legs stand on; null: nothing. It must outlive the crowd, too. frame_seconds: from frame to frame.
     GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::span<const goal_source>>& sources,
-              std::vector<goal_character> characters, std::uint32_t budget_blocks);
+              std::vector<goal_character> characters, std::uint32_t budget_blocks, const Ground* ground,
+              double frame_seconds);
 
     std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
     std::span<const goal_character> characters() const { return characters_; }
@@ -35,6 +38,10 @@ public:
     void set_frame(std::uint32_t frame);
     // Where all places of a character are counted from.
     const goal_root& root(std::uint32_t character) const { return roots_[character]; }
+    // Whether legs stand on ground: then bodies are raised and shifted.
+    bool has_ground() const { return ground_ != nullptr; }
+    // How much higher a character's joints hang than its place and the clip say: by the ground, and by its shift.
+    float rise(std::uint32_t character) const;
     // What a limb is asked for in this frame: it may be changed until solve().
     goal_input& input(std::size_t limb, std::uint32_t character) { return inputs_[character * limbs_.size() + limb]; }
     const goal_input& input(std::size_t limb, std::uint32_t character) const
@@ -52,7 +59,8 @@ public:
 
     // The local rotation of one of a limb's joints, by its place among GOAL_JOINTS: x, y, z, w in the joint's own axes.
     std::array<float, 4> rotation(std::size_t limb, std::uint32_t character, std::size_t joint) const;
-    // Whether the limb has a field; and what it is in rows, of some characters, as swivel_read() has it.
+    // Whether the limb has a field; and what it is in rows, of some characters, as swivel_read() has it. The body's
+    // shift is each limb's.
     bool has(std::size_t limb, swivel_field field) const;
     void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
     // As swivel_residuals() has them.
@@ -63,6 +71,13 @@ public:
     std::uint64_t digest() const { return swivel_goals_digest(crowd_.get(), poses_.data()); }
 
 private:
+    std::uint32_t group_of(std::size_t limb, swivel_field field) const
+    {
+        return static_cast<std::uint32_t>(field == SWIVEL_SHIFT ? limbs_.size() : limb);
+    }
+    const goal_ground* grid() const { return ground_ ? &ground_->grid : nullptr; }
+    const float* heights() const { return ground_ ? ground_->heights.data() : nullptr; }
+
     std::span<const LimbSetup> limbs_;
     std::vector<goal_plan> plans_;
     std::vector<const goal_source*> sources_;  // by limb
@@ -75,6 +90,8 @@ private:
     std::vector<std::size_t> pose_place_;  // by limb, within a character's
     std::size_t pose_size_;
     std::uint32_t frame_ = 0, budget_blocks_;
+    const Ground* ground_;
+    float frame_seconds_;
     std::vector<float> urgency_;         // of blocks
     std::vector<std::uint32_t> active_;  // bits of characters that were solved; empty: all
     bool began_ = false;

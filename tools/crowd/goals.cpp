@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "tools/crowd/ground.h"
+
 namespace {
 
 struct Vec3 {
@@ -63,7 +65,7 @@ Vec3 pole_of(const goal_plan& plan, const goal_source& from, const goal_characte
     return plan.pole == GOAL_POLE_NORMAL ? cross(vec3(from.wrist), elbow) : elbow;
 }
 
-void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, const goal_character& who,
+void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, const goal_character& who, bool on_ground,
           goal_input& input)
 {
     const goal asked = swivel_goal(&plan, &from, &who);
@@ -73,6 +75,7 @@ void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, cons
     copy(asked.hand, input.hand);
     copy(plan.weights, input.weights);
     if (!plan.has_pole_fixed && !plan.holds_pole) input.weights[2] = 0;
+    if (on_ground && plan.goes_along) input.weights[0] = input.weights[1] = 0;
     store(vec3(from.origin) - root - turned(from.parent, vec3(plan.shoulder_place)), input.places[0]);
     copy(plan.shoulder_place, input.places[1]);
     for (int bone = 0; bone < 2; ++bone) store(from.lengths[bone] * vec3(plan.bones[bone]), input.places[2 + bone]);
@@ -81,11 +84,31 @@ void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, cons
     copy(from.elbow_local, input.rotations[2]);
     copy(from.wrist_local, input.rotations[3]);
     input.rotations[4][3] = 1;
+    input.contact = from.contact;
+}
+
+// What a solve's feet stand on. Positions of probes are from the roots.
+struct Standing {
+    const goal_ground* ground;
+    const float* heights;
+    const goal_root* roots;
+};
+void sample(const swivel_probes* probes, void* user)
+{
+    const Standing& on = *static_cast<const Standing*>(user);
+    for (uint32_t n = 0; n < probes->count; ++n) {
+        const double(&root)[3] = on.roots[probes->bodies[n]].place;
+        const float(&probe)[3] = probes->places[n];
+        const swivel::tools::GroundPoint point =
+            swivel::tools::ground_at(*on.ground, on.heights, root[0] + double{probe[0]}, root[2] + double{probe[2]});
+        store({double{probe[0]}, point.height - root[1], double{probe[2]}}, probes->grounds[n]);
+        store({-point.slope_x, 1, -point.slope_z}, probes->normals[n]);
+    }
 }
 
 // What a group's limb reads.
 struct GroupInputs {
-    swivel_frame_field fields[4];
+    swivel_frame_field fields[5];
     swivel_frame frame;
 };
 void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& first, size_t stride, GroupInputs& to)
@@ -96,7 +119,8 @@ void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& fi
     } inputs[] = {{SWIVEL_TARGET, first.target},
                   {SWIVEL_POLE, first.pole},
                   {SWIVEL_HAND, first.hand},
-                  {SWIVEL_WEIGHTS, first.weights}};
+                  {SWIVEL_WEIGHTS, first.weights},
+                  {SWIVEL_CONTACT, &first.contact}};
     to.frame = swivel_default_frame();
     to.frame.fields = to.fields;
     for (const auto& input : inputs)
@@ -107,6 +131,29 @@ void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& fi
 uint32_t twist_bones_of(const swivel_crowd* crowd, uint32_t group)
 {
     return swivel_field_row_count(crowd, group, SWIVEL_TWIST_BONES) / 4;
+}
+
+uint32_t limb_count_of(const swivel_crowd* crowd)
+{
+    uint32_t count = 0;
+    while (swivel_field_row_count(crowd, count, SWIVEL_SHOULDER) > 0) ++count;
+    return count;
+}
+
+// Tells all roots their bodies' shifts.
+swivel_status put_shifts(const swivel_crowd* crowd, uint32_t group, goal_root* roots)
+{
+    constexpr uint32_t kMany = 64;
+    float shifts[kMany][3];
+    const uint32_t count = swivel_group_limb_count(crowd, group);
+    for (uint32_t first = 0; first < count; first += kMany) {
+        const uint32_t some = count - first < kMany ? count - first : kMany;
+        if (const swivel_status status =
+                swivel_read(crowd, SWIVEL_SHIFT, group, first, some, {shifts, sizeof shifts[0]}))
+            return status;
+        for (uint32_t n = 0; n < some; ++n) roots[first + n].shift = shifts[n][0];
+    }
+    return SWIVEL_OK;
 }
 
 }  // namespace
@@ -124,31 +171,49 @@ goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_ch
 }
 
 void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame_count,
-                  uint32_t frame, const goal_character* characters, uint32_t count, goal_root* roots,
-                  goal_input* inputs)
+                  uint32_t frame, const goal_ground* ground, const float* heights, const goal_character* characters,
+                  uint32_t count, goal_root* roots, goal_input* inputs)
 {
     for (uint32_t n = 0; n < count; ++n) {
-        const uint64_t at = (uint64_t{frame} + characters[n].start) % frame_count;
+        goal_character who = characters[n];
+        const uint64_t at = (uint64_t{frame} + who.start) % frame_count;
         const Vec3 root = vec3(sources[0][at].root);
-        store(vec3(characters[n].place) + characters[n].size * root, roots[n].place);
-        roots[n].size = static_cast<float>(characters[n].size);
-        roots[n].reserved = 0;
+        Vec3 root_w = vec3(who.place) + who.size * root;
+        if (ground) {
+            const double height = swivel::tools::ground_at(*ground, heights, root_w.x, root_w.z).height;
+            who.place[1] += height - root_w.y;
+            root_w.y = height;
+        }
+        store(root_w, roots[n].place);
+        roots[n].size = static_cast<float>(who.size);
+        roots[n].shift = 0;
         for (uint32_t limb = 0; limb < limb_count; ++limb)
-            fill(plans[limb], sources[limb][at], root, characters[n], inputs[n * limb_count + limb]);
+            fill(plans[limb], sources[limb][at], root, who, ground, inputs[n * limb_count + limb]);
     }
 }
 
-swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_root* roots, const goal_input* inputs, float* poses,
-                                 swivel_job* job)
+double swivel_ground_height(const goal_ground* ground, const float* heights, double x, double z)
+{
+    return swivel::tools::ground_at(*ground, heights, x, z).height;
+}
+
+swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground, const float* heights, float seconds,
+                                 const goal_character* characters, goal_root* roots, const goal_input* inputs,
+                                 float* poses, swivel_job* job)
 {
     constexpr size_t kMostJoints = size_t{GOAL_MOST_LIMBS} * (size_t{GOAL_JOINTS} + SWIVEL_MOST_TWIST_BONES);
     constexpr size_t kRotation = 4 * sizeof(float), kPlace = 3 * sizeof(float);
-    const uint32_t limb_count = swivel_group_count(crowd);
+    const uint32_t limb_count = limb_count_of(crowd);
     if (limb_count > GOAL_MOST_LIMBS) return SWIVEL_INVALID_ARGUMENT;
+    const bool has_shift = swivel_group_count(crowd) > limb_count;
     const size_t stride = limb_count * sizeof(goal_input);
     size_t rotations[kMostJoints], places[kMostJoints], results[kMostJoints], joint = 0;
     GroupInputs lists[GOAL_MOST_LIMBS];
-    swivel_frame frames[GOAL_MOST_LIMBS];
+    swivel_frame frames[GOAL_MOST_LIMBS + 1];
+    const swivel_frame_field wish{SWIVEL_SHIFT_WISH, const_cast<float*>(&characters[0].wish), sizeof(goal_character)};
+    frames[limb_count] = swivel_default_frame();
+    frames[limb_count].fields = &wish;
+    frames[limb_count].field_count = 1;
     for (uint32_t limb = 0; limb < limb_count; ++limb) {
         list_inputs(crowd, limb, inputs[limb], stride, lists[limb]);
         frames[limb] = lists[limb].frame;
@@ -169,18 +234,25 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_root* roots, co
     pose.results = {poses, joint * kRotation, 0, results};
     pose.root_position = {roots[0].place, sizeof(goal_root)};
     pose.root_scale = {&roots[0].size, sizeof(goal_root)};
+    pose.time = {&seconds, 0};
+    pose.support_position = {characters[0].place, sizeof(goal_character)};
+    Standing standing{ground, heights, roots};
     job->frames = frames;
     job->pose = &pose;
+    job->sample = ground ? sample : nullptr;
+    job->sample_user = &standing;
     const swivel_status status = swivel_solve(crowd, job);
     job->frames = nullptr;
     job->pose = nullptr;
-    return status;
+    job->sample = nullptr;
+    job->sample_user = nullptr;
+    return status == SWIVEL_OK && has_shift ? put_shifts(crowd, limb_count, roots) : status;
 }
 
 uint32_t swivel_goal_pose_size(const swivel_crowd* crowd)
 {
     uint32_t size = 0;
-    for (uint32_t limb = 0; limb < swivel_group_count(crowd); ++limb)
+    for (uint32_t limb = 0; limb < limb_count_of(crowd); ++limb)
         size += 4 * (GOAL_JOINTS + twist_bones_of(crowd, limb));
     return size;
 }

@@ -22,6 +22,8 @@ typedef struct goal_source {
     double root[3];                                     // where the pose hangs; the same of all limbs
     float parent[4];                                    // of the joint above
     float shoulder[4], elbow_local[4], wrist_local[4];  // the clip's own pose between the two bones
+    float contact;  // of a leg that stands: 1 while the clip has its foot on the ground, else 0
+    uint32_t reserved;
 } goal_source;
 
 // A character of the crowd; the first is the clip's own. What is at x in the clip is at place + size * x.
@@ -29,7 +31,7 @@ typedef struct goal_character {
     double size;  // one that a float holds
     double place[3];
     uint32_t start;  // frame of the clip that it starts at
-    uint32_t reserved;
+    float wish;      // of its shift, where the crowd has shifts
 } goal_character;
 
 // What a goal's pole is.
@@ -47,6 +49,8 @@ typedef struct goal_plan {
     uint32_t pole;                              // a goal_pole
     uint32_t holds_pole;                        // 1: the clip's own pole counts, too; 0: the elbow goes as in the clip
     uint32_t hand_is_local;  // 1: the hand goal is the wrist's own local rotation, for SWIVEL_WITH_AIM
+    uint32_t goes_along;     // 1: on ground its target and hand do not count, so it moves with its body
+    uint32_t reserved;
 } goal_plan;
 
 // What a limb is asked for, in the world. Pole and hand are as the plan says.
@@ -54,11 +58,19 @@ typedef struct goal {
     double target[3], pole[3], hand[4];
 } goal;
 
-// Where a character's pose hangs: all its places are from here.
+// Ground as it lies: a grid of heights, whose middle is at a place in the world. Columns go along x, rows along z.
+// Beyond its edges the ground goes on level, as high as there.
+typedef struct goal_ground {
+    double size[3];          // along x; of a height of 1; along z; above 0
+    double place[3];         // of the middle, where the height is 0
+    uint32_t columns, rows;  // 2 or more; 0: all is level, as high as the place
+} goal_ground;
+
+// Where a character's pose hangs: all places in the solver's rows are from here.
 typedef struct goal_root {
-    double place[3];  // in the world
+    double place[3];  // in the world, as the clip and the ground have it
     float size;
-    uint32_t reserved;
+    float shift;  // by the last solve: the body hangs so much higher
 } goal_root;
 
 // What the solver takes of a limb: fields of these names, and the incoming pose of its joints as GOAL_JOINTS has them.
@@ -68,35 +80,47 @@ typedef struct goal_input {
     float hand[4], weights[3];
     float places[4][3];
     float rotations[5][4];  // the last one, no turn, is each twist bone's: the clip has none of these
-    float reserved;
+    float contact;          // as the source's
 } goal_input;
 
-static_assert(sizeof(goal_source) == 208 && sizeof(goal_character) == 40 && sizeof(goal_plan) == 200 &&
-              sizeof(goal_root) == 32 && sizeof(goal_input) == 208);
+static_assert(sizeof(goal_source) == 216 && sizeof(goal_character) == 40 && sizeof(goal_plan) == 208 &&
+              sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 208);
 
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
 // them.
 enum { GOAL_JOINTS = 4 };
 enum { GOAL_MOST_LIMBS = 8 };  // of a character
 
+// Of groups that stand on ground: swivel_plant's run and swivel_fit's half, where they are not as usual. A body comes
+// down sooner than usual, because hills come as fast as steps.
+static const float GOAL_PLANT_RUN = 1, GOAL_FIT_HALF = 0.05f;
+
 // The goal of a limb of a character. Any thread; no allocation.
 goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 
 // Fills what count characters are asked for: roots has count of them, inputs [character][limb]. plans: of each limb.
-// sources: of each limb, one for each frame of the clip. Character c shows frame (frame + start) % frame_count. Any
-// thread; no allocation.
+// sources: of each limb, one for each frame of the clip. Character c shows frame (frame + start) % frame_count.
+// ground, heights: unless null, each character is raised to where the ground is below its root. Any thread; no
+// allocation.
 void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame_count,
-                  uint32_t frame, const goal_character* characters, uint32_t count, goal_root* roots,
-                  goal_input* inputs);
+                  uint32_t frame, const goal_ground* ground, const float* heights, const goal_character* characters,
+                  uint32_t count, goal_root* roots, goal_input* inputs);
 
-// Solves a crowd of bodies that has a group for each limb, and joints as GOAL_JOINTS says.
-// roots, inputs: of all bodies.
+// How high the ground is in the world. Any thread; no allocation.
+double swivel_ground_height(const goal_ground* ground, const float* heights, double x, double z);
+
+// Solves a crowd of bodies that has a group for each limb, and joints as GOAL_JOINTS says. After them it may have a
+// group of shifts.
+// characters, roots, inputs: of all bodies. Roots get the shifts, if the crowd has some.
+// ground, heights: what legs stand on; null without.
+// seconds: since the last solve.
 // poses: become the local rotations as solved, swivel_goal_pose_size() floats for each body. A limb has x, y, z, w of
 // each of its joints. Joints that are not solved stay as they are, so start with zeros.
-// job: which bodies, and on which threads. Its frames and pose are overwritten.
-// It fails as swivel_solve() does. It also fails for more than GOAL_MOST_LIMBS groups.
-swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_root* roots, const goal_input* inputs, float* poses,
-                                 swivel_job* job);
+// job: which bodies, and on which threads. Its frames, pose and sampling are overwritten.
+// It fails as swivel_solve() does. It also fails for more than GOAL_MOST_LIMBS limbs.
+swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground, const float* heights, float seconds,
+                                 const goal_character* characters, goal_root* roots, const goal_input* inputs,
+                                 float* poses, swivel_job* job);
 uint32_t swivel_goal_pose_size(const swivel_crowd* crowd);
 
 // Of all results: starts as swivel_digest(), then takes the poses of all bodies, as that takes a lane's numbers.

@@ -26,8 +26,9 @@ struct LimbSetup {
     swivel_euler_order shoulder_order, wrist_order;
     std::vector<FixedField> fields;
     goal_plan goals;
-    std::optional<swivel_region> region;  // with SWIVEL_WITH_REGION
-    bool mirrored = false;                // the joints' axes, as solved, have x turned over
+    std::optional<swivel_region> region;             // with SWIVEL_WITH_REGION
+    swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
+    bool mirrored = false;                           // the joints' axes, as solved, have x turned over
 
     // A rotation as solved in the joints' own axes.
     std::array<float, 4> own(std::span<const float, 4> q) const

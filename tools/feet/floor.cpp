@@ -25,14 +25,15 @@ double Floor::hill(const Vector3d& place_w) const
 {
     if (!hills) return 0;
     const GridAxes axes(up_w);
-    return ground_at(*hills, place_w.dot(axes.x_w), place_w.dot(axes.z_w)).height;
+    return ground_at(hills->grid, hills->heights.data(), place_w.dot(axes.x_w), place_w.dot(axes.z_w)).height;
 }
 
 Vector3d Floor::normal_w(const Vector3d& place_w) const
 {
     if (!hills) return up_w;
     const GridAxes axes(up_w);
-    const GroundPoint point = ground_at(*hills, place_w.dot(axes.x_w), place_w.dot(axes.z_w));
+    const GroundPoint point =
+        ground_at(hills->grid, hills->heights.data(), place_w.dot(axes.x_w), place_w.dot(axes.z_w));
     return (up_w - point.slope_x * axes.x_w - point.slope_z * axes.z_w).normalized();
 }
 

@@ -234,9 +234,20 @@ void read_crowd(TomlTable table, CrowdFile& to)
     table.finish();
 }
 
+void read_ground(TomlTable table, CrowdFile& to)
+{
+    GroundSettings ground{table.line(), table.text("heights"), table.vector("size"), table.vector("middle")};
+    if (ground.heights && !ground.size) table.fail("size", "is missing; write how large the picture is: [x, y, z]");
+    if (ground.size && !ground.heights) table.fail("size", "is of a picture; name it by heights, or take this out");
+    if (ground.size && !(ground.size->value.array() > 0).all()) table.fail("size", "is not above 0; write [x, y, z]");
+    table.finish();
+    if (table.is_there()) to.ground = std::move(ground);
+}
+
 void read_root(TomlTable root, CrowdFile& to)
 {
     read_crowd(root.table("crowd"), to);
+    read_ground(root.table("ground"), to);
     TomlTable budget = root.table("budget");
     to.budget_blocks = budget.whole("blocks", 1, UINT32_MAX);
     budget.finish();

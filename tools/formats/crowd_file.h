@@ -88,6 +88,14 @@ struct LimbSection {
 // Frames between which the clip goes on and on: the first, and the one that is as the first. Nothing: they are found.
 using LoopFrames = std::optional<std::array<std::size_t, 2>>;
 
+// The table [ground].
+struct GroundSettings {
+    std::size_t line = 0;
+    Maybe<std::string> heights;     // a picture; a relative path starts at the file's folder
+    Maybe<Eigen::Vector3d> size;    // of the picture: along x, of white, along z; above 0
+    Maybe<Eigen::Vector3d> middle;  // where the picture's middle lies, at black
+};
+
 struct CrowdFile {
     std::filesystem::path path;
     Maybe<std::int64_t> characters, seed;
@@ -97,6 +105,7 @@ struct CrowdFile {
     Maybe<LoopFrames> loop;
     Maybe<std::string> limbs, targets;  // targets as written; a relative path starts at the file's folder
     Maybe<std::int64_t> budget_blocks;
+    std::optional<GroundSettings> ground;
     std::vector<LimbSection> sections;  // those in the file, the general before the special
 };
 

@@ -57,6 +57,7 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
     crowd.clip_frames = crowd.frame_count;
     crowd.character_count = plan.characters;
     crowd.budget_blocks = plan.budget_blocks;
+    crowd.ground = plan.ground;
     for (const std::size_t n : drawn)
         crowd.joints.push_back({clip.joints[n].name, drawn_at(clip, drawn, clip.joints[n].parent)});
     crowd.positions = positions_of(clip, drawn);

@@ -8,6 +8,7 @@
 
 #include "tools/cli/command_error.h"
 #include "tools/crowd/crowd_checks.h"
+#include "tools/feet/standing.h"
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/solve_files.h"
@@ -112,6 +113,11 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     job.frame_count = job.clip_frames = clip.frame_count;
     if (job.crowd && job.crowd->loop) go_round(options, file, job);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
+    if (job.crowd && job.crowd->ground) {
+        stand_on_ground(*job.crowd, clip, job.limbs, job.plan);
+        if (job.crowd->ground->heights)
+            job.heights = (job.crowd->path.parent_path() / job.crowd->ground->heights->value).string();
+    }
     if (job.loop) job.plan.starts = job.loop->loop.length();
     if (options.characters) job.plan.characters = *options.characters;
     if (clip.frame_time == 0 && job.plan.characters > 1)

@@ -16,6 +16,7 @@
 #include "tools/cli/progress.h"
 #include "tools/feet/turn_legs.h"
 #include "tools/formats/error.h"
+#include "tools/formats/height_picture.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
 #include "tools/rig/vectors.h"
@@ -73,7 +74,8 @@ std::optional<Ground> read_ground(const FeetOptions& options)
 {
     if (options.ground.empty()) return std::nullopt;
     const std::vector<double> size = numbers_of(options.ground_size);
-    return Ground{formats::read_height_picture(options.ground), size[0], size[1], size[2]};
+    formats::HeightPicture picture = formats::read_height_picture(options.ground);
+    return Ground{{{size[0], size[1], size[2]}, {0, 0, 0}, picture.columns, picture.rows}, std::move(picture.heights)};
 }
 
 // The legs that bind, and where they go.

@@ -84,7 +84,7 @@ void print_feet(const FeetRun& run, std::FILE* to)
         say(to, "contact  as {} says\n", shown_file(run.contacts_from));
     if (run.floor.hills)
         say(to, "ground   {}, {} x {} pixels; the clip's own floor is level, its feet stand at {:.4g}\n",
-            shown_file(run.ground), run.floor.hills->picture.columns, run.floor.hills->picture.rows, run.floor.level);
+            shown_file(run.ground), run.floor.hills->grid.columns, run.floor.hills->grid.rows, run.floor.level);
     else
         say(to, "ground   level, feet stand at {:.4g}\n", run.floor.level);
     say(to, "body     moved by {}\n", shown(run.motion.carrier));

@@ -151,6 +151,7 @@ private:
             if (field == SWIVEL_ELBOW) row.elbow[n] = number(n);
             if (field == SWIVEL_WRIST) row.wrist[n] = number(n);
             if (field == SWIVEL_STRETCH) extra.stretch = number(n);
+            if (field == SWIVEL_SHIFT && n == 3) row.place[1] += double{number(n)};
             if (field == SWIVEL_TWIST_BONES) extra.twist[n / 4][n % 4] = number(n);
         }
     }

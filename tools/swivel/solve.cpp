@@ -45,8 +45,8 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     std::optional<formats::TargetsCsv> exported;
     if (!options.export_targets.empty()) exported.emplace(options.export_targets);
     // New frames where the clip's own do not fit, else the file's own keys of the limbs.
-    const bool is_whole =
-        kind == OutKind::motion && (job.loop || job.plan.characters > 1 || job.frame_count < job.clip_frames);
+    const bool is_whole = kind == OutKind::motion &&
+                          (job.loop || job.plan.characters > 1 || job.frame_count < job.clip_frames || job.plan.ground);
     MotionKeys keys(job.limbs, job.plan);
     std::optional<WholeKeys> whole;
     if (is_whole) whole.emplace(file.clip(), job.limbs, job.plan);
@@ -118,7 +118,7 @@ void run_solve(const SolveOptions& options)
     MotionFile file(options.file, options.motion);
     if (is_motion) file.require_can_write(options.out);
     CrowdJob job = make_job(options, choice, file);
-    require_own_files(options, file, job.targets);
+    require_own_files(options, file, job.targets, job.heights);
     if (!options.json && !options.quiet) print_clip(reports, options, file, job);
 
     const ThreadLimit limit(options.threads);

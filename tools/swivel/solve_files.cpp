@@ -93,12 +93,14 @@ void require_not_beside(std::span<const std::string> outputs, const MotionFile& 
                 refuse(output, "a buffer or image of the clip");
 }
 
-void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets)
+void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets,
+                       const std::string& heights)
 {
     const std::string outputs[] = {options.out, options.export_targets, options.view};
     const ReadFile read[] = {{options.file, "the clip"},
                              {targets == "clip" ? "" : targets, "the table of targets"},
-                             {options.crowd, "the crowd file"}};
+                             {options.crowd, "the crowd file"},
+                             {heights, "the picture of heights"}};
     require_own_outputs(outputs, read);
     require_not_beside(outputs, clip);
 }

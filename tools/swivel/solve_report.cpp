@@ -52,6 +52,12 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
         if (count > 0)
             counts += fmt::format(", {} {}{}", count * characters, kind_name(kind), count * characters == 1 ? "" : "s");
     }
+    if (const auto& ground = job.plan.ground)
+        say(to, "ground   {}; feet stand, bodies hang lower by {:.3g}\n",
+            job.heights.empty()
+                ? "level"
+                : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
+            -job.plan.shift_wish);
     say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
         job.targets == "clip" ? "the clip" : shown_file(job.targets),
         options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
@@ -69,6 +75,7 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
                                {"seed", job.plan.seed},
                                {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
+    if (job.plan.ground) out["ground"] = job.heights.empty() ? "level" : job.heights;
     if (job.loop) out["loop"] = {job.loop->loop.first, job.loop->loop.last};
     if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;
     for (const Limb& limb : job.limbs) {

@@ -125,7 +125,7 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
             options.crowd.crowd,
             "has a budget, which is for live crowds: a cache solves all limbs; leave [budget] out");
     CachedCrowd crowd = cached_clip({title_of(options.crowd.file), file.describe()}, clip, job.limbs, job.plan,
-                                    ClipMotion(clip, job.limbs));
+                                    ClipMotion(clip, job.limbs, job.plan));
     crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);
     crowd.has_given = job.given->count(job.frame_count) > 0;
     crowd.has_poses = !options.no_poses;

@@ -68,7 +68,8 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     ViewPage page(options.view);
     const std::vector<LimbSetup> setups = setups_of(crowd);
     const ThreadLimit limit(options.threads);
-    GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0);
+    GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0, ground_of(crowd),
+                     crowd.frame_seconds);
     GivenGoals goals(cache);
     const std::uint32_t frames = crowd.clip_frames;  // the page plays the clip round and round
     Progress progress("frames", frames, options.quiet);

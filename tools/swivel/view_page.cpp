@@ -70,6 +70,9 @@ Json json_of_limb(const CachedLimb& limb, const LimbSkeleton::OfLimb& joints)
         swivel_region region = *setup.region;
         out["region"] = base64_of(std::span<const char>(bytes_behind_size(region)));
     }
+    const swivel_ground& ground = setup.ground;
+    if (setup.has(SWIVEL_WITH_GROUND))
+        out["ground"] = {{"toeClearance", ground.toe_clearance}, {"heelClearance", ground.heel_clearance}};
     for (const FixedField& fixed : setup.fields)
         out["fixed"].push_back({{"field", fixed.field}, {"value", fixed.value}});
     return out;
@@ -137,6 +140,9 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd)
               {"budget_blocks", cached.budget_blocks},
               {"given", base64_of(std::span<const Given>(given_))},
               {"digests", Json::array()}};
+    if (const auto& ground = cached.ground)
+        page["ground"] = {{"grid", base64_of(std::span(&ground->grid, 1))},
+                          {"heights", base64_of(std::span(ground->heights))}};
     const LimbSkeleton skeleton = skeleton_of(crowd.limbs());
     page["skeleton"] = {
         {"parents", skeleton.parents}, {"translations", skeleton.translations}, {"rotations", skeleton.rotations}};

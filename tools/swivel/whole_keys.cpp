@@ -57,9 +57,11 @@ WholeKeys::WholeKeys(const Clip& clip, std::span<const Limb> limbs, const CrowdP
             parts.push_back({limb, 3, joint_at(clip, limbs[limb].upper()).parent});
     }
     for (const Part& part : parts) has[static_cast<std::size_t>(part.joint)] = true;
+    if (plan.ground)
+        for (raised_ = limbs[0].upper(); joint_at(clip, raised_).parent >= 0;) raised_ = joint_at(clip, raised_).parent;
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
         if (has[n] || turns(clip, n)) turning_.push_back(static_cast<int>(n));
-        if (moves(clip, n)) moving_.push_back(static_cast<int>(n));
+        if (moves(clip, n) || raised_ == static_cast<int>(n)) moving_.push_back(static_cast<int>(n));
     }
     for (const Part& part : parts)
         solved_.push_back({part.limb, part.part,
@@ -96,9 +98,12 @@ void WholeKeys::add(const ClipCrowd& crowd)
         const std::span rotations = std::span(rotations_).subspan(c * turning_.size(), turning_.size());
         for (std::size_t n = 0; n < turning_.size(); ++n)
             rotations[n].push_back(clip_.rotation[frame * clip_.joints.size() + static_cast<std::size_t>(turning_[n])]);
-        for (std::size_t n = 0; n < moving_.size(); ++n)
-            places_[c * moving_.size() + n].push_back(
-                formats::local_translation(clip_, frame, static_cast<std::size_t>(moving_[n])));
+        const GoalCrowd& solved = crowd.goal_crowd();
+        for (std::size_t n = 0; n < moving_.size(); ++n) {
+            Vector3d place = formats::local_translation(clip_, frame, static_cast<std::size_t>(moving_[n]));
+            if (moving_[n] == raised_) place.y() += double{solved.rise(c)} / solved.characters()[c].size;
+            places_[c * moving_.size() + n].push_back(place);
+        }
         for (const Solved& each : solved_) {
             const formats::PoseRow row = crowd.pose(each.limb, c);
             const auto& q = each.part == 0 ? row.shoulder : each.part == 1 ? row.elbow : row.wrist;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The poses of whole characters, kept for a file of motion with frames of its own: limbs as solved, all else as the
-// clip has it in the frame that the character shows.
+// clip has it in the frame that the character shows, raised with its ground.
 #pragma once
 
 #include <span>
@@ -39,6 +39,7 @@ private:
     const formats::Clip& clip_;
     std::uint32_t characters_;
     std::vector<int> turning_, moving_;  // joints that have keys of rotation, of translation
+    int raised_ = -1;                    // the joint that the ground raises, with all that hangs from it; -1: none
     std::vector<Solved> solved_;
     std::vector<std::vector<Eigen::Quaterniond>> rotations_;  // [character * turning joints + n][frame]
     std::vector<std::vector<Eigen::Vector3d>> places_;        // [character * moving joints + n][frame]

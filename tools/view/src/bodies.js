@@ -52,8 +52,8 @@ function handFromArm({ swivel, skeleton }, { chain }) {
 }
 
 export class Bodies {
-    /** scale: metres of the scene for a unit of the clip. mostTexels: of a side of a texture. */
-    constructor(stage, figure, scale, mostTexels) {
+    /** scale: metres of the scene for a unit of the clip. mostTexels: of a side of a texture. ground: its uniforms. */
+    constructor(stage, figure, scale, mostTexels, ground) {
         this.stage = stage;
         this.figure = figure;
         this.mostTexels = mostTexels;
@@ -71,7 +71,9 @@ export class Bodies {
             uDrawn: 1, uExtra: 0, uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
             uSky: rgb("#ffffff"), uEarth: rgb("#888888"), uBackground: rgb("#ffffff"), uShade: rgb("#cccccc"),
         };
+        this.shared.uRises = floatTexture("the characters' heights", new Float32Array(4 * characters.length), mostTexels);
         for (const name of Object.keys(this.shared)) this.shared[name] = { value: this.shared[name] };
+        Object.assign(this.shared, ground);
         this.addBody();
         this.limbs = stage.limbs.map((limb) => this.addLimb(limb));
     }
@@ -110,14 +112,14 @@ export class Bodies {
             drawn.uniforms[name].value = value;
         }
     }
-    /** A mesh, and its shadow. Ground and shadows are drawn before all bodies and have no depth, because they lie in one plane. */
+    /** A mesh, and its shadow. Shadows are drawn after the ground and before all bodies, and have no depth, because they lie on it. */
     add(partCount, own, vertex, fragment) {
         const uniforms = { ...this.shared, ...own };
         for (const shadow of [false, true]) {
             const material = new ShaderMaterial({
                 uniforms, glslVersion: GLSL3, defines: { FLAG_COLOURS: flagMasks().length, ...(shadow && { SHADOW: "" }) },
                 vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
-                depthWrite: !shadow,
+                depthWrite: !shadow, polygonOffset: shadow, polygonOffsetFactor: -2, polygonOffsetUnits: -2,
             });
             const mesh = new Mesh(capsules(partCount, shadow), material);
             mesh.frustumCulled = false;
@@ -132,8 +134,15 @@ export class Bodies {
         this.extra = wanted >= drawnCount ? wanted : null;
         this.shared.uExtra.value = this.extra ?? 0;
         this.shared.uFrame.value = this.stage.frame;
+        this.takeRises();
         for (const drawn of this.limbs) this.takeRows(drawn);
         for (const mesh of this.meshes) mesh.geometry.instanceCount = drawnCount + (this.extra === null ? 0 : 1);
+    }
+    takeRises() {
+        const { rises } = this.stage, texture = this.shared.uRises.value;
+        if (!rises) return;
+        texture.image.data.set(rises);
+        texture.needsUpdate = true;
     }
     choose(limb, character) {
         for (const drawn of this.limbs) drawn.uniforms.uChosen.value = drawn.limb === limb ? character : -1;

@@ -5,6 +5,9 @@ void main() {
     vec4 bone = texel(uBones, int(part));
     int character = characterOf(gl_InstanceID);
     vec4 place = placeOf(character);
-    vec3 a = place.xyz + jointOf(character, int(bone.x)), b = place.xyz + jointOf(character, int(bone.y));
+    vec2 rises = risesOf(character);
+    vec3 at = place.xyz + vec3(0.0, rises.x, 0.0);
+    vec3 a = at + jointOf(character, int(bone.x)), b = at + jointOf(character, int(bone.y));
+    floorAt = rises.y;
     putCapsule(a, b, place.w * bone.z, place.w * bone.w);
 }

@@ -3,11 +3,12 @@
 // The page's binary data: base64 of C structures, as tools/crowd/goals.h and include/swivel/swivel.h lay them out.
 
 /** Bytes of each structure. */
-export const SIZE = { character: 40, source: 208, plan: 200, root: 32, input: 208, given: 80 };
+export const SIZE = { character: 40, source: 216, plan: 208, ground: 56, root: 32, input: 208, given: 80 };
 
-/** Where members of a goal_plan begin, and the goals of a goal_input. */
+/** Where members of a goal_plan begin, the goals of a goal_input, and the shift of a goal_root. */
 export const PLAN = { targetOffset: 24, weights: 168, hasFixedPole: 184 };
 export const INPUT = { target: 0, pole: 24, hand: 48, weights: 64 };
+export const ROOT_SHIFT = 28;
 
 /** How many bytes a text stands for. */
 export const byteCountOf = (base64) => base64.length / 4 * 3 - (base64.endsWith("==") ? 2 : base64.endsWith("=") ? 1 : 0);
@@ -29,6 +30,12 @@ export function charactersOf(bytes) {
         const at = n * SIZE.character, double = (place) => view.getFloat64(at + 8 * place, true);
         return { size: double(0), place: [double(1), double(2), double(3)], start: view.getUint32(at + 32, true) };
     });
+}
+
+/** A goal_ground: how large it is, where its middle is, and how many heights it has that way. */
+export function gridOf(bytes) {
+    const doubles = new Float64Array(bytes.buffer, 0, 6), [columns, rows] = new Uint32Array(bytes.buffer, 48, 2);
+    return { size: Array.from(doubles.subarray(0, 3)), middle: Array.from(doubles.subarray(3)), columns, rows };
 }
 
 /** Of a limb's goal_source in each frame: its hand's rotation, its bones' lengths, its shoulder, and the figure's root, all in the world. */

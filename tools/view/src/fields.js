@@ -6,6 +6,7 @@ import { Feature, Field, OnBadInput } from "swivel-wasm/layout.js";
 
 const NAMES = new Map(Object.entries(Field).map(([name, field]) => [field, name]));
 const ALL = [1, 1, 1];  // weights that say nothing
+const PLANT_RUN = 1, FIT_HALF = 0.05;  // as tools/crowd/goals.h has them
 
 /** The crowd file's values, by the field's name. */
 export function fixedOf({ fixed, weights }) {
@@ -47,10 +48,11 @@ export function writeFields(crowd, limb) {
 /** Makes the crowd of these limbs, with their fields. */
 export function makeCrowd(swivel, skeleton, limbs, bodyCount) {
     const groups = limbs.map((limb) => {
-        const { chain: joints, shoulderOrder, wristOrder, region } = limb;
+        const { chain: joints, shoulderOrder, wristOrder, region, ground } = limb;
         const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
-        return { ...shape, ...(region && { region: swivel.region(region) }) };
+        return { ...shape, ...(region && { region: swivel.region(region) }), ...(ground && { ground, plant: { run: PLANT_RUN } }) };
     });
+    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: { half: FIT_HALF } });
     const crowd = swivel.bodies({ skeleton, bodyCount, groups });
     try {
         limbs.forEach((limb) => writeFields(crowd, limb));

@@ -3,6 +3,7 @@
 uniform highp usampler2D uInputs, uResults;
 uniform int uTargetRow, uEffectorRow, uAimRow;                                      // of inputs; -1: there are none
 uniform int uShoulderRow, uElbowRow, uWristRow, uFlagsRow, uStretchRow, uRecordRow;  // of results
+uniform int uGoalRow;       // of results, too: where a foot that stands was sent
 uniform int uBlocks;        // of the rows before the extra one
 uniform vec4 uHandFromArm;  // from the hand, which has the arm frame's axes at rest, to the wrist joint
 uniform vec3 uTip;          // the hand's end, in the wrist joint's frame
@@ -25,7 +26,7 @@ vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.
 
 // How far the wrist, or the effector, is from its target. With an aim: how far the target is from the hand's ray.
 float missedBy(int limb, vec3 wrist, vec4 hand, float scale) {
-    vec3 miss = vector(uInputs, uTargetRow, limb) - wrist;
+    vec3 miss = (uGoalRow < 0 ? vector(uInputs, uTargetRow, limb) : vector(uResults, uGoalRow, limb)) - wrist;
     if (uEffectorRow >= 0) miss -= scale * turned(hand, vector(uInputs, uEffectorRow, limb));
     if (uAimRow >= 0) {
         vec3 axis = normalize(turned(hand, vector(uInputs, uAimRow, limb)));

@@ -8,7 +8,8 @@ void main() {
     int character = characterOf(gl_InstanceID), n = int(part);
     vec4 place = placeOf(character);
     Limb limb = limbOf(limbOfInstance(gl_InstanceID));
-    vec3 at = place.xyz + rootOf(character);
+    floorAt = risesOf(character).y;
+    vec3 at = place.xyz + rootOf(character) + vec3(0.0, floorAt, 0.0);
     vec3 a = n == 0 ? limb.shoulder : n == 1 ? limb.elbow : limb.wrist;
     vec3 b = n == 0 ? limb.elbow : n == 1 ? limb.wrist : limb.tip;
     putCapsule(at + a, at + b, place.w * uRadii[n], place.w * uRadii[n + 1]);

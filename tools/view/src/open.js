@@ -22,6 +22,7 @@ function check(data) {
         if (given !== bytes) throw new Error(`the command wrote ${given} bytes for ${name}, and the page's program expects ${bytes}. ${again}`);
     };
     expect("characters", data.characters, SIZE.character * data.character_count);
+    if (data.ground) expect("the ground", data.ground.grid, SIZE.ground);
     for (const { name, plan, sources } of data.limbs) {
         expect(`the plan of ${name}`, plan, SIZE.plan);
         expect(`the clip of ${name}`, sources, SIZE.source * clipFramesOf(data));
@@ -30,7 +31,8 @@ function check(data) {
 
 /** What the module's memory must hold: the clip, and for each limb what goes in, what comes out, and a crowd made anew beside the old. */
 function megabytesFor(data) {
-    const clip = data.limbs.reduce((sum, { sources }) => sum + byteCountOf(sources), byteCountOf(data.characters));
+    const start = byteCountOf(data.characters) + byteCountOf(data.ground?.heights ?? "");
+    const clip = data.limbs.reduce((sum, { sources }) => sum + byteCountOf(sources), start);
     const limbs = data.limbs.length * data.character_count * (2048 + SIZE.input);
     const megabytes = 48 + Math.ceil((clip + limbs) / 2 ** 20);
     if (megabytes > MOST_MEGABYTES)

@@ -13,7 +13,8 @@ flat out vec4 vJoint;
 void main() {
     int character = characterOf(gl_VertexID / 2);
     Limb limb = limbOf(limbOfInstance(gl_VertexID / 2));
-    vJoint = vec4(rootOf(character) + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist), limb.missed);
+    vec3 root = rootOf(character) + vec3(0.0, risesOf(character).y, 0.0);
+    vJoint = vec4(root + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist), limb.missed);
     gl_Position = vec4((float(gl_VertexID) + 0.5) / float(2 * uCount) * 2.0 - 1.0, 0.0, 0.0, 1.0);
     gl_PointSize = 1.0;
 }`;

@@ -2,12 +2,13 @@
 //
 // The scene in metres: camera, ground, bodies. draw() shows it once; nothing here keeps drawing.
 import {
-    Color, GLSL3, Group, LinearSRGBColorSpace, Mesh, PerspectiveCamera, PlaneGeometry, Scene, ShaderMaterial, Vector3, WebGLRenderer,
+    Color, GLSL3, Group, LinearSRGBColorSpace, Mesh, PerspectiveCamera, Scene, ShaderMaterial, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import { Bodies } from "./bodies.js";
 import { rgb, THEMES } from "./colours.js";
+import { makeGround } from "./ground.js";
 import groundGlsl from "./ground.glsl";
 
 const HEIGHT = 1.75;  // of a figure in the scene, metres
@@ -30,8 +31,9 @@ export class View {
         this.controls.maxPolarAngle = 0.497 * Math.PI;  // above the ground
         this.controls.minDistance = 0.4;
         this.controls.maxDistance = 400;
-        this.bodies = new Bodies(stage, figure, this.metres, this.renderer.capabilities.maxTextureSize);
-        this.addGround();
+        const ground = makeGround(stage, this.metres, figure.ground);
+        this.bodies = new Bodies(stage, figure, this.metres, this.renderer.capabilities.maxTextureSize, ground.uniforms);
+        this.addGround(ground.geometry, ground.uniforms.uHills.value);
         this.scene.add(...this.bodies.meshes);
         this.marks = new Group();  // what is drawn on top: handles and overlays, in units of the clip
         this.marks.scale.setScalar(this.metres);
@@ -39,12 +41,12 @@ export class View {
         this.scene.add(this.marks);
     }
 
-    addGround() {
+    /** Level ground has no depth: shadows lie in it. */
+    addGround(geometry, depthWrite) {
         const [vertexShader, fragmentShader] = groundGlsl.split("// ---- fragment");
-        const { uFar, uBackground } = this.bodies.shared;
-        const uniforms = { uGroundColour: { value: rgb("#ffffff") }, uLine: { value: rgb("#ffffff") }, uFar, uBackground };
-        const material = new ShaderMaterial({ uniforms, glslVersion: GLSL3, vertexShader, fragmentShader, depthWrite: false });
-        this.ground = new Mesh(new PlaneGeometry(4000, 4000).rotateX(-Math.PI / 2), material);
+        const { uFar, uBackground, uSun } = this.bodies.shared;
+        const uniforms = { uGroundColour: { value: rgb("#ffffff") }, uLine: { value: rgb("#ffffff") }, uFar, uBackground, uSun };
+        this.ground = new Mesh(geometry, new ShaderMaterial({ uniforms, glslVersion: GLSL3, vertexShader, fragmentShader, depthWrite }));
         this.ground.renderOrder = 0;
         this.scene.add(this.ground);
     }
@@ -63,7 +65,7 @@ export class View {
         });
         const angle = Math.atan2(width + 1, depth + 1) - FRONTAL, distance = drawnCount > 1 ? 4.7 : 4;
         const offset = new Vector3(-distance * Math.sin(angle), 0.75 * HEIGHT, distance * Math.cos(angle));
-        this.controls.target.copy(this.placeOf(this.middle)).setY(0.55 * HEIGHT);
+        this.controls.target.copy(this.placeOf(this.middle, 0.55 * HEIGHT));
         this.camera.position.copy(this.controls.target).addScaledVector(offset, this.farther());
         this.controls.update();
     }
@@ -72,10 +74,11 @@ export class View {
         const { width, height } = this.size, { right, top, bottom } = this.covered;
         return Math.min(3, Math.max(1, 0.85 * height / (height - top - bottom), 0.68 * height / (width - right)));
     }
-    /** Where a character's first joint is on the ground. */
-    placeOf(character) {
+    /** So many metres over where a character's first joint is on the ground. */
+    placeOf(character, over = 0) {
         const { size, place } = this.stage.characters[character], root = this.figure.at(0, this.stage.clipFrame(character));
-        return new Vector3(size * root.x + place[0], 0, size * root.z + place[2]).multiplyScalar(this.metres);
+        const at = new Vector3(size * root.x + place[0], this.stage.lift(character), size * root.z + place[2]).multiplyScalar(this.metres);
+        return at.setY(at.y + over);
     }
     /** A point of the clip's world in the scene. */
     toScene([x, y, z]) { return new Vector3(x, y - this.figure.ground, z).multiplyScalar(this.metres); }
@@ -84,7 +87,7 @@ export class View {
     /** Looks at a character from where the camera is, at the same distance, or close by; in a jump, higher by as much. */
     lookAt(character, isClose) {
         const rise = this.figure.at(0, this.stage.clipFrame(character)).y - this.figure.at(0).y;
-        const to = this.placeOf(character).setY(0.6 * HEIGHT + this.metres * rise), offset = this.camera.position.clone().sub(this.controls.target);
+        const to = this.placeOf(character, 0.5 * HEIGHT + this.metres * rise), offset = this.camera.position.clone().sub(this.controls.target);
         if (isClose) offset.setLength(Math.min(offset.length(), 3.2 * this.farther()));
         this.controls.target.copy(to);
         this.camera.position.copy(to).add(offset);

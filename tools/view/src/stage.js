@@ -7,9 +7,11 @@ import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, charactersOf, givenOf, INPUT, PLAN, SIZE, Sources } from "./bytes.js";
+import { bytesOf, charactersOf, givenOf, gridOf, INPUT, PLAN, ROOT_SHIFT, SIZE, Sources } from "./bytes.js";
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT, unit } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
+
+const KEPT = 64;  // frames from one state that is kept to the next
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
@@ -29,6 +31,7 @@ export class Stage {
         const characters = bytesOf(data.characters);
         this.charactersAt = this.keep(characters);
         this.characters = charactersOf(characters);
+        this.ground = data.ground && this.makeGround(data.ground);
         this.given = givenOf(data.given);
         this.pins = new Map();  // goals moved alone: "limb:character" to { target, pole } in the world
         this.plansAt = this.keep(data.limbs.flatMap(({ plan }) => Array.from(bytesOf(plan))));
@@ -42,6 +45,10 @@ export class Stage {
         this.makeCrowd();
     }
 
+    makeGround({ grid, heights }) {
+        const bytes = bytesOf(grid), at = this.keep(bytes), heightsAt = heights === "" ? 0 : this.keep(bytesOf(heights));
+        return { ...gridOf(bytes), pointers: [at, heightsAt] };
+    }
     get characterCount() { return this.characters.length; }
     get limbCount() { return this.limbs.length * this.characterCount; }
 
@@ -57,7 +64,7 @@ export class Stage {
         const sources = bytesOf(limb.sources), planAt = this.plansAt + index * SIZE.plan, { shoulder, twist_bones: twistBones, bend } = limb;
         return {
             index, name: limb.name, joints: limb.joints, features: BigInt(limb.features), region: limb.region && bytesOf(limb.region),
-            shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order,
+            shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, ground: limb.ground,
             chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
             fixed: fixedOf(limb),
             own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away; never written to
@@ -76,33 +83,82 @@ export class Stage {
         this.poses ??= this.zeros(this.memory.calls.swivel_goal_pose_size(made.crowd) * this.characterCount);
         this.urgency ??= this.zeros(made.blockCount);  // of a budget
         this.urgency.fill(0);
-        this.carriesState = this.data.budget_blocks > 0 || this.limbs.some((limb) => this.carries(limb));
-        this.solvedFrames = 0;  // in order, from the first on
+        this.groups = Array.from({ length: made.groupCount }, (_, group) => group);
+        this.carriesState = this.data.budget_blocks > 0 || this.groups.some((group) => this.carries(group));
+        this.solvedFrames = 0;  // in order, from the first on; -1: not in order
         this.hasSolved = false;
+        this.states = new Map();  // what solves start from, by frame
     }
     has(limb, name) { return this.crowd.componentCount(Field[name], limb.index) > 0; }
-    /** Whether a limb's solves start from its last results. */
-    carries(limb) { return carried.some((field) => this.crowd.componentCount(field, limb.index) > 0); }
+    /** Whether a group's solves start from its last results. */
+    carries(group) { return carried.some((field) => this.crowd.componentCount(field, group) > 0); }
 
-    /** Goes to a frame and solves it. */
+    /** Goes to a frame and solves it. A crowd that carries state solves all that lies between, so a frame looks the same however it was reached. */
     setFrame(frame) {
-        if (this.carriesState && frame === 0 && this.frame >= 0) this.makeCrowd();
+        if (this.carriesState && frame !== this.frame + 1) return this.replay(frame);
         this.frame = frame;
         this.solve();
     }
-    /** Solves the frame again, with whatever has changed. */
+    /** Solves a frame and those before it, from the last one whose state is kept. */
+    replay(frame) {
+        const from = Math.max(...Array.from(this.states.keys()).filter((kept) => kept <= frame));
+        if (Number.isFinite(from)) this.putState(this.states.get(from));
+        else if (this.hasSolved) this.makeCrowd();
+        this.solvedFrames = Math.max(from, 0);
+        for (this.frame = this.solvedFrames; this.frame < frame; ++this.frame) this.solve();
+        this.solve();
+    }
+    takeState() {
+        return { rows: this.groups.map((group) => this.crowd.resultRows(group).slice()), poses: this.poses.slice(), urgency: this.urgency.slice(), hasSolved: this.hasSolved };
+    }
+    putState({ rows, poses, urgency, hasSolved }) {
+        this.groups.forEach((group) => this.crowd.resultRows(group).set(rows[group]));
+        this.poses.set(poses);
+        this.urgency.set(urgency);
+        this.hasSolved = hasSolved;
+    }
+    /** After a change of what is asked for: states that are kept came without it, but for the first. */
+    forgetStates() {
+        for (const frame of this.states.keys()) if (frame > 0) this.states.delete(frame);
+        this.solvedFrames = -1;
+    }
+    /** Solves the frame again, after a change. While something is dragged, the crowd goes on from its state at hand; else as if it had always been so. */
+    solveAgain(isDragged) {
+        this.forgetStates();
+        if (this.carriesState && !isDragged) this.replay(this.frame);
+        else this.solve();
+    }
+    /** Solves the frame. */
     solve() {
         const inOrder = this.solvedFrames === this.frame;
+        if (inOrder && this.carriesState && this.frame % KEPT === 0 && !this.states.has(this.frame)) this.states.set(this.frame, this.takeState());
         this.askMovedGoals(this.frame);
-        if (this.hasSolved) this.limbs.forEach((limb) => this.forgetEnds(limb));
-        const before = performance.now();
+        if (this.hasSolved) this.forgetEnds();
+        const before = performance.now(), { crowd, poses, groundAt, charactersAt, rootsAt, inputsAt } = this;
         this.memory.borrow((borrowed) => this.memory.check(this.memory.calls.swivel_goals_solve(
-            this.crowd.crowd, this.rootsAt, this.inputsAt, this.poses.byteOffset, this.job(borrowed).at)));
+            crowd.crowd, ...groundAt, this.data.frame_seconds, charactersAt, rootsAt, inputsAt, poses.byteOffset, this.job(borrowed).at)));
         this.hasSolved = true;
         this.seconds = (performance.now() - before) / 1000;
-        if (inOrder) ++this.solvedFrames;
-        else if (this.carriesState) this.solvedFrames = -1;
+        this.solvedFrames = inOrder ? this.frame + 1 : -1;
+        this.seeRises();
     }
+    get groundAt() { return this.ground?.pointers ?? [0, 0]; }
+    /** How much higher each character is than the clip and its place say: its joints, and what its rows are counted from. */
+    seeRises() {
+        if (!this.ground) return;
+        this.rises ??= new Float32Array(4 * this.characterCount);
+        for (let n = 0; n < this.characterCount; ++n) {
+            const lift = this.lift(n), [shift] = this.memory.floats(this.rootsAt + n * SIZE.root + ROOT_SHIFT, 1);
+            this.rises.set([lift + shift, lift], 4 * n);
+        }
+    }
+    /** How much higher the ground has a character's root than the clip and its place. */
+    lift(character) {
+        if (!this.ground) return 0;
+        const { size, place } = this.characters[character], [, height] = this.limbs[0].sources.root(this.clipFrame(character));
+        return this.root(character)[1] - (place[1] + size * height);
+    }
+    groundHeight(x, z) { return this.memory.calls.swivel_ground_height(...this.groundAt, x, z); }
     /** With a budget the first solve is of all limbs. */
     job(borrowed) {
         const job = borrowed.structure("swivel_job");
@@ -111,18 +167,19 @@ export class Stage {
         return job.words("priorities", alike).words("urgency", this.urgency.byteOffset).words("most_blocks", this.data.budget_blocks);
     }
     /** From the clip's end to its start is no motion. */
-    forgetEnds(limb) {
-        if (!this.carries(limb)) return;
-        for (let n = 0; n < this.characterCount; ++n) if (this.clipFrame(n) === 0) this.crowd.reset({ group: limb.index, first: n, count: 1 });
+    forgetEnds() {
+        for (const group of this.groups)
+            if (this.carries(group))
+                for (let n = 0; n < this.characterCount; ++n) if (this.clipFrame(n) === 0) this.crowd.reset({ group, first: n, count: 1 });
     }
     /** The goals as the command has them. */
     askGoals() {
-        this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.limbs.length, this.clipFrameCount, this.frame,
+        this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.limbs.length, this.clipFrameCount, this.frame, ...this.groundAt,
             this.charactersAt, this.characterCount, this.rootsAt, this.inputsAt);
         for (const { character, limb, poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
             const of = this.limbs[limb], set = (part, goal) => this.input(of, character, part).set(goal);
             set("target", target), set("pole", pole), set("hand", hand);
-            this.input(of, character, "weights")[2] = poleWeight > 0 ? of.weights[2] : 0;
+            this.input(of, character, "weights").set([of.weights[0], of.weights[1], poleWeight > 0 ? of.weights[2] : 0]);
         }
     }
     /** The goals of a frame as the user has moved them. Solves nothing: who looks at another frame goes back to the one that is shown. */
@@ -137,16 +194,17 @@ export class Stage {
         const at = this.inputsAt + (character * this.limbs.length + limb.index) * SIZE.input + INPUT[part];
         return part === "target" || part === "pole" ? this.memory.doubles(at, 3) : this.memory.floats(at, part === "hand" ? 4 : 3);
     }
-    /** Sets a goal for the next solve. A pole that is set counts. */
+    /** Sets a goal for the next solve. What is set counts. */
     setGoal(limb, character, part, goal) {
         this.input(limb, character, part).set(goal);
-        if (part === "pole") this.input(limb, character, "weights")[2] = limb.weights[2];
+        const weights = this.input(limb, character, "weights");
+        weights.set(part === "pole" ? [limb.weights[2]] : limb.weights.slice(0, 2), part === "pole" ? 2 : 0);
     }
     clipFrame(character) { return (this.frame + this.characters[character].start) % this.clipFrameCount; }
     /** A limb's shoulder in the clip, before its clavicle has turned. */
     origin(limb, character) {
         const origin = limb.sources.origin(this.clipFrame(character)), { size, place } = this.characters[character];
-        return origin.map((coordinate, axis) => size * coordinate + place[axis]);
+        return origin.map((coordinate, axis) => size * coordinate + place[axis] + (axis === 1 ? this.lift(character) : 0));
     }
     armLength(limb, character) {
         const [upper, fore] = limb.sources.lengths(this.clipFrame(character));
@@ -176,18 +234,18 @@ export class Stage {
     drag(limb, character, part, world, everyone) {
         (everyone ? dragEveryone : dragOne)(this, limb, character, part, world);
         this.changed = true;
-        this.solve();
+        this.solveAgain(true);
     }
     /** Gives a limb's goals back to the clip, and everyone's of that limb. Solves the crowd. */
     letGo(limb, character) {
         dropDrags(this, limb, character);
         this.noteChanges();
-        this.solve();
+        this.solveAgain(false);
     }
     letAllGo() {
         dropAllDrags(this);
         this.noteChanges();
-        this.solve();
+        this.solveAgain(false);
     }
     isAnyDragged() { return this.pins.size > 0 || this.limbs.some(isShifted); }
     movedParts(limb, character) { return movedParts(this, limb, character); }
@@ -197,7 +255,7 @@ export class Stage {
     setField(limbs, name, valueOf) {
         this.setOwn(this.limbs.map((limb) => (limbs.includes(limb) ? ownWith(limb, name, valueOf ? valueOf(limb) : null) : limb.own)));
         this.noteChanges();
-        this.solve();
+        this.solveAgain(false);
     }
     /** Sets the user's fields of each limb. Changes nothing if it fails. */
     setOwn(owns) {
@@ -221,7 +279,7 @@ export class Stage {
         this.pins = pins;
         this.limbs.forEach((limb, n) => { limb.shift = shifts[n]; });
         this.noteChanges();
-        this.solve();
+        this.solveAgain(false);
     }
     field(limb, name) { return fieldOf(limb, name); }
 
@@ -264,12 +322,11 @@ export class Stage {
         const digest = this.memory.calls.swivel_goals_digest(this.crowd.crowd, this.poses.byteOffset);
         return BigInt.asUintN(64, digest).toString(16).padStart(16, "0");
     }
-    /** How this frame's digest is beside the command's: "equal", "different", "changed", "out of order" or "none". */
+    /** How this frame's digest is beside the command's: "equal", "different", "changed" or "none". */
     digestState() {
         const native = this.data.digests[this.frame];
         if (!native) return "none";
         if (this.changed) return "changed";
-        if (this.carriesState && this.solvedFrames < 0) return "out of order";
         return this.digest() === native ? "equal" : "different";
     }
 }

@@ -8,7 +8,6 @@ const DIGEST_WORDS = {
     equal: "The same bits as the command",
     different: "Not the same bits as the command",
     changed: "Changed by you, so not the command's bits",
-    "out of order": "Not compared: this crowd carries state, so play it from the first frame",
     none: "Not compared: the command solved no such frame",
 };
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The promise: feet that stand on hills have the command's bits, however a frame was reached, also where one is dragged.
+import assert from 'node:assert/strict';
+import { copyFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { clip, difference, drag, file, pixel, visit, write } from './harness.mjs';
+
+copyFileSync(new URL('../../examples/hills.png', import.meta.url), join(process.env.WORK, 'hills.png'));
+const toml = file('hills.toml', `[crowd]
+limbs = "all"
+size = [0.8, 1.2]
+[ground]
+heights = "hills.png"
+size = [900, 60, 900]
+`);
+const words = ['view', clip, '--characters', '12', '--frames', '150', '--crowd', toml];
+const digests = (page, frames) => page.evaluate((list) => list.map((frame) => {
+  swivelPage.setFrame(frame);
+  return [swivelPage.stage.digest(), swivelPage.stage.digestState()];
+}), frames);
+
+test('the command\'s bits, played or scrubbed, and the shader\'s limbs and shadows on the hills', async () => {
+  await visit(write('hills.html', ...words), async (page) => {
+    const all = await digests(page, [...Array(150).keys()]);
+    assert.ok(all.every(([, state]) => state === 'equal'));
+    const order = [149, 3, 64, 63, 130, 0, 100, 65];
+    assert.deepEqual(await digests(page, order), order.map((frame) => all[frame]));
+    const [joints, feet] = await page.evaluate(() => {
+      const { stage, view } = swivelPage, off = (a, b) => Math.hypot(...a.map((coordinate, axis) => coordinate - b[axis]));
+      swivelPage.setFrame(100);
+      swivelPage.draw();
+      let joints = 0, feet = 0;
+      for (const limb of stage.limbs) {
+        const drawn = swivelPage.readback(limb, stage.characterCount);
+        stage.characters.forEach(({ place, size }, n) => {
+          const { elbow, wrist } = stage.pose(limb, n);
+          [elbow, wrist].forEach((joint, which) => { joints = Math.max(joints, off(joint.map((x, axis) => x - place[axis]), drawn[2 * n + which]) / stage.armLength(limb, n)); });
+          if (limb.name.endsWith('leg')) feet = Math.max(feet, Math.abs(wrist[1] - stage.groundHeight(wrist[0], wrist[2])) / view.figure.height / size);
+        });
+      }
+      return [joints, feet];
+    });
+    assert.ok(joints > 0 && joints < 1e-5, `${joints} of a limb`);
+    assert.ok(feet < 0.3, `an ankle is ${feet} heights from the ground`);
+    const { share, colours } = await difference(page, () => page.evaluate(() => swivelPage.setFrame(20)));
+    assert.ok(colours > 100 && share > 0.01, `${colours} colours, ${share} changed`);
+  });
+});
+
+test('a dragged foot, let go again, and as a table for the command', async () => {
+  await visit(write('foot.html', ...words), async (page) => {
+    await page.evaluate(() => {
+      swivelPage.setFrame(70);
+      swivelPage.select({ limb: swivelPage.stage.limbs.find(({ name }) => name === 'right_leg'), character: 3 });
+      swivelPage.view.lookAt(3, true);
+      swivelPage.draw();
+    });
+    const from = await pixel(page, 'target');
+    await drag(page, from, { x: from.x + 25, y: from.y - 30 });
+    const [[, changed]] = await digests(page, [70]), [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save as table' }).click()]);
+    assert.equal(changed, 'changed');
+    await download.saveAs(join(process.env.WORK, 'foot.csv'));
+    const dragged = (await digests(page, [0, 69, 70, 149, 71])).map(([digest]) => digest);
+    await visit(write('foot_again.html', ...words, '--targets', join(process.env.WORK, 'foot.csv')), async (again) => {
+      assert.deepEqual(await digests(again, [0, 69, 70, 149, 71]), dragged.map((digest) => [digest, 'equal']));
+    });
+    await page.evaluate(() => swivelPage.letAllGo());
+    assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
+  }, { acceptDownloads: true });
+});

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise of a crowd file's ground: a crowd walks over hills, and feet that the clip has down stand on them,
+// whatever the size of their owners. Tests' own readers, formulas and kinematics judge.
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tests/feet_motion.h"
+#include "tests/pose_rows.h"
+#include "tests/run_command.h"
+#include "tests/shared_figures.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kMillimetres = 1e3 * 0.0254 / 0.45;  // a unit of the CMU library's skeletons
+constexpr unsigned kReached = 1u << 0, kPlanted = 1u << 17;
+
+const Vector3d kHillSize(400, 4, 300), kMiddle(90, 3, 70);
+std::string crowd_on_hills(const std::string& more = "")
+{
+    return fmt::format(
+        "[crowd]\nlimbs = \"all\"\nsize = [0.7, 1.3]\n{}\n[ground]\nheights = \"hills.png\"\nsize = [{}, {}, {}]\n"
+        "middle = [{}, {}, {}]\n",
+        more, kHillSize.x(), kHillSize.y(), kHillSize.z(), kMiddle.x(), kMiddle.y(), kMiddle.z());
+}
+
+struct HillStage {
+    TempFolder folder;
+    PlainMotion clip;
+    PlainContacts contacts;
+    Hills hills = random_hills(kHillSize);
+    double floor = 1e9;
+
+    explicit HillStage(const fs::path& path)
+    {
+        spill(folder / "walk.bvh", carried(plain_motion_of(path), {}));
+        write_png(folder / "hills.png", hills, 16);
+        clip = plain_motion_of(folder / "walk.bvh");
+        REQUIRE(run_command(folder.path, {"feet", "walk.bvh", "--export-contacts", "c.csv"}).exit_code == 0);
+        contacts = contacts_in_table(slurp(folder / "c.csv"), clip.lines.size());
+        for (std::size_t frame = 0; frame < clip.lines.size(); ++frame)
+            for (const PlainPose& pose : pose_of(clip, frame)) floor = std::min(floor, pose.position.y());
+    }
+
+    std::string solved(const std::string& toml, Words words) const
+    {
+        spill(folder / "c.toml", toml);
+        words.insert(words.begin(), {"solve", "walk.bvh", "--crowd", "c.toml"});
+        const Outcome outcome = run_command(folder.path, words);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return outcome.out;
+    }
+    std::string refused(const std::string& toml, Words more = {}) const
+    {
+        spill(folder / "c.toml", toml);
+        more.insert(more.begin(), {"solve", "walk.bvh", "--crowd", "c.toml"});
+        const Outcome outcome = run_command(folder.path, more);
+        CHECK(outcome.exit_code == 1);
+        CHECK(outcome.out.empty());
+        return outcome.err;
+    }
+    double ground(const Vector3d& at) const
+    {
+        return floor + kMiddle.y() + hills.height(at.x() - kMiddle.x(), at.z() - kMiddle.z());
+    }
+    // The median height of a foot's toe over the clip's floor while it is down: between these two.
+    std::array<double, 2> clearance(std::size_t side) const
+    {
+        const PlainLegs legs = legs_path(clip, kCarriedTime);
+        std::vector<double> heights;
+        for (std::size_t frame = 0; frame < legs.frame_count(); ++frame)
+            if (contacts[side][frame]) heights.push_back(legs.legs[side].toe[frame].y() - floor);
+        std::ranges::sort(heights);
+        return {heights[(heights.size() - 1) / 2], heights[heights.size() / 2]};
+    }
+};
+
+// A cache has its characters column by column.
+std::vector<std::string> sorted_lines(const std::string& text)
+{
+    std::istringstream in(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    std::ranges::sort(lines);
+    return lines;
+}
+
+// Where a row of the table has a leg's toe.
+Vector3d toe_of(const PlainMotion& clip, const PoseLine& row)
+{
+    const std::string side = row.limb == "left_leg" ? "Left" : "Right";
+    const auto frame = static_cast<std::size_t>(row.number("start") + row.number("frame")) % clip.lines.size();
+    const std::vector<PlainPose> pose = pose_of(clip, frame);
+    const auto at = [&](const std::string& name) { return joint_named(clip, side + name); };
+    const int hip = at("UpLeg");
+    Matrix3d turn = pose[static_cast<std::size_t>(clip.joint(hip).parent)].rotation;
+    Vector3d place = pose[static_cast<std::size_t>(hip)].position;
+    const std::array below{at("Leg"), at("Foot"), at("ToeBase")};
+    for (std::size_t n = 0; n < 3; ++n) {
+        turn = turn * row.joint[n].toRotationMatrix();
+        place += turn * clip.joint(below[n]).offset;
+    }
+    return Vector3d(row.number("place_x"), row.number("place_y"), row.number("place_z")) + row.number("size") * place;
+}
+
+}  // namespace
+
+TEST_CASE("feet of a crowd on hills stand where they touch, on the ground")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const HillStage stage(path);
+    stage.solved(crowd_on_hills("characters = 12"), {"--out", "out.csv", "--quiet"});
+    std::vector<PoseLine> rows = pose_lines(slurp(stage.folder / "out.csv"));
+    std::erase_if(rows, [](const PoseLine& row) { return !row.limb.ends_with("leg"); });
+    std::ranges::sort(rows, {}, [](const PoseLine& row) { return std::tuple(row.character, row.limb, row.frame); });
+    constexpr std::size_t kRunIn = 12;  // frames: it comes to rest, and what interrupts it fades
+    const std::array clearance{stage.clearance(0), stage.clearance(1)};
+    std::size_t down = 0, standing = 0, since = 0;
+    double slide = 0, gap = 0, below = 0, float_most = 0, slide_most = 0;
+    for (std::size_t n = 1; n < rows.size(); ++n) {
+        const PoseLine &row = rows[n], &was = rows[n - 1];
+        const std::size_t side = row.limb == "left_leg" ? 0 : 1, count = stage.clip.lines.size();
+        const auto frame = (row.frame + static_cast<std::size_t>(row.number("start"))) % count;
+        const double size = row.number("size");
+        const Vector3d toe = toe_of(stage.clip, row);
+        const auto [least, most] = clearance[side];
+        const double height = (toe.y() - stage.ground(toe)) / size,
+                     over = size * (height - std::clamp(height, least, most));
+        below = std::max(below, -over);
+        const bool goes_on = was.limb == row.limb && was.character == row.character && frame > 0;
+        since = goes_on && stage.contacts[side][frame] ? since + 1 : 0;
+        if (since <= kRunIn) continue;
+        ++down;
+        float_most = std::max(float_most, std::fabs(over));
+        slide_most = std::max(slide_most, (toe - toe_of(stage.clip, was)).norm());
+        if ((row.flags & kPlanted) == 0 || (row.flags & kReached) == 0) continue;
+        ++standing;
+        gap = std::max(gap, std::fabs(over));
+        slide = std::max(slide, (toe - toe_of(stage.clip, was)).norm());
+    }
+    std::printf("hills: %zu frames of contact, %zu standing; slide %.3f mm, gap %.3f mm, below %.3f mm\n", down,
+                standing, kMillimetres * slide, kMillimetres * gap, kMillimetres * below);
+    std::printf("all frames of contact: slide %.3f mm, gap %.3f mm\n", kMillimetres * slide_most,
+                kMillimetres * float_most);
+    CHECK(down > 1000);
+    // Where a leg cannot reach down a slope of 20 degrees, its foot still is near its place.
+    CHECK(static_cast<double>(standing) > 0.85 * static_cast<double>(down));
+    CHECK(kMillimetres * slide_most < 3);
+    CHECK(kMillimetres * float_most < 6);
+    CHECK(kMillimetres * slide < 0.1);
+    CHECK(kMillimetres * gap < 1);
+    CHECK(kMillimetres * below < 0.1);
+}
+
+TEST_CASE("a clip that is written stands as its table says, and threads change nothing")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const HillStage stage(path);
+    stage.solved(crowd_on_hills(), {"--out", "out.csv", "--quiet", "--threads", "1"});
+    stage.solved(crowd_on_hills(), {"--out", "again.csv", "--quiet", "--threads", "2"});
+    CHECK(slurp(stage.folder / "out.csv") == slurp(stage.folder / "again.csv"));
+    stage.solved(crowd_on_hills(), {"--out", "out.bvh", "--quiet"});
+    const PlainLegs legs = legs_path(plain_motion_of(stage.folder / "out.bvh"), kCarriedTime);
+    for (const PoseLine& row : pose_lines(slurp(stage.folder / "out.csv"))) {
+        if (!row.limb.ends_with("leg")) continue;
+        const std::size_t side = row.limb == "left_leg" ? 0 : 1;
+        REQUIRE((legs.legs[side].toe[row.frame] - toe_of(stage.clip, row)).norm() < 2e-4);  // six digits of degrees
+    }
+}
+
+TEST_CASE("a cache of a crowd on hills has the table's bits, whoever fills it")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const HillStage stage(path);
+    stage.solved(crowd_on_hills("characters = 20"), {"--out", "out.csv", "--quiet"});
+    const auto done = [&](const Words& words) {
+        const Outcome outcome = run_command(stage.folder.path, words);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+    };
+    done({"store", "walk.bvh", "--crowd", "c.toml", "one.cache", "--chunk", "50,16", "--quiet"});
+    done({"store", "walk.bvh", "--crowd", "c.toml", "two.cache", "--chunk", "50,16", "--quiet"});
+    done({"fill", "one.cache", "--quiet"});
+    for (const std::string shard : {"1/2", "2/2"}) done({"fill", "two.cache", "--shard", shard, "--quiet"});
+    for (const std::string name : {"one.cache", "two.cache"}) {
+        done({"check", name, "--quiet"});
+        done({"replay", name, "--out", name + ".csv", "--quiet"});
+        CHECK(sorted_lines(slurp(stage.folder / (name + ".csv"))) == sorted_lines(slurp(stage.folder / "out.csv")));
+    }
+    done({"replay", "one.cache", "--frames", "60:70", "--out", "later.csv", "--quiet"});
+    const std::vector<std::string> all = sorted_lines(slurp(stage.folder / "out.csv"));
+    for (const std::string& line : sorted_lines(slurp(stage.folder / "later.csv")))
+        CHECK(std::ranges::binary_search(all, line));
+}
+
+TEST_CASE("level ground changes a walk less than hills do, and its feet do not slide")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const HillStage stage(path);
+    stage.solved("[crowd]\nlimbs = \"legs\"\n[ground]\n", {"--out", "out.bvh", "--quiet"});
+    const PlainSkating before = plain_skating(legs_path(stage.clip, kCarriedTime), stage.contacts),
+                       after = plain_skating(legs_path(plain_motion_of(stage.folder / "out.bvh"), kCarriedTime),
+                                             stage.contacts);
+    CHECK(after.step < 0.5 * before.step);
+    CHECK(after.mean < 0.5 * before.mean);
+}
+
+TEST_CASE("a ground that cannot be is refused, by the line")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const HillStage stage(path);
+    const std::string hills = "heights = \"hills.png\"\n";
+    CHECK_THAT(stage.refused("[ground]\n" + hills), Contains("c.toml:1: ground.size: is missing; write how large"));
+    CHECK_THAT(stage.refused("[ground]\nsize = [1, 1, 1]\n"), Contains("c.toml:2: ground.size: is of a picture"));
+    CHECK_THAT(stage.refused("[ground]\n" + hills + "size = [1, 0, 1]\n"),
+               Contains("c.toml:3: ground.size: is not above 0"));
+    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\nheights = \"none.png\"\nsize = [1, 1, 1]\n"),
+               Contains("c.toml:4: ground.heights: ") && Contains("none.png"));
+    CHECK_THAT(stage.refused("[ground]\nheight = 1\n"), Contains("ground.height") && Contains("heights"));
+    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"arms\"\n[ground]\n"), Contains("c.toml:3: ground: no leg is solved"));
+    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\n[budget]\nblocks = 1\n"),
+               Contains("c.toml:3: ground: feet that stand are solved in every frame"));
+    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\n[limb.legs.reach]\nmost_stretch = 1.1\n"),
+               Contains("c.toml:5: limb.legs.reach.most_stretch: keeps a leg from standing on the ground of line 3"));
+    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\n[limb.legs]\nhand = false\n"),
+               Contains("c.toml:5: limb.legs.hand: keeps a leg from standing"));
+    spill(stage.folder / "walk.bvh", carried(plain_motion_of(path), {.minus = 1}));
+    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\n"), Contains("the clip walks in place"));
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "tools/feet/standing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/feet/contacts.h"
+#include "tools/formats/error.h"
+#include "tools/formats/height_picture.h"
+#include "tools/rig/vectors.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// How much lower the body hangs than in the clip, in leg lengths: so that a leg that the clip has almost straight
+// reaches down a slope. And how straight legs may get: swivel.h, SWIVEL_CAP.
+constexpr double kLower = 0.03;
+constexpr FixedField kCap{SWIVEL_CAP, {0.01f, 0.99f, 0}};
+
+Ground read_ground(const formats::CrowdFile& file, double floor)
+{
+    const formats::GroundSettings& from = *file.ground;
+    const Vector3d middle = from.middle ? from.middle->value : Vector3d(0, 0, 0);
+    Ground ground{{{1, 1, 1}, {middle.x(), middle.y() + floor, middle.z()}, 0, 0}, {}};
+    if (!from.heights) return ground;
+    try {
+        formats::HeightPicture picture = formats::read_height_picture(file.path.parent_path() / from.heights->value);
+        std::ranges::copy(from.size->value, ground.grid.size);
+        ground.grid.columns = picture.columns, ground.grid.rows = picture.rows;
+        ground.heights = std::move(picture.heights);
+    } catch (const formats::InputError& error) {
+        throw formats::InputError(file.path, from.heights->line,
+                                  fmt::format("{}: {}", from.heights->key, error.what()));
+    }
+    return ground;
+}
+
+// How high a point is while its foot is down: as high as this share of the frames is not above.
+double height_down(std::span<const Vector3d> places_w, const std::vector<bool>& contact, double share)
+{
+    std::vector<double> heights;
+    for (std::size_t frame = 0; frame < places_w.size(); ++frame)
+        if (contact[frame]) heights.push_back(places_w[frame].y());
+    return quantile(std::move(heights), share);
+}
+
+}  // namespace
+
+void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
+                     CrowdPlan& plan)
+{
+    const auto refuse = [&](std::string_view cause) {
+        throw formats::InputError(file.path, file.ground->line, fmt::format("ground: {}", cause));
+    };
+    std::vector<Limb> legs;
+    for (const Limb& limb : limbs)
+        if (limb.name.kind == formats::LimbKind::leg) legs.push_back(limb);
+    if (legs.empty()) refuse("no leg is solved; see crowd.limbs, or --limbs");
+    if (plan.budget_blocks > 0) refuse("feet that stand are solved in every frame; take this or [budget] out");
+    if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
+    const LegMotion motion = leg_motion(clip, legs, 0, Vector3d::UnitY());
+    const ContactBars bars;
+    if (missing_way(motion, bars)) refuse("the clip walks in place, so its feet slide; move its root first");
+    const Contacts contacts = find_contacts(motion, bars);
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    formats::world_pose(clip, 0, pose_w);
+    std::size_t leg = 0;
+    for (std::size_t n = 0; n < limbs.size(); ++n) {
+        if (limbs[n].name.kind != formats::LimbKind::leg) continue;
+        const LegPath& path = motion.legs[leg];
+        const std::vector<bool>& contact = contacts[leg++];
+        LimbPlan& to = plan.limbs[n];
+        if (std::ranges::none_of(contact, [](bool is_down) { return is_down; }))
+            refuse(fmt::format("the clip never has the {} foot on the ground; swivel feet says when",
+                               side_name(limbs[n].name.side)));
+        to.features |= SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT | SWIVEL_HAND_YIELDS;
+        to.contact = contact;
+        to.fields.push_back(kCap);
+        if (!to.has(SWIVEL_WITH_EFFECTOR)) {
+            const formats::JointPose& ankle_w = pose_w[static_cast<std::size_t>(limbs[n].end())];
+            to.features |= SWIVEL_WITH_EFFECTOR;
+            to.effector = ankle_w.rotation.conjugate() * (path.toe_w[0] - path.ankle_w[0]);
+            FixedField effector{SWIVEL_EFFECTOR, {}};
+            std::ranges::copy(to.effector.cast<float>(), effector.value.begin());
+            to.fields.push_back(effector);
+        }
+        to.ground.toe_clearance =
+            static_cast<float>(std::max(0.0, height_down(path.toe_w, contact, 0.5) - plan.foot.y()));
+        to.ground.heel_clearance =
+            static_cast<float>(std::max(0.0, height_down(path.ankle_w, contact, 0.02) - plan.foot.y()));
+    }
+    plan.shift_wish = -kLower * motion.leg_length();
+    plan.ground = read_ground(file, plan.foot.y());
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+//
+// What legs of a crowd need to stand on ground: when the clip has their feet down, and which points of the foot stand.
+#pragma once
+
+#include "tools/crowd/crowd_plan.h"
+#include "tools/formats/crowd_file.h"
+
+namespace swivel::tools {
+
+// Makes the legs of a crowd stand on the ground that its file has. A foot stands on its toe, or without
+// one on its ankle; an effector that the file gives counts instead. Reads the picture of heights. Throws InputError,
+// naming the file's line, for a crowd without legs, for a budget, for frames that are uneven, for a clip that walks in
+// place, and for one whose feet are never on the ground.
+void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
+                     CrowdPlan& plan);
+
+}  // namespace swivel::tools
