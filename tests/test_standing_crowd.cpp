@@ -100,8 +100,8 @@ std::vector<std::string> sorted_lines(const std::string& text)
     return lines;
 }
 
-// Where a row of the table has a leg's toe.
-Vector3d toe_of(const PlainMotion& clip, const PoseLine& row)
+// Where a row of the table has a leg's toe, or its ankle.
+Vector3d toe_of(const PlainMotion& clip, const PoseLine& row, bool is_ankle = false)
 {
     const std::string side = row.limb == "left_leg" ? "Left" : "Right";
     const auto frame = static_cast<std::size_t>(row.number("start") + row.number("frame")) % clip.lines.size();
@@ -111,7 +111,7 @@ Vector3d toe_of(const PlainMotion& clip, const PoseLine& row)
     Matrix3d turn = pose[static_cast<std::size_t>(clip.joint(hip).parent)].rotation;
     Vector3d place = pose[static_cast<std::size_t>(hip)].position;
     const std::array below{at("Leg"), at("Foot"), at("ToeBase")};
-    for (std::size_t n = 0; n < 3; ++n) {
+    for (std::size_t n = 0; n < (is_ankle ? 2 : 3); ++n) {
         turn = turn * row.joint[n].toRotationMatrix();
         place += turn * clip.joint(below[n]).offset;
     }
@@ -209,6 +209,35 @@ TEST_CASE("a cache of a crowd on hills has the table's bits, whoever fills it")
     const std::vector<std::string> all = sorted_lines(slurp(stage.folder / "out.csv"));
     for (const std::string& line : sorted_lines(slurp(stage.folder / "later.csv")))
         CHECK(std::ranges::binary_search(all, line));
+}
+
+TEST_CASE("a foot stands on the point that the file says, and arms that go along are in no table of targets")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const HillStage stage(path);
+    stage.solved("[crowd]\nlimbs = \"all\"\n[ground]\n[limb.legs]\neffector = [0, 0, 0]\n",
+                 {"--out", "out.csv", "--export-targets", "t.csv", "--quiet"});
+    CHECK(slurp(stage.folder / "t.csv").find("arm") == std::string::npos);
+    CHECK(slurp(stage.folder / "t.csv").find("left_leg") != std::string::npos);
+    std::vector<PoseLine> rows = pose_lines(slurp(stage.folder / "out.csv"));
+    std::erase_if(rows, [](const PoseLine& row) { return row.limb != "left_leg"; });
+    std::vector<double> heights;  // of the clip's ankle while the foot is down
+    const PlainLegs legs = legs_path(stage.clip, kCarriedTime);
+    for (std::size_t frame = 0; frame < legs.frame_count(); ++frame)
+        if (stage.contacts[0][frame]) heights.push_back(legs.legs[0].ankle[frame].y());
+    std::ranges::sort(heights);
+    std::size_t standing = 0;
+    for (std::size_t n = 1, since = 0; n < rows.size(); ++n) {
+        since = stage.contacts[0][rows[n].frame] ? since + 1 : 0;
+        if (since <= 12 || (rows[n].flags & kPlanted) == 0 || (rows[n].flags & kReached) == 0) continue;
+        const Vector3d ankle = toe_of(stage.clip, rows[n], true), was = toe_of(stage.clip, rows[n - 1], true);
+        ++standing;
+        CHECK(kMillimetres * (ankle - was).norm() < 0.1);
+        CHECK(ankle.y() > heights[(heights.size() - 1) / 2] - 1e-3);
+        CHECK(ankle.y() < heights[heights.size() / 2] + 1e-3);
+    }
+    CHECK(standing > 20);
 }
 
 TEST_CASE("level ground changes a walk less than hills do, and its feet do not slide")

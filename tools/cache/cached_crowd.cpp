@@ -24,6 +24,7 @@ constexpr int kFormat = 5;
 constexpr std::uint32_t kLimbsInChunk = 65'536;
 constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
 constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
+constexpr double kMostLength = 1e15;             // as swivel.h has it
 constexpr std::uint32_t kMostHeights = 16'384;   // along a side: formats::read_height_picture() has no more
 constexpr std::int64_t kMostJoints = 1'000'000;  // more than the attributes have room for
 
@@ -179,6 +180,10 @@ Ground ground_of(const Json& json)
     Ground ground{};
     get(json.at("size"), ground.grid.size);
     get(json.at("place"), ground.grid.place);
+    const auto is_length = [](double length) { return length > 0 && length <= kMostLength; };
+    const auto is_place = [](double place) { return std::fabs(place) <= kMostLength; };
+    if (!std::ranges::all_of(ground.grid.size, is_length) || !std::ranges::all_of(ground.grid.place, is_place))
+        throw std::invalid_argument("a ground's size or place is out of range");
     ground.grid.columns = whole(json, "columns", 0, kMostHeights);
     ground.grid.rows = whole(json, "rows", 0, kMostHeights);
     if (std::min(ground.grid.columns, ground.grid.rows) < 2 && ground.grid.columns + ground.grid.rows > 0)
@@ -249,6 +254,24 @@ void require_sane(const CachedCrowd& crowd)
             throw std::invalid_argument("a limb's joints are not three of the joints");
 }
 
+// All that is carried is kept, and legs stand where there is a ground, and nowhere else.
+void require_kept(const CachedCrowd& crowd)
+{
+    const std::vector<ResultField> kept = result_fields(crowd);
+    swivel_features all = 0;
+    for (const CachedLimb& limb : crowd.limbs) {
+        all |= limb.setup.features;
+        swivel_field_info info;
+        for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+            if (info.kind == SWIVEL_FIELD_CARRIED && swivel_component_count(info.field, limb.setup.features) > 0 &&
+                std::ranges::find(kept, info.field, &ResultField::field) == kept.end())
+                throw std::invalid_argument(fmt::format("a limb carries {}, which no cache keeps", info.name));
+    }
+    constexpr swivel_features kStands = SWIVEL_WITH_GROUND | SWIVEL_WITH_FIT;
+    if ((all & kStands) != (crowd.ground ? kStands : 0))
+        throw std::invalid_argument("legs stand without a ground, or there is one that none stands on");
+}
+
 // The solver knows what it takes: features that go together, unit rotations, fields that there are.
 void require_solvable(const CachedCrowd& crowd)
 {
@@ -259,7 +282,7 @@ void require_solvable(const CachedCrowd& crowd)
     GoalCrowd crowd_of_one(setups, std::vector(setups.size(), std::span(&none, 1)), {goal_character{1, {}, 0, 0}}, 0,
                            crowd.ground ? &level : nullptr, 0);
     crowd_of_one.set_frame(0);
-    crowd_of_one.solve();  // it may need what no cache has, such as the time
+    crowd_of_one.solve();
 }
 
 std::string digest_text(const Json& attributes)
@@ -385,12 +408,15 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         attributes.at("clip").get_to(crowd.clip);
         crowd.clip_frames = whole(attributes, "clip_frames", 1, crowd.frame_count);
         attributes.at("frame_seconds").get_to(crowd.frame_seconds);
+        if (!(crowd.frame_seconds >= 0 && crowd.frame_seconds <= kMostLength))
+            throw std::invalid_argument("frame_seconds is out of range");
         crowd.goals_digest = std::stoull(attributes.at("goals_digest").get<std::string>(), nullptr, 16);
         for (const Json& joint : attributes.at("joints"))
             crowd.joints.push_back({joint.at("name").get<std::string>(), place_of(joint.at("parent"))});
         for (const Json& limb : attributes.at("limbs")) crowd.limbs.push_back(limb_of(limb));
         if (attributes.contains("ground")) crowd.ground = ground_of(attributes.at("ground"));
         require_sane(crowd);
+        require_kept(crowd);
         require_solvable(crowd);
     } catch (const formats::InputError&) {
         throw;

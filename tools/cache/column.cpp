@@ -50,7 +50,8 @@ void Column::read_frame(std::uint32_t frame, Results& results) const
             const std::size_t joint = joint_of(field);
             if (joint == 0) {
                 crowd_.read(limb, field, 0, crowd_.character_count(), {to, count * sizeof *to});
-                for (std::uint32_t who = 0; field == SWIVEL_SHIFT && who < crowd_.character_count(); ++who)
+                if (field != SWIVEL_SHIFT) continue;
+                for (std::uint32_t who = 0; who < crowd_.character_count(); ++who)
                     to[who * count + 3] = std::bit_cast<std::uint32_t>(crowd_.rise(who));
                 continue;
             }

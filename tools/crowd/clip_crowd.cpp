@@ -222,7 +222,12 @@ std::span<const Row> ClipCrowd::rows_of(std::vector<Row>& rows, const Make& make
 std::span<const formats::Target> ClipCrowd::targets()
 {
     targets_.resize(rows_.size());
-    return rows_of(targets_, [&](std::size_t limb, std::uint32_t character) { return target(limb, character); });
+    rows_of(targets_, [&](std::size_t limb, std::uint32_t character) { return target(limb, character); });
+    std::erase_if(targets_, [&](const formats::Target& of) {  // their targets do not count
+        const std::size_t limb = limb_index(of.limb);
+        return crowd_.has_ground() && setups_[limb].goals.goes_along && !given(limb, of.character);
+    });
+    return targets_;
 }
 
 std::span<const formats::PoseRow> ClipCrowd::poses()

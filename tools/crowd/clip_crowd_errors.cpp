@@ -87,11 +87,12 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         const Reached at = reached(limb, row);
         const PoseName pose{frame_, n, limbs_[limb].name};
         const Vector3d end_point = at.wrist + characters()[n].size * (at.hand * plan.effector);
-        const double distance =
-            aims ? residuals[n - begin] : (end_point - target_point(limb, n)).norm() / length(limb, n);
+        const float(&weights)[3] = crowd_.input(limb, n).weights;
+        const double distance = weights[0] == 0 ? 0
+                                : aims          ? residuals[n - begin]
+                                                : (end_point - target_point(limb, n)).norm() / length(limb, n);
         statistics.add_flags(row.flags, distance, pose);
         if (row.flags & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
-        const float(&weights)[3] = crowd_.input(limb, n).weights;
         const bool is_reached = (row.flags & SWIVEL_REACHED) != 0;
         if (aims)
             (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose);

@@ -64,7 +64,8 @@ goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
                                                  : GOAL_POLE_DIRECTION;
     goals.holds_pole = plan.holds_pole;
     goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
-    goals.goes_along = !plan.has(SWIVEL_WITH_PLANT) && plan.follows_clip();
+    goals.goes_along = !plan.target_point && plan.target_offset.isZero(0) && !plan.has(SWIVEL_WITH_PLANT) &&
+                       !plan.has(SWIVEL_WITH_AIM);
     return goals;
 }
 

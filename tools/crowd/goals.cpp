@@ -206,6 +206,7 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
     const uint32_t limb_count = limb_count_of(crowd);
     if (limb_count > GOAL_MOST_LIMBS) return SWIVEL_INVALID_ARGUMENT;
     const bool has_shift = swivel_group_count(crowd) > limb_count;
+    if (swivel_group_count(crowd) > limb_count + 1) return SWIVEL_INVALID_ARGUMENT;
     const size_t stride = limb_count * sizeof(goal_input);
     size_t rotations[kMostJoints], places[kMostJoints], results[kMostJoints], joint = 0;
     GroupInputs lists[GOAL_MOST_LIMBS];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The goals of a crowd that performs a clip: what each character's pose is, and what its limbs are asked for in a
-// frame. One source for the command and the page: only + - * and plain structures, so both get the same bits. No Eigen,
-// whose vector code adds in another order. The structures have one layout on all little-endian machines, so a page
-// holds them as bytes.
+// frame. One source for the command and the page: only + - * /, floor and plain structures, so both get the same bits.
+// No Eigen, whose vector code adds in another order. The structures have one layout on all little-endian machines, so a
+// page holds them as bytes.
 #pragma once
 
 #include <stdint.h>
@@ -117,7 +117,7 @@ double swivel_ground_height(const goal_ground* ground, const float* heights, dou
 // poses: become the local rotations as solved, swivel_goal_pose_size() floats for each body. A limb has x, y, z, w of
 // each of its joints. Joints that are not solved stay as they are, so start with zeros.
 // job: which bodies, and on which threads. Its frames, pose and sampling are overwritten.
-// It fails as swivel_solve() does. It also fails for more than GOAL_MOST_LIMBS limbs.
+// It fails as swivel_solve() does. It also fails for more than GOAL_MOST_LIMBS limbs, and for other groups.
 swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground, const float* heights, float seconds,
                                  const goal_character* characters, goal_root* roots, const goal_input* inputs,
                                  float* poses, swivel_job* job);

@@ -39,19 +39,33 @@ Ground read_ground(const formats::CrowdFile& file, double floor)
     return ground;
 }
 
-// How high a point is while its foot is down: as high as this share of the frames is not above.
-double height_down(std::span<const Vector3d> places_w, const std::vector<bool>& contact, double share)
+// The quantile `share` of a point's heights while the foot is down. point: in the ankle's axes.
+double height_down(const formats::Clip& clip, int ankle, const Vector3d& point, const std::vector<bool>& contact,
+                   double share)
 {
     std::vector<double> heights;
-    for (std::size_t frame = 0; frame < places_w.size(); ++frame)
-        if (contact[frame]) heights.push_back(places_w[frame].y());
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        if (!contact[frame]) continue;
+        formats::world_pose(clip, frame, pose_w);
+        const formats::JointPose& at = pose_w[static_cast<std::size_t>(ankle)];
+        heights.push_back((at.position + at.rotation * point).y());
+    }
     return quantile(std::move(heights), share);
+}
+
+// The toe in the ankle's axes; zeros for a foot that stands on its ankle.
+Vector3d toe_in_ankle(const formats::Clip& clip, const Limb& leg, const LegPath& path)
+{
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    formats::world_pose(clip, 0, pose_w);
+    return pose_w[static_cast<std::size_t>(leg.end())].rotation.conjugate() * (path.toe_w[0] - path.ankle_w[0]);
 }
 
 }  // namespace
 
 void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
-                     CrowdPlan& plan)
+                     const FigureAxes& figure, CrowdPlan& plan)
 {
     const auto refuse = [&](std::string_view cause) {
         throw formats::InputError(file.path, file.ground->line, fmt::format("ground: {}", cause));
@@ -62,12 +76,12 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
     if (legs.empty()) refuse("no leg is solved; see crowd.limbs, or --limbs");
     if (plan.budget_blocks > 0) refuse("feet that stand are solved in every frame; take this or [budget] out");
     if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
-    const LegMotion motion = leg_motion(clip, legs, 0, Vector3d::UnitY());
+    if (nearest_axis(figure.up_w) != Vector3d::UnitY())
+        refuse("the figure does not stand along Y; turn the clip, or take this out");
+    const LegMotion motion = leg_motion(clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
     const ContactBars bars;
     if (missing_way(motion, bars)) refuse("the clip walks in place, so its feet slide; move its root first");
     const Contacts contacts = find_contacts(motion, bars);
-    std::vector<formats::JointPose> pose_w(clip.joints.size());
-    formats::world_pose(clip, 0, pose_w);
     std::size_t leg = 0;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         if (limbs[n].name.kind != formats::LimbKind::leg) continue;
@@ -75,23 +89,26 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
         const std::vector<bool>& contact = contacts[leg++];
         LimbPlan& to = plan.limbs[n];
         if (std::ranges::none_of(contact, [](bool is_down) { return is_down; }))
-            refuse(fmt::format("the clip never has the {} foot on the ground; swivel feet says when",
-                               side_name(limbs[n].name.side)));
-        to.features |= SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT | SWIVEL_HAND_YIELDS;
-        to.contact = contact;
-        to.fields.push_back(kCap);
+            refuse(
+                fmt::format("the clip never has the {} foot on the ground, by the rule of swivel feet; take another "
+                            "clip, or take this out",
+                            side_name(limbs[n].name.side)));
         if (!to.has(SWIVEL_WITH_EFFECTOR)) {
-            const formats::JointPose& ankle_w = pose_w[static_cast<std::size_t>(limbs[n].end())];
-            to.features |= SWIVEL_WITH_EFFECTOR;
-            to.effector = ankle_w.rotation.conjugate() * (path.toe_w[0] - path.ankle_w[0]);
+            to.effector = toe_in_ankle(clip, limbs[n], path);
             FixedField effector{SWIVEL_EFFECTOR, {}};
             std::ranges::copy(to.effector.cast<float>(), effector.value.begin());
             to.fields.push_back(effector);
         }
-        to.ground.toe_clearance =
-            static_cast<float>(std::max(0.0, height_down(path.toe_w, contact, 0.5) - plan.foot.y()));
-        to.ground.heel_clearance =
-            static_cast<float>(std::max(0.0, height_down(path.ankle_w, contact, 0.02) - plan.foot.y()));
+        to.features |= SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP |
+                       SWIVEL_WITH_FIT | SWIVEL_HAND_YIELDS;
+        to.fields.push_back(kCap);
+        to.contact = contact;
+        const auto clearance = [&](const Vector3d& point, double share) {
+            const double height = height_down(clip, limbs[n].end(), point, contact, share) - plan.foot.y();
+            return static_cast<float>(std::max(0.0, height));
+        };
+        to.ground.toe_clearance = clearance(to.effector, 0.5);
+        to.ground.heel_clearance = clearance(Vector3d::Zero(), 0.02);
     }
     plan.shift_wish = -kLower * motion.leg_length();
     plan.ground = read_ground(file, plan.foot.y());

@@ -8,11 +8,17 @@
 
 namespace swivel::tools {
 
+// How a figure stands: upwards in the world, and the joint that carries the body (carrier_of()), or -1.
+struct FigureAxes {
+    Eigen::Vector3d up_w;
+    int carrier;
+};
+
 // Makes the legs of a crowd stand on the ground that its file has. A foot stands on its toe, or without
 // one on its ankle; an effector that the file gives counts instead. Reads the picture of heights. Throws InputError,
-// naming the file's line, for a crowd without legs, for a budget, for frames that are uneven, for a clip that walks in
-// place, and for one whose feet are never on the ground.
+// naming the file's line, for a crowd without legs, for a budget, for frames that are uneven, for a figure that does
+// not stand along Y, for a clip that walks in place, and for one whose feet are never on the ground.
 void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
-                     CrowdPlan& plan);
+                     const FigureAxes& figure, CrowdPlan& plan);
 
 }  // namespace swivel::tools

@@ -8,6 +8,7 @@
 
 #include "tools/cli/command_error.h"
 #include "tools/crowd/crowd_checks.h"
+#include "tools/feet/leg_motion.h"
 #include "tools/feet/standing.h"
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
@@ -114,7 +115,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     if (job.crowd && job.crowd->loop) go_round(options, file, job);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (job.crowd && job.crowd->ground) {
-        stand_on_ground(*job.crowd, clip, job.limbs, job.plan);
+        stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)}, job.plan);
         if (job.crowd->ground->heights)
             job.heights = (job.crowd->path.parent_path() / job.crowd->ground->heights->value).string();
     }

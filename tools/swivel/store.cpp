@@ -153,7 +153,10 @@ void run_store(const StoreOptions& options)
     write_goals(maker, options, file, job);
     const double goals = static_cast<double>(maker.commit()) / 1e6;
     const CacheArrays arrays(crowd);
-    const double poses = megabytes_of(arrays.results), state = megabytes_of(arrays.state);
+    std::vector<ZarrArray> kept;
+    for (std::size_t n = 0; n < arrays.fields.size(); ++n)
+        if (!arrays.fields[n].is_state_alone) kept.push_back(arrays.results[n]);
+    const double poses = megabytes_of(kept), state = megabytes_of(arrays.state);
     const std::uint64_t chunks = std::uint64_t{crowd.time_count()} * crowd.column_count();
     if (options.crowd.quiet) return;
     say(stdout, "cache    {}: {} frames in {} chunks, each of {} frames and {} characters\n", options.folder,

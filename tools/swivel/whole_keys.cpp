@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/formats/error.h"
 
@@ -57,8 +58,8 @@ WholeKeys::WholeKeys(const Clip& clip, std::span<const Limb> limbs, const CrowdP
             parts.push_back({limb, 3, joint_at(clip, limbs[limb].upper()).parent});
     }
     for (const Part& part : parts) has[static_cast<std::size_t>(part.joint)] = true;
-    if (plan.ground)
-        for (raised_ = limbs[0].upper(); joint_at(clip, raised_).parent >= 0;) raised_ = joint_at(clip, raised_).parent;
+    if (plan.ground) raised_ = limbs[0].upper();
+    while (raised_ >= 0 && joint_at(clip, raised_).parent >= 0) raised_ = joint_at(clip, raised_).parent;
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
         if (has[n] || turns(clip, n)) turning_.push_back(static_cast<int>(n));
         if (moves(clip, n) || raised_ == static_cast<int>(n)) moving_.push_back(static_cast<int>(n));
@@ -75,9 +76,9 @@ void WholeKeys::require_can_write(const std::filesystem::path& out, const Motion
                          static_cast<double>(16 * turning_.size() + 12 * moving_.size());
     if (characters_ > kMostInFile)
         throw formats::InputError(
-            out, fmt::format("a file holds {} characters at most; {} would take {:.1f} GB; give --characters {}, or "
+            out, fmt::format("a file holds {} characters at most; {} would take {:.0f} MB; give --characters {}, or "
                              "write a .csv",
-                             kMostInFile, characters_, bytes / 1e9, kMostInFile));
+                             kMostInFile, characters_, std::ceil(bytes / 1e6), kMostInFile));
     constexpr double kMostBytes = 3e9;  // of 4 GiB that a GLB may have, also beside its meshes
     if (bytes > kMostBytes)
         throw formats::InputError(

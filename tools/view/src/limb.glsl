@@ -1,7 +1,7 @@
 // Forward kinematics of a limb, from the rows that the solver reads and writes: row r of limb i is texel
 // (16 r + i % 16, i / 16). All is relative to the character's root. The extra character's block is the last line.
 uniform highp usampler2D uInputs, uResults;
-uniform int uTargetRow, uEffectorRow, uAimRow;                                      // of inputs; -1: there are none
+uniform int uTargetRow, uEffectorRow, uAimRow, uWeightsRow;                         // of inputs; -1: there are none
 uniform int uShoulderRow, uElbowRow, uWristRow, uFlagsRow, uStretchRow, uRecordRow;  // of results
 uniform int uGoalRow;       // of results, too: where a foot that stands was sent
 uniform int uBlocks;        // of the rows before the extra one
@@ -27,6 +27,7 @@ vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.
 // How far the wrist, or the effector, is from its target. With an aim: how far the target is from the hand's ray.
 float missedBy(int limb, vec3 wrist, vec4 hand, float scale) {
     vec3 miss = (uGoalRow < 0 ? vector(uInputs, uTargetRow, limb) : vector(uResults, uGoalRow, limb)) - wrist;
+    if (uWeightsRow >= 0 && number(uInputs, uWeightsRow, limb) == 0.0) return 0.0;  // it goes along with its body
     if (uEffectorRow >= 0) miss -= scale * turned(hand, vector(uInputs, uEffectorRow, limb));
     if (uAimRow >= 0) {
         vec3 axis = normalize(turned(hand, vector(uInputs, uAimRow, limb)));

@@ -115,6 +115,11 @@ class Page {
         this.undo.step(this.picker.dragging, () => this.stage.drag(limb, character, part, world, this.dragsEveryone));
         this.changed();
     }
+    /** After a drag. */
+    settle() {
+        this.stage.settle();
+        this.changed();
+    }
     letGo() {
         this.undo.step(null, () => this.stage.letGo(this.selection.limb, this.selection.character));
         this.changed();

@@ -123,7 +123,9 @@ export class Picker {
         if (!this.isPressed(event)) return;
         const isClick = Math.hypot(event.clientX - this.pressed.x, event.clientY - this.pressed.y) < SLACK;
         if (isClick && !this.dragging) this.page.select(this.limbAt(event));
+        const wasDragging = this.dragging;
         this.stop();
+        if (wasDragging) this.page.settle();
     }
     stop() {
         this.dragging = this.pressed = null;

@@ -50,7 +50,7 @@ export class LimbRows {
         const row = (name) => (crowd.fieldRowCount(Field[name], group) > 0 ? crowd.fieldFirstRow(Field[name], group) : -1);
         this.uniforms = {
             uInputs: this.inputs, uResults: this.results,
-            uTargetRow: row("TARGET"), uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"),
+            uTargetRow: row("TARGET"), uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"), uWeightsRow: row("WEIGHTS"),
             uShoulderRow: row("SHOULDER"), uElbowRow: row("ELBOW"), uWristRow: row("WRIST"), uFlagsRow: row("FLAGS"),
             uStretchRow: row("STRETCH"), uRecordRow: row("RECORD"), uGoalRow: row("GOAL"), uBlocks: blocks,
         };

@@ -28,7 +28,7 @@ export class View {
         this.scene = new Scene();
         this.camera = new PerspectiveCamera(38, 1, 0.05, 2000);
         this.controls = new OrbitControls(this.camera, canvas);
-        this.controls.maxPolarAngle = 0.497 * Math.PI;  // above the ground
+        this.controls.maxPolarAngle = 0.497 * Math.PI;  // above level ground
         this.controls.minDistance = 0.4;
         this.controls.maxDistance = 400;
         const ground = makeGround(stage, this.metres, figure.ground);
@@ -84,7 +84,10 @@ export class View {
     toScene([x, y, z]) { return new Vector3(x, y - this.figure.ground, z).multiplyScalar(this.metres); }
     toClip({ x, y, z }) { return [x / this.metres, y / this.metres + this.figure.ground, z / this.metres]; }
 
-    /** Looks at a character from where the camera is, at the same distance, or close by; in a jump, higher by as much. */
+    /**
+     * Looks at a character from where the camera is, at the same distance, or close by; in a jump, higher by as much. It looks at the
+     * figure's middle, so that the feet are above the bar.
+     */
     lookAt(character, isClose) {
         const rise = this.figure.at(0, this.stage.clipFrame(character)).y - this.figure.at(0).y;
         const to = this.placeOf(character, 0.5 * HEIGHT + this.metres * rise), offset = this.camera.position.clone().sub(this.controls.target);

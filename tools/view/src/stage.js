@@ -11,7 +11,8 @@ import { bytesOf, charactersOf, givenOf, gridOf, INPUT, PLAN, ROOT_SHIFT, SIZE, 
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT, unit } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
 
-const KEPT = 64;  // frames from one state that is kept to the next
+const KEPT = 64;  // frames from one state that is kept to the next, at least
+const MOST_KEPT = 2 ** 28;  // bytes of them
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
@@ -88,6 +89,8 @@ export class Stage {
         this.solvedFrames = 0;  // in order, from the first on; -1: not in order
         this.hasSolved = false;
         this.states = new Map();  // what solves start from, by frame
+        this.kept = KEPT;  // frames between them
+        this.isHeld = false;  // by the user, who drags something
     }
     has(limb, name) { return this.crowd.componentCount(Field[name], limb.index) > 0; }
     /** Whether a group's solves start from its last results. */
@@ -95,7 +98,7 @@ export class Stage {
 
     /** Goes to a frame and solves it. A crowd that carries state solves all that lies between, so a frame looks the same however it was reached. */
     setFrame(frame) {
-        if (this.carriesState && frame !== this.frame + 1) return this.replay(frame);
+        if (this.carriesState && frame !== (this.isHeld ? this.frame + 1 : this.solvedFrames)) return this.replay(frame);
         this.frame = frame;
         this.solve();
     }
@@ -122,16 +125,29 @@ export class Stage {
         for (const frame of this.states.keys()) if (frame > 0) this.states.delete(frame);
         this.solvedFrames = -1;
     }
-    /** Solves the frame again, after a change. While something is dragged, the crowd goes on from its state at hand; else as if it had always been so. */
-    solveAgain(isDragged) {
+    /** Keeps what this frame's solve starts from; every other one goes where they take too much. */
+    keepState() {
+        const bytes = this.groups.reduce((sum, group) => sum + this.crowd.resultRows(group).byteLength, this.poses.byteLength);
+        if (this.states.size * bytes > MOST_KEPT) {
+            this.kept *= 2;
+            for (const frame of this.states.keys()) if (frame % this.kept > 0) this.states.delete(frame);
+        }
+        if (this.frame % this.kept === 0) this.states.set(this.frame, this.takeState());
+    }
+    /** Solves the frame again, after a change. Its state at hand goes on, until another frame is looked at or settle() is called. */
+    solveAgain() {
         this.forgetStates();
-        if (this.carriesState && !isDragged) this.replay(this.frame);
-        else this.solve();
+        this.solve();
+    }
+    /** After a change that is complete: solves the frame as if it had always been so. */
+    settle() {
+        this.isHeld = false;
+        if (this.carriesState && this.solvedFrames < 0) this.replay(this.frame);
     }
     /** Solves the frame. */
     solve() {
         const inOrder = this.solvedFrames === this.frame;
-        if (inOrder && this.carriesState && this.frame % KEPT === 0 && !this.states.has(this.frame)) this.states.set(this.frame, this.takeState());
+        if (inOrder && this.carriesState && this.frame % this.kept === 0 && !this.states.has(this.frame)) this.keepState();
         this.askMovedGoals(this.frame);
         if (this.hasSolved) this.forgetEnds();
         const before = performance.now(), { crowd, poses, groundAt, charactersAt, rootsAt, inputsAt } = this;
@@ -194,11 +210,11 @@ export class Stage {
         const at = this.inputsAt + (character * this.limbs.length + limb.index) * SIZE.input + INPUT[part];
         return part === "target" || part === "pole" ? this.memory.doubles(at, 3) : this.memory.floats(at, part === "hand" ? 4 : 3);
     }
-    /** Sets a goal for the next solve. What is set counts. */
+    /** Sets a goal for the next solve, which then counts. With a pole the target counts, too, as in a table. */
     setGoal(limb, character, part, goal) {
         this.input(limb, character, part).set(goal);
         const weights = this.input(limb, character, "weights");
-        weights.set(part === "pole" ? [limb.weights[2]] : limb.weights.slice(0, 2), part === "pole" ? 2 : 0);
+        weights.set(part === "pole" ? limb.weights : limb.weights.slice(0, 2));
     }
     clipFrame(character) { return (this.frame + this.characters[character].start) % this.clipFrameCount; }
     /** A limb's shoulder in the clip, before its clavicle has turned. */
@@ -233,19 +249,21 @@ export class Stage {
     /** Moves a goal to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
     drag(limb, character, part, world, everyone) {
         (everyone ? dragEveryone : dragOne)(this, limb, character, part, world);
-        this.changed = true;
-        this.solveAgain(true);
+        this.changed = this.isHeld = true;
+        this.solveAgain();
     }
     /** Gives a limb's goals back to the clip, and everyone's of that limb. Solves the crowd. */
     letGo(limb, character) {
         dropDrags(this, limb, character);
         this.noteChanges();
-        this.solveAgain(false);
+        this.solveAgain();
+        this.settle();
     }
     letAllGo() {
         dropAllDrags(this);
         this.noteChanges();
-        this.solveAgain(false);
+        this.solveAgain();
+        this.settle();
     }
     isAnyDragged() { return this.pins.size > 0 || this.limbs.some(isShifted); }
     movedParts(limb, character) { return movedParts(this, limb, character); }
@@ -255,7 +273,7 @@ export class Stage {
     setField(limbs, name, valueOf) {
         this.setOwn(this.limbs.map((limb) => (limbs.includes(limb) ? ownWith(limb, name, valueOf ? valueOf(limb) : null) : limb.own)));
         this.noteChanges();
-        this.solveAgain(false);
+        this.solveAgain();
     }
     /** Sets the user's fields of each limb. Changes nothing if it fails. */
     setOwn(owns) {
@@ -279,7 +297,8 @@ export class Stage {
         this.pins = pins;
         this.limbs.forEach((limb, n) => { limb.shift = shifts[n]; });
         this.noteChanges();
-        this.solveAgain(false);
+        this.solveAgain();
+        this.settle();
     }
     field(limb, name) { return fieldOf(limb, name); }
 
@@ -287,7 +306,11 @@ export class Stage {
     read(limb, character, name) { return this.crowd.read(Field[name], { group: limb.index, first: character, count: 1 }); }
     flags(limb, character) { return this.read(limb, character, "FLAGS")[0]; }
     explain(limb, character) { return this.crowd.explain(character, limb.index); }
-    residual(limb, character) { return this.crowd.residuals({ group: limb.index, first: character, count: 1 })[0]; }
+    /** In lengths of the limb; 0 for one whose target does not count. */
+    residual(limb, character) {
+        if (this.has(limb, "WEIGHTS") && this.input(limb, character, "weights")[0] === 0) return 0;
+        return this.crowd.residuals({ group: limb.index, first: character, count: 1 })[0];
+    }
     arcs(limb, character) { return this.crowd.allowedArcs(character, limb.index); }
     /** Elbow and wrist from the root: three numbers for each of these characters. */
     joints(limb, first, count) {
