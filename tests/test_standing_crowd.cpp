@@ -190,7 +190,7 @@ TEST_CASE("a cache of a crowd on hills has the table's bits, whoever fills it")
     const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
     if (path.empty()) return;
     const HillStage stage(path);
-    stage.solved(crowd_on_hills("characters = 20"), {"--out", "out.csv", "--quiet"});
+    stage.solved(crowd_on_hills("characters = 20\nloop = \"auto\""), {"--out", "out.csv", "--quiet"});
     const auto done = [&](const Words& words) {
         const Outcome outcome = run_command(stage.folder.path, words);
         INFO(outcome.err);
@@ -266,7 +266,8 @@ TEST_CASE("a ground that cannot be is refused, by the line")
     CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\nheights = \"none.png\"\nsize = [1, 1, 1]\n"),
                Contains("c.toml:4: ground.heights: ") && Contains("none.png"));
     CHECK_THAT(stage.refused("[ground]\nheight = 1\n"), Contains("ground.height") && Contains("heights"));
-    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"arms\"\n[ground]\n"), Contains("c.toml:3: ground: no leg is solved"));
+    CHECK_THAT(stage.refused("[crowd]\nlimbs = \"arms\"\n[ground]\n"),
+               Contains("c.toml:3: ground: no leg is solved; write crowd.limbs = \"all\""));
     CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\n[budget]\nblocks = 1\n"),
                Contains("c.toml:3: ground: feet that stand are solved in every frame"));
     CHECK_THAT(stage.refused("[crowd]\nlimbs = \"legs\"\n[ground]\n[limb.legs.reach]\nmost_stretch = 1.1\n"),

@@ -406,7 +406,7 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         attributes.at("has_given").get_to(crowd.has_given);
         attributes.at("title").get_to(crowd.title);
         attributes.at("clip").get_to(crowd.clip);
-        crowd.clip_frames = whole(attributes, "clip_frames", 1, crowd.frame_count);
+        crowd.clip_frames = whole(attributes, "clip_frames", 1, kMost);
         attributes.at("frame_seconds").get_to(crowd.frame_seconds);
         if (!(crowd.frame_seconds >= 0 && crowd.frame_seconds <= kMostLength))
             throw std::invalid_argument("frame_seconds is out of range");

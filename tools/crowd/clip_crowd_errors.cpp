@@ -113,6 +113,7 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
     Vector3d wanted = Vector3d(who.place) + who.size * (motion_.origin(clip_frame(character), limb) + from.elbow);
     wanted.y() += double{crowd_.rise(character)} - double{crowd_.root(character).shift};
     const double difference = (at.elbow - wanted).norm() / length(limb, character);
+    if (crowd_.input(limb, character).weights[0] == 0 && crowd_.has_ground()) return;  // it goes along with its body
     if (!follows_clip(limb, character)) return statistics.given.add(difference, pose);
     const Vector3d upper = from.elbow.normalized(), fore = (from.wrist - from.elbow).normalized();
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;

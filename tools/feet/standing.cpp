@@ -73,7 +73,7 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
     std::vector<Limb> legs;
     for (const Limb& limb : limbs)
         if (limb.name.kind == formats::LimbKind::leg) legs.push_back(limb);
-    if (legs.empty()) refuse("no leg is solved; see crowd.limbs, or --limbs");
+    if (legs.empty()) refuse("no leg is solved; write crowd.limbs = \"all\", or give --limbs all");
     if (plan.budget_blocks > 0) refuse("feet that stand are solved in every frame; take this or [budget] out");
     if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
     if (nearest_axis(figure.up_w) != Vector3d::UnitY())

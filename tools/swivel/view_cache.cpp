@@ -3,6 +3,8 @@
 // `swivel view` of a cache: the page of its crowd.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
@@ -71,7 +73,8 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0, ground_of(crowd),
                      crowd.frame_seconds);
     GivenGoals goals(cache);
-    const std::uint32_t frames = crowd.clip_frames;  // the page plays the clip round and round
+    const std::uint32_t frames =
+        std::min(crowd.clip_frames, crowd.frame_count);  // the page plays the clip round and round
     Progress progress("frames", frames, options.quiet);
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
         progress.show(frame);
