@@ -20,6 +20,11 @@ STATE = LIMITED + """
 [limb.all.swivel]
 most_deg_per_second = 900
 """
+GROUND = f"""{STATE}
+[ground]
+heights = "{ROOT}/examples/hills.png"
+size = [900, 60, 900]
+"""
 
 
 def run(*words, **options):
