@@ -255,7 +255,7 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
         {"chunk_frames is 0", [](CachedCrowd& crowd) { crowd.chunk.frames = 0; }},
         {"chunk_characters is 0", [](CachedCrowd& crowd) { crowd.chunk.characters = 0; }},
         {"chunk_characters is no multiple of 16", [](CachedCrowd& crowd) { crowd.chunk.characters = 17; }},
-        {"clip_frames is 3", [](CachedCrowd& crowd) { crowd.clip_frames = 3; }},
+        {"clip_frames is 0", [](CachedCrowd& crowd) { crowd.clip_frames = 0; }},
         {"a joint comes before its parent", [](CachedCrowd& crowd) { crowd.joints[1].parent = 77; }},
         {"a limb's joints are not three",
          [](CachedCrowd& crowd) {

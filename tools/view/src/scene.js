@@ -84,13 +84,10 @@ export class View {
     toScene([x, y, z]) { return new Vector3(x, y - this.figure.ground, z).multiplyScalar(this.metres); }
     toClip({ x, y, z }) { return [x / this.metres, y / this.metres + this.figure.ground, z / this.metres]; }
 
-    /**
-     * Looks at a character from where the camera is, at the same distance, or close by; in a jump, higher by as much. It looks at the
-     * figure's middle, so that the feet are above the bar.
-     */
+    /** Looks at a character from where the camera is, at the same distance, or close by; in a jump, higher by as much. */
     lookAt(character, isClose) {
         const rise = this.figure.at(0, this.stage.clipFrame(character)).y - this.figure.at(0).y;
-        const to = this.placeOf(character, 0.5 * HEIGHT + this.metres * rise), offset = this.camera.position.clone().sub(this.controls.target);
+        const to = this.placeOf(character, 0.6 * HEIGHT + this.metres * rise), offset = this.camera.position.clone().sub(this.controls.target);
         if (isClose) offset.setLength(Math.min(offset.length(), 3.2 * this.farther()));
         this.controls.target.copy(to);
         this.camera.position.copy(to).add(offset);
