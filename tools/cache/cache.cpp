@@ -86,8 +86,7 @@ void Cache::read_clip()
     require_made(arrays_.ground[0], {}, std::as_writable_bytes(std::span(crowd_.ground->heights)));
     if (!std::ranges::all_of(crowd_.ground->heights, [](float height) { return height >= 0 && height <= 1; }))
         throw InputError(store_.chunk_path(arrays_.ground[0], {}),
-                         "has heights that are not from 0 to 1; make the "
-                         "cache anew by swivel store");
+                         "has heights that are not from 0 to 1; make the cache anew by swivel store");
 }
 
 // Reads a chunk of the goals and compares it with what was made. False: none was.

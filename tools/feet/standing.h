@@ -14,10 +14,12 @@ struct FigureAxes {
     int carrier;
 };
 
-// Makes the legs of a crowd stand on the ground that its file has. A foot stands on its toe, or without
-// one on its ankle; an effector that the file gives counts instead. Reads the picture of heights. Throws InputError,
-// naming the file's line, for a crowd without legs, for a budget, for frames that are uneven, for a figure that does
-// not stand along Y, for a clip that walks in place, and for one whose feet are never on the ground.
+// Makes the legs of a crowd stand on the ground that its file has. A foot stands on its toe, or without one on its
+// ankle. An effector that the file gives counts instead. Reads the picture of heights.
+//
+// Throws InputError, naming the file's line, for what cannot stand: a crowd without legs, one with a budget, and a
+// figure that is not upright along Y. It also does for clips of uneven frames, that walk in place, or whose feet are
+// never on the ground.
 void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
                      const FigureAxes& figure, CrowdPlan& plan);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The poses of whole characters, kept for a file of motion with frames of its own: limbs as solved, all else as the
-// clip has it in the frame that the character shows, raised with its ground.
+// The poses of whole characters, kept for a file of motion with frames of its own. Limbs are as solved. All else is as
+// the clip has it in the frame that the character shows, raised with its ground.
 #pragma once
 
 #include <span>
