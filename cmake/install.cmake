@@ -20,6 +20,7 @@ if(SWIVEL_TOOLS)
     set_target_properties(${programs} PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
   endif()
   install(TARGETS ${programs})
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/share/swivel DESTINATION ${CMAKE_INSTALL_DATADIR})
   # The program of the pages that it writes, where tools/view/build has made it.
   install(FILES ${PROJECT_SOURCE_DIR}/build/view/view.html DESTINATION ${CMAKE_INSTALL_DATADIR}/swivel OPTIONAL)
 endif()

@@ -134,9 +134,8 @@ std::vector<std::string> digests_of(const Json& page)
     std::vector<float> poses(count * swivel_goal_pose_size(crowd.get()));
     std::vector<std::string> digests;
     for (std::uint32_t frame = 0; frame < page.at("frame_count"); ++frame) {
-        swivel_goals(plans.data(), source_of.data(), static_cast<std::uint32_t>(plans.size()),
-                     static_cast<std::uint32_t>(sources[0].size()), frame, nullptr, nullptr, characters.data(), count,
-                     roots.data(), inputs.data());
+        swivel_goals(plans.data(), source_of.data(), static_cast<std::uint32_t>(plans.size()), frame, nullptr, nullptr,
+                     characters.data(), count, roots.data(), inputs.data());
         swivel_job job = swivel_default_job();
         REQUIRE(swivel_goals_solve(crowd.get(), nullptr, nullptr, 0, characters.data(), roots.data(), inputs.data(),
                                    poses.data(), &job) == SWIVEL_OK);

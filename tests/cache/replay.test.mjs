@@ -52,9 +52,10 @@ async function open(path) {
     const row = clip.map((array) => Buffer.from(part(array, limb * frames + frame).slice().buffer));
     return Buffer.concat([...row, Buffer.alloc(4)]);
   })));
-  const [size, place, start, wish] = await readAll('character/size', 'character/place', 'character/start', 'character/wish');
+  const [size, place, ...words] = await readAll(...['size', 'place', 'start', 'first', 'count', 'wish'].map((name) => `character/${name}`));
+  const [start, first, count, wish] = words.map(({ data }) => data);
   const heights = attrs.ground?.columns > 0 ? (await read('ground/height')).data : undefined;
-  return { attrs, read, root, sources, heights, size: size.data, place: place.data, start: start.data, wish: wish.data };
+  return { attrs, read, root, sources, heights, size: size.data, place: place.data, start, first, count, wish };
 }
 
 // ---- digests
@@ -139,7 +140,7 @@ class Column {
     this.count = Math.min(most, characters - first);
     const who = Array.from({ length: this.count }, (_, n) => first + n);
     this.characters = this.keep(Buffer.concat(who.map((c) => Buffer.concat([
-      doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c]), floats(cache.wish[c])]))));
+      doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c]), floats(cache.wish[c]), words(cache.first[c], cache.count[c])]))));
     this.ground = cache.heights ? [this.keep(groundBytes(cache.attrs.ground)), this.keep(Buffer.from(cache.heights.slice().buffer))] : [0, 0];
     this.plans = this.keep(Buffer.concat(limbs.map(({ goals }) => planBytes(goals))));
     this.sources = this.keep(words(...cache.sources.map((bytes) => this.keep(bytes))));
@@ -178,11 +179,11 @@ class Column {
       });
   }
   solve(frame, given) {
-    const { memory, crowd, cache: { attrs: { limbs, clip_frames: frames, frame_seconds: seconds }, start } } = this, { calls } = memory;
-    calls.swivel_goals(this.plans, this.sources, limbs.length, frames, frame, ...this.ground, this.characters, this.count, this.roots, this.inputs);
+    const { memory, crowd, cache: { attrs: { limbs, frame_seconds: seconds }, start, count } } = this, { calls } = memory;
+    calls.swivel_goals(this.plans, this.sources, limbs.length, frame, ...this.ground, this.characters, this.count, this.roots, this.inputs);
     for (let group = 0; group < crowd.groupCount; ++group) {
       if (!carried.some((field) => crowd.componentCount(field, group) > 0)) continue;
-      for (let n = 0; n < this.count; ++n) if ((frame + start[this.first + n]) % frames === 0) crowd.reset({ group, first: n, count: 1 });
+      for (let n = 0; n < this.count; ++n) if ((frame + start[this.first + n]) % count[this.first + n] === 0) crowd.reset({ group, first: n, count: 1 });
     }
     if (given) this.give(frame, given);
     memory.borrow((borrowed) => {

@@ -39,7 +39,7 @@ export async function visit(file, use, { before, hash = '', ...options } = {}) {
     page.on('console', (message) => faults.push(`console: ${message.text()}`));
     page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
     page.on('dialog', (dialog) => faults.push(`dialog: ${dialog.message()}`));
-    page.on('request', (request) => { if (request.url() !== `file://${encodeURI(file)}`) faults.push(`request: ${request.url()}`); });
+    page.on('request', (request) => { if (request.url() !== `file://${encodeURI(file)}` && !/^(blob|data):/.test(request.url())) faults.push(`request: ${request.url()}`); });
     if (before) await page.addInitScript(before);
     await page.goto(`file://${encodeURI(file)}${hash}`);
     await page.evaluate(() => window.swivelPage?.ready.then(() => {}));

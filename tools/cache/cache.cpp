@@ -124,6 +124,12 @@ std::vector<goal_character> Cache::characters(std::uint32_t column) const
         require_made(arrays_.characters[n], {column}, bytes);
         scatter(bytes, kCharacterMembers[n], std::span(characters));
     }
+    for (const goal_character& each : characters)
+        if (each.count < 1 || each.first >= crowd_.clip_frames || each.count > crowd_.clip_frames - each.first)
+            throw InputError(folder(),
+                             fmt::format("character/first and character/count: a clip of {} frames from {} on "
+                                         "is none of the cache's {}; write the cache again",
+                                         each.count, each.first, crowd_.clip_frames));
     return characters;
 }
 

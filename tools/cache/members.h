@@ -39,8 +39,10 @@ constexpr Member kSourceMembers[] = {
 constexpr Member kCharacterMembers[] = {
     {"size", "<f8", offsetof(goal_character, size), 1, "factor of all lengths, also of the way it goes"},
     {"place", "<f8", offsetof(goal_character, place), 3, "in the world, of the clip's origin; the clip's unit"},
-    {"start", "<u4", offsetof(goal_character, start), 1, "frame of the clip that it starts at"},
-    {"wish", "<f4", offsetof(goal_character, wish), 1, "the shift where no leg asks for another; below 0 is lower"}};
+    {"start", "<u4", offsetof(goal_character, start), 1, "frame of its clip that it starts at"},
+    {"wish", "<f4", offsetof(goal_character, wish), 1, "the shift where no leg asks for another; below 0 is lower"},
+    {"first", "<u4", offsetof(goal_character, first), 1, "first frame of its clip"},
+    {"count", "<u4", offsetof(goal_character, count), 1, "frames of its clip, which it plays round and round"}};
 
 // The member of all structures, side by side, and zeros up to that many rows.
 template <class Struct>

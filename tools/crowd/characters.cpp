@@ -26,22 +26,30 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
     : plan_(plan),
       random_(plan.seed),
-      starts_(plan.starts > 0 ? plan.starts : frame_count),
+      clips_(plan.clips),
       columns_(static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)))),
       spacing_(plan.spacing * limb_span(limbs))
 {
+    if (clips_.empty()) clips_ = {{0, frame_count, frame_count}};
 }
 
 goal_character CharacterStream::next()
 {
     const std::uint32_t n = made_++;
     const auto wish = [&](double size) { return static_cast<float>(size * plan_.shift_wish); };
-    if (n == 0) return {1, {0, 0, 0}, 0, wish(1)};
+    const auto performing = [&](std::size_t clip, double size, const Eigen::Vector3d& place, std::size_t start) {
+        const auto word = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
+        return goal_character{size,       {place.x(), place.y(), place.z()}, word(start),
+                              wish(size), word(clips_[clip].first),          word(clips_[clip].count)};
+    };
+    if (n == 0) return performing(0, 1, Eigen::Vector3d(0, 0, 0), 0);
     const double size = static_cast<float>(plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_));
-    const auto start = static_cast<std::uint32_t>(random_() % starts_);
+    const std::uint64_t drawn = random_();
+    const std::size_t clip = clips_.size() == 1 ? 0 : random_() % clips_.size();
+    const std::size_t start = plan_.stagger ? drawn % clips_[clip].starts : 0;
     const Eigen::Vector3d place =
         Eigen::Vector3d(spacing_ * (n % columns_), 0, spacing_ * (n / columns_)) + (1 - size) * plan_.foot;
-    return {size, {place.x(), place.y(), place.z()}, plan_.stagger ? start : 0, wish(size)};
+    return performing(clip, size, place, start);
 }
 
 std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)

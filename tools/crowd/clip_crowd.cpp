@@ -165,7 +165,7 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
     row.place = std::to_array(who.place);
     row.place[1] += double{crowd_.rise(character)};
     row.size = who.size;
-    row.start = who.start;
+    row.start = who.first + who.start;
     row.limb = limbs_[limb].name;
     row.shoulder = crowd_.rotation(limb, character, 1);
     row.elbow = crowd_.rotation(limb, character, 2);

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/crowd/clip_parts.h"
 #include "tools/crowd/ground.h"
 #include "tools/crowd/limb_setup.h"
 #include "tools/formats/crowd_file.h"
@@ -49,8 +50,8 @@ struct CrowdPlan {
     double spacing = 3;                              // between neighbours, in spans of two limbs
     double least_size = 0.85, most_size = 1.15;      // factor of all lengths; the first character's is 1
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();  // in the clip: where characters of all sizes stand alike
-    bool stagger = true;                             // characters start anywhere in the clip, or in the first `starts`
-    std::size_t starts = 0;                          // frames of it; 0: all
+    bool stagger = true;                             // characters start anywhere in their clip
+    std::vector<ClipPart> clips;                     // each character performs one of them; none: all frames are one
     std::uint32_t budget_blocks = 0;                 // of 16 characters, solved in a frame; 0: all
     std::optional<Ground> ground;                    // that legs stand on: see tools/feet/standing.h
     double shift_wish = 0;                           // then: of a body of size 1

@@ -51,7 +51,6 @@ GoalCrowd::GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::sp
                      std::vector<goal_character> characters, std::uint32_t budget_blocks, const Ground* ground,
                      double frame_seconds)
     : limbs_(limbs),
-      frame_count_(static_cast<std::uint32_t>(sources[0].size())),
       characters_(std::move(characters)),
       crowd_(crowd_of(limbs, character_count())),
       roots_(characters_.size()),
@@ -71,11 +70,6 @@ GoalCrowd::GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::sp
     }
 }
 
-std::uint32_t GoalCrowd::clip_frame(std::uint32_t character) const
-{
-    return static_cast<std::uint32_t>((std::uint64_t{frame_} + characters_[character].start) % frame_count_);
-}
-
 float GoalCrowd::rise(std::uint32_t character) const
 {
     if (!ground_) return 0;
@@ -90,11 +84,11 @@ void GoalCrowd::set_frame(std::uint32_t frame)
     frame_ = frame;
     const auto limb_count = static_cast<std::uint32_t>(limbs_.size());
     for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-        swivel_goals(plans_.data(), sources_.data(), limb_count, frame_count_, frame, grid(), heights(),
-                     &characters_[begin], end - begin, &roots_[begin], &inputs_[std::size_t{begin} * limb_count]);
+        swivel_goals(plans_.data(), sources_.data(), limb_count, frame, grid(), heights(), &characters_[begin],
+                     end - begin, &roots_[begin], &inputs_[std::size_t{begin} * limb_count]);
     });
     for (std::uint32_t n = 0; n < character_count(); ++n)
-        if (clip_frame(n) == 0)
+        if (clip_frame(n) == characters_[n].first)
             for (std::uint32_t group = 0; group < swivel_group_count(crowd_.get()); ++group)
                 check(swivel_reset(crowd_.get(), group, n, 1));
 }

@@ -20,7 +20,7 @@ struct GivenPlace {
 
 class GoalCrowd {
 public:
-    // limbs: 1 to GOAL_MOST_LIMBS. sources: of each limb, one for each frame of the clip. Both must outlive the crowd.
+    // limbs: 1 to GOAL_MOST_LIMBS. sources: of each limb, one for each frame of all clips. Both must outlive the crowd.
     // budget_blocks: blocks of 16 characters that a frame solves; 0: all.
     // ground: what legs stand on; null: nothing. It must outlive the crowd, too. frame_seconds: from frame to frame.
     GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::span<const goal_source>>& sources,
@@ -30,8 +30,11 @@ public:
     std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
     std::span<const goal_character> characters() const { return characters_; }
     std::span<const LimbSetup> limbs() const { return limbs_; }
-    // The frame of the clip that a character shows, since the last set_frame().
-    std::uint32_t clip_frame(std::uint32_t character) const;
+    // The frame of the sources that a character shows, since the last set_frame().
+    std::uint32_t clip_frame(std::uint32_t character) const
+    {
+        return swivel_goal_frame(&characters_[character], frame_);
+    }
 
     // Fills the inputs of a frame by the formula. A limb's swivel is forgotten where the clip starts again: from its
     // end to its start is no motion.
@@ -81,7 +84,6 @@ private:
     std::span<const LimbSetup> limbs_;
     std::vector<goal_plan> plans_;
     std::vector<const goal_source*> sources_;  // by limb
-    std::uint32_t frame_count_;                // of the clip
     std::vector<goal_character> characters_;
     Crowd crowd_;
     std::vector<goal_root> roots_;

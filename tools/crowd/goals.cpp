@@ -170,13 +170,13 @@ goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_ch
     return asked;
 }
 
-void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame_count,
-                  uint32_t frame, const goal_ground* ground, const float* heights, const goal_character* characters,
-                  uint32_t count, goal_root* roots, goal_input* inputs)
+void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame,
+                  const goal_ground* ground, const float* heights, const goal_character* characters, uint32_t count,
+                  goal_root* roots, goal_input* inputs)
 {
     for (uint32_t n = 0; n < count; ++n) {
         goal_character who = characters[n];
-        const uint64_t at = (uint64_t{frame} + who.start) % frame_count;
+        const uint32_t at = swivel_goal_frame(&who, frame);
         const Vec3 root = vec3(sources[0][at].root);
         Vec3 root_w = vec3(who.place) + who.size * root;
         if (ground) {

@@ -30,8 +30,9 @@ typedef struct goal_source {
 typedef struct goal_character {
     double size;  // one that a float holds
     double place[3];
-    uint32_t start;  // frame of the clip that it starts at
-    float wish;      // of its shift, where the crowd has shifts
+    uint32_t start;         // frame of its clip that it starts at
+    float wish;             // of its shift, where the crowd has shifts
+    uint32_t first, count;  // its clip: frames of the sources, which it plays round and round; count is 1 or more
 } goal_character;
 
 // What a goal's pole is.
@@ -83,7 +84,7 @@ typedef struct goal_input {
     float contact;          // as the source's
 } goal_input;
 
-static_assert(sizeof(goal_source) == 216 && sizeof(goal_character) == 40 && sizeof(goal_plan) == 208 &&
+static_assert(sizeof(goal_source) == 216 && sizeof(goal_character) == 48 && sizeof(goal_plan) == 208 &&
               sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 208);
 
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
@@ -95,16 +96,22 @@ enum { GOAL_MOST_LIMBS = 8 };  // of a character
 // down sooner than usual, because hills come as fast as steps.
 static const float GOAL_PLANT_RUN = 1, GOAL_FIT_HALF = 0.05f;
 
+// The frame of the sources that a character shows in a frame of the crowd. Any thread; no allocation.
+inline uint32_t swivel_goal_frame(const goal_character* character, uint32_t frame)
+{
+    return character->first + (uint32_t)((frame + (uint64_t)character->start) % character->count);
+}
+
 // The goal of a limb of a character. Any thread; no allocation.
 goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 
 // Fills what count characters are asked for: roots has count of them, inputs [character][limb]. plans: of each limb.
-// sources: of each limb, one for each frame of the clip. Character c shows frame (frame + start) % frame_count.
+// sources: of each limb, one for each frame of all clips.
 // ground, heights: unless null, each character is raised to where the ground is below its root. Any thread; no
 // allocation.
-void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame_count,
-                  uint32_t frame, const goal_ground* ground, const float* heights, const goal_character* characters,
-                  uint32_t count, goal_root* roots, goal_input* inputs);
+void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame,
+                  const goal_ground* ground, const float* heights, const goal_character* characters, uint32_t count,
+                  goal_root* roots, goal_input* inputs);
 
 // How high the ground is in the world. Any thread; no allocation.
 double swivel_ground_height(const goal_ground* ground, const float* heights, double x, double z);

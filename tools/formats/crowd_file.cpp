@@ -220,6 +220,18 @@ Maybe<LoopFrames> read_loop(TomlTable& table)
     });
 }
 
+std::vector<FurtherClip> read_clips(TomlTable& table)
+{
+    std::vector<FurtherClip> clips;
+    for (TomlTable& each : table.tables("clips")) {
+        const Maybe<std::string> file = each.text("file"), animation = each.text("clip");
+        each.finish();
+        if (!file && !animation) each.fail("", "names no motion; write { file = \"FILE\" } or { clip = \"NAME\" }");
+        clips.push_back({each.line(), each.key(), file ? file->value : "", animation ? animation->value : ""});
+    }
+    return clips;
+}
+
 void read_crowd(TomlTable table, CrowdFile& to)
 {
     to.characters = table.whole("characters", 1, 10'000'000);
@@ -228,6 +240,7 @@ void read_crowd(TomlTable table, CrowdFile& to)
     to.size = table.range("size", 0.01, 100, 100);
     to.stagger = table.flag("stagger");
     to.loop = read_loop(table);
+    to.clips = read_clips(table);
     to.limbs = converted<std::string>(table.word("limbs", kLimbKinds),
                                       [](std::size_t n) { return std::string(kLimbKinds[n]); });
     to.targets = table.text("targets");

@@ -96,6 +96,14 @@ struct GroundSettings {
     Maybe<Eigen::Vector3d> middle;  // where the picture's middle lies, at black
 };
 
+// One of the list crowd.clips; at least one of them is there.
+struct FurtherClip {
+    std::size_t line = 0;
+    std::string key;        // of the list
+    std::string file;       // a relative path starts at the file's folder; empty: the motion's own file
+    std::string animation;  // of a glTF file; empty: its first
+};
+
 struct CrowdFile {
     std::filesystem::path path;
     Maybe<std::int64_t> characters, seed;
@@ -103,6 +111,7 @@ struct CrowdFile {
     Maybe<NumberRange> size;
     Maybe<bool> stagger;
     Maybe<LoopFrames> loop;
+    std::vector<FurtherClip> clips;
     Maybe<std::string> limbs, targets;  // targets as written; a relative path starts at the file's folder
     Maybe<std::int64_t> budget_blocks;
     std::optional<GroundSettings> ground;

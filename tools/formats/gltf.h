@@ -100,6 +100,10 @@ void require_can_key(const GltfFile& file, int joint);
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const JointKeys> keys,
                 const std::optional<NewFrames>& frames = {}, std::optional<bool> binary = {});
 
+// A GLB of all that a viewer draws of the file: the file without its animations, with all buffers in it. Images beside
+// the file stay there. Empty where the file has no mesh. Throws InputError for more than a GLB holds.
+std::string figure_glb(const GltfFile& file);
+
 // One of a crowd that a file shows.
 struct GltfCharacter {
     std::string name;                  // of its node and of its animation

@@ -227,6 +227,7 @@ void add_figures(GltfAsset& asset, std::size_t times, std::span<const GltfChange
 
 void add_keys(GltfAsset& asset, const GltfChanges& changes)
 {
+    if (changes.drops_animations) asset.document.erase("animations");
     if (changes.tracks.empty() && changes.figures.empty()) return;
     const std::size_t times = add_floats(asset, changes.times, 1, "SCALAR");
     asset.list("accessors")[times]["min"] = {changes.times.front()};

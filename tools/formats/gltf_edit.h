@@ -40,6 +40,7 @@ struct GltfChanges {
     // In place of all scenes, animations and tracks: one scene of so many figures, with an animation each. Nodes and
     // skins are copied; meshes, materials and all that they are made of are shared.
     std::vector<Figure> figures;
+    bool drops_animations = false;  // and adds none
 };
 
 // The file with these changes, in the shape for a file at `to`: `binary` or not. from: where the file was read, for

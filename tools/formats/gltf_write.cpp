@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_edit.h"
+#include "tools/formats/gltf_json.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
 
@@ -70,20 +72,22 @@ std::vector<GltfChanges::Track> tracks_of(const GltfFile& file, std::span<const 
     return tracks;
 }
 
+std::string glb_named(const std::filesystem::path& path, const GltfContainer& container)
+{
+    try {
+        return glb_of(container);
+    } catch (const std::length_error& error) {
+        throw InputError(is_standard_stream(path) ? "standard output" : path, error.what());
+    }
+}
+
 void write_changes(const std::filesystem::path& path, const GltfFile& file, const GltfChanges& changes,
                    std::optional<bool> binary)
 {
     const bool is_glb = binary.value_or(lower_suffix(path) != ".gltf");
     OutputFile out(path);
     const GltfContainer written = with_changes(file.container, file.buffers, changes, file.path, path, is_glb);
-    try {
-        if (is_glb)
-            out.write(glb_of(written));
-        else
-            out.write(written.json);
-    } catch (const std::length_error& error) {
-        throw InputError(is_standard_stream(path) ? "standard output" : path, error.what());
-    }
+    out.write(is_glb ? glb_named(path, written) : written.json);
     out.commit();
 }
 
@@ -116,6 +120,14 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
                                            ? movers.by_steps.contains(keys[n].joint)
                                            : !movers.all.empty() && movers.by_steps == movers.all;
     write_changes(path, file, changes, binary);
+}
+
+std::string figure_glb(const GltfFile& file)
+{
+    if (!gltf_document(file.path, file.container.json).contains("meshes")) return {};
+    GltfChanges changes;
+    changes.drops_animations = true;
+    return glb_named(file.path, with_changes(file.container, file.buffers, changes, file.path, file.path, true));
 }
 
 void write_gltf_crowd(const std::filesystem::path& path, const GltfFile& file,

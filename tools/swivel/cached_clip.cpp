@@ -7,9 +7,6 @@
 
 namespace swivel::tools {
 
-namespace {
-
-// The joints that are drawn: bones, and the limbs' own.
 std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs)
 {
     std::vector<std::size_t> drawn;
@@ -19,6 +16,8 @@ std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const
     }
     return drawn;
 }
+
+namespace {
 
 // A joint's place among those that are drawn, or of the nearest one above it; -1 where there is none.
 int drawn_at(const formats::Clip& clip, std::span<const std::size_t> drawn, int joint)

@@ -15,7 +15,10 @@ struct ClipNames {
     std::string clip;   // the animation in it; may be empty
 };
 
-// Its joints are those that are drawn: bones, and the limbs' own. All frames of the clip, all characters of the plan.
+// The clip's joints that are drawn: bones, and the limbs' own.
+std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs);
+
+// Its joints are those that are drawn. All frames of the clip, all characters of the plan.
 CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::span<const Limb> limbs,
                         const CrowdPlan& plan, const ClipMotion& motion);
 

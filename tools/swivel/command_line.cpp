@@ -80,14 +80,16 @@ void add_view_command(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "view", "Write a page that shows the crowd of a clip or a cache, solves it live and lets you drag its limbs");
     auto options = std::make_shared<SolveOptions>();
-    add_crowd_of_clip(*command, *options);
+    add_crowd_of_clip(*command, *options)->required(false);
     takes(command->add_option("-o,--out", options->view,
                               "The page, to open in a browser; it needs no network and no other file. Without it it is "
                               "named as FILE, with .html, in this folder. - is standard output"),
           file_name());
     add_frames(*command, options->frames);
     add_quiet(*command, options->quiet, "Print errors and nothing else");
-    command->footer("FILE may also be a cache that swivel store made.");
+    command->footer(
+        "FILE may also be a cache that swivel store made. Without FILE the page shows 300 figures that walk "
+        "over hills.");
     command->callback([options, command] { run_view(*options, option_about_clip(*command)); });
 }
 

@@ -41,7 +41,8 @@ struct SolveOptions {
     bool quiet = false, json = false;
 };
 void run_solve(const SolveOptions& options);
-// The same for the page alone, whose name comes from the file's unless `view` says it. The file may be a cache.
+// The same for the page alone, whose name comes from the file's unless `view` says it. The file may be a cache;
+// without one it is the figure that is installed with the command, on hills.
 // about_clip: the first option given that a cache has no use for; empty: none is given.
 void run_view(SolveOptions options, const std::string& about_clip);
 

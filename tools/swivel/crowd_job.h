@@ -21,17 +21,22 @@ struct CrowdJob {
     std::optional<formats::CrowdFile> crowd;
     std::vector<Limb> limbs;
     std::vector<LimbFinding> missing;
+    std::vector<BodyPart> body;
+    Eigen::Vector3d forwards_w;  // at rest
     CrowdPlan plan;
-    std::optional<FoundLoop> loop;
-    std::size_t frame_count = 0;  // to solve: those of the clip, fewer, or of a loop any number
+    std::vector<FoundLoop> loops;    // of each clip, where they go on and on
+    std::vector<std::string> clips;  // further ones, for people
+    std::vector<std::filesystem::path> clip_files;
+    std::size_t frame_count = 0;  // to solve: those of the first clip, fewer, or of loops any number
     std::size_t clip_frames = 0;  // that the file has
     std::string targets;          // "clip" or a file
     std::optional<GivenTargets> given;
     std::string heights;  // the picture of the ground; empty: none
 };
 
-// A motion's file as pages and caches call it.
+// A motion's file as pages and caches call it, and what is performed of it and of further clips.
 std::string title_of(const std::string& file);
+std::string motion_of(const MotionFile& file, const CrowdJob& job);
 
 // The limbs that the options name. Throws CommandError where they contradict each other.
 LimbChoice choice_of(const SolveOptions& options);

@@ -93,6 +93,12 @@ std::span<const std::filesystem::path> MotionFile::files_beside() const
     return gltf ? std::span<const std::filesystem::path>(gltf->files_beside) : std::span<const std::filesystem::path>();
 }
 
+std::string MotionFile::figure_glb() const
+{
+    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
+    return gltf ? formats::figure_glb(*gltf) : std::string();
+}
+
 std::string MotionFile::describe() const
 {
     const GltfFile* gltf = std::get_if<GltfFile>(&file_);

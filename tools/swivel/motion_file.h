@@ -36,6 +36,8 @@ public:
     const formats::Clip& clip() const;
     // The files that it refers to, such as a glTF file's buffers and images.
     std::span<const std::filesystem::path> files_beside() const;
+    // What a viewer draws the figure from, as formats::figure_glb() makes it; empty where the file has no mesh.
+    std::string figure_glb() const;
     // What the clip is, for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
     // What the user should know of how it was read, a line each; mostly nothing.

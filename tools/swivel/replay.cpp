@@ -128,9 +128,8 @@ private:
         row.limb = crowd_.limbs[limb].name;
         row.place = std::to_array(who.place);
         row.size = who.size;
-        row.start = who.start;
-        const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frames;
-        row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
+        row.start = who.first + who.start;
+        row.wrist = std::to_array(crowd_.limbs[limb].sources[swivel_goal_frame(&who, frame)].wrist_local);
         extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
         const std::size_t place = crowd_.place(frame_in_chunk, limb, n);
         for (std::size_t f = 0; f < fields_.size(); ++f) {

@@ -15,12 +15,12 @@ CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meanin
     return command.add_flag("--quiet", quiet, meaning);
 }
 
-void add_file(CLI::App& command, std::string& file, const std::string& meaning)
+CLI::Option* add_file(CLI::App& command, std::string& file, const std::string& meaning)
 {
-    takes(command.add_option(
-              "FILE", file,
-              meaning + ": BVH or glTF (.glb, .gltf, .vrm, .vrma), as its first bytes say. - is standard input"),
-          file_name())
+    return takes(command.add_option(
+                     "FILE", file,
+                     meaning + ": BVH or glTF (.glb, .gltf, .vrm, .vrma), as its first bytes say. - is standard input"),
+                 file_name())
         ->required()
         ->option_text(" ");
 }
@@ -77,9 +77,9 @@ void add_frames(CLI::App& command, std::uint32_t& frames)
           whole_number(1, 1'000'000));
 }
 
-void add_crowd_of_clip(CLI::App& command, SolveOptions& options)
+CLI::Option* add_crowd_of_clip(CLI::App& command, SolveOptions& options)
 {
-    add_file(command, options.file, "Motion file");
+    CLI::Option* const file = add_file(command, options.file, "Motion file");
     add_motion(command, options.motion, "A file without animations is solved in its rest pose");
     takes(command
               .add_option("--targets", options.targets,
@@ -107,6 +107,7 @@ void add_crowd_of_clip(CLI::App& command, SolveOptions& options)
         ->default_str("1");
     add_seed(command, options.seed, "the characters' differences");
     add_threads(command, options.threads);
+    return file;
 }
 
 }  // namespace swivel::tools

@@ -33,7 +33,7 @@ CLI::Option* add_threads(CLI::App& command, unsigned& threads,
 CLI::Option* add_json(CLI::App& command, bool& json);
 CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meaning = "Show no progress");
 // The positional FILE.
-void add_file(CLI::App& command, std::string& file, const std::string& meaning);
+CLI::Option* add_file(CLI::App& command, std::string& file, const std::string& meaning);
 CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning);
 // --clip and --fps; use: what the animation is there for.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use);
@@ -44,7 +44,7 @@ void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vec
                      const std::string& other_side);
 void add_view(CLI::App& command, std::string& view);
 void add_frames(CLI::App& command, std::uint32_t& frames);
-// The clip, its crowd and what is asked of it.
-void add_crowd_of_clip(CLI::App& command, SolveOptions& options);
+// The clip, its crowd and what is asked of it. Returns the positional FILE, which is required.
+CLI::Option* add_crowd_of_clip(CLI::App& command, SolveOptions& options);
 
 }  // namespace swivel::tools

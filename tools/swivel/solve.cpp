@@ -4,6 +4,7 @@
 // `swivel view` does the same for the page alone.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -33,6 +34,35 @@ namespace swivel::tools {
 
 namespace {
 
+// What the file draws its figure from, with the clip's joints as they turn.
+std::optional<PageSkin> skin_of(const MotionFile& file, const CrowdJob& job)
+{
+    PageSkin skin;
+    skin.glb = file.figure_glb();
+    if (skin.glb.empty()) return {};
+    const formats::Clip& clip = file.clip();
+    const std::vector<std::size_t> drawn = drawn_joints(clip, job.limbs);
+    for (const std::size_t joint : drawn) skin.nodes.push_back(clip.joints[joint].number);
+    for (const char* part : {"neck", "head"})
+        for (const int joint : joints_of(job.body, part))
+            if (const auto at = std::ranges::find(drawn, static_cast<std::size_t>(joint)); at != drawn.end())
+                skin.head.push_back(static_cast<std::size_t>(at - drawn.begin()));
+    if (const std::vector<int> heads = joints_of(job.body, "head"); !heads.empty()) {
+        const formats::JointPose at_rest_w = formats::rest_pose(clip)[static_cast<std::size_t>(heads.back())];
+        const Eigen::Vector3d face = at_rest_w.rotation.conjugate() * job.forwards_w;
+        skin.face = {face.x(), face.y(), face.z()};
+    }
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        formats::world_pose(clip, frame, pose_w);
+        for (const std::size_t joint : drawn) {
+            for (const double part : pose_w[joint].rotation.coeffs()) skin.turns.push_back(static_cast<float>(part));
+            skin.turns.push_back(static_cast<float>(pose_w[joint].scale));
+        }
+    }
+    return skin;
+}
+
 Statistics solve_clip(const SolveOptions& options, const MotionFile& file, CrowdJob& job)
 {
     const OutKind kind = out_kind(options.out, job.plan.characters);
@@ -45,8 +75,8 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     std::optional<formats::TargetsCsv> exported;
     if (!options.export_targets.empty()) exported.emplace(options.export_targets);
     // New frames where the clip's own do not fit, else the file's own keys of the limbs.
-    const bool is_whole = kind == OutKind::motion &&
-                          (job.loop || job.plan.characters > 1 || job.frame_count < job.clip_frames || job.plan.ground);
+    const bool is_whole = kind == OutKind::motion && (!job.plan.clips.empty() || job.plan.characters > 1 ||
+                                                      job.frame_count < job.clip_frames || job.plan.ground);
     MotionKeys keys(job.limbs, job.plan);
     std::optional<WholeKeys> whole;
     if (is_whole) whole.emplace(file.clip(), job.limbs, job.plan);
@@ -75,9 +105,9 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     else if (kind == OutKind::motion)
         keys.write(options.out, file);
     if (page)
-        page->commit(
-            cached_clip({title_of(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
-            crowd.goal_crowd());
+        page->commit(cached_clip({title_of(options.file), motion_of(file, job)}, file.clip(), job.limbs, job.plan,
+                                 crowd.motion()),
+                     crowd.goal_crowd(), skin_of(file, job));
     return statistics;
 }
 
@@ -95,7 +125,8 @@ nlohmann::ordered_json json_of_run(const SolveOptions& options, const MotionFile
 {
     nlohmann::ordered_json out = json_of_clip(options, file, job);
     for (const goal_character& each : characters_of(job.plan, job.limbs, file.clip().frame_count))
-        out["each_character"].push_back({{"place", each.place}, {"size", each.size}, {"start", each.start}});
+        out["each_character"].push_back(
+            {{"place", each.place}, {"size", each.size}, {"start", each.first + each.start}});
     out.update(json_of(statistics));
     out["seconds"] = seconds;
     if (!options.out.empty()) out["out"] = options.out;
@@ -118,7 +149,7 @@ void run_solve(const SolveOptions& options)
     MotionFile file(options.file, options.motion);
     if (is_motion) file.require_can_write(options.out);
     CrowdJob job = make_job(options, choice, file);
-    require_own_files(options, file, job.targets, job.heights);
+    require_own_files(options, file, job);
     if (!options.json && !options.quiet) print_clip(reports, options, file, job);
 
     const ThreadLimit limit(options.threads);
@@ -132,6 +163,11 @@ void run_solve(const SolveOptions& options)
 
 void run_view(SolveOptions options, const std::string& about_clip)
 {
+    if (options.file.empty()) {
+        options.file = shared_file("figure.glb").string();
+        if (options.crowd.empty()) options.crowd = shared_file("figure.toml").string();
+        if (options.frames == 0) options.frames = 300;  // of 30 a second
+    }
     std::error_code ignored;
     const bool is_cache = std::filesystem::is_directory(options.file, ignored);
     const std::filesystem::path named = is_cache ? folder_name(options.file) : std::filesystem::path(options.file);

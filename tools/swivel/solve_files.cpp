@@ -93,14 +93,14 @@ void require_not_beside(std::span<const std::string> outputs, const MotionFile& 
                 refuse(output, "a buffer or image of the clip");
 }
 
-void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets,
-                       const std::string& heights)
+void require_own_files(const SolveOptions& options, const MotionFile& clip, const CrowdJob& job)
 {
     const std::string outputs[] = {options.out, options.export_targets, options.view};
-    const ReadFile read[] = {{options.file, "the clip"},
-                             {targets == "clip" ? "" : targets, "the table of targets"},
-                             {options.crowd, "the crowd file"},
-                             {heights, "the picture of heights"}};
+    std::vector<ReadFile> read{{options.file, "the clip"},
+                               {job.targets == "clip" ? "" : job.targets, "the table of targets"},
+                               {options.crowd, "the crowd file"},
+                               {job.heights, "the picture of heights"}};
+    for (const std::filesystem::path& clip_file : job.clip_files) read.push_back({clip_file.string(), "a clip"});
     require_own_outputs(outputs, read);
     require_not_beside(outputs, clip);
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tools/swivel/commands.h"
+#include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_file.h"
 
 namespace swivel::tools {
@@ -33,10 +34,8 @@ void require_own_outputs(std::span<const std::string> outputs, std::span<const R
 // Refuses an output that is a file beside the clip. Throws CommandError.
 void require_not_beside(std::span<const std::string> outputs, const MotionFile& clip);
 
-// Nothing that is read is written over, and nothing that is written. heights: the ground's picture, or empty. Throws
-// CommandError.
-void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets,
-                       const std::string& heights);
+// Nothing that is read is written over, and nothing that is written. Throws CommandError.
+void require_own_files(const SolveOptions& options, const MotionFile& clip, const CrowdJob& job);
 
 // Where reports go: stderr, where stdout is for data.
 std::FILE* report_stream(std::span<const std::string> outputs);

@@ -36,12 +36,16 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     for (const LimbFinding& finding : job.missing)
         say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
             finding.has_joints ? "refused" : "missing", problem_text(finding));
-    if (job.loop)
-        say(to, "loop     frames {} to {} of the clip, {:.2f} s{}\n", job.loop->loop.first, job.loop->loop.last,
-            static_cast<double>(job.loop->loop.length()) * clip.frame_time,
-            job.loop->gap > 0 ? fmt::format("; a joint's pose and motion differ by {:.1f} degrees",
-                                            job.loop->gap * 180 / std::numbers::pi)
-                              : "");
+    for (const std::string& further : job.clips) say(to, "clip     {}\n", further);
+    for (std::size_t n = 0; n < job.loops.size(); ++n) {
+        const FoundLoop& found = job.loops[n];
+        say(to, "loop     frames {} to {} of the clip{}, {:.2f} s{}\n", found.loop.first, found.loop.last,
+            job.loops.size() > 1 ? fmt::format(" {}", n + 1) : "",
+            static_cast<double>(found.loop.length()) * clip.frame_time,
+            found.gap > 0 ? fmt::format("; a joint's pose and motion differ by {:.1f} degrees",
+                                        found.gap * 180 / std::numbers::pi)
+                          : "");
+    }
     if (const std::size_t count = job.given->left_out(); count > 0)
         say(to, "note     {}: {} row{} left out, of limbs that are not solved\n", shown_file(job.targets), count,
             count == 1 ? " is" : "s are");
@@ -76,7 +80,14 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
                                {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
     if (job.plan.ground) out["ground"] = job.heights.empty() ? "level" : job.heights;
-    if (job.loop) out["loop"] = {job.loop->loop.first, job.loop->loop.last};
+    const auto frames_of_loop = [&](std::size_t n) {
+        return nlohmann::json{job.loops[n].loop.first, job.loops[n].loop.last};
+    };
+    if (!job.loops.empty()) out["loop"] = frames_of_loop(0);
+    for (std::size_t n = 0; n < job.clips.size(); ++n) {
+        out["further_clips"].push_back({{"motion", job.clips[n]}});
+        if (!job.loops.empty()) out["further_clips"].back()["loop"] = frames_of_loop(n + 1);
+    }
     if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;
     for (const Limb& limb : job.limbs) {
         const LimbWords& words = words_of(limb.name.kind);

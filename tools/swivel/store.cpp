@@ -124,7 +124,7 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
         throw formats::InputError(
             options.crowd.crowd,
             "has a budget, which is for live crowds: a cache solves all limbs; leave [budget] out");
-    CachedCrowd crowd = cached_clip({title_of(options.crowd.file), file.describe()}, clip, job.limbs, job.plan,
+    CachedCrowd crowd = cached_clip({title_of(options.crowd.file), motion_of(file, job)}, clip, job.limbs, job.plan,
                                     ClipMotion(clip, job.limbs, job.plan));
     crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);
     crowd.has_given = job.given->count(job.frame_count) > 0;

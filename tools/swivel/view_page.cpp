@@ -30,13 +30,13 @@ std::uint64_t script_digest(std::string_view script)
     return hash;
 }
 
-// Installed beside the command, or built in the folder of builds.
+// Installed with the command, or built in the folder of builds.
 std::string page_program()
 {
-    const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
-    for (const char* place : {"../share/swivel/view.html", "../../view/view.html"}) {
-        if (std::error_code missing; !fs::exists(bin / place, missing)) continue;
-        std::string text = formats::read_text(bin / place);
+    for (const char* place : {"view.html", "../../../view/view.html"}) {
+        const fs::path file = shared_file(place);
+        if (std::error_code missing; !fs::exists(file, missing)) continue;
+        std::string text = formats::read_text(file);
         const std::size_t script = text.find(kDigestPlace), crowd = text.find(kPlace, script);
         if (text.find(kScriptEnd, crowd) != std::string::npos) return text;
     }
@@ -98,6 +98,11 @@ const fs::path& page_name(const fs::path& path)
 
 }  // namespace
 
+fs::path shared_file(const char* name)
+{
+    return fs::read_symlink("/proc/self/exe").parent_path() / "../share/swivel" / name;
+}
+
 ViewPage::ViewPage(const fs::path& path) : out_(page_name(path))
 {
     const std::string text = page_program();
@@ -123,7 +128,7 @@ void ViewPage::add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> pla
     digests_.push_back(crowd.digest());
 }
 
-void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd)
+void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd, const std::optional<PageSkin>& skin)
 {
     Json joints = Json::array();
     for (const CachedJoint& joint : cached.joints) joints.push_back({{"name", joint.name}, {"parent", joint.parent}});
@@ -143,6 +148,12 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd)
     if (const auto& ground = cached.ground)
         page["ground"] = {{"grid", base64_of(std::span(&ground->grid, 1))},
                           {"heights", base64_of(std::span(ground->heights))}};
+    if (skin)
+        page["skin"] = {{"glb", formats::base64_of(skin->glb)},
+                        {"nodes", skin->nodes},
+                        {"turns", base64_of(std::span(skin->turns))},
+                        {"head", skin->head},
+                        {"face", skin->face}};
     const LimbSkeleton skeleton = skeleton_of(crowd.limbs());
     page["skeleton"] = {
         {"parents", skeleton.parents}, {"translations", skeleton.translations}, {"rotations", skeleton.rotations}};

@@ -4,8 +4,10 @@
 // crowd is written into it. Knows what the page holds; what it draws is the page's affair.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +18,21 @@
 
 namespace swivel::tools {
 
+// A file that is installed with the command, which stands in bin: share/swivel/NAME beside that folder.
+std::filesystem::path shared_file(const char* name);
+
+// The figure's own skin, and what carries it.
+struct PageSkin {
+    std::string glb;         // as formats::figure_glb() makes it
+    std::vector<int> nodes;  // of each joint that is drawn, by the file's own number
+    std::vector<float>
+        turns;  // of each frame and each such joint: its rotation in the world, x, y, z, w, and its scale
+    // The necks' joints and the head's, among those that are drawn, and where the face is in the last one's axes.
+    // Empty: there is no head.
+    std::vector<std::size_t> head;
+    std::array<double, 3> face{0, 0, 1};
+};
+
 class ViewPage {
 public:
     // Opens the page to write. Throws CommandError where the page's program is missing or the name is another
@@ -25,8 +42,9 @@ public:
     // Takes a frame just solved: its digest, and the goals that were given. Frames in order, from the first.
     void add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> given);
 
-    // Writes the page and makes it appear; to be called once, last. cached: what the crowd performs.
-    void commit(const CachedCrowd& cached, const GoalCrowd& crowd);
+    // Writes the page and makes it appear; to be called once, last. cached: what the crowd performs. skin: of
+    // the figure that performs it, if it has one.
+    void commit(const CachedCrowd& cached, const GoalCrowd& crowd, const std::optional<PageSkin>& skin = {});
 
 private:
     // A goal of one's own, which takes the formula's place.

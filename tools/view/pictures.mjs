@@ -19,15 +19,9 @@ async function open(options) {
 }
 
 const page = await open({ viewport: { width: 1280, height: 760 }, colorScheme: "dark" });
-await page.evaluate(() => {  // a bent arm in the front row
-    swivelPage.setFrame(30);
-    const { stage } = swivelPage, [limb] = stage.limbs;
-    const bend = (character) => {
-        const { shoulder, wrist } = stage.pose(limb, character);
-        return Math.abs(Math.hypot(...wrist.map((c, axis) => c - shoulder[axis])) / stage.armLength(limb, character) - 0.72);
-    };
-    const front = [...Array(10).keys()].map((n) => 90 + n).sort((a, b) => bend(a) - bend(b));
-    location.hash = `#character=${front[0]}&limb=left_arm`;
+await page.evaluate(() => {
+    swivelPage.setFrame(60);
+    location.hash = `#character=${swivelPage.view.middle}&limb=left_leg`;
     swivelPage.lesson.box.open = true;
     document.querySelectorAll("aside > details").forEach((part) => { part.open = part === swivelPage.lesson.box; });
 });
@@ -40,10 +34,10 @@ await crowd.evaluate(() => {
     swivelPage.select(null);
     swivelPage.home();
     const { camera, controls } = swivelPage.view;
-    camera.position.set(controls.target.x - 3.6, 3.1, controls.target.z + 4.6);
+    camera.position.set(controls.target.x - 3.6, controls.target.y + 2.2, controls.target.z + 6);
     controls.update();
 });
-for (let frame = 0; frame < 240; frame += 6) {
+for (let frame = 0; frame < 132; frame += 3) {
     const url = await crowd.evaluate((at) => {
         swivelPage.setFrame(at);
         swivelPage.draw();

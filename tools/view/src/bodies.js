@@ -16,8 +16,11 @@ import light from "./light.frag.glsl";
 import limbFragment from "./limb.frag.glsl";
 import limbGlsl from "./limb.glsl";
 import limbVertex from "./limb.vert.glsl";
+import put from "./put.glsl";
 import { floatTexture, LimbRows } from "./rows.js";
+import { MOST_SKINS, Skins } from "./skins.js";
 
+export const SKIN = -1;  // in place of limbs' colours
 const SUN = new Vector3(0.45, 1, 0.35);
 
 /**
@@ -64,10 +67,10 @@ export class Bodies {
         const positions = new Float32Array(figure.positions.length / 3 * 4);
         for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
         this.shared = {
-            uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start }) => [...place, size, start, 0, 0, 0]), mostTexels),
+            uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start, first, count }) => [...place, size, start, first, count, 0]), mostTexels),
             uPositions: floatTexture("the clip's positions", positions, mostTexels),
             uRoots: floatTexture("the clip's roots", Array.from({ length: frameCount }, (_, n) => [...sources.root(n), 0]).flat(), mostTexels),
-            uFrame: 0, uFrameCount: frameCount, uJointCount: jointCount,
+            uFrame: 0, uJointCount: jointCount,
             uDrawn: 1, uExtra: 0, uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
             uSky: rgb("#ffffff"), uEarth: rgb("#888888"), uBackground: rgb("#ffffff"), uShade: rgb("#cccccc"),
         };
@@ -76,6 +79,15 @@ export class Bodies {
         Object.assign(this.shared, ground);
         this.addBody();
         this.limbs = stage.limbs.map((limb) => this.addLimb(limb));
+        this.capsules = this.meshes.slice();
+        this.skins = null;
+        this.colouredBy = 0;
+    }
+    /** Draws the figure's own skin from now on, as long as limbs have no colours. Arguments: as Skins has them. */
+    addSkin(skin, made) {
+        this.skins = new Skins(this.stage, this.figure, skin, made, this.shared, this.mostTexels);
+        this.meshes.push(...this.skins.meshes);
+        this.colouredBy = SKIN;
     }
 
     addBody() {
@@ -83,7 +95,7 @@ export class Bodies {
         const texels = floatTexture("the bones", bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]), this.mostTexels);
         this.bodyColour = { value: rgb("#888888") };
         const uniforms = { uBones: { value: texels }, uColour: this.bodyColour };
-        this.add(bones.length, uniforms, [crowdGlsl, capsule, bodyVertex], bodyFragment);
+        this.add(bones.length, uniforms, [crowdGlsl, put, capsule, bodyVertex], bodyFragment);
     }
     addLimb(limb) {
         const { radii, tip } = this.figure.limbShape(limb);
@@ -96,7 +108,7 @@ export class Bodies {
         for (const name of Object.keys(uniforms)) uniforms[name] = { value: uniforms[name] };
         const drawn = { limb, uniforms, rows: null, crowd: null };
         this.takeRows(drawn);
-        this.add(3, uniforms, [crowdGlsl, limbGlsl, capsule, limbVertex], limbFragment);
+        this.add(3, uniforms, [crowdGlsl, put, limbGlsl, capsule, limbVertex], limbFragment);
         return drawn;
     }
     /** The rows of those that are drawn. The crowd is made again when features change. */
@@ -136,7 +148,10 @@ export class Bodies {
         this.shared.uFrame.value = this.stage.frame;
         this.takeRises();
         for (const drawn of this.limbs) this.takeRows(drawn);
-        for (const mesh of this.meshes) mesh.geometry.instanceCount = drawnCount + (this.extra === null ? 0 : 1);
+        for (const mesh of this.capsules) mesh.geometry.instanceCount = drawnCount + (this.extra === null ? 0 : 1);
+        const inSkins = this.colouredBy === SKIN && drawnCount <= MOST_SKINS;
+        if (inSkins) this.skins.show(drawnCount, this.extra);
+        for (const mesh of this.meshes) mesh.visible = this.capsules.includes(mesh) !== inSkins;
     }
     takeRises() {
         const { rises } = this.stage, texture = this.shared.uRises.value;
@@ -146,9 +161,12 @@ export class Bodies {
     }
     choose(limb, character) {
         for (const drawn of this.limbs) drawn.uniforms.uChosen.value = drawn.limb === limb ? character : -1;
+        this.skins?.choose(limb, character);
     }
+    /** index: of COLOUR_BY, or SKIN. Counts from the next show() on. */
     colourBy(index) {
-        for (const drawn of this.limbs) drawn.uniforms.uColourBy.value = index;
+        this.colouredBy = index;
+        for (const drawn of this.limbs) drawn.uniforms.uColourBy.value = Math.max(0, index);
     }
     setTheme(theme) {
         this.shared.uSky.value = rgb(theme.sky);

@@ -1,8 +1,8 @@
-// What makes a character: two texels each, place and size, then the frame it starts at. What is at x in the clip is at
+// What makes a character: two texels each, place and size, then the frame of its clip that it starts at, and which frames its clip is. What is at x in the clip is at
 // place + size * x. Positions of the clip's joints lie one after the other, frame by frame.
 uniform highp sampler2D uCharacters, uPositions, uRoots;  // roots: of the clip's pose, a texel for each frame
 uniform highp sampler2D uRises;  // how much higher each character's joints are, and what its rows are counted from
-uniform int uFrame, uFrameCount, uJointCount;
+uniform int uFrame, uJointCount;
 uniform int uDrawn, uExtra;  // so many characters from the first on are drawn, and one more
 
 vec4 texel(highp sampler2D from, int at) {
@@ -12,7 +12,10 @@ vec4 texel(highp sampler2D from, int at) {
 int characterOf(int instance) { return instance < uDrawn ? instance : uExtra; }
 vec4 placeOf(int character) { return texel(uCharacters, 2 * character); }
 vec2 risesOf(int character) { return texel(uRises, character).xy; }
-int frameOf(int character) { return (uFrame + int(texel(uCharacters, 2 * character + 1).x)) % uFrameCount; }
+int frameOf(int character) {
+    ivec3 clip = ivec3(texel(uCharacters, 2 * character + 1).xyz);
+    return clip.y + (uFrame + clip.x) % clip.z;
+}
 // These are from the character's place.
 vec3 jointOf(int character, int joint) {
     return placeOf(character).w * texel(uPositions, frameOf(character) * uJointCount + joint).xyz;

@@ -41,6 +41,6 @@ export function followLink(page) {
     page.say(wrong.join(" "));
     if (limb === null || character === null) return;
     page.select({ limb, character });
-    page.view.lookAt(character, true);
+    page.look(limb, character);
     page.redraw();
 }

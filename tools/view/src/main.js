@@ -5,6 +5,8 @@
 // The parts share one object, `page`: stage (the crowd), view (the scene), selection ({ limb, character } or null), and the calls below.
 // Its events are "frame" after every solve, "select" after a choice, "draw" after every picture, and "say" with something to tell.
 // window.swivelPage is this object, for tests and scripts: await swivelPage.ready first.
+import { Vector3 } from "three";
+
 import { floatsOf } from "./bytes.js";
 import { makeControls } from "./controls.js";
 import { button, element, section, slider } from "./dom.js";
@@ -21,6 +23,8 @@ import { Player } from "./player.js";
 import { readback } from "./readback.js";
 import { mostDrawn } from "./rows.js";
 import { View } from "./scene.js";
+import { readSkin } from "./skin_file.js";
+import { MOST_SKINS } from "./skins.js";
 import { makeStatus } from "./status.js";
 import { Undo } from "./undo.js";
 import { isWhole } from "./whole.js";
@@ -52,7 +56,7 @@ class Page {
         this.dragsEveryone = false;
         this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs));
         this.mostDrawn = Math.min(stage.characterCount, MOST_DRAWN, mostDrawn(this.view.bodies.mostTexels));
-        this.drawnCount = Math.min(this.mostDrawn, DRAWN);
+        this.drawnCount = Math.min(this.mostDrawn, data.skin ? MOST_SKINS : DRAWN);
         this.view.controls.addEventListener("change", () => this.redraw());
         this.picker = new Picker(this);
         this.undo = new Undo(this);
@@ -82,8 +86,18 @@ class Page {
         this.isDue = true;
         requestAnimationFrame(() => this.draw());
     }
+    /** Heads look to where a ray of the pointer passes in front of them; null: ahead. */
+    lead(ray) {
+        const heads = this.view.bodies.skins?.poses.heads, { camera, controls } = this.view;
+        if (!heads) return;
+        heads.at = ray && this.view.toClip(ray.at(0.5 * camera.position.distanceTo(controls.target), new Vector3()));
+        this.isLed = true;
+        this.redraw();
+    }
     draw() {
         this.isDue = false;
+        if (this.isLed) this.show();
+        this.isLed = false;
         this.view.draw();
         this.tell("draw");
     }
@@ -106,8 +120,18 @@ class Page {
         const next = limbs[(limb.index + 1) % limbs.length];
         const who = (next.index === 0 ? character + 1 : character) % this.stage.characterCount;
         this.select({ limb: next, character: who });
-        const { shoulder, elbow, wrist } = this.stage.pose(next, who);
-        if (![shoulder, elbow, wrist].every((joint) => this.view.isSeen(joint))) this.view.lookAt(who, true);
+        if (!this.pointsOf(next, who).every((point) => this.view.isSeen(point))) this.look(next, who);
+    }
+    /** A limb's joints, and its goals that are near. */
+    pointsOf(limb, character) {
+        const { stage } = this, { shoulder, elbow, wrist } = stage.pose(limb, character), near = 2 * stage.armLength(limb, character);
+        const goals = ["target", ...(stage.hasPole(limb) ? ["pole"] : [])].map((part) => stage.goal(limb, character, part));
+        return [shoulder, elbow, wrist, ...goals.filter((goal) => Math.hypot(...goal.map((c, axis) => c - shoulder[axis])) < near)];
+    }
+    /** Looks at a limb, so that all of it and its goals are seen. */
+    look(limb, character) {
+        this.view.lookAt(character, true);
+        this.view.makeSeen(this.pointsOf(limb, character));
     }
     drag(part, world) {
         if (!this.selection) return;
@@ -172,6 +196,7 @@ function build(page, data) {
     page.on("frame", () => drawn.set(page.drawnCount));
     const bar = element("footer", {});
     page.player = new Player(page, bar);
+    document.body.classList.toggle("wide", matchMedia("(max-width: 760px)").matches);  // a phone shows the crowd first
     const inspector = makeInspector(page), legend = makeLegend(page), controls = makeControls(page);
     page.overlays = makeOverlays(page);
     page.lesson = makeLesson(page);
@@ -182,11 +207,24 @@ function build(page, data) {
     listen(keys);
 }
 
+/** Draws the figure's own skin, if the file has one. Returns what went wrong, or nothing. */
+async function dress({ view }, { skin }) {
+    if (!skin) return "";
+    try {
+        view.addSkin(skin, await readSkin(skin));
+        return "";
+    } catch (error) {
+        return `The figure's skin cannot be drawn: ${error.message}.`;
+    }
+}
+
 async function open(data, canvas) {
     const stage = await openStage(data), page = new Page(stage, data, canvas);
     stage.setFrame(0);
+    const fault = await dress(page, data);
     page.show();
     build(page, data);
+    page.say(fault);
     page.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     page.changed();
     page.resize();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Shapes that are drawn over the scene: surfaces one can see through, tubes in place of lines, which are a pixel wide.
-import { BackSide, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, Vector3 } from "three";
+import { BackSide, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, TorusGeometry, Vector3 } from "three";
 
 import { rgb } from "./colours.js";
 
@@ -31,13 +31,13 @@ export function ball(at, radius, colour) {
     made.position.copy(at);
     return onTop(made);
 }
-/** A sphere to look into. */
+/** Three thin rings of a sphere, which hide nothing. */
 export function sphere(centre, radius, colour) {
-    const skin = new Mesh(new SphereGeometry(radius, 40, 28), surface(colour, 0.09));
-    const wires = new Mesh(new SphereGeometry(radius, 20, 14), surface(colour, 0.16));
-    wires.material.wireframe = true;
-    skin.position.copy(centre);
-    return skin.add(wires);
+    const rings = [0, 1, 2].map(() => new Mesh(new TorusGeometry(radius, 0.004 * radius, 6, 96), surface(colour, 0.8)));
+    rings[1].rotation.x = rings[2].rotation.y = Math.PI / 2;
+    const made = new Group().add(...rings);
+    made.position.copy(centre);
+    return made;
 }
 export function tube(from, to, radius, colour) {
     const length = from.distanceTo(to), material = new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 });

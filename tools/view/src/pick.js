@@ -23,6 +23,7 @@ export class Picker {
         const { domElement } = page.view.renderer;
         domElement.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
         domElement.addEventListener("pointermove", (event) => this.move(event));
+        domElement.addEventListener("pointerleave", () => page.lead(null));
         domElement.addEventListener("pointerup", (event) => this.up(event));
         domElement.addEventListener("pointercancel", (event) => { if (this.isPressed(event)) this.stop(); });
         page.on("frame", () => this.placeHandles());
@@ -111,6 +112,7 @@ export class Picker {
         event.target.setPointerCapture(event.pointerId);
     }
     move(event) {
+        this.page.lead(this.aim(event));
         if (!this.dragging) {
             event.target.style.cursor = this.handleAt(event) ? "grab" : "";
             return;

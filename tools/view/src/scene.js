@@ -41,6 +41,11 @@ export class View {
         this.scene.add(this.marks);
     }
 
+    /** Arguments: as Bodies.addSkin() has them. */
+    addSkin(skin, made) {
+        this.bodies.addSkin(skin, made);
+        this.scene.add(...this.bodies.skins.meshes);
+    }
     /** Level ground has no depth: shadows lie in it. */
     addGround(geometry, depthWrite) {
         const [vertexShader, fragmentShader] = groundGlsl.split("// ---- fragment");
@@ -91,6 +96,13 @@ export class View {
         if (isClose) offset.setLength(Math.min(offset.length(), 3.2 * this.farther()));
         this.controls.target.copy(to);
         this.camera.position.copy(to).add(offset);
+        this.controls.update();
+    }
+    /** Goes back until all of these points of the clip's world are seen, or far enough. */
+    makeSeen(points) {
+        const { target } = this.controls;
+        for (let tries = 0; tries < 8 && !points.every((point) => this.isSeen(point)); ++tries)
+            this.camera.position.sub(target).multiplyScalar(1.15).add(target);
         this.controls.update();
     }
     /** Whether a point of the clip's world is in the part of the picture that is free. */

@@ -186,11 +186,11 @@ export class Stage {
     forgetEnds() {
         for (const group of this.groups)
             if (this.carries(group))
-                for (let n = 0; n < this.characterCount; ++n) if (this.clipFrame(n) === 0) this.crowd.reset({ group, first: n, count: 1 });
+                for (let n = 0; n < this.characterCount; ++n) if (this.clipFrame(n) === this.characters[n].first) this.crowd.reset({ group, first: n, count: 1 });
     }
     /** The goals as the command has them. */
     askGoals() {
-        this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.limbs.length, this.clipFrameCount, this.frame, ...this.groundAt,
+        this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.limbs.length, this.frame, ...this.groundAt,
             this.charactersAt, this.characterCount, this.rootsAt, this.inputsAt);
         for (const { character, limb, poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
             const of = this.limbs[limb], set = (part, goal) => this.input(of, character, part).set(goal);
@@ -216,7 +216,10 @@ export class Stage {
         const weights = this.input(limb, character, "weights");
         weights.set(part === "pole" ? limb.weights : limb.weights.slice(0, 2));
     }
-    clipFrame(character) { return (this.frame + this.characters[character].start) % this.clipFrameCount; }
+    clipFrame(character) {
+        const { first, start, count } = this.characters[character];
+        return first + (this.frame + start) % count;
+    }
     /** A limb's shoulder in the clip, before its clavicle has turned. */
     origin(limb, character) {
         const origin = limb.sources.origin(this.clipFrame(character)), { size, place } = this.characters[character];

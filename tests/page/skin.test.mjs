@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The promise: a glTF file's own skin is drawn on the joints that the command writes into a file, and as the file has it.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { difference, file, run, visit, write } from './harness.mjs';
+
+const figure = fileURLToPath(new URL('../../tools/view/figure.glb', import.meta.url)), check = fileURLToPath(new URL('../gltf/check.mjs', import.meta.url));
+const crowd = file('skins.toml', `[crowd]
+characters = 3
+limbs = "all"
+size = [0.7, 1.3]
+[limb.arms]
+target.offset = [0.1, 0.3, 0.2]
+clavicle.share = 0.5
+`);
+
+test('joints are where the command writes them, above and below limbs, too', async () => {
+  const glb = file('skins.glb', ''), times = [0, 0.5, 1], said = run('solve', figure, '--crowd', crowd, '--out', glb);
+  assert.equal(said.status, 0, said.stderr);
+  await visit(write('skins.html', 'view', figure, '--crowd', crowd), async (page) => {
+    const nodes = await page.evaluate(() => swivelPage.stage.data.skin.nodes);
+    for (const who of [0, 1, 2]) {
+      const written = JSON.parse(execFileSync('node', [check, 'pose', glb, String(who), ...times.map(String)]));
+      const count = (written[0].length - 3) / 3;  // three times the file's nodes, and a node for each character
+      for (const [n, time] of times.entries()) {
+        const drawn = await page.evaluate(([at, character]) => {
+          const { stage, view: { bodies } } = swivelPage;
+          swivelPage.setFrame(Math.round(at / stage.data.frame_seconds));
+          let found;
+          bodies.skins.poses.each(character, 1, (_, matrices) => { found = matrices.map((matrix) => matrix.toArray()); });
+          return found;
+        }, [time, who]);
+        const off = nodes.map((node, joint) => Math.max(...drawn[joint].map((part, k) => Math.abs(part - written[n][who * count + node][k]))));
+        assert.ok(Math.max(...off) < 2e-5, `character ${who}, ${time} s: ${off}`);
+      }
+    }
+  });
+});
+
+test('a skin is seen, a chosen limb in another colour; limbs\' own colours and large crowds are capsules', async () => {
+  await visit(write('many.html', 'view', figure, '--limbs', 'all', '--characters', '301', '--frames', '2'), async (page) => {
+    const colour = page.getByLabel('Colour limbs by'), isSkin = () => page.evaluate(() => swivelPage.view.bodies.skins.meshes[0].visible);
+    assert.deepEqual([await page.evaluate(() => swivelPage.drawnCount), await isSkin(), await colour.inputValue()], [300, true, '-1']);
+    const chosen = await difference(page, () => page.evaluate(() => swivelPage.view.bodies.choose(swivelPage.stage.limbs[2], swivelPage.view.middle)));
+    assert.ok(chosen.share > 0.0005, `${chosen.share}`);
+    const { share } = await difference(page, () => colour.selectOption('Limb'));
+    assert.ok(share > 0.02 && !await isSkin(), `${share}`);
+    await colour.selectOption('Skin');
+    assert.equal(await isSkin(), true);
+    await page.evaluate(() => swivelPage.drawFirst(301));
+    assert.equal(await isSkin(), false);
+  });
+});
+
+test('textures, and meshes that hang on joints, ask nothing of a network', async () => {
+  const triangle = [0, 0, 0, 0, 0.1, 0, 0.1, 0, 0], bytes = Buffer.from(new Float32Array([...triangle, 0, 0, 0, 1, 1, 0]).buffer).toString('base64');
+  const joint = (name, translation, children, more) => ({ name, translation, ...(children && { children }), ...more });
+  const place = file('hung.gltf', JSON.stringify({
+    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }],
+    nodes: [joint('hips', [0, 1, 0], [1]), joint('LeftArm', [0.2, 0.5, 0], [2]), joint('LeftForeArm', [0.3, 0, 0], [3]), joint('LeftHand', [0.3, 0, 0], [4]),
+      joint('glove', [0, 0.1, 0], null, { mesh: 0 })],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, material: 0 }] }],
+    materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }], textures: [{ source: 0 }], images: [{ uri: 'elsewhere.png' }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, 0], max: [0.1, 0.1, 0] }, { bufferView: 1, componentType: 5126, count: 3, type: 'VEC2' }],
+    bufferViews: [{ buffer: 0, byteLength: 36 }, { buffer: 0, byteOffset: 36, byteLength: 24 }],
+    buffers: [{ byteLength: 60, uri: `data:application/octet-stream;base64,${bytes}` }],
+  }));
+  const bend = file('hung.toml', '[limb.left_arm]\nbend = [0, 0, 1]\n');
+  await visit(write('hung.html', 'view', place, '--crowd', bend), async (page) => {
+    const [meshes, bones, at] = await page.evaluate(() => {
+      const { meshes, bones, poses } = swivelPage.view.bodies.skins, { inverse, joint } = bones[0];
+      let at;
+      poses.each(0, 1, (_, matrices) => { at = matrices[joint].clone().multiply(inverse).toArray().slice(12, 15); });
+      return [meshes.length, bones.length, at];
+    });
+    assert.deepEqual([meshes, bones], [2, 1]);
+    [0.8, 1.6, 0].forEach((part, axis) => assert.ok(Math.abs(at[axis] - part) < 1e-6, `${at}`));
+  });
+});
+
+test('heads look to the pointer, bodies and bits stay', async () => {
+  await visit(write('heads.html', 'view', figure, '--limbs', 'all', '--characters', '4'), async (page) => {
+    /** How far each face is turned from the point that heads look at, in degrees, and where the first joint is. */
+    const look = () => page.evaluate(() => {
+      const { stage, view } = swivelPage, { poses } = view.bodies.skins, { head, face } = stage.data.skin;
+      const found = [];
+      poses.each(0, 4, (_, matrices) => {
+        const matrix = matrices[head.at(-1)].clone(), line = view.camera.position.clone().set(...face).transformDirection(matrix);
+        const from = view.camera.position.clone().setFromMatrixPosition(matrix);
+        found.push([poses.heads.at && line.angleTo(view.camera.position.clone().set(...poses.heads.at).sub(from)) * 180 / Math.PI, ...matrices[0].elements]);
+      });
+      return found;
+    });
+    await page.mouse.move(300, 250);
+    const [left, bits] = [await look(), await page.evaluate(() => swivelPage.stage.digestState())];
+    assert.equal(bits, 'equal');
+    for (const [off] of left) assert.ok(off < 1, `${off} degrees`);
+    const { share } = await difference(page, () => page.mouse.move(500, 150));
+    assert.ok(share > 0.0005, `${share}`);
+    const right = await look();
+    right.forEach(([off, ...hips], n) => {
+      assert.ok(off < 1, `${off} degrees`);
+      assert.deepEqual(hips, left[n].slice(1));
+    });
+    await page.evaluate(() => swivelPage.lead(null));
+    assert.equal((await look())[0][0], null);
+  });
+});

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: characters of a crowd perform several clips of one skeleton, each as a crowd of that clip alone would.
+#include <catch2/catch.hpp>
+
+#include "tests/crowd_stage.h"
+#include "tools/crowd/clip_parts.h"
+#include "tools/formats/bvh.h"
+
+using namespace swivel;
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kCrowd = "[crowd]\ncharacters = 12\nsize = [1, 1]\nlimbs = \"legs\"\n",
+                  kClips = "clips = [{ file = \"other.bvh\" }]\n";
+
+struct TwoClips {
+    const CrowdStage first{0, 30}, second{900, 20};
+    std::size_t first_count = first.clip.lines.size(), second_count = second.clip.lines.size();
+
+    TwoClips() { spill(first.folder / "other.bvh", slurp(second.folder / "clip.bvh")); }
+};
+
+}  // namespace
+
+TEST_CASE("crowd file: clips, of which each character performs one")
+{
+    const TwoClips stage;
+    const std::vector<PoseLine> both = stage.first.rows(kCrowd + kClips, "left_leg");
+    const std::string one = "[crowd]\nlimbs = \"legs\"\n";
+    const std::vector<PoseLine> first = stage.first.rows(one, "left_leg"), second = stage.second.rows(one, "left_leg");
+    REQUIRE(both.size() == 12 * stage.first_count);
+    REQUIRE(stage.first_count != stage.second_count);
+    int performers[2] = {0, 0};
+    for (std::size_t n = 0; n < both.size(); ++n) {
+        const PoseLine& is = both[n];
+        const std::size_t frame = n / 12, start = static_cast<std::size_t>(is.number("start"));
+        const bool is_second = start >= stage.first_count;
+        if (frame == 0) ++performers[is_second];
+        const PoseLine& alone = is_second ? second[(frame + start - stage.first_count) % stage.second_count]
+                                          : first[(frame + start) % stage.first_count];
+        for (std::size_t j = 0; j < 3; ++j) REQUIRE(is.joint[j].angularDistance(alone.joint[j]) < 1e-4);
+    }
+    CHECK(both[0].number("start") == 0);
+    CHECK(performers[0] > 1);
+    CHECK(performers[1] > 1);
+    const nlohmann::json json = stage.first.json(kCrowd + kClips);
+    CHECK_THAT(json.at("further_clips").at(0).at("motion").get<std::string>(), Contains("other.bvh: BVH"));
+}
+
+TEST_CASE("several clips begin where the first one does, and go on in loops of their own")
+{
+    const TwoClips stage;
+    const formats::Clip clips[] = {formats::read_bvh(stage.first.folder / "clip.bvh").clip,
+                                   formats::read_bvh(stage.second.folder / "clip.bvh").clip};
+    const formats::Clip both = tools::joined(clips, 0);
+    REQUIRE(both.frame_count == clips[0].frame_count + clips[1].frame_count);
+    const auto root = [](const formats::Clip& clip, std::size_t frame) {
+        return formats::world_pose(clip, frame)[0].position;
+    };
+    const Eigen::Vector3d way = root(both, clips[0].frame_count) - root(clips[1], 0);
+    CHECK((root(both, clips[0].frame_count) - root(both, 0)).cwiseProduct(Vector3d(1, 0, 1)).norm() < 1e-12);
+    CHECK(way.y() == 0);
+    CHECK((root(both, both.frame_count - 1) - root(clips[1], clips[1].frame_count - 1) - way).norm() < 1e-12);
+
+    const Outcome outcome = stage.first.run(kCrowd + kClips + "loop = \"auto\"\n", {"--frames", "300"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("300 frames") && Contains("of the clip 1, ") && Contains("of the clip 2, "));
+    stage.first.require_refused(kCrowd + kClips + "loop = [40, 90]\n", "crowd.loop: is for one clip");
+}
+
+TEST_CASE("clips that do not fit are refused")
+{
+    const TwoClips stage;
+    const auto refused = [&](const std::string& clips, const std::string& said) {
+        stage.first.require_refused(kCrowd + "clips = [" + clips + "]\n", said);
+    };
+    std::string other = slurp(stage.second.folder / "clip.bvh");
+    const std::string joint = "JOINT LeftFoot", time = "Frame Time: ";
+    REQUIRE(other.find(joint) != std::string::npos);
+    std::string renamed = other, slower = other;
+    renamed.replace(renamed.find(joint), joint.size(), "JOINT LeftPaw");
+    slower.replace(slower.find(time), time.size() + 3, time + "0.1");
+    spill(stage.first.folder / "renamed.bvh", renamed);
+    spill(stage.first.folder / "slower.bvh", slower);
+    refused("{ file = \"renamed.bvh\" }", "LeftPaw, not ");
+    refused("{ file = \"slower.bvh\" }", "its frames come at another rate than the clip's");
+    refused("{ file = \"none.bvh\" }", "none.bvh");
+    refused("{}", "names no motion; write { file = \"FILE\" } or { clip = \"NAME\" }");
+    refused("{ files = \"other.bvh\" }", "files");
+}

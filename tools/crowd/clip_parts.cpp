@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/clip_parts.h"
+
+#include <fmt/format.h>
+
+#include "tools/formats/printable.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Clip;
+using formats::Joint;
+
+constexpr double kSame = 1e-3;  // of a bone, and of a rotation at rest
+
+Vector3d local_scale(const Clip& clip, std::size_t frame, std::size_t joint)
+{
+    const Joint& of = clip.joints[joint];
+    return of.scale_track < 0 ? of.rest_scale
+                              : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(of.scale_track)];
+}
+
+void append(Clip& to, const Clip& from, const ClipPart& part, const Vector3d& way)
+{
+    to.translation.resize(to.translation.size() + part.count * to.track_count);
+    to.scale.resize(to.scale.size() + part.count * to.scale_track_count);
+    for (std::size_t frame = part.first; frame < part.first + part.count; ++frame, ++to.frame_count)
+        for (std::size_t n = 0; n < to.joints.size(); ++n) {
+            const Joint& joint = to.joints[n];
+            to.rotation.push_back(from.rotation[frame * from.joints.size() + n]);
+            if (joint.track >= 0)
+                to.translation[to.frame_count * to.track_count + static_cast<std::size_t>(joint.track)] =
+                    formats::local_translation(from, frame, n) + (joint.parent < 0 ? way : Vector3d(0, 0, 0));
+            if (joint.scale_track >= 0)
+                to.scale[to.frame_count * to.scale_track_count + static_cast<std::size_t>(joint.scale_track)] =
+                    local_scale(from, frame, n);
+        }
+}
+
+}  // namespace
+
+std::string difference_of(const Clip& clip, const Clip& other)
+{
+    if (clip.joints.size() != other.joints.size())
+        return fmt::format("it has {} joints, not {}", other.joints.size(), clip.joints.size());
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        const Joint &a = clip.joints[n], &b = other.joints[n];
+        if (a.name != b.name || a.parent != b.parent)
+            return fmt::format("joint {} is {}, not {}", n, formats::joint_path(other, static_cast<int>(n)),
+                               formats::joint_path(clip, static_cast<int>(n)));
+        const bool has_offset = a.parent >= 0 && (a.track < 0 || b.track < 0);
+        if ((has_offset && !a.offset.isApprox(b.offset, kSame)) || !a.rest_scale.isApprox(b.rest_scale, kSame) ||
+            a.rest_rotation.angularDistance(b.rest_rotation) > kSame)
+            return fmt::format("joint {} rests otherwise", printable_name(b));
+    }
+    return {};
+}
+
+Clip joined(std::span<const Clip> clips, int body)
+{
+    Clip to;
+    to.joints = clips[0].joints, to.human_bones = clips[0].human_bones, to.frame_time = clips[0].frame_time;
+    for (std::size_t n = 0; n < to.joints.size(); ++n) {
+        bool moves = to.joints[n].parent < 0, scales = false;
+        for (const Clip& clip : clips)
+            moves = moves || clip.joints[n].track >= 0, scales = scales || clip.joints[n].scale_track >= 0;
+        to.joints[n].track = moves ? static_cast<int>(to.track_count++) : -1;
+        to.joints[n].scale_track = scales ? static_cast<int>(to.scale_track_count++) : -1;
+    }
+    const auto begin_of = [&](const Clip& clip) {
+        return formats::world_pose(clip, 0)[static_cast<std::size_t>(body)].position;
+    };
+    for (const Clip& clip : clips) {
+        const Vector3d way = begin_of(clips[0]) - begin_of(clip);
+        append(to, clip, {0, clip.frame_count, 0}, {way.x(), 0, way.z()});
+    }
+    return to;
+}
+
+Clip frames_of(const Clip& clip, const ClipPart& part)
+{
+    Clip to;
+    to.joints = clip.joints, to.human_bones = clip.human_bones, to.frame_time = clip.frame_time;
+    to.track_count = clip.track_count, to.scale_track_count = clip.scale_track_count;
+    append(to, clip, part, Vector3d::Zero());
+    return to;
+}
+
+}  // namespace swivel::tools

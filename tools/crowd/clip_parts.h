@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// Several clips of one skeleton as one clip, and its parts. Knows clips alone.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "tools/formats/clip.h"
+
+namespace swivel::tools {
+
+// Frames of a clip that are played round and round.
+struct ClipPart {
+    std::size_t first = 0, count = 0;
+    std::size_t starts = 0;  // characters start in as many of them
+};
+
+// How the skeleton of another clip differs, for people: "joint 7 is called Hand, not Wrist". Empty: it does not.
+std::string difference_of(const formats::Clip& clip, const formats::Clip& other);
+
+// All frames, clip after clip. Skeletons do not differ, frame times neither. Each clip but the first is moved along x
+// and z, so that `body` begins above where it does in the first.
+formats::Clip joined(std::span<const formats::Clip> clips, int body);
+
+// Some frames alone.
+formats::Clip frames_of(const formats::Clip& clip, const ClipPart& part);
+
+}  // namespace swivel::tools

@@ -1,0 +1,17 @@
+uniform vec3 uChosenColour;
+#ifdef MAP
+uniform sampler2D uMap;
+#endif
+in float vChosen;
+in vec2 vAt;
+void main() {
+#ifdef SHADOW
+    colour = vec4(faded(uShade), 1.0);
+#else
+    vec3 base = uColour;
+#ifdef MAP
+    base *= texture(uMap, vAt).rgb;
+#endif
+    colour = vec4(faded(lit(mix(base, uChosenColour, 0.6 * vChosen))), 1.0);
+#endif
+}
