@@ -17,7 +17,7 @@ stand_in(build/release/bin/swivel "echo swivel $*")
 function(expect words output opens)
   execute_process(COMMAND ${CMAKE_COMMAND} -E env "PATH=${stage}/bin:$ENV{PATH}" ${stage}/tools/demo ${words}
                   OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code)
-  string(REGEX MATCH "open +file://" opened "${err}")
+  string(REGEX MATCH "swivel view --out build/demo.html --quiet\nopen +file://" opened "${err}")
   if(NOT err MATCHES "Building swivel \\(at first some minutes\\)")
     message(SEND_ERROR "tools/demo ${words}: does not say that it builds: '${err}'")
   endif()

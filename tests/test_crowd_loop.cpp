@@ -139,11 +139,10 @@ TEST_CASE("crowd file: loop")
             for (std::size_t j = 0; j < 3; ++j) CHECK(is.joint[j].angularDistance(first.joint[j]) < 1e-4);
         }
     CHECK(stage.output(crowd + "loop = false\n", "a.csv") == stage.output(crowd, "b.csv"));
-    stage.require_refused(crowd + "loop = [40, 9000]\n",
-                          "crowd.loop: frame 9000 does not exist; the clip has frames 0 to ");
+    stage.require_refused(crowd + "loop = [40, 9000]\n", "crowd.loop: the clip has no frame 9000; it has frames 0 to ");
     const CrowdStage short_stage(0, 100);
     short_stage.require_refused(crowd + "loop = \"auto\"\n", "crowd.loop: the clip is shorter than half a second");
-    stage.require_refused(crowd + "loop = [40, 41]\n", "crowd.loop: a loop has two frames or more");
+    stage.require_refused(crowd + "loop = [40, 41]\n", "crowd.loop: the clip needs two frames or more to loop");
     stage.require_refused(crowd + "loop = [40.5, 60]\n", "crowd.loop: frames are counted; write whole numbers");
     stage.require_refused(crowd + "loop = true\n", "crowd.loop: is true; write \"auto\", [first, last] or false");
     // A written clip has the frames of the loop, and poses as in the table.

@@ -248,3 +248,39 @@ TEST_CASE("a page may go to standard output, and takes no name of a clip, a tabl
         CHECK(slurp(stage.at(name)) == "of someone");
     }
 }
+
+TEST_CASE("without a file the page shows the figure that is installed, in its own skin")
+{
+    const Stage stage;
+    const fs::path source = SWIVEL_SOURCE_DIR;
+    for (const char* name : {"tools/view/figure.glb", "tools/view/figure.toml", "examples/hills.png"})
+        fs::copy_file(source / name, stage.folder / "share/swivel" / fs::path(name).filename());
+    const Outcome outcome = stage.run({"view"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const Json page = stage.page("figure.glb.html"), skin = page.at("skin");
+    CHECK(page.at("character_count") == 300);
+    CHECK(page.at("frame_count") == 300);
+    CHECK(page.contains("ground"));
+    const std::string glb = swivel::formats::bytes_of_base64(skin.at("glb").get<std::string>()).value();
+    REQUIRE(glb.starts_with("glTF"));
+    std::uint32_t json_size = 0;
+    std::memcpy(&json_size, &glb[12], sizeof json_size);
+    const Json gltf = Json::parse(glb.substr(20, json_size));
+    CHECK_FALSE(gltf.contains("animations"));
+    CHECK(gltf.at("buffers").size() == 1);
+    // Joints have their names' nodes, and turns that are unit and not scaled.
+    const Json& joints = page.at("joints");
+    REQUIRE(skin.at("nodes").size() == joints.size());
+    for (std::size_t n = 0; n < joints.size(); ++n)
+        CHECK(gltf.at("nodes")[skin.at("nodes")[n].get<std::size_t>()].at("name") == joints[n].at("name"));
+    CHECK(joints[skin.at("head").back().get<std::size_t>()].at("name") == "head");
+    const auto turns = values_of<float>(skin.at("turns"));
+    REQUIRE(turns.size() == 5 * values_of<float>(page.at("positions")).size() / 3);
+    for (std::size_t n = 0; n < turns.size(); n += 5) {
+        CHECK(std::hypot(std::hypot(turns[n], turns[n + 1]), std::hypot(turns[n + 2], turns[n + 3])) ==
+              Approx(1).margin(1e-5));
+        CHECK(turns[n + 4] == Approx(1).margin(1e-4));
+    }
+    CHECK_FALSE(stage.view({}).contains("skin"));  // a BVH file has none
+}

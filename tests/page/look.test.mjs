@@ -53,7 +53,7 @@ test('at the top of a jump, the camera looks up to the figure', async () => {
   await visit(write('jump.html', 'view', clip), async (page) => {
     const [jump, at] = await page.evaluate(() => {
       const { stage, view } = swivelPage, { figure } = view, height = (frame) => figure.at(0, frame).y;
-      const top = Array.from({ length: stage.clipFrameCount }, (_, frame) => frame).reduce((a, b) => (height(b) > height(a) ? b : a));
+      const top = Array.from({ length: figure.frameCount }, (_, frame) => frame).reduce((a, b) => (height(b) > height(a) ? b : a));
       swivelPage.setFrame(top);
       view.lookAt(0, true);
       const joints = Array.from({ length: figure.jointCount }, (_, joint) => figure.at(joint, top)).sort((a, b) => b.y - a.y);

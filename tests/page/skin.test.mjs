@@ -82,14 +82,15 @@ test('textures, and meshes that hang on joints, ask nothing of a network', async
 
 test('heads look to the pointer, bodies and bits stay', async () => {
   await visit(write('heads.html', 'view', figure, '--limbs', 'all', '--characters', '4'), async (page) => {
-    /** How far each face is turned from the point that heads look at, in degrees, and where the first joint is. */
+    /** How far each face is turned from the point that heads look at, in degrees, and how all joints that are not of the neck lie. */
     const look = () => page.evaluate(() => {
       const { stage, view } = swivelPage, { poses } = view.bodies.skins, { head, face } = stage.data.skin;
       const found = [];
       poses.each(0, 4, (_, matrices) => {
         const matrix = matrices[head.at(-1)].clone(), line = view.camera.position.clone().set(...face).transformDirection(matrix);
         const from = view.camera.position.clone().setFromMatrixPosition(matrix);
-        found.push([poses.heads.at && line.angleTo(view.camera.position.clone().set(...poses.heads.at).sub(from)) * 180 / Math.PI, ...matrices[0].elements]);
+        const bodies = matrices.filter((_, joint) => !poses.heads.below.includes(joint)).map(({ elements }) => [...elements]);
+        found.push([poses.heads.at ? line.angleTo(view.camera.position.clone().set(...poses.heads.at).sub(from)) * 180 / Math.PI : NaN, bodies]);
       });
       return found;
     });
@@ -97,14 +98,41 @@ test('heads look to the pointer, bodies and bits stay', async () => {
     const [left, bits] = [await look(), await page.evaluate(() => swivelPage.stage.digestState())];
     assert.equal(bits, 'equal');
     for (const [off] of left) assert.ok(off < 1, `${off} degrees`);
-    const { share } = await difference(page, () => page.mouse.move(500, 150));
+    const { share } = await difference(page, () => page.mouse.move(60, 400));
     assert.ok(share > 0.0005, `${share}`);
     const right = await look();
-    right.forEach(([off, ...hips], n) => {
+    right.forEach(([off, bodies], n) => {
       assert.ok(off < 1, `${off} degrees`);
-      assert.deepEqual(hips, left[n].slice(1));
+      assert.deepEqual(bodies, left[n][1]);
     });
     await page.evaluate(() => swivelPage.lead(null));
-    assert.equal((await look())[0][0], null);
+    assert.ok(Number.isNaN((await look())[0][0]));
+  });
+});
+
+test('twist bones, which no mesh has, change no skin', async () => {
+  const goals = '[crowd]\nlimbs = "all"\n[limb.arms]\ntarget.offset = [0.1, 0.2, 0.2]\n[limb.legs]\ntarget.offset = [0, 0.1, 0.1]\n', poses = [];
+  for (const toml of [goals, goals.replace('[limb.legs]', 'twist_bones = 2\n[limb.legs]')])
+    await visit(write('twist.html', 'view', figure, '--crowd', file('twist.toml', toml), '--frames', '5'), async (page) => poses.push(await page.evaluate(() => {
+      swivelPage.setFrame(3);
+      let found;
+      swivelPage.view.bodies.skins.poses.each(0, 1, (_, matrices) => { found = matrices.flatMap((matrix) => matrix.toArray()); });
+      return found;
+    })));
+  assert.ok(poses[0].every((part, n) => Math.abs(part - poses[1][n]) < 1e-5));
+});
+
+test('a mesh that cannot be read is said, and capsules are drawn', async () => {
+  const joint = (name, children, more) => ({ name, translation: [0, 0.3, 0], ...(children && { children }), ...more });
+  const place = file('packed.gltf', JSON.stringify({
+    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], extensionsUsed: ['KHR_draco_mesh_compression'], extensionsRequired: ['KHR_draco_mesh_compression'],
+    nodes: [joint('hips', [1]), joint('LeftArm', [2]), joint('LeftForeArm', [3]), joint('LeftHand', null, { mesh: 0 })],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, extensions: { KHR_draco_mesh_compression: { bufferView: 0, attributes: { POSITION: 0 } } } }] }],
+    accessors: [{ componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 1] }],
+    bufferViews: [{ buffer: 0, byteLength: 4 }], buffers: [{ byteLength: 4, uri: 'data:application/octet-stream;base64,AAAAAA==' }],
+  }));
+  await visit(write('packed.html', 'view', place, '--crowd', file('packed.toml', '[limb.left_arm]\nbend = [0, 0, 1]\n')), async (page) => {
+    assert.match(await page.textContent('.notice'), /^The figure's skin cannot be drawn: .*[^.]\.$/);
+    assert.equal(await page.evaluate(() => swivelPage.view.bodies.skins), null);
   });
 });

@@ -315,12 +315,16 @@ test('keyboard: play, steps, ends, choice, help, follow', async () => {
   }, link);
 });
 
-test('a phone sees the panel below, and a touch chooses', async () => {
+test('a phone sees mostly the crowd, the panel below when asked, and a touch chooses', async () => {
   await visit(demo, async (page) => {
     const at = await pixel(page, 'wrist');
     await page.evaluate(() => swivelPage.select(null));
     await page.touchscreen.tap(at.x, at.y);
     assert.equal(await page.evaluate(() => swivelPage.selection?.character), 3);
+    const [above, under] = await Promise.all(['header', 'footer'].map((part) => page.locator(part).boundingBox()));
+    assert.equal(await page.locator('aside').isVisible(), false);
+    assert.ok(under.y - above.y - above.height > 700 * 2 / 3, `${under.y - above.y - above.height} pixels`);
+    await page.getByRole('button', { name: 'Panel' }).tap();
     const box = await page.locator('aside').boundingBox();
     assert.ok(box.width < 400 && box.y > 300);
     for (const part of [page.getByText('The same bits as the command'), ...await page.getByRole('navigation').getByRole('button').all()]) {

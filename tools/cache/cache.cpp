@@ -128,7 +128,7 @@ std::vector<goal_character> Cache::characters(std::uint32_t column) const
         if (each.count < 1 || each.first >= crowd_.clip_frames || each.count > crowd_.clip_frames - each.first)
             throw InputError(folder(),
                              fmt::format("character/first and character/count: a clip of {} frames from {} on "
-                                         "is none of the cache's {}; write the cache again",
+                                         "is none of the cache's {}; make the cache anew",
                                          each.count, each.first, crowd_.clip_frames));
     return characters;
 }

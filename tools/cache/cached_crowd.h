@@ -39,7 +39,7 @@ struct CachedCrowd {
     std::string title, clip;   // the motion's file, and what it is
     double frame_seconds = 0;  // from frame to frame
     std::uint32_t frame_count = 0, character_count = 0;
-    std::uint32_t clip_frames = 0;    // of the clip, which a longer crowd plays again and again
+    std::uint32_t clip_frames = 0;    // of all clips: each character plays its own round and round
     std::uint32_t budget_blocks = 0;  // of a page; a cache solves all
     std::vector<CachedJoint> joints;
     std::vector<float> positions;  // [frame of the clip][joint][3], in the world

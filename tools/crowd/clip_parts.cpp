@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "tools/formats/printable.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -13,7 +17,7 @@ using Eigen::Vector3d;
 using formats::Clip;
 using formats::Joint;
 
-constexpr double kSame = 1e-3;  // of a bone, and of a rotation at rest
+constexpr double kSame = 1e-3;  // of the longest bone, of a scale, and of a rotation at rest
 
 Vector3d local_scale(const Clip& clip, std::size_t frame, std::size_t joint)
 {
@@ -45,15 +49,17 @@ std::string difference_of(const Clip& clip, const Clip& other)
 {
     if (clip.joints.size() != other.joints.size())
         return fmt::format("it has {} joints, not {}", other.joints.size(), clip.joints.size());
+    double longest = 0;
+    for (const Joint& joint : clip.joints) longest = std::max(longest, joint.parent < 0 ? 0 : joint.offset.norm());
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
         const Joint &a = clip.joints[n], &b = other.joints[n];
         if (a.name != b.name || a.parent != b.parent)
             return fmt::format("joint {} is {}, not {}", n, formats::joint_path(other, static_cast<int>(n)),
                                formats::joint_path(clip, static_cast<int>(n)));
         const bool has_offset = a.parent >= 0 && (a.track < 0 || b.track < 0);
-        if ((has_offset && !a.offset.isApprox(b.offset, kSame)) || !a.rest_scale.isApprox(b.rest_scale, kSame) ||
-            a.rest_rotation.angularDistance(b.rest_rotation) > kSame)
-            return fmt::format("joint {} rests otherwise", printable_name(b));
+        if ((has_offset && (a.offset - b.offset).norm() > kSame * longest) ||
+            !a.rest_scale.isApprox(b.rest_scale, kSame) || a.rest_rotation.angularDistance(b.rest_rotation) > kSame)
+            return fmt::format("joint {} has another rest pose", printable_name(b));
     }
     return {};
 }
@@ -70,14 +76,27 @@ Clip joined(std::span<const Clip> clips, int body)
         to.joints[n].scale_track = scales ? static_cast<int>(to.scale_track_count++) : -1;
     }
     const auto begin_of = [&](const Clip& clip) {
-        return formats::world_pose(clip, 0)[static_cast<std::size_t>(body)].position;
+        const Vector3d place = formats::world_pose(clip, 0)[static_cast<std::size_t>(body)].position;
+        return Vector3d(place.x(), floor_of(clip), place.z());
     };
-    for (const Clip& clip : clips) {
-        const Vector3d way = begin_of(clips[0]) - begin_of(clip);
-        append(to, clip, {0, clip.frame_count, 0}, {way.x(), 0, way.z()});
-    }
+    const Vector3d begin = begin_of(clips[0]);
+    for (const Clip& clip : clips) append(to, clip, {0, clip.frame_count, 0}, begin - begin_of(clip));
     return to;
 }
+
+double floor_of(const Clip& clip)
+{
+    std::vector<double> lowest;
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        formats::world_pose(clip, frame, pose_w);
+        const auto height = [](const formats::JointPose& joint) { return joint.position.y(); };
+        lowest.push_back(height(*std::ranges::min_element(pose_w, {}, height)));
+    }
+    return quantile(std::move(lowest), 0.25);
+}
+
+Clip frames_of(const Clip& clip, std::size_t frame_count) { return frames_of(clip, {0, frame_count, 0}); }
 
 Clip frames_of(const Clip& clip, const ClipPart& part)
 {

@@ -17,14 +17,19 @@ struct ClipPart {
     std::size_t starts = 0;  // characters start in as many of them
 };
 
-// How the skeleton of another clip differs, for people: "joint 7 is called Hand, not Wrist". Empty: it does not.
+// How the skeleton of another clip differs, for people: "joint 7 is Hand, not Wrist". Empty: it does not.
 std::string difference_of(const formats::Clip& clip, const formats::Clip& other);
 
-// All frames, clip after clip. Skeletons do not differ, frame times neither. Each clip but the first is moved along x
-// and z, so that `body` begins above where it does in the first.
+// All frames, clip after clip. Skeletons do not differ, frame times neither. Each clip but the first is moved, so that
+// `body` begins above where it does in the first, and their floors are one.
 formats::Clip joined(std::span<const formats::Clip> clips, int body);
 
-// Some frames alone.
+// Its first frames alone, and the frames of one of its parts.
+formats::Clip frames_of(const formats::Clip& clip, std::size_t frame_count);
 formats::Clip frames_of(const formats::Clip& clip, const ClipPart& part);
+
+// The floor of a clip, along y: its lowest joint is lower in a quarter of all frames. A toe that is low now and then does
+// not count.
+double floor_of(const formats::Clip& clip);
 
 }  // namespace swivel::tools

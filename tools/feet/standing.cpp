@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "tools/feet/contacts.h"
 #include "tools/formats/error.h"
@@ -78,15 +79,20 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
     if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
     if (nearest_axis(figure.up_w) != Vector3d::UnitY())
         refuse("the figure does not stand along Y; turn the clip, or take this out");
+    plan.foot.y() = floor_of(clip);
     // Of clips one by one: from the end of one to the start of another is no motion.
     std::vector<ClipPart> parts = plan.clips;
     if (parts.empty()) parts = {{0, clip.frame_count, 0}};
     LegMotion motion;  // of the first clip
     Contacts contacts(legs.size());
     for (const ClipPart& part : parts) {
-        LegMotion of_part = leg_motion(frames_of(clip, part), legs, std::max(figure.carrier, 0), Vector3d::UnitY());
+        std::optional<formats::Clip> alone;
+        if (parts.size() > 1) alone = frames_of(clip, part);
+        LegMotion of_part = leg_motion(alone ? *alone : clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
         const ContactBars bars;
-        if (missing_way(of_part, bars)) refuse("the clip walks in place, so its feet slide; move its root first");
+        if (missing_way(of_part, bars))
+            refuse(fmt::format("the clip{} walks in place, so its feet slide; move its root first",
+                               part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
         const Contacts found = find_contacts(of_part, bars);
         for (std::size_t n = 0; n < legs.size(); ++n)
             contacts[n].insert(contacts[n].end(), found[n].begin(), found[n].end());

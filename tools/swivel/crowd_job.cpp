@@ -47,52 +47,30 @@ int common_joint(const formats::Clip& clip, std::span<const Limb> limbs)
     return std::max(body, 0);
 }
 
-// A clip's loop, as the crowd file asks for it.
-FoundLoop loop_of(const formats::CrowdFile& file, const formats::Clip& clip, int body)
+// A clip's loop, as the crowd file asks for it. name: of the clip, for people.
+FoundLoop loop_of(const formats::CrowdFile& file, const std::string& name, const formats::Clip& clip, int body)
 {
     const formats::Given<formats::LoopFrames>& asked = *file.loop;
     const auto refuse = [&](const std::string& cause) {
-        throw formats::InputError(file.path, asked.line, fmt::format("{}: {}", asked.key, cause));
+        throw formats::InputError(file.path, asked.line, fmt::format("{}: {} {}", asked.key, name, cause));
     };
-    if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
-    if (clip.frame_count < 2) refuse("the clip has one frame; take this out");
+    const char* const advice = file.clips.empty() ? "write [first, last]" : "take another";
+    if (clip.frame_time == 0) refuse("has keys at uneven times; give --fps");
+    if (clip.frame_count < 2) refuse("has one frame; take this out");
     if (asked.value) {
         const auto [first, last] = *asked.value;
+        if (!file.clips.empty()) refuse("is not the only clip, and these are frames of one; write \"auto\" or false");
         if (last >= clip.frame_count)
-            refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", last, clip.frame_count - 1));
-        if (last - first < 2) refuse("a loop has two frames or more; write [first, last]");
-        if (!file.clips.empty()) refuse("is for one clip, and there are several; write \"auto\" or false");
+            refuse(fmt::format("has no frame {}; it has frames 0 to {}", last, clip.frame_count - 1));
+        if (last - first < 2) refuse("needs two frames or more to loop; write [first, last]");
         return {{first, last}, 0};
     }
     if (clip.frame_count > kMostSearched)
-        refuse(fmt::format("\"auto\" compares up to {} frames, and the clip has {}; write [first, last]", kMostSearched,
-                           clip.frame_count));
+        refuse(
+            fmt::format("has {} frames, and \"auto\" compares up to {}; {}", clip.frame_count, kMostSearched, advice));
     const FoundLoop found = find_loop(clip, body);
-    if (!std::isfinite(found.gap)) refuse("the clip is shorter than half a second; write [first, last]");
+    if (!std::isfinite(found.gap)) refuse(fmt::format("is shorter than half a second; {}", advice));
     return found;
-}
-
-// A clip as it is performed: as it goes on, for as many frames as are solved, wherever in the loop one starts; or its
-// first frames. Adds what it is to the plan.
-formats::Clip performed(const SolveOptions& options, const formats::Clip& clip, int body, CrowdJob& job)
-{
-    std::size_t first = job.plan.clips.empty() ? 0 : job.plan.clips.back().first + job.plan.clips.back().count;
-    if (!job.crowd->loop) {
-        const std::size_t count =
-            options.frames > 0 ? std::min<std::size_t>(options.frames, clip.frame_count) : clip.frame_count;
-        job.plan.clips.push_back({first, count, count});
-        return frames_of(clip, {0, count, count});
-    }
-    const ClipLoop loop = job.loops.emplace_back(loop_of(*job.crowd, clip, body)).loop;
-    const std::size_t count = job.frame_count + loop.length();
-    const double bytes = static_cast<double>((first + count) * clip.joints.size()) * 32;
-    if (bytes > 0x1p33)
-        throw formats::InputError(
-            job.crowd->path, job.crowd->loop->line,
-            fmt::format("{}: {} frames of {} joints take {:.1f} GiB, more than 8; give fewer --frames",
-                        job.crowd->loop->key, job.frame_count, clip.joints.size(), bytes / 0x1p30));
-    job.plan.clips.push_back({first, count, loop.length()});
-    return looped(clip, body, loop, count);
 }
 
 // Reads one of the further clips. Its joints are the same ones.
@@ -101,33 +79,64 @@ formats::Clip further_clip(const SolveOptions& options, const formats::FurtherCl
 {
     const std::filesystem::path path =
         from.file.empty() ? std::filesystem::path(options.file) : job.crowd->path.parent_path() / from.file;
-    const auto refuse = [&](const std::string& cause) {
-        throw formats::InputError(job.crowd->path, from.line,
-                                  fmt::format("{}: {}: {}", from.key, formats::printable(path.string()), cause));
+    const std::string name = formats::printable(path.string(), std::string::npos);
+    const auto fault = [&](const std::string& cause) {
+        return formats::InputError(job.crowd->path, from.line, fmt::format("{}: {}", from.key, cause));
     };
-    if (formats::is_standard_stream(path)) refuse("standard input is read once; name a file");
-    MotionFile file(path, {from.animation, options.motion.rate});
+    if (formats::is_standard_stream(path)) throw fault("standard input is read once; name a file");
+    const auto reading = [&](const auto& act) {
+        try {
+            return act();
+        } catch (const formats::InputError& error) {
+            throw fault(error.what());
+        } catch (const CommandError&) {  // of options that a BVH file does not have
+            throw fault(name + ": is a BVH file, which has one motion at its own rate; take clip and --fps out");
+        }
+    };
+    MotionFile file = reading([&] { return MotionFile(path, {from.animation, options.motion.rate}); });
     if (const std::string difference = difference_of(first, file.clip()); !difference.empty())
-        refuse(difference + "; put it on this skeleton by swivel retarget");
-    file.sample(joints);
-    if (std::abs(file.clip().frame_time - first.frame_time) > 1e-3 * first.frame_time)
-        refuse("its frames come at another rate than the clip's; give --fps");
-    job.clip_files.push_back(path);
-    job.clips.push_back(fmt::format("{}: {}", formats::printable(title_of(path.string())), file.describe()));
+        throw fault(fmt::format("{}: {}; put it on this skeleton by swivel retarget", name, difference));
+    reading([&] { file.sample(joints); });
+    // A rate that is asked for fits each clip's length, so they differ a little.
+    const double most = options.motion.rate > 0 ? 0.1 : 1e-3;
+    if (std::abs(file.clip().frame_time - first.frame_time) > most * first.frame_time)
+        throw fault(name + ": its frames come at another rate than the clip's; give --fps");
+    job.further.push_back({path, fmt::format("{}: {}", formats::printable(title_of(path.string())), file.describe())});
     return file.clip();
 }
 
 // Puts what the crowd performs in place of the clip: clips as they go on, or several of them, one after the other.
-void perform(const SolveOptions& options, std::span<const int> joints, MotionFile& file, CrowdJob& job)
+// Returns the parts.
+std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> joints, MotionFile& file, CrowdJob& job)
 {
     const formats::Clip& clip = file.clip();
     const int body = common_joint(clip, job.limbs);
-    if (job.crowd->loop && options.frames > 0) job.frame_count = options.frames;
-    std::vector<formats::Clip> clips{performed(options, clip, body, job)};
-    for (const formats::FurtherClip& each : job.crowd->clips)
-        clips.push_back(performed(options, further_clip(options, each, clip, joints, job), body, job));
-    if (!job.crowd->loop) job.frame_count = clips[0].frame_count;
+    const bool is_loop = job.crowd->loop.has_value();
+    if (is_loop && options.frames > 0) job.frame_count = options.frames;
+    std::vector<formats::Clip> clips;
+    std::vector<ClipPart> parts;
+    // A clip as it goes on, for as many frames as are solved, wherever in the loop one starts; or its first frames.
+    const auto add = [&](const std::string& name, const formats::Clip& from) {
+        const std::size_t most = options.frames > 0 ? options.frames : from.frame_count;
+        const ClipLoop loop = is_loop ? job.loops.emplace_back(loop_of(*job.crowd, name, from, body)).loop : ClipLoop();
+        const std::size_t first = parts.empty() ? 0 : parts.back().first + parts.back().count,
+                          count = is_loop ? job.frame_count + loop.length() : std::min(most, from.frame_count);
+        parts.push_back({first, count, is_loop ? loop.length() : count});
+        if (const double bytes = static_cast<double>((first + count) * from.joints.size()) * 32; bytes > 0x1p33)
+            throw formats::InputError(
+                job.crowd->path,
+                fmt::format("crowd: {} frames of {} joints take {:.1f} GiB, more than 8; give fewer --frames",
+                            first + count, from.joints.size(), bytes / 0x1p30));
+        clips.push_back(is_loop ? looped(from, body, loop, count) : frames_of(from, parts.back().count));
+    };
+    add("the clip", clip);
+    for (const formats::FurtherClip& each : job.crowd->clips) {
+        const formats::Clip further = further_clip(options, each, clip, joints, job);
+        add(job.further.back().words, further);
+    }
+    if (!is_loop) job.frame_count = clips[0].frame_count;
     file.replace(clips.size() == 1 ? std::move(clips[0]) : joined(clips, body));
+    return parts;
 }
 
 }  // namespace
@@ -139,7 +148,7 @@ std::string title_of(const std::string& file)
 
 std::string motion_of(const MotionFile& file, const CrowdJob& job)
 {
-    const std::size_t more = job.clips.size();
+    const std::size_t more = job.further.size();
     return file.describe() + (more > 0 ? fmt::format(", and {} clip{} more", more, more == 1 ? "" : "s") : "");
 }
 
@@ -171,8 +180,10 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) job.missing.push_back(std::move(finding));
     job.frame_count = job.clip_frames = clip.frame_count;
-    if (job.crowd && (job.crowd->loop || !job.crowd->clips.empty())) perform(options, joints_of(joints), file, job);
-    std::vector<ClipPart> parts = std::move(job.plan.clips);
+    std::vector<ClipPart> parts;
+    if (job.crowd && (job.crowd->loop || !job.crowd->clips.empty()))
+        parts = perform(options, joints_of(joints), file, job);
+    if (!job.further.empty()) job.limbs = require_limbs(bind_limbs(clip, joints, choice), options.file);  // in all
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     job.plan.clips = std::move(parts);
     if (job.crowd && job.crowd->ground) {

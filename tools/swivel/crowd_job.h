@@ -16,6 +16,12 @@
 
 namespace swivel::tools {
 
+// A motion beside the clip.
+struct FurtherMotion {
+    std::filesystem::path file;
+    std::string words;  // for people
+};
+
 // What the options and the crowd file come to.
 struct CrowdJob {
     std::optional<formats::CrowdFile> crowd;
@@ -24,9 +30,8 @@ struct CrowdJob {
     std::vector<BodyPart> body;
     Eigen::Vector3d forwards_w;  // at rest
     CrowdPlan plan;
-    std::vector<FoundLoop> loops;    // of each clip, where they go on and on
-    std::vector<std::string> clips;  // further ones, for people
-    std::vector<std::filesystem::path> clip_files;
+    std::vector<FoundLoop> loops;  // of each clip, where they go on and on
+    std::vector<FurtherMotion> further;
     std::size_t frame_count = 0;  // to solve: those of the first clip, fewer, or of loops any number
     std::size_t clip_frames = 0;  // that the file has
     std::string targets;          // "clip" or a file

@@ -24,6 +24,7 @@
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_keys.h"
+#include "tools/swivel/page_skin.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"
@@ -33,35 +34,6 @@
 namespace swivel::tools {
 
 namespace {
-
-// What the file draws its figure from, with the clip's joints as they turn.
-std::optional<PageSkin> skin_of(const MotionFile& file, const CrowdJob& job)
-{
-    PageSkin skin;
-    skin.glb = file.figure_glb();
-    if (skin.glb.empty()) return {};
-    const formats::Clip& clip = file.clip();
-    const std::vector<std::size_t> drawn = drawn_joints(clip, job.limbs);
-    for (const std::size_t joint : drawn) skin.nodes.push_back(clip.joints[joint].number);
-    for (const char* part : {"neck", "head"})
-        for (const int joint : joints_of(job.body, part))
-            if (const auto at = std::ranges::find(drawn, static_cast<std::size_t>(joint)); at != drawn.end())
-                skin.head.push_back(static_cast<std::size_t>(at - drawn.begin()));
-    if (const std::vector<int> heads = joints_of(job.body, "head"); !heads.empty()) {
-        const formats::JointPose at_rest_w = formats::rest_pose(clip)[static_cast<std::size_t>(heads.back())];
-        const Eigen::Vector3d face = at_rest_w.rotation.conjugate() * job.forwards_w;
-        skin.face = {face.x(), face.y(), face.z()};
-    }
-    std::vector<formats::JointPose> pose_w(clip.joints.size());
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        formats::world_pose(clip, frame, pose_w);
-        for (const std::size_t joint : drawn) {
-            for (const double part : pose_w[joint].rotation.coeffs()) skin.turns.push_back(static_cast<float>(part));
-            skin.turns.push_back(static_cast<float>(pose_w[joint].scale));
-        }
-    }
-    return skin;
-}
 
 Statistics solve_clip(const SolveOptions& options, const MotionFile& file, CrowdJob& job)
 {
@@ -107,7 +79,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     if (page)
         page->commit(cached_clip({title_of(options.file), motion_of(file, job)}, file.clip(), job.limbs, job.plan,
                                  crowd.motion()),
-                     crowd.goal_crowd(), skin_of(file, job));
+                     crowd.goal_crowd(), page_skin(file, job));
     return statistics;
 }
 

@@ -100,7 +100,7 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
                                {job.targets == "clip" ? "" : job.targets, "the table of targets"},
                                {options.crowd, "the crowd file"},
                                {job.heights, "the picture of heights"}};
-    for (const std::filesystem::path& clip_file : job.clip_files) read.push_back({clip_file.string(), "a clip"});
+    for (const FurtherMotion& each : job.further) read.push_back({each.file.string(), "a clip"});
     require_own_outputs(outputs, read);
     require_not_beside(outputs, clip);
 }

@@ -36,7 +36,7 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     for (const LimbFinding& finding : job.missing)
         say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
             finding.has_joints ? "refused" : "missing", problem_text(finding));
-    for (const std::string& further : job.clips) say(to, "clip     {}\n", further);
+    for (const FurtherMotion& each : job.further) say(to, "clip     {}\n", each.words);
     for (std::size_t n = 0; n < job.loops.size(); ++n) {
         const FoundLoop& found = job.loops[n];
         say(to, "loop     frames {} to {} of the clip{}, {:.2f} s{}\n", found.loop.first, found.loop.last,
@@ -80,14 +80,15 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
                                {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
     if (job.plan.ground) out["ground"] = job.heights.empty() ? "level" : job.heights;
-    const auto frames_of_loop = [&](std::size_t n) {
-        return nlohmann::json{job.loops[n].loop.first, job.loops[n].loop.last};
-    };
-    if (!job.loops.empty()) out["loop"] = frames_of_loop(0);
-    for (std::size_t n = 0; n < job.clips.size(); ++n) {
-        out["further_clips"].push_back({{"motion", job.clips[n]}});
-        if (!job.loops.empty()) out["further_clips"].back()["loop"] = frames_of_loop(n + 1);
+    for (std::size_t n = 0; n < job.plan.clips.size(); ++n) {
+        const ClipPart& part = job.plan.clips[n];
+        nlohmann::ordered_json& of = out["performed"].emplace_back();
+        of = {{"motion", n == 0 ? file.describe() : job.further[n - 1].words},
+              {"first", part.first},
+              {"frames", part.count}};
+        if (!job.loops.empty()) of["loop"] = {job.loops[n].loop.first, job.loops[n].loop.last};
     }
+    if (!job.loops.empty()) out["loop"] = {job.loops[0].loop.first, job.loops[0].loop.last};
     if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;
     for (const Limb& limb : job.limbs) {
         const LimbWords& words = words_of(limb.name.kind);

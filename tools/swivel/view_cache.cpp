@@ -73,8 +73,7 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0, ground_of(crowd),
                      crowd.frame_seconds);
     GivenGoals goals(cache);
-    const std::uint32_t frames =
-        std::min(crowd.clip_frames, crowd.frame_count);  // the page plays the clip round and round
+    const std::uint32_t frames = std::min(crowd.clip_frames, crowd.frame_count);  // as a page of the clip has them
     Progress progress("frames", frames, options.quiet);
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
         progress.show(frame);

@@ -33,8 +33,8 @@ std::uint64_t script_digest(std::string_view script)
 // Installed with the command, or built in the folder of builds.
 std::string page_program()
 {
-    for (const char* place : {"view.html", "../../../view/view.html"}) {
-        const fs::path file = shared_file(place);
+    const fs::path build = fs::read_symlink("/proc/self/exe").parent_path() / "../../view/view.html";
+    for (const fs::path& file : {shared_file("view.html"), build}) {
         if (std::error_code missing; !fs::exists(file, missing)) continue;
         std::string text = formats::read_text(file);
         const std::size_t script = text.find(kDigestPlace), crowd = text.find(kPlace, script);

@@ -4,7 +4,6 @@
 // crowd is written into it. Knows what the page holds; what it draws is the page's affair.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,23 +14,12 @@
 #include "tools/cache/cached_crowd.h"
 #include "tools/crowd/goal_crowd.h"
 #include "tools/formats/output_file.h"
+#include "tools/swivel/page_skin.h"
 
 namespace swivel::tools {
 
 // A file that is installed with the command, which stands in bin: share/swivel/NAME beside that folder.
 std::filesystem::path shared_file(const char* name);
-
-// The figure's own skin, and what carries it.
-struct PageSkin {
-    std::string glb;         // as formats::figure_glb() makes it
-    std::vector<int> nodes;  // of each joint that is drawn, by the file's own number
-    std::vector<float>
-        turns;  // of each frame and each such joint: its rotation in the world, x, y, z, w, and its scale
-    // The necks' joints and the head's, among those that are drawn, and where the face is in the last one's axes.
-    // Empty: there is no head.
-    std::vector<std::size_t> head;
-    std::array<double, 3> face{0, 0, 1};
-};
 
 class ViewPage {
 public:

@@ -149,9 +149,14 @@ export class Bodies {
         this.takeRises();
         for (const drawn of this.limbs) this.takeRows(drawn);
         for (const mesh of this.capsules) mesh.geometry.instanceCount = drawnCount + (this.extra === null ? 0 : 1);
-        const inSkins = this.colouredBy === SKIN && drawnCount <= MOST_SKINS;
-        if (inSkins) this.skins.show(drawnCount, this.extra);
-        for (const mesh of this.meshes) mesh.visible = this.capsules.includes(mesh) !== inSkins;
+        this.isInSkins = this.colouredBy === SKIN && drawnCount <= MOST_SKINS;
+        this.isPosed = false;
+        for (const mesh of this.meshes) mesh.visible = this.capsules.includes(mesh) !== this.isInSkins;
+    }
+    /** Before a picture: poses skins, once after all that has been shown. */
+    pose() {
+        if (this.isInSkins && !this.isPosed) this.skins.show(this.drawnCount, this.extra);
+        this.isPosed = true;
     }
     takeRises() {
         const { rises } = this.stage, texture = this.shared.uRises.value;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Heads that look at a point, by looks of the library. They are a crowd of their own, beside the one whose bits are the command's.
+import { MOST_LOOK_JOINTS } from "swivel-wasm/layout.js";
 import { Matrix4, Quaternion } from "three";
 
 import { Field } from "./stage.js";
@@ -9,7 +10,8 @@ const MOST_TURN = Math.cos(70 * Math.PI / 180);  // of each joint of neck and he
 
 export class Heads {
     /** skin: as the command writes it. poses: of the characters, whose bodies stay as they are. count: of characters, at most. */
-    constructor(stage, { head, face }, poses, count) {
+    constructor(stage, { head: all, face }, poses, count) {
+        const head = all.slice(-MOST_LOOK_JOINTS);
         Object.assign(this, { stage, poses, at: null });  // at: where they look, in the world; null: ahead
         const { figure } = poses, above = figure.joints[head[0]].parent;
         this.chain = [above, ...head];

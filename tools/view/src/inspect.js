@@ -12,10 +12,11 @@ const degrees = (radians) => `${(Math.round(radians * 1800 / Math.PI) / 10 + 0).
 function rowsOf(stage, limb, character) {
     const pose = stage.pose(limb, character), goal = stage.goal(limb, character, "target"), who = stage.characters[character];
     const length = stage.armLength(limb, character), place = (vector) => vector.map((value) => coordinate(value, length > 0 ? length : 1)).join(", ");
+    const clip = stage.clips.indexOf(who.first), clipFrame = `${stage.clipFrame(character) - who.first}${stage.clips.length > 1 ? ` of clip ${clip + 1}` : ""}`;
     const off = number(stage.residual(limb, character));
     const hasEffector = stage.has(limb, "EFFECTOR") && stage.read(limb, character, "EFFECTOR").some((part) => part !== 0);
     const rows = [
-        ["Character", `${character}, size ${who.size.toFixed(3)}`], ["Clip frame", `${stage.clipFrame(character)}`],
+        ["Character", `${character}, size ${who.size.toFixed(3)}`], ["Clip frame", clipFrame],
         [hasEffector ? "Effector's target" : "Target", place(goal)], ["Wrist", place(pose.wrist)], ["Elbow", place(pose.elbow)],
         ["Off by", off === "–" ? off : `${off} arm lengths`], ["Flexion", degrees(stage.flexion(limb, character))],
     ];

@@ -25,8 +25,8 @@ export function keysOf(page) {
 export function listen(keys) {
     document.addEventListener("keydown", (event) => {
         const { target } = event;
-        if (event.altKey || target.closest?.("dialog, select, summary, .lesson")) return;
-        if (target.matches?.("input, button") && [" ", "ArrowLeft", "ArrowRight", "Home", "End"].includes(event.key)) return;
+        if (event.altKey || target.closest?.("dialog, select, .lesson")) return;
+        if (target.matches?.("input, button, summary") && [" ", "ArrowLeft", "ArrowRight", "Home", "End"].includes(event.key)) return;
         const key = keys.find(({ keys: names, withCtrl = false }) => names.includes(event.key) && withCtrl === (event.ctrlKey || event.metaKey));
         if (!key) return;
         event.preventDefault();

@@ -7,13 +7,15 @@ import { element, section } from "./dom.js";
 import { MOST_SKINS } from "./skins.js";
 import { limbName } from "./words.js";
 
+const SKINS = { legend: [], unit: `of the file, up to ${MOST_SKINS} characters; more are drawn as capsules` };
+
 export function makeLegend(page) {
     const select = element("select", { "aria-label": "Colour limbs by", class: "colour" },
         ...(page.view.bodies.skins ? [element("option", { value: SKIN }, "Skin")] : []), ...COLOUR_BY.map(({ name }, n) => element("option", { value: n }, name)));
     const list = element("ul", { class: "legend" });
     const show = () => {
-        const { legend, unit } = COLOUR_BY[select.value] ?? { legend: [], unit: `of the file, up to ${MOST_SKINS} characters; more are drawn as capsules` };
-        const entries = legend.length > 0 || unit ? legend : page.stage.limbs.map((limb) => [LIMB_COLOURS[limb.index % LIMB_COLOURS.length], limbName(limb)]);
+        const { legend, unit } = COLOUR_BY[select.value] ?? SKINS;
+        const entries = legend.length > 0 || select.value < 0 ? legend : page.stage.limbs.map((limb) => [LIMB_COLOURS[limb.index % LIMB_COLOURS.length], limbName(limb)]);
         list.replaceChildren(...entries.map(([colour, text]) =>
             element("li", {}, element("i", { class: "swatch", style: `--swatch: ${colour}` }), text)),
         ...(unit ? [element("li", { class: "hint" }, unit)] : []));

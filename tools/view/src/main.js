@@ -56,7 +56,7 @@ class Page {
         this.dragsEveryone = false;
         this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs));
         this.mostDrawn = Math.min(stage.characterCount, MOST_DRAWN, mostDrawn(this.view.bodies.mostTexels));
-        this.drawnCount = Math.min(this.mostDrawn, data.skin ? MOST_SKINS : DRAWN);
+        this.drawnCount = Math.min(this.mostDrawn, DRAWN);
         this.view.controls.addEventListener("change", () => this.redraw());
         this.picker = new Picker(this);
         this.undo = new Undo(this);
@@ -88,16 +88,14 @@ class Page {
     }
     /** Heads look to where a ray of the pointer passes in front of them; null: ahead. */
     lead(ray) {
-        const heads = this.view.bodies.skins?.poses.heads, { camera, controls } = this.view;
+        const { bodies, camera, controls } = this.view, heads = bodies.isInSkins && bodies.skins.poses.heads;
         if (!heads) return;
         heads.at = ray && this.view.toClip(ray.at(0.5 * camera.position.distanceTo(controls.target), new Vector3()));
-        this.isLed = true;
+        this.show();
         this.redraw();
     }
     draw() {
         this.isDue = false;
-        if (this.isLed) this.show();
-        this.isLed = false;
         this.view.draw();
         this.tell("draw");
     }
@@ -168,8 +166,11 @@ class Page {
     }
     toggleTheme() { this.setTheme(this.theme === "dark" ? "light" : "dark"); }
     togglePanel() {
+        const was = this.view.farther();
         document.body.classList.toggle("wide");
         this.resize();
+        this.view.recede(this.view.farther() / was);
+        if (this.selection) this.view.makeSeen(this.pointsOf(this.selection.limb, this.selection.character));
     }
     resize() {
         const { clientWidth: width, clientHeight: height } = this.canvas, panel = document.querySelector("aside").getBoundingClientRect();
@@ -208,13 +209,14 @@ function build(page, data) {
 }
 
 /** Draws the figure's own skin, if the file has one. Returns what went wrong, or nothing. */
-async function dress({ view }, { skin }) {
+async function dress(page, { skin }) {
     if (!skin) return "";
     try {
-        view.addSkin(skin, await readSkin(skin));
+        page.view.addSkin(skin, await readSkin(skin));
+        page.drawnCount = Math.min(page.drawnCount, MOST_SKINS);
         return "";
     } catch (error) {
-        return `The figure's skin cannot be drawn: ${error.message}.`;
+        return `The figure's skin cannot be drawn: ${error.message.replace(/\.$/, "")}.`;
     }
 }
 
@@ -224,7 +226,6 @@ async function open(data, canvas) {
     const fault = await dress(page, data);
     page.show();
     build(page, data);
-    page.say(fault);
     page.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     page.changed();
     page.resize();
@@ -234,6 +235,7 @@ async function open(data, canvas) {
     page.follow(stage.characterCount === 1);  // a clip's figure may walk out of the picture
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) page.player.start();
     followLink(page);
+    if (fault) page.say(fault);
     page.draw();
     return page;
 }

@@ -17,7 +17,7 @@ const worldTurns = ([first, ...others]) => others.reduce((turns, local) => [...t
 const part = (turn, from, to) => ({ turn, from, to });
 
 export class Poses {
-    /** skin: as the command writes it, with five numbers for each frame of the clip and each joint: its rotation in the world, and its scale. */
+    /** skin: as the command writes it, with five numbers for each frame of the clip and each joint: its rotation in the world, and its scale, below 0 in a mirror. */
     constructor(stage, figure, skin, count) {
         Object.assign(this, { stage, figure, turns: floatsOf(skin.turns) });
         this.limbs = stage.limbs.map((limb) => this.bind(limb));
@@ -30,7 +30,7 @@ export class Poses {
     bind(limb) {
         const { stage } = this, { buffer } = stage.swivel.bindJoints(stage.skeleton, limb.chain).bytes;
         const armFromParent = quaternion(new Float32Array(buffer, layout.swivel_binding.parent_from_arm, 4)).invert();
-        const before = stage.limbs.slice(0, limb.index).reduce((sum, { chain }) => sum + 4 * (4 + chain.twistBones), 0);
+        const before = stage.limbs.slice(0, limb.index).reduce((sum, { chain }) => sum + 4 * (4 + chain.twistBones.length), 0);
         return { limb, armFromParent, posesAt: before, inClip: new Map() };
     }
     /** The part that a joint belongs to. 0: the body; 1 + 4 * limb and on: a clavicle that turns, the upper arm, the forearm, the hand. */
@@ -96,7 +96,8 @@ export class Poses {
             const { turn: turned, from, to } = parts[this.partOf[joint]], own = 5 * (first + joint);
             at.fromArray(figure.positions, 3 * (first + joint)).sub(from).applyQuaternion(turned).multiplyScalar(size).add(to);
             turn.fromArray(turns, own).premultiply(turned);
-            this.matrices[joint].compose(at, turn, scale.setScalar(size * turns[own + 4]));
+            const own_scale = size * turns[own + 4];  // below 0 in a mirror, which is in the joint's own x
+            this.matrices[joint].compose(at, turn, scale.set(own_scale, Math.abs(own_scale), Math.abs(own_scale)));
         }
     }
 }

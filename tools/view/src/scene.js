@@ -20,6 +20,7 @@ export class View {
         this.stage = stage;
         this.figure = figure;
         this.metres = HEIGHT / figure.height;  // of the scene for a unit of the clip
+        this.taller = 1;  // the skin than the skeleton
         this.middle = 0;  // the character that home() looked at
         this.followed = null;  // a character, or null
         this.covered = { right: 0, top: 0, bottom: 0 };  // pixels at the picture's sides that the page's parts cover
@@ -44,6 +45,7 @@ export class View {
     /** Arguments: as Bodies.addSkin() has them. */
     addSkin(skin, made) {
         this.bodies.addSkin(skin, made);
+        this.taller = Math.max(1, made.height / this.figure.height);
         this.scene.add(...this.bodies.skins.meshes);
     }
     /** Level ground has no depth: shadows lie in it. */
@@ -70,14 +72,14 @@ export class View {
         });
         const angle = Math.atan2(width + 1, depth + 1) - FRONTAL, distance = drawnCount > 1 ? 4.7 : 4;
         const offset = new Vector3(-distance * Math.sin(angle), 0.75 * HEIGHT, distance * Math.cos(angle));
-        this.controls.target.copy(this.placeOf(this.middle, 0.55 * HEIGHT));
+        this.controls.target.copy(this.placeOf(this.middle, 0.55 * HEIGHT * this.taller));
         this.camera.position.copy(this.controls.target).addScaledVector(offset, this.farther());
         this.controls.update();
     }
     /** How much farther the camera must be for a figure to fit into what the page's parts leave free. */
     farther() {
         const { width, height } = this.size, { right, top, bottom } = this.covered;
-        return Math.min(3, Math.max(1, 0.85 * height / (height - top - bottom), 0.68 * height / (width - right)));
+        return this.taller * Math.min(3, Math.max(1, 0.85 * height / (height - top - bottom), 0.68 * height / (width - right)));
     }
     /** So many metres over where a character's first joint is on the ground. */
     placeOf(character, over = 0) {
@@ -100,9 +102,12 @@ export class View {
     }
     /** Goes back until all of these points of the clip's world are seen, or far enough. */
     makeSeen(points) {
+        for (let tries = 0; tries < 8 && !points.every((point) => this.isSeen(point)); ++tries) this.recede(1.15);
+    }
+    /** Makes the distance to what is looked at so many times as large. */
+    recede(factor) {
         const { target } = this.controls;
-        for (let tries = 0; tries < 8 && !points.every((point) => this.isSeen(point)); ++tries)
-            this.camera.position.sub(target).multiplyScalar(1.15).add(target);
+        this.camera.position.sub(target).multiplyScalar(factor).add(target);
         this.controls.update();
     }
     /** Whether a point of the clip's world is in the part of the picture that is free. */
@@ -143,6 +148,7 @@ export class View {
     draw() {
         const distance = this.camera.position.distanceTo(this.controls.target);
         this.bodies.shared.uFar.value = Math.max(45, 6 * distance);
+        this.bodies.pose();
         this.renderer.render(this.scene, this.camera);
     }
     /** Pixels on the page of a point of the clip's world; null behind the camera. */

@@ -10,7 +10,9 @@ void main() {
 #else
     vec3 base = uColour;
 #ifdef MAP
-    base *= texture(uMap, vAt).rgb;
+    vec4 texel = texture(uMap, vAt);
+    if (texel.a < ALPHA_TEST) discard;
+    base *= texel.rgb;
 #endif
     colour = vec4(faded(lit(mix(base, uChosenColour, 0.6 * vChosen))), 1.0);
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The figure's own skin, as the page's glTF file has it: meshes with their materials, and the bones that carry them.
-import { Float32BufferAttribute, InstancedBufferGeometry, LoadingManager } from "three";
+import { Box3, Float32BufferAttribute, InstancedBufferGeometry, LoadingManager, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import { bytesOf } from "./bytes.js";
@@ -23,15 +23,16 @@ function verticesOf(mesh) {
 }
 
 /**
- * { meshes: [{ geometry, material, firstBone }], bones: [{ joint, inverse }] }. joint: of the clip; inverse: from the mesh to the joint
- * at rest. A mesh's skinIndex counts bones from its firstBone on. Meshes that hang on no joint of the clip are left out.
+ * { meshes: [{ geometry, material, firstBone }], bones: [{ joint, inverse }], height }. joint: of the clip; inverse: from the mesh to the joint
+ * at rest; height: of all of it, in the clip's unit. A mesh's skinIndex counts bones from its firstBone on. Meshes that hang on no joint of the clip are left out.
  */
 export async function readSkin({ glb, nodes }) {
     const manager = new LoadingManager();
     manager.setURLModifier((url) => (/^(blob|data):/.test(url) ? url : WHITE));  // a page asks nothing of a network
     const { parser, scene } = await new GLTFLoader(manager).parseAsync(bytesOf(glb).buffer, "");
+    if (!scene) throw new Error("the file has no scene");
     scene.updateMatrixWorld(true);
-    const jointOf = (object) => nodes.indexOf(parser.associations.get(object)?.nodes);
+    const joints = await Promise.all(nodes.map((node) => parser.getDependency("node", node))), jointOf = (object) => joints.indexOf(object);
     const carrierOf = (object) => (object === null || jointOf(object) >= 0 ? object : carrierOf(object.parent));
     const meshes = [], bones = [], firsts = new Map();
     scene.traverse((mesh) => {
@@ -44,5 +45,5 @@ export async function readSkin({ glb, nodes }) {
         meshes.push({ geometry: verticesOf(mesh), material: mesh.material, firstBone: firsts.get(carrier) });
     });
     if (meshes.length === 0) throw new Error("no mesh of it hangs on the joints");
-    return { meshes, bones };
+    return { meshes, bones, height: new Box3().setFromObject(scene).getSize(new Vector3()).y };
 }

@@ -28,13 +28,13 @@ export class Skins {
         this.meshes = meshes.flatMap((mesh) => this.draw(mesh, shared));
     }
     /** A mesh, and its shadow, as Bodies has them. */
-    draw({ geometry, material: { color, map, side }, firstBone }, shared) {
+    draw({ geometry, material: { color, map, side, alphaTest }, firstBone }, shared) {
         geometry.setAttribute("limb", this.limbsOf(geometry.attributes, firstBone));
         if (map) map.colorSpace = NoColorSpace;  // the shaders' colours are the screen's own
         const uniforms = { ...shared, ...this.uniforms, uFirstBone: { value: firstBone }, uColour: { value: color.clone().convertLinearToSRGB() }, uMap: { value: map } };
         return [false, true].map((isShadow) => {
             const mesh = new Mesh(geometry, new ShaderMaterial({
-                uniforms, glslVersion: GLSL3, side, defines: { ...(map && { MAP: "" }), ...(isShadow && { SHADOW: "" }) },
+                uniforms, glslVersion: GLSL3, side, defines: { ALPHA_TEST: alphaTest.toFixed(3), ...(map && { MAP: "" }), ...(isShadow && { SHADOW: "" }) },
                 vertexShader: [crowdGlsl, put, skinVertex].join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${skinFragment}`,
                 depthWrite: !isShadow, polygonOffset: isShadow, polygonOffsetFactor: -2, polygonOffsetUnits: -2,
             }));

@@ -32,6 +32,7 @@ export class Stage {
         const characters = bytesOf(data.characters);
         this.charactersAt = this.keep(characters);
         this.characters = charactersOf(characters);
+        this.clips = [...new Set(this.characters.map(({ first }) => first))].sort((a, b) => a - b);  // their first frames
         this.ground = data.ground && this.makeGround(data.ground);
         this.given = givenOf(data.given);
         this.pins = new Map();  // goals moved alone: "limb:character" to { target, pole } in the world
@@ -41,7 +42,6 @@ export class Stage {
         memory.words(this.sourcesAt, this.limbs.length).set(this.limbs.map(({ sourcesAt }) => sourcesAt));
         this.rootsAt = memory.allocate(SIZE.root * this.characterCount);
         this.inputsAt = memory.allocate(SIZE.input * this.limbCount);
-        this.clipFrameCount = this.limbs[0].sources.frameCount;
         this.changed = false;  // by the user, since the page was opened
         this.makeCrowd();
     }

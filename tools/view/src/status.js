@@ -16,8 +16,9 @@ const LEAST_SECONDS = 1e-3;  // of all of them: browsers' clocks go by a tenth o
 
 /** So many a second, by the unit that suits. */
 function rateText(rate) {
-    const [name, unit] = [[" million", 1e6], [" thousand", 1e3]].find(([, size]) => rate >= size) ?? ["", 1];
-    return `${Number((rate / unit).toPrecision(2))}${name} a second`;
+    const rounded = Number(rate.toPrecision(2));
+    const [name, unit] = [[" million", 1e6], [" thousand", 1e3]].find(([, size]) => rounded >= size) ?? ["", 1];
+    return `${rounded / unit}${name} a second`;
 }
 /** How long a solve takes. all: seconds of the last ones. The page's first solve is slow, so a rate waits for others. */
 export function speedText(limbCount, all) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/page_skin.h"
+
+#include <algorithm>
+
+#include "tools/swivel/cached_clip.h"
+
+namespace swivel::tools {
+
+std::optional<PageSkin> page_skin(const MotionFile& file, const CrowdJob& job)
+{
+    PageSkin skin;
+    skin.glb = file.figure_glb();
+    if (skin.glb.empty()) return {};
+    const formats::Clip& clip = file.clip();
+    const std::vector<std::size_t> drawn = drawn_joints(clip, job.limbs);
+    for (const std::size_t joint : drawn) skin.nodes.push_back(clip.joints[joint].number);
+    const auto place_of = [&](int joint) { return std::ranges::lower_bound(drawn, static_cast<std::size_t>(joint)); };
+    const std::vector<int> heads = joints_of(job.body, "head");
+    if (!heads.empty() && std::ranges::binary_search(drawn, static_cast<std::size_t>(heads.back()))) {
+        for (const char* part : {"neck", "head"})
+            for (const int joint : joints_of(job.body, part))
+                if (const auto at = place_of(joint); at != drawn.end() && *at == static_cast<std::size_t>(joint))
+                    skin.head.push_back(static_cast<std::size_t>(at - drawn.begin()));
+        const formats::JointPose at_rest_w = formats::rest_pose(clip)[static_cast<std::size_t>(heads.back())];
+        const Eigen::Vector3d face = at_rest_w.rotation.conjugate() * job.forwards_w;
+        skin.face = {face.x(), face.y(), face.z()};
+    }
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        formats::world_pose(clip, frame, pose_w);
+        for (const std::size_t joint : drawn) {
+            for (const double part : pose_w[joint].rotation.coeffs()) skin.turns.push_back(static_cast<float>(part));
+            skin.turns.push_back(
+                static_cast<float>(pose_w[joint].mirrored ? -pose_w[joint].scale : pose_w[joint].scale));
+        }
+    }
+    return skin;
+}
+
+}  // namespace swivel::tools
