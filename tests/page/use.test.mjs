@@ -338,3 +338,24 @@ test('a phone sees mostly the crowd, the panel below when asked, and a touch cho
     assert.ok(head.y > header.y + header.height && (await pixel(page, 'target')).y < box.y, `${head.y}`);
   }, { ...link, viewport: { width: 390, height: 700 }, hasTouch: true, isMobile: true });
 });
+
+test('a trail shows where the chosen wrist has been, through frames in order', async () => {
+  await visit(demo, async (page) => {
+    const trail = page.locator('[data-overlay=trail]'), points = () => page.evaluate(() => {
+      const lines = [];
+      swivelPage.view.marks.traverse((node) => { if (node.isLine) lines.push([...node.geometry.attributes.position.array].map((c, n) => c + node.parent.parent.position.toArray()[n % 3])); });
+      return lines.flat();
+    });
+    await page.getByText('Overlays', { exact: true }).click();
+    await trail.check();
+    const wrists = await page.evaluate(() => [10, 11, 12, 13].map((frame) => {
+      swivelPage.setFrame(frame);
+      return swivelPage.stage.pose(swivelPage.selection.limb, swivelPage.selection.character).wrist;
+    }));
+    const drawn = await points();
+    assert.equal(drawn.length, 12);
+    wrists.flat().forEach((part, n) => assert.ok(Math.abs(part - drawn[n]) < 1e-4, `${part} ${drawn[n]}`));
+    await page.evaluate(() => swivelPage.setFrame(40));
+    assert.equal((await points()).length, 3);
+  }, link);
+});

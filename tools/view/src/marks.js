@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Shapes that are drawn over the scene: surfaces one can see through, tubes in place of lines, which are a pixel wide.
-import { BackSide, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, TorusGeometry, Vector3 } from "three";
+import { BackSide, BufferGeometry, CylinderGeometry, DoubleSide, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, TorusGeometry, Vector3 } from "three";
 
 import { rgb } from "./colours.js";
 
@@ -45,6 +45,10 @@ export function tube(from, to, radius, colour) {
     made.position.addVectors(from, to).multiplyScalar(0.5);
     if (length > 0) made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).normalize());
     return onTop(made);
+}
+/** A thin line that is never hidden. */
+export function line(points, colour) {
+    return onTop(new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: rgb(colour), ...TOP })));
 }
 /** A line of short tubes. */
 export function dashes(from, to, radius, colour) {

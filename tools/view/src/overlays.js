@@ -6,11 +6,11 @@ import { ConeGeometry, Group, Matrix4, Mesh, Vector3 } from "three";
 
 import { CONE } from "./colours.js";
 import { checkbox, element, section } from "./dom.js";
-import { clear, dashes, disc, handle, sphere, surface, tube } from "./marks.js";
+import { clear, dashes, disc, handle, line, sphere, surface, tube } from "./marks.js";
 import { Feature, flagNames } from "./stage.js";
 import { saidOf } from "./words.js";
 
-const FORBIDDEN = "#e0433b", UNKNOWN = "#98a2b0", HAND_CONE = "#ffb3da";
+const TRAIL = "#2eb39a", FORBIDDEN = "#e0433b", UNKNOWN = "#98a2b0", HAND_CONE = "#ffb3da";
 
 /** name: of the switch and of the group that is drawn. colours: as they are drawn. */
 const OVERLAYS = [
@@ -20,7 +20,9 @@ const OVERLAYS = [
     { name: "middle", text: "Middle line", colours: ["#ff8a5c"], isOn: false },
     { name: "pole", text: "Lines to the pole, the white ball", colours: ["#98a2b0"], isOn: true },
     { name: "cones", text: "Limit cones: shoulder, hand", colours: [CONE, HAND_CONE], isOn: true },
+    { name: "trail", text: "Trail of the wrist, through frames in order", colours: [TRAIL], isOn: false },
 ];
+const MOST_TRAIL = 240;  // frames
 
 /** The chosen limb as it is solved: vectors relative to the shoulder as the clavicle moves it, the arm frame's axes, and what arm() has. */
 export function geometryOf(stage, { limb, character }) {
@@ -87,7 +89,23 @@ const draw = {
         mesh.position.copy(geometry.wrist);
         group.add(mesh);
     },
+    trail(group, geometry, { stage, selection, trail }) {
+        const shoulder = new Vector3(...stage.shoulder(selection.limb, selection.character));
+        group.add(line(trail.map((place) => place.clone().sub(shoulder)), TRAIL));
+    },
 };
+
+/** Where the wrist of the chosen limb has been in the frames before, one after the other. */
+class Trail {
+    constructor() { this.points = []; }
+    follow({ stage, selection: { limb, character } }) {
+        const goesOn = this.limb === limb && this.character === character && (stage.frame === this.frame || stage.frame === this.frame + 1);
+        if (!goesOn) this.points = [];
+        if (stage.frame === this.frame) this.points.pop();
+        this.points = [...this.points, new Vector3(...stage.pose(limb, character).wrist)].slice(-MOST_TRAIL);
+        Object.assign(this, { limb, character, frame: stage.frame });
+    }
+}
 
 function allowedAngles(arcs) {
     const ends = arcs.map(({ from, to }) => {
@@ -141,19 +159,20 @@ function makeSwitches(wanted, change) {
 }
 
 export function makeOverlays(page) {
-    const { stage, view } = page, anchor = new Group(), groups = {}, wanted = {}, rim = makeRim(page);
+    const { stage, view } = page, anchor = new Group(), groups = {}, wanted = {}, rim = makeRim(page), trail = new Trail();
     for (const { name } of OVERLAYS) anchor.add(groups[name] = new Group());
     anchor.add(rim);
     view.marks.add(anchor);
     let isAway = false;
     const update = () => {
+        if (page.selection !== null) trail.follow(page);
         anchor.visible = page.selection !== null && !isAway;
         Object.values(groups).forEach(clear);
         rim.visible = false;
         if (!anchor.visible) return;
         const { selection } = page, geometry = geometryOf(stage, selection), length = geometry.upper + geometry.fore;
         anchor.position.fromArray(stage.shoulder(selection.limb, selection.character));
-        const context = { stage, selection, length, thickness: 0.006 * length };
+        const context = { stage, selection, length, thickness: 0.006 * length, trail: trail.points };
         for (const { name } of OVERLAYS) if (wanted[name]) draw[name](groups[name], geometry, context);
         const cone = stage.field(selection.limb, "SHOULDER_CONE");
         rim.visible = wanted.cones && cone !== undefined;
