@@ -45,6 +45,8 @@ test('the command\'s bits, played or scrubbed, and the shader\'s limbs and shado
     assert.ok(feet < 0.3, `an ankle is ${feet} heights from the ground`);
     const { share, colours } = await difference(page, () => page.evaluate(() => swivelPage.setFrame(20)));
     assert.ok(colours > 100 && share > 0.01, `${colours} colours, ${share} changed`);
+    await page.evaluate(() => swivelPage.select({ limb: swivelPage.stage.limbs.find(({ name }) => name === 'left_arm'), character: 2 }));
+    assert.equal(await page.textContent('.why'), 'It goes along with its body.');
   });
 });
 

@@ -47,7 +47,7 @@ export function makeInspector(page) {
         title.textContent = `${limbName(limb)} of character ${character}`;
         table.replaceChildren(facts(rowsOf(stage, limb, character)));
         flags.replaceChildren(...flagNames(stage.flags(limb, character)).map((flag) => element("span", {}, saidOf(limb, wordsOf(flag)))));
-        why.textContent = saidOf(limb, stage.explain(limb, character));
+        why.textContent = stage.goesAlong(limb, character) ? "It goes along with its body." : saidOf(limb, stage.explain(limb, character));
         release.disabled = stage.movedParts(limb, character).length === 0;
     };
     page.on("frame", show);

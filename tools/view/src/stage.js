@@ -305,6 +305,9 @@ export class Stage {
     }
     field(limb, name) { return fieldOf(limb, name); }
 
+    /** Whether a limb of a body on ground has no goal of its own. */
+    goesAlong(limb, character) { return this.ground !== undefined && this.has(limb, "WEIGHTS") && this.input(limb, character, "weights")[0] === 0; }
+
     /** The results of one limb. */
     read(limb, character, name) { return this.crowd.read(Field[name], { group: limb.index, first: character, count: 1 }); }
     flags(limb, character) { return this.read(limb, character, "FLAGS")[0]; }
