@@ -105,10 +105,11 @@ inline uint32_t swivel_goal_frame(const goal_character* character, uint32_t fram
 // The goal of a limb of a character. Any thread; no allocation.
 goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 
-// Fills what count characters are asked for: roots has count of them, inputs [character][limb]. plans: of each limb.
-// sources: of each limb, one for each frame of all clips.
-// ground, heights: unless null, each character is raised to where the ground is below its root. Any thread; no
-// allocation.
+// Fills what count characters are asked for.
+// plans: of each limb. sources: of each limb, one for each frame of all clips.
+// ground, heights: null, or each character is raised to where the ground is below its root.
+// roots: count of them. inputs: [character][limb].
+// Any thread; no allocation.
 void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame,
                   const goal_ground* ground, const float* heights, const goal_character* characters, uint32_t count,
                   goal_root* roots, goal_input* inputs);
