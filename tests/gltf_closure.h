@@ -16,8 +16,8 @@ using LimbNodes = std::array<int, 3>;
 
 // Worst of all frames and limbs: places in the limb's length, the end joint's orientation as its axes' distance.
 struct Closure {
-    double end = 0, lower_bent = 0, lower_straight = 0, orientation = 0, others = 0;
-    double turn = 0;  // of the limbs' joints against their parents, as a share of what is allowed
+    double end = 0, lower_straight = 0, orientation = 0, others = 0;
+    double turn = 0, lower_bent = 0;  // as shares of what is allowed; turns are the joints' against their parents
     std::size_t frames = 0;
 };
 
@@ -27,9 +27,10 @@ inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.lin
 // must have the local transforms they had.
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs);
 
-// Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad. Places: 1e-5 of the
-// limb's length. For an elbow bent by less than 0.02 rad it is 2e-3. The elbow's height over the line from
-// shoulder to wrist is then the root of a float's error in the reach; see tests/test_clip_back.cpp.
+// Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad, and an elbow is off
+// its place by no more of the limb's length. All other places: 1e-5 of that length. For an elbow bent by less than 0.02
+// rad it is 2e-3. The elbow's height over the line from shoulder to wrist is then the root of a float's error in the
+// reach; see tests/test_clip_back.cpp.
 void require_closed(const Closure& worst);
 
 }  // namespace swivel::test
