@@ -14,13 +14,19 @@ size = [0.7, 1.3]
 [limb.arms]
 target.offset = [0.1, 0.3, 0.2]
 clavicle.share = 0.5
+[look]
+target = [5, 2, 30]
+most_deg = 90
 `);
 
-test('joints are where the command writes them, above and below limbs, too', async () => {
+test('joints are where the command writes them, above and below limbs and of heads that look, too', async () => {
   const glb = file('skins.glb', ''), times = [0, 0.5, 1], said = run('solve', figure, '--crowd', crowd, '--out', glb);
   assert.equal(said.status, 0, said.stderr);
   await visit(write('skins.html', 'view', figure, '--crowd', crowd), async (page) => {
-    const nodes = await page.evaluate(() => swivelPage.stage.data.skin.nodes);
+    const { nodes, head, face } = await page.evaluate(() => {
+      const { nodes, head, face } = swivelPage.stage.data.skin;
+      return { nodes, head: head.at(-1), face };
+    });
     for (const who of [0, 1, 2]) {
       const written = JSON.parse(execFileSync('node', [check, 'pose', glb, String(who), ...times.map(String)]));
       const count = (written[0].length - 3) / 3;  // three times the file's nodes, and a node for each character
@@ -34,6 +40,11 @@ test('joints are where the command writes them, above and below limbs, too', asy
         }, [time, who]);
         const off = nodes.map((node, joint) => Math.max(...drawn[joint].map((part, k) => Math.abs(part - written[n][who * count + node][k]))));
         assert.ok(Math.max(...off) < 2e-5, `character ${who}, ${time} s: ${off}`);
+        const [m, unit] = [drawn[head], (v) => v.map((part) => part / Math.hypot(...v))];
+        const line = unit([0, 1, 2].map((row) => [0, 1, 2].reduce((sum, column) => sum + m[4 * column + row] * face[column], 0)));
+        const wanted = unit([5, 2, 30].map((part, axis) => part - m[12 + axis])), cosine = line.reduce((sum, part, axis) => sum + part * wanted[axis], 0);
+        assert.ok(cosine > Math.cos(0.001), `character ${who} looks ${Math.acos(cosine)} rad beside the target`);
+        assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
       }
     }
   });

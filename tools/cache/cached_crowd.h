@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,13 @@ struct CachedLimb {
     std::vector<goal_source> sources;  // one for each frame of the clip
 };
 
+// Heads that look: as a limb. A page has them, a cache has not.
+struct CachedLook {
+    std::vector<int> joints;  // among the cached ones, of which all are some
+    LimbSetup setup;
+    std::vector<goal_source> sources;
+};
+
 constexpr std::uint32_t kMostFramesInChunk = 65'536, kMostCharactersInChunk = 1'048'576;
 // Frames and characters that one file of an array holds. Characters: a multiple of SWIVEL_LANES.
 struct ChunkShape {
@@ -44,6 +52,7 @@ struct CachedCrowd {
     std::vector<CachedJoint> joints;
     std::vector<float> positions;  // [frame of the clip][joint][3], in the world
     std::vector<CachedLimb> limbs;
+    std::optional<CachedLook> look;
     std::optional<Ground> ground;  // that legs stand on
     bool has_given = false;        // goals of one's own
     bool has_poses = true;         // it keeps them; goals give the same poses again on any machine

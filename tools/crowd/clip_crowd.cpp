@@ -45,7 +45,7 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, con
       limbs_(limbs),
       plans_(plan.limbs),
       setups_(limb_setups(limbs, plan)),
-      crowd_(setups_, sources_of(motion_, limbs.size()), characters_of(plan, limbs, motion_.frame_count()),
+      crowd_(setups_, sources_of(motion_, setups_.size()), characters_of(plan, limbs, motion_.frame_count()),
              plan.budget_blocks, plan.ground ? &*plan.ground : nullptr, clip.frame_time)
 {
     given_at_.resize(limbs.size(), std::vector<std::int32_t>(plan.characters));
@@ -182,6 +182,11 @@ Quaterniond ClipCrowd::clavicle(std::size_t limb, std::uint32_t character) const
     float turn[4];
     crowd_.read(limb, SWIVEL_CLAVICLE_TURN, character, 1, {turn, sizeof turn});
     return in_clip(limb, character).local_parent * Quaterniond(turn[3], turn[0], turn[1], turn[2]);
+}
+
+Quaterniond ClipCrowd::looking(std::size_t joint, std::uint32_t character) const
+{
+    return quaternion(crowd_.rotation(limbs_.size(), character, 1 + joint));
 }
 
 formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) const

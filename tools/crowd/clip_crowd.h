@@ -46,7 +46,9 @@ public:
     formats::PoseRow pose(std::size_t limb, std::uint32_t character) const;
     // The local rotation of the joint above a limb whose plan has a clavicle.
     Eigen::Quaterniond clavicle(std::size_t limb, std::uint32_t character) const;
-    // All of them, in order of character, then limb, and the columns that the plan asks for beside.
+    // The local rotation of one of the joints of the plan's look.
+    Eigen::Quaterniond looking(std::size_t joint, std::uint32_t character) const;
+    // All poses, in order of character, then limb, and the columns that the plan asks for beside.
     std::span<const formats::PoseRow> poses();
     std::span<const formats::PoseExtra> extras();
     formats::PoseColumns columns() const;

@@ -42,6 +42,11 @@ void ClipCrowd::measure(Statistics& statistics) const
             const std::lock_guard lock(mutex);
             statistics.of(limbs_[limb].name.kind).add(range);
         });
+    if (setups_.size() == limbs_.size()) return;
+    std::vector<std::uint32_t> flags(character_count());
+    crowd_.read(limbs_.size(), SWIVEL_FLAGS, 0, character_count(), {flags.data(), sizeof flags[0]});
+    for (std::uint32_t n = 0; n < character_count(); ++n)
+        if (crowd_.solved(n)) statistics.looks.add_flags(flags[n]);
 }
 
 ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& row) const

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/rig/vectors.h"
+
 namespace swivel::tools {
 
 namespace {
@@ -31,13 +33,6 @@ LimbInClip limb_in(const Limb& limb, const ChainPose& pose, const JointPose& par
     in.fore = parent * limb.as_solved(pose.turn[1]) * in.fore_aim;
     in.hand = parent * limb.as_solved(pose.turn[2]);
     return in;
-}
-
-// Copies a vector, or a quaternion as x, y, z, w.
-template <class Number, std::size_t Count>
-void put(const auto& from, Number (&to)[Count])
-{
-    for (std::size_t n = 0; n < Count; ++n) to[n] = static_cast<Number>(from[static_cast<Eigen::Index>(n)]);
 }
 
 // The middle of the arms' shoulders, or else of the legs' hips: floats are finest there. In the joints' order, so that
@@ -85,7 +80,7 @@ void settle_lengths(std::span<goal_source> sources, const float (&at_rest)[2])
 }  // namespace
 
 ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
-    : limb_count_(limbs.size()), sources_(limbs.size()), frame_count_(clip.frame_count)
+    : limb_count_(limbs.size()), sources_(limbs.size() + (plan.look ? 1 : 0)), frame_count_(clip.frame_count)
 {
     std::vector<JointPose> pose_w(clip.joints.size());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
@@ -105,6 +100,7 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, c
             const std::vector<bool>& contact = plan.limbs[n].contact;
             sources_[n].back().contact = frame < contact.size() && contact[frame] ? 1.0f : 0.0f;
         }
+        if (plan.look) sources_.back().push_back(look_source(clip, plan.look->joints, pose_w, root));
     }
     for (std::size_t n = 0; n < limbs.size(); ++n) settle_lengths(sources_[n], limbs[n].bound.lengths);
 }

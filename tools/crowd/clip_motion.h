@@ -39,8 +39,8 @@ public:
     {
         return Eigen::Vector3d(sources_[limb][frame].origin);
     }
-    // What the goals of one limb are made of, frame after frame. Lengths are the limb's own at rest, unless the clip
-    // stretches its bones by more than 1e-7 of their length.
+    // What the goals of one limb are made of, frame after frame; the look comes after the limbs. Lengths are the limb's
+    // own at rest, unless the clip stretches its bones by more than 1e-7 of their length.
     std::span<const goal_source> sources(std::size_t limb) const { return sources_[limb]; }
 
 private:

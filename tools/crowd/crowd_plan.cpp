@@ -12,6 +12,7 @@
 #include "tools/crowd/region_plan.h"
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -38,11 +39,6 @@ std::array<float, 12> ranges_of(const formats::BoxLimit& box)
         check(swivel_range(kRadians * range.least, kRadians * range.most, &value[4 * n]));
     }
     return value;
-}
-
-void put(const Eigen::Vector3d& v, double (&to)[3])
-{
-    for (int n = 0; n < 3; ++n) to[n] = v[n];
 }
 
 // The plan as the formula of goals takes it.
@@ -293,9 +289,18 @@ std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan&
     std::vector<LimbSetup> setups;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         const LimbPlan& limb = plan.limbs[n];
-        setups.push_back({limbs[n].rest, limb.features, limb.shoulder_order, limb.wrist_order, limb.fields,
-                          goal_plan_of(limb, limbs[n]), limb.region, limb.ground, limbs[n].mirrored});
+        setups.push_back({limbs[n].rest,
+                          limb.features,
+                          limb.shoulder_order,
+                          limb.wrist_order,
+                          limb.fields,
+                          goal_plan_of(limb, limbs[n]),
+                          limb.region,
+                          limb.ground,
+                          limbs[n].mirrored,
+                          {}});
     }
+    if (plan.look) setups.push_back(plan.look->setup);
     return setups;
 }
 

@@ -12,6 +12,7 @@
 #include "tools/crowd/clip_parts.h"
 #include "tools/crowd/ground.h"
 #include "tools/crowd/limb_setup.h"
+#include "tools/crowd/look_plan.h"
 #include "tools/formats/crowd_file.h"
 #include "tools/rig/limbs.h"
 
@@ -56,6 +57,7 @@ struct CrowdPlan {
     std::optional<Ground> ground;                    // that legs stand on: see tools/feet/standing.h
     double shift_wish = 0;                           // then: of a body of size 1
     std::vector<LimbPlan> limbs;                     // one for each limb solved
+    std::optional<LookPlan> look;                    // heads look at a point
 };
 
 // What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and bends to
@@ -68,7 +70,7 @@ void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 // clavicle that is not the limb's own.
 CrowdPlan plan_crowd(const formats::CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs);
 
-// The plan for the solver alone, limb by limb.
+// The plan for the solver alone, limb by limb, and then the look.
 std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan& plan);
 
 }  // namespace swivel::tools

@@ -27,6 +27,11 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
     }
     std::vector<swivel_group_def> groups;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
+        if (limbs[n].look) {
+            swivel_look& look = groups.emplace_back(swivel_default_look_group_def()).look = *limbs[n].look;
+            for (std::uint32_t joint = 0; joint < look.joint_count; ++joint) look.joints[joint] += of.limbs[n].shoulder;
+            continue;
+        }
         swivel_group_def& group = groups.emplace_back(swivel_default_body_group_def(&joints[n]));
         group.features = limbs[n].features;
         group.on_bad_input = SWIVEL_REST_POSE;  // the same in whatever order frames are solved

@@ -48,6 +48,7 @@ Vec3 shoulder_of(const goal_source& from, const goal_character& who)
 
 Vec3 target_of(const goal_plan& plan, const goal_source& from, const goal_character& who)
 {
+    if (plan.is_look) return vec3(plan.target_offset);
     const Vec3 place =
         plan.has_target_point
             ? vec3(who.place) + who.size * vec3(plan.target_point)
@@ -108,7 +109,7 @@ void sample(const swivel_probes* probes, void* user)
 
 // What a group's limb reads.
 struct GroupInputs {
-    swivel_frame_field fields[5];
+    swivel_frame_field fields[6];
     swivel_frame frame;
 };
 void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& first, size_t stride, GroupInputs& to)
@@ -116,11 +117,9 @@ void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& fi
     const struct {
         swivel_field field;
         const void* data;
-    } inputs[] = {{SWIVEL_TARGET, first.target},
-                  {SWIVEL_POLE, first.pole},
-                  {SWIVEL_HAND, first.hand},
-                  {SWIVEL_WEIGHTS, first.weights},
-                  {SWIVEL_CONTACT, &first.contact}};
+    } inputs[] = {{SWIVEL_TARGET, first.target},    {SWIVEL_POLE, first.pole},
+                  {SWIVEL_HAND, first.hand},        {SWIVEL_WEIGHTS, first.weights},
+                  {SWIVEL_CONTACT, &first.contact}, {SWIVEL_LOOK_TARGET, first.target}};
     to.frame = swivel_default_frame();
     to.frame.fields = to.fields;
     for (const auto& input : inputs)
@@ -133,10 +132,14 @@ uint32_t twist_bones_of(const swivel_crowd* crowd, uint32_t group)
     return swivel_field_row_count(crowd, group, SWIVEL_TWIST_BONES) / 4;
 }
 
+// With the look.
 uint32_t limb_count_of(const swivel_crowd* crowd)
 {
+    const auto has = [&](uint32_t group, swivel_field field) {
+        return swivel_field_row_count(crowd, group, field) > 0;
+    };
     uint32_t count = 0;
-    while (swivel_field_row_count(crowd, count, SWIVEL_SHOULDER) > 0) ++count;
+    while (has(count, SWIVEL_SHOULDER) || has(count, SWIVEL_LOOK_TARGET)) ++count;
     return count;
 }
 

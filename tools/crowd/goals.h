@@ -14,6 +14,7 @@ extern "C" {
 
 // One limb in one frame of the clip: two bones that at rest point where the limb's do. All is in the world's axes, but
 // the clip's own pose; elbow and wrist are counted from the shoulder. Words are an arm's. Quaternions are x, y, z, w.
+// A look is one more limb, of up to three joints: neck and head stand for shoulder, elbow and wrist.
 typedef struct goal_source {
     double elbow[3], wrist[3];
     double hand[4];
@@ -51,7 +52,7 @@ typedef struct goal_plan {
     uint32_t holds_pole;                        // 1: the clip's own pole counts, too; 0: the elbow goes as in the clip
     uint32_t hand_is_local;  // 1: the hand goal is the wrist's own local rotation, for SWIVEL_WITH_AIM
     uint32_t goes_along;     // 1: on ground its target and hand do not count, so it moves with its body
-    uint32_t reserved;
+    uint32_t is_look;        // 1: no limb, but neck and head; target_offset is what they look at, in the world
 } goal_plan;
 
 // What a limb is asked for, in the world. Pole and hand are as the plan says.
@@ -90,7 +91,7 @@ static_assert(sizeof(goal_source) == 216 && sizeof(goal_character) == 48 && size
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
 // them.
 enum { GOAL_JOINTS = 4 };
-enum { GOAL_MOST_LIMBS = 8 };  // of a character
+enum { GOAL_MOST_LIMBS = 8 };  // of a character, with its look
 
 // Of groups that stand on ground: swivel_plant's run and swivel_fit's half, where they are not as usual. A body comes
 // down sooner than usual, because hills come as fast as steps.
@@ -117,8 +118,8 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
 // How high the ground is in the world. Any thread; no allocation.
 double swivel_ground_height(const goal_ground* ground, const float* heights, double x, double z);
 
-// Solves a crowd of bodies that has a group for each limb, and joints as GOAL_JOINTS says. After them it may have a
-// group of shifts.
+// Solves a crowd of bodies that has a group for each limb and the look, and joints as GOAL_JOINTS says. After them it
+// may have a group of shifts.
 // characters, roots, inputs: of all bodies. Roots get the shifts, if the crowd has some.
 // ground, heights: what legs stand on; null without.
 // seconds: since the last solve.

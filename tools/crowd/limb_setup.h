@@ -29,6 +29,8 @@ struct LimbSetup {
     std::optional<swivel_region> region;             // with SWIVEL_WITH_REGION
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
     bool mirrored = false;                           // the joints' axes, as solved, have x turned over
+    // Of neck and head: how they look. Joints are counted from the limb's first, its shoulder. Then it is no limb.
+    std::optional<swivel_look> look;
 
     // A rotation as solved in the joints' own axes.
     std::array<float, 4> own(std::span<const float, 4> q) const

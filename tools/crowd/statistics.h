@@ -118,14 +118,34 @@ struct LimbStatistics {
     }
 };
 
+// Of heads that look. Each is one of these, or its way there is not at its end.
+struct LookStatistics {
+    std::uint64_t count = 0, met = 0, limited = 0, faded = 0;  // faded: the target is behind, or too near
+
+    void add_flags(std::uint32_t word)
+    {
+        const bool is_met = (word & SWIVEL_REACHED) != 0, is_faded = (word & SWIVEL_FADED) != 0;
+        ++count;
+        met += is_met;
+        faded += is_faded && !is_met;
+        limited += (word & SWIVEL_LIMITED_LOOK) != 0 && !is_met && !is_faded;
+    }
+    void add(const LookStatistics& other)
+    {
+        count += other.count, met += other.met, limited += other.limited, faded += other.faded;
+    }
+};
+
 struct Statistics {
     LimbStatistics arms, legs;
+    LookStatistics looks;
     double solve_seconds = 0;
 
     void add(const Statistics& other)
     {
         arms.add(other.arms);
         legs.add(other.legs);
+        looks.add(other.looks);
         solve_seconds += other.solve_seconds;
     }
     LimbStatistics& of(formats::LimbKind kind) { return kind == formats::LimbKind::arm ? arms : legs; }

@@ -257,10 +257,21 @@ void read_ground(TomlTable table, CrowdFile& to)
     if (table.is_there()) to.ground = std::move(ground);
 }
 
+void read_look(TomlTable table, CrowdFile& to)
+{
+    const Maybe<Eigen::Vector3d> target = table.vector("target");
+    const Maybe<double> most_deg = table.number("most_deg", 0, 180);
+    table.finish();
+    if (!table.is_there()) return;
+    if (!target) table.fail("target", "is missing; write what heads look at: [x, y, z]");
+    to.look = {table.line(), target->value, most_deg ? most_deg->value : LookSettings().most_deg};
+}
+
 void read_root(TomlTable root, CrowdFile& to)
 {
     read_crowd(root.table("crowd"), to);
     read_ground(root.table("ground"), to);
+    read_look(root.table("look"), to);
     TomlTable budget = root.table("budget");
     to.budget_blocks = budget.whole("blocks", 1, UINT32_MAX);
     budget.finish();

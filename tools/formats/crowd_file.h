@@ -96,6 +96,13 @@ struct GroundSettings {
     Maybe<Eigen::Vector3d> middle;  // where the picture's middle lies, at black
 };
 
+// The table [look].
+struct LookSettings {
+    std::size_t line = 0;
+    Eigen::Vector3d target;  // world axes
+    double most_deg = 45;    // that each joint turns at most, 0 to 180
+};
+
 // One of the list crowd.clips; at least one of them is there.
 struct FurtherClip {
     std::size_t line = 0;
@@ -115,6 +122,7 @@ struct CrowdFile {
     Maybe<std::string> limbs, targets;  // targets as written; a relative path starts at the file's folder
     Maybe<std::int64_t> budget_blocks;
     std::optional<GroundSettings> ground;
+    std::optional<LookSettings> look;
     std::vector<LimbSection> sections;  // those in the file, the general before the special
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Angles between directions, ranks of numbers, and numbers for people.
+// Angles between directions, ranks of numbers, numbers for people, and vectors as arrays.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,6 +16,13 @@ namespace swivel::tools {
 inline double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
     return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
+}
+
+// Copies a vector, or a quaternion's coeffs() as x, y, z, w.
+template <class Number, std::size_t Count>
+void put(const auto& from, Number (&to)[Count])
+{
+    for (std::size_t n = 0; n < Count; ++n) to[n] = static_cast<Number>(from[static_cast<Eigen::Index>(n)]);
 }
 
 // The axis of the world that is nearest to a direction, with its sign.

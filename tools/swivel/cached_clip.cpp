@@ -65,6 +65,11 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
         crowd.limbs.push_back({limbs[n].name, {}, setups[n], {sources.begin(), sources.end()}});
         for (const int joint : limbs[n].joints) crowd.limbs[n].joints.push_back(drawn_at(clip, drawn, joint));
     }
+    if (plan.look) {
+        const auto sources = motion.sources(limbs.size());
+        crowd.look = {{}, plan.look->setup, {sources.begin(), sources.end()}};
+        for (const int joint : plan.look->joints) crowd.look->joints.push_back(drawn_at(clip, drawn, joint));
+    }
     return crowd;
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "tools/cli/command_error.h"
 #include "tools/crowd/crowd_checks.h"
@@ -13,6 +15,7 @@
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
+#include "tools/rig/vectors.h"
 #include "tools/swivel/solve_files.h"
 
 namespace swivel::tools {
@@ -71,6 +74,17 @@ FoundLoop loop_of(const formats::CrowdFile& file, const std::string& name, const
     const FoundLoop found = find_loop(clip, body);
     if (!std::isfinite(found.gap)) refuse(fmt::format("is shorter than half a second; {}", advice));
     return found;
+}
+
+LookPlan look_of(const formats::CrowdFile& file, const formats::Clip& clip, const CrowdJob& job)
+{
+    constexpr double kRadians = std::numbers::pi / 180;
+    std::vector<int> joints = look_joints(clip, job.body, job.limbs);
+    if (joints.empty())
+        throw formats::InputError(file.path, file.look->line,
+                                  "look: no head of the clip is known that can turn; see swivel rig FILE, or take this "
+                                  "out");
+    return plan_look(clip, std::move(joints), job.faces_w, file.look->target, kRadians * file.look->most_deg);
 }
 
 // Reads one of the further clips. Its joints are the same ones.
@@ -176,7 +190,8 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     file.sample(joints_of(joints));
     LimbSearch search = bind_limbs(clip, joints, choice);
     job.limbs = require_limbs(search, options.file);
-    job.body = search.body, job.forwards_w = search.facing.forwards_w;
+    const Eigen::Vector3d up_w = nearest_axis(search.facing.up_w), &forwards_w = search.facing.forwards_w;
+    job.body = search.body, job.faces_w = (forwards_w - forwards_w.dot(up_w) * up_w).normalized();
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) job.missing.push_back(std::move(finding));
     job.frame_count = job.clip_frames = clip.frame_count;
@@ -191,6 +206,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
         if (job.crowd->ground->heights)
             job.heights = (job.crowd->path.parent_path() / job.crowd->ground->heights->value).string();
     }
+    if (job.crowd && job.crowd->look) job.plan.look = look_of(*job.crowd, clip, job);
     if (options.characters) job.plan.characters = *options.characters;
     if (clip.frame_time == 0 && job.plan.characters > 1)
         throw formats::InputError(options.file,

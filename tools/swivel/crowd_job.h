@@ -28,7 +28,7 @@ struct CrowdJob {
     std::vector<Limb> limbs;
     std::vector<LimbFinding> missing;
     std::vector<BodyPart> body;
-    Eigen::Vector3d forwards_w;  // at rest
+    Eigen::Vector3d faces_w;  // where the figure looks at rest: forwards, and level, though its back may lean
     CrowdPlan plan;
     std::vector<FoundLoop> loops;  // of each clip, where they go on and on
     std::vector<FurtherMotion> further;

@@ -15,15 +15,15 @@ std::optional<PageSkin> page_skin(const MotionFile& file, const CrowdJob& job)
     const formats::Clip& clip = file.clip();
     const std::vector<std::size_t> drawn = drawn_joints(clip, job.limbs);
     for (const std::size_t joint : drawn) skin.nodes.push_back(clip.joints[joint].number);
-    const auto place_of = [&](int joint) { return std::ranges::lower_bound(drawn, static_cast<std::size_t>(joint)); };
-    const std::vector<int> heads = joints_of(job.body, "head");
-    if (!heads.empty() && std::ranges::binary_search(drawn, static_cast<std::size_t>(heads.back()))) {
-        for (const char* part : {"neck", "head"})
-            for (const int joint : joints_of(job.body, part))
-                if (const auto at = place_of(joint); at != drawn.end() && *at == static_cast<std::size_t>(joint))
-                    skin.head.push_back(static_cast<std::size_t>(at - drawn.begin()));
-        const formats::JointPose at_rest_w = formats::rest_pose(clip)[static_cast<std::size_t>(heads.back())];
-        const Eigen::Vector3d face = at_rest_w.rotation.conjugate() * job.forwards_w;
+    const auto place_of = [&](int joint) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(drawn, static_cast<std::size_t>(joint)) -
+                                        drawn.begin());
+    };
+    const std::vector<int> heads = look_joints(clip, job.body, job.limbs);
+    const auto is_drawn = [&](int joint) { return std::ranges::binary_search(drawn, static_cast<std::size_t>(joint)); };
+    if (!heads.empty() && std::ranges::all_of(heads, is_drawn)) {
+        for (const int joint : heads) skin.head.push_back(place_of(joint));
+        const Eigen::Vector3d face = face_of(clip, heads.back(), job.faces_w);
         skin.face = {face.x(), face.y(), face.z()};
     }
     std::vector<formats::JointPose> pose_w(clip.joints.size());

@@ -122,6 +122,9 @@ void print_statistics(std::FILE* to, const Statistics& statistics)
             d.stat.rms(), d.unit, text_of(d.stat.worst_pose));
     for (const auto& [name, stat] : flags_of(statistics))
         if (stat.count > 0) say(to, "flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
+    if (const LookStatistics& looks = statistics.looks; looks.count > 0)
+        say(to, "looks    {} of {} meet their target, {} turn no further, {} have it behind them or too near\n",
+            looks.met, looks.count, looks.limited, looks.faded);
     if (went_wrong(statistics))
         say(to, "note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
 }
@@ -142,6 +145,8 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
         out["flags"][name] = stat.count;
         if (stat.count > 0) out["first_flagged"][name] = json_of(stat.first_pose);
     }
+    if (const LookStatistics& looks = statistics.looks; looks.count > 0)
+        out["looks"] = {{"count", looks.count}, {"met", looks.met}, {"limited", looks.limited}, {"faded", looks.faded}};
     out["out_of_reach"] = statistics.unreached();
     out["bad_input"] = statistics.bad();
     out["went_wrong"] = went_wrong(statistics);

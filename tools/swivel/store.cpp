@@ -124,6 +124,9 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
         throw formats::InputError(
             options.crowd.crowd,
             "has a budget, which is for live crowds: a cache solves all limbs; leave [budget] out");
+    if (job.plan.look)
+        throw formats::InputError(options.crowd.crowd, job.crowd->look->line,
+                                  "look: a cache has limbs alone, no heads; take this out");
     CachedCrowd crowd = cached_clip({title_of(options.crowd.file), motion_of(file, job)}, clip, job.limbs, job.plan,
                                     ClipMotion(clip, job.limbs, job.plan));
     crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);

@@ -78,6 +78,16 @@ Json json_of_limb(const CachedLimb& limb, const LimbSkeleton::OfLimb& joints)
     return out;
 }
 
+Json json_of_look(const CachedLook& look)
+{
+    const swivel_look& how = *look.setup.look;
+    return {{"plan", base64_of(std::span(&look.setup.goals, 1))},
+            {"sources", base64_of(std::span<const goal_source>(look.sources))},
+            {"joints", look.joints},
+            {"axis", how.axis},
+            {"cos_most", how.cos_most[0]}};
+}
+
 // Appends it as a script may hold it: without the sign that could end it. Bytes that are no UTF-8 are replaced.
 void append_script_text(std::string& text, const Json& json)
 {
@@ -154,6 +164,7 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd, const s
                         {"turns", base64_of(std::span(skin->turns))},
                         {"head", skin->head},
                         {"face", skin->face}};
+    if (cached.look) page["look"] = json_of_look(*cached.look);
     const LimbSkeleton skeleton = skeleton_of(crowd.limbs());
     page["skeleton"] = {
         {"parents", skeleton.parents}, {"translations", skeleton.translations}, {"rotations", skeleton.rotations}};

@@ -43,7 +43,7 @@ bool scales(const Clip& clip)
 }  // namespace
 
 WholeKeys::WholeKeys(const Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
-    : clip_(clip), characters_(plan.characters)
+    : clip_(clip), characters_(plan.characters), limb_count_(limbs.size())
 {
     std::vector<bool> has(clip.joints.size());
     struct Part {
@@ -57,6 +57,9 @@ WholeKeys::WholeKeys(const Clip& clip, std::span<const Limb> limbs, const CrowdP
         if (plan.limbs[limb].has(SWIVEL_WITH_CLAVICLE))
             parts.push_back({limb, 3, joint_at(clip, limbs[limb].upper()).parent});
     }
+    if (plan.look)
+        for (std::size_t n = 0; n < plan.look->joints.size(); ++n)
+            parts.push_back({limbs.size(), n, plan.look->joints[n]});
     for (const Part& part : parts) has[static_cast<std::size_t>(part.joint)] = true;
     if (plan.ground) raised_ = limbs[0].upper();
     while (raised_ >= 0 && joint_at(clip, raised_).parent >= 0) raised_ = joint_at(clip, raised_).parent;
@@ -106,6 +109,10 @@ void WholeKeys::add(const ClipCrowd& crowd)
             places_[c * moving_.size() + n].push_back(place);
         }
         for (const Solved& each : solved_) {
+            if (each.limb == limb_count_) {
+                rotations[each.turning].back() = crowd.looking(each.part, c);
+                continue;
+            }
             const formats::PoseRow row = crowd.pose(each.limb, c);
             const auto& q = each.part == 0 ? row.shoulder : each.part == 1 ? row.elbow : row.wrist;
             rotations[each.turning].back() =

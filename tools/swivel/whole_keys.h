@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kMostInFile = 200;  // characters
 
 class WholeKeys {
 public:
-    // Of the joints that move in the clip, and of the limbs' own. All of them must outlive it.
+    // Of the joints that move in the clip, and of the limbs' and the look's own. All of them must outlive it.
     WholeKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan);
 
     // Throws, before any work is done, for what write() could not hold: joints that cannot have keys or change their
@@ -31,13 +31,15 @@ public:
                std::span<const goal_character> characters) const;
 
 private:
-    // Joints that are solved, each with the limb and which of its rotations, 3: the joint above.
+    // Joints that are solved, each with the limb and which of its rotations, 3: the joint above. After the limbs comes
+    // the look, whose rotations are counted along it.
     struct Solved {
         std::size_t limb, part, turning;  // turning: in turning_
     };
 
     const formats::Clip& clip_;
     std::uint32_t characters_;
+    std::size_t limb_count_;
     std::vector<int> turning_, moving_;  // joints that have keys of rotation, of translation
     int raised_ = -1;                    // the joint that the ground raises, with all that hangs from it; -1: none
     std::vector<Solved> solved_;

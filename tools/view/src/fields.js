@@ -45,13 +45,14 @@ export function writeFields(crowd, limb) {
     limb.weights.set(fieldOf(limb, "WEIGHTS") ?? ALL);
 }
 
-/** Makes the crowd of these limbs, with their fields. */
-export function makeCrowd(swivel, skeleton, limbs, bodyCount) {
+/** Makes the crowd of these limbs, with their fields. look: how heads look, or null. */
+export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
     const groups = limbs.map((limb) => {
         const { chain: joints, shoulderOrder, wristOrder, region, ground } = limb;
         const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
         return { ...shape, ...(region && { region: swivel.region(region) }), ...(ground && { ground, plant: { run: PLANT_RUN } }) };
     });
+    if (look) groups.push({ look });
     if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: { half: FIT_HALF } });
     const crowd = swivel.bodies({ skeleton, bodyCount, groups });
     try {

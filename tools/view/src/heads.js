@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Heads that look at a point, by looks of the library. They are a crowd of their own, beside the one whose bits are the command's.
-import { MOST_LOOK_JOINTS } from "swivel-wasm/layout.js";
+// Heads that look at a point, by looks of the library: as the crowd file says, or at the pointer. Those are a crowd of their own, beside the
+// one whose bits are the command's.
 import { Matrix4, Quaternion } from "three";
 
 import { Field } from "./stage.js";
 
+const GOAL_JOINTS = 4;  // as tools/crowd/goals.h has it
 const MOST_TURN = Math.cos(70 * Math.PI / 180);  // of each joint of neck and head
 
 export class Heads {
     /** skin: as the command writes it. poses: of the characters, whose bodies stay as they are. count: of characters, at most. */
-    constructor(stage, { head: all, face }, poses, count) {
-        const head = all.slice(-MOST_LOOK_JOINTS);
+    constructor(stage, { head, face }, poses, count) {
         Object.assign(this, { stage, poses, at: null });  // at: where they look, in the world; null: ahead
         const { figure } = poses, above = figure.joints[head[0]].parent;
         this.chain = [above, ...head];
         this.below = figure.joints.flatMap((_, joint) => (this.followed(joint) >= 1 ? [joint] : []));
+        if (stage.look) {
+            this.rotations = new Float32Array(4 * this.chain.length * count);
+            return;
+        }
         const inParent = (n) => figure.at(head[n]).sub(figure.at(this.chain[n])).applyQuaternion(poses.turnOf(this.chain[n], 0).invert()).toArray();
         const skeleton = {
             parents: this.chain.map((_, n) => n - 1), translations: [0, 0, 0, ...head.flatMap((_, n) => inParent(n))], rotations: this.chain.flatMap(() => [0, 0, 0, 1]),
@@ -34,10 +38,16 @@ export class Heads {
     /** The chain's rotations in a frame of the clip, in the world. */
     turnsIn(frame) { return this.chain.map((joint) => this.poses.turnOf(joint, frame)); }
 
+    get isLooking() { return this.stage.look !== null || this.at !== null; }
     /** Of these characters. */
     solve(first, count) {
-        if (this.at === null) return;
-        const { stage, poses: { figure }, chain } = this;
+        if (!this.isLooking) return;
+        const { stage, poses: { figure, poseSize }, chain } = this;
+        if (stage.look) {  // whose joints come last
+            const size = 4 * chain.length, from = (character) => poseSize * (character + 1) - 4 * GOAL_JOINTS;
+            for (let n = 0; n < count; ++n) this.rotations.set(stage.poses.subarray(from(first + n), from(first + n) + size), size * n);
+            return;
+        }
         for (let n = 0; n < count; ++n) {
             const character = first + n, frame = stage.clipFrame(character), turns = this.turnsIn(frame);
             turns.forEach((turn, k) => (k === 0 ? turn : turns[k - 1].clone().invert().multiply(turn)).toArray(this.rotations, 4 * (chain.length * n + k)));
@@ -50,7 +60,7 @@ export class Heads {
     }
     /** Turns the matrices of the joints from the neck on. n: of the character in the last solve(). */
     place(character, n, matrices) {
-        if (this.at === null) return;
+        if (!this.isLooking) return;
         const { stage, chain } = this, were = this.turnsIn(stage.clipFrame(character)), turn = were[0].clone(), turned = [];
         for (let k = 1; k < chain.length; ++k) {
             turn.multiply(new Quaternion().fromArray(this.rotations, 4 * (chain.length * n + k)));

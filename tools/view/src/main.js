@@ -89,7 +89,7 @@ class Page {
     /** Heads look to where a ray of the pointer passes in front of them; null: ahead. */
     lead(ray) {
         const { bodies, camera, controls } = this.view, heads = bodies.isInSkins && bodies.skins.poses.heads;
-        if (!heads) return;
+        if (!heads || this.stage.look) return;  // the crowd file says where they look
         heads.at = ray && this.view.toClip(ray.at(0.5 * camera.position.distanceTo(controls.target), new Vector3()));
         this.show();
         this.redraw();

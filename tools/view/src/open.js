@@ -6,7 +6,7 @@ import { VERSION } from "swivel-wasm/layout.js";
 import wasm from "view.wasm";
 
 import { byteCountOf, SIZE } from "./bytes.js";
-import { Stage } from "./stage.js";
+import { askedOf, Stage } from "./stage.js";
 
 const MOST_MEGABYTES = 4096;  // that WebAssembly can address
 
@@ -23,7 +23,7 @@ function check(data) {
     };
     expect("characters", data.characters, SIZE.character * data.character_count);
     if (data.ground) expect("the ground", data.ground.grid, SIZE.ground);
-    for (const { name, plan, sources } of data.limbs) {
+    for (const { name, plan, sources } of askedOf(data)) {
         expect(`the plan of ${name}`, plan, SIZE.plan);
         expect(`the clip of ${name}`, sources, SIZE.source * clipFramesOf(data));
     }
@@ -32,8 +32,8 @@ function check(data) {
 /** What the module's memory must hold: the clip, and for each limb what goes in, what comes out, and a crowd made anew beside the old. */
 function megabytesFor(data) {
     const start = byteCountOf(data.characters) + byteCountOf(data.ground?.heights ?? "");
-    const clip = data.limbs.reduce((sum, { sources }) => sum + byteCountOf(sources), start);
-    const limbs = data.limbs.length * data.character_count * (2048 + SIZE.input);
+    const clip = askedOf(data).reduce((sum, { sources }) => sum + byteCountOf(sources), start);
+    const limbs = askedOf(data).length * data.character_count * (2048 + SIZE.input);
     const megabytes = 48 + Math.ceil((clip + limbs) / 2 ** 20);
     if (megabytes > MOST_MEGABYTES)
         throw new Error(`this crowd takes ${megabytes} MB of memory, and a page can have ${MOST_MEGABYTES}. Take fewer --frames or --characters`);

@@ -19,6 +19,9 @@ export function flagNames(word) {
     return Object.keys(Flag).filter((name) => (word & Flag[name]) !== 0);
 }
 
+/** What the solver is asked for of each character: its limbs, and as one more limb how its head looks. */
+export const askedOf = ({ limbs, look }) => [...limbs, ...(look ? [{ name: "the heads", ...look }] : [])];
+
 export class Stage {
     constructor(memory, data) {
         this.memory = memory;
@@ -36,12 +39,15 @@ export class Stage {
         this.ground = data.ground && this.makeGround(data.ground);
         this.given = givenOf(data.given);
         this.pins = new Map();  // goals moved alone: "limb:character" to { target, pole } in the world
-        this.plansAt = this.keep(data.limbs.flatMap(({ plan }) => Array.from(bytesOf(plan))));
+        const asked = askedOf(data);
+        this.inputCount = asked.length;  // of a character
+        this.plansAt = this.keep(asked.flatMap(({ plan }) => Array.from(bytesOf(plan))));
         this.limbs = data.limbs.map((limb, index) => this.makeLimb(limb, index));
-        this.sourcesAt = memory.allocate(4 * this.limbs.length);
-        memory.words(this.sourcesAt, this.limbs.length).set(this.limbs.map(({ sourcesAt }) => sourcesAt));
+        this.look = data.look ? this.makeLook(data.look) : null;
+        this.sourcesAt = memory.allocate(4 * asked.length);
+        memory.words(this.sourcesAt, asked.length).set([...this.limbs, ...(this.look ? [this.look] : [])].map(({ sourcesAt }) => sourcesAt));
         this.rootsAt = memory.allocate(SIZE.root * this.characterCount);
-        this.inputsAt = memory.allocate(SIZE.input * this.limbCount);
+        this.inputsAt = memory.allocate(SIZE.input * this.inputCount * this.characterCount);
         this.changed = false;  // by the user, since the page was opened
         this.makeCrowd();
     }
@@ -76,9 +82,14 @@ export class Stage {
         };
     }
 
+    makeLook({ sources, joints, axis, cos_most: cosMost }) {
+        const first = this.skeleton.parents.length - 3;  // in the crowd's skeleton, whose last joints are a shoulder, elbow and wrist
+        return { sourcesAt: this.keep(bytesOf(sources)), joints, how: { joints: joints.map((_, n) => first + n), axis, cosMost } };
+    }
+
     /** Makes the crowd, with the features that the user's fields need. The old one stays if that fails. */
     makeCrowd() {
-        const made = makeCrowd(this.swivel, this.skeleton, this.limbs, this.characterCount);
+        const made = makeCrowd(this.swivel, this.skeleton, this.limbs, this.look?.how, this.characterCount);
         this.crowd?.dispose();
         this.crowd = made;
         this.poses ??= this.zeros(this.memory.calls.swivel_goal_pose_size(made.crowd) * this.characterCount);
@@ -190,7 +201,7 @@ export class Stage {
     }
     /** The goals as the command has them. */
     askGoals() {
-        this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.limbs.length, this.frame, ...this.groundAt,
+        this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.inputCount, this.frame, ...this.groundAt,
             this.charactersAt, this.characterCount, this.rootsAt, this.inputsAt);
         for (const { character, limb, poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
             const of = this.limbs[limb], set = (part, goal) => this.input(of, character, part).set(goal);
@@ -207,7 +218,7 @@ export class Stage {
 
     /** Part of what the solver takes of a limb: a view that a solve reads. Goals are in the world. */
     input(limb, character, part) {
-        const at = this.inputsAt + (character * this.limbs.length + limb.index) * SIZE.input + INPUT[part];
+        const at = this.inputsAt + (character * this.inputCount + limb.index) * SIZE.input + INPUT[part];
         return part === "target" || part === "pole" ? this.memory.doubles(at, 3) : this.memory.floats(at, part === "hand" ? 4 : 3);
     }
     /** Sets a goal for the next solve, which then counts. With a pole the target counts, too, as in a table. */

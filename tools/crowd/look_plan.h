@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// Heads that look at a point: which joints turn, and what the solver takes of them. A look is one more limb of a crowd:
+// see goal_source. Knows clips and the solver's terms; no file format.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/crowd/limb_setup.h"
+#include "tools/rig/body_parts.h"
+#include "tools/rig/limbs.h"
+
+namespace swivel::tools {
+
+struct LookPlan {
+    std::vector<int> joints;  // of the clip: one to three, each the parent of the next; the last one is the head
+    LimbSetup setup;
+};
+
+// The joints of neck and head, from the head inwards as far as no limb hangs below them. Empty: no head is known, or it
+// is mirrored.
+std::vector<int> look_joints(const formats::Clip& clip, const std::vector<BodyPart>& body, std::span<const Limb> limbs);
+// Where the face is, in the axes of the head's joint. faces_w: where the figure looks at rest.
+Eigen::Vector3d face_of(const formats::Clip& clip, int head, const Eigen::Vector3d& faces_w);
+
+// joints: as look_joints() has them, at least one. target_w: what all heads look at. most: radians that each joint
+// turns at most.
+LookPlan plan_look(const formats::Clip& clip, std::vector<int> joints, const Eigen::Vector3d& faces_w,
+                   const Eigen::Vector3d& target_w, double most);
+
+// Of one frame. pose_w: of the clip. root: as of the limbs.
+goal_source look_source(const formats::Clip& clip, std::span<const int> joints,
+                        std::span<const formats::JointPose> pose_w, const Eigen::Vector3d& root);
+
+}  // namespace swivel::tools
