@@ -264,6 +264,40 @@ TEST_CASE("level ground changes a walk less than hills do, and its feet do not s
     CHECK(after.mean < 0.5 * before.mean);
 }
 
+TEST_CASE("a table says when feet are down: of the file's frames, however the clip goes on")
+{
+    const HillStage stage;
+    const std::string ground = "[crowd]\nlimbs = \"legs\"\n", table = "[ground]\ncontacts = \"c.csv\"\n";
+    stage.solved(ground + "[ground]\n", {"--out", "found.csv", "--quiet"});
+    CHECK_THAT(stage.solved(ground + table, {"--out", "given.csv"}),
+               Contains("ground   level; feet stand when c.csv says"));
+    CHECK(slurp(stage.folder / "found.csv") == slurp(stage.folder / "given.csv"));
+
+    // A part of one step alone, where the foot does stand.
+    const std::vector<bool>& left = stage.contacts[0];
+    const auto begin = static_cast<std::size_t>(std::search_n(left.begin() + 10, left.end(), 12, true) - left.begin());
+    REQUIRE(begin + 40 < left.size());
+    spill(stage.folder / "c.csv",
+          fmt::format("frame,limb,contact\n{},left_leg,on\n{},left_leg,off\n0,right_leg,on\n", begin, begin + 12));
+    stage.solved(fmt::format("{}loop = [{}, {}]\n{}", ground, begin - 10, begin + 40, table),
+                 {"--out", "given.csv", "--frames", "200", "--quiet"});
+    for (const PoseLine& row : pose_lines(slurp(stage.folder / "given.csv"))) {
+        if (row.limb != "left_leg") continue;
+        const std::size_t shown = begin - 10 + static_cast<std::size_t>(row.number("frame")) % 50;
+        INFO("frame " << row.number("frame"));
+        CHECK(((row.flags & kPlanted) != 0) == (shown >= begin && shown < begin + 12));
+    }
+    spill(stage.folder / "c.csv", "frame,limb,contact\n0,right_leg,on\n");
+    CHECK_THAT(stage.refused(ground + table),
+               Contains("the clip never has the left foot on the ground, by ground.contacts; take another clip"));
+    spill(stage.folder / "c.csv", "frame,limb,contact\n9999,right_leg,on\n");
+    CHECK_THAT(stage.refused(ground + table), Contains("c.csv:2: there is no frame 9999"));
+    CHECK_THAT(stage.refused(ground + "clips = [{ file = \"walk.bvh\" }]\n" + table),
+               Contains("c.toml:5: ground.contacts: is of one clip; take this or crowd.clips out"));
+    const Outcome over = run_command(stage.folder.path, {"solve", "walk.bvh", "--crowd", "c.toml", "--out", "c.csv"});
+    CHECK(over.exit_code == 1);
+}
+
 TEST_CASE("a ground that cannot be is refused, by the line")
 {
     const HillStage stage;

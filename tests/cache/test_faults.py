@@ -122,7 +122,8 @@ class Metadata(Stage):
         for words in (("--shard", "0/4"), ("--shard", "5/4"), ("--shard", "x")):
             self.assert_refused(run("fill", cache, *words), "write i/n with i from 1 to n, such as 1/4", code=2)
         for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
-                            (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B")):
+                            (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B"),
+                            (("--out", "part.bvh"), "--out part.bvh: poses of a cache are written as a table; name a .csv$")):
             self.assert_refused(run("replay", cache, *words), what, code=2)
         for words in (("--limbs", "all"), ("--frames", "3"), ("--crowd", "crowd.toml"), ("--seed", "1")):
             self.assert_refused(run("view", cache, *words), f"{words[0]}: the cache has its crowd already; leave the option out", code=2)

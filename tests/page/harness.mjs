@@ -14,7 +14,7 @@ export const clip = ['/usr/share/assimp/models/BVH/01_01.bvh', `${process.env.SW
 
 const browser = await chromium.launch({
   executablePath: CHROMIUM,
-  args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-gl=angle', '--use-angle=swiftshader'],
+  args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-gl=angle', '--use-angle=swiftshader', '--webgl-antialiasing-mode=none'],
 });
 after(() => browser.close());
 

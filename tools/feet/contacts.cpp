@@ -105,20 +105,20 @@ std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts
     return rows;
 }
 
-Contacts contacts_of_rows(const LegMotion& motion, std::span<const formats::ContactRow> rows,
-                          const std::filesystem::path& file)
+Contacts contacts_of_rows(std::span<const LegPath> legs, std::size_t frame_count,
+                          std::span<const formats::ContactRow> rows, const std::filesystem::path& file)
 {
-    Contacts contacts(motion.legs.size(), std::vector<bool>(motion.frame_count()));
+    Contacts contacts(legs.size(), std::vector<bool>(frame_count));
     for (const formats::ContactRow& row : rows) {
-        const auto leg = std::ranges::find_if(motion.legs, [&](const LegPath& each) { return each.name == row.limb; });
-        if (leg == motion.legs.end())
+        const auto leg = std::ranges::find_if(legs, [&](const LegPath& each) { return each.name == row.limb; });
+        if (leg == legs.end())
             throw formats::InputError(
                 file, row.line, fmt::format("{} is no leg that the clip has; remove its rows", limb_word(row.limb)));
-        if (row.frame >= motion.frame_count())
-            throw formats::InputError(file, row.line,
-                                      fmt::format("there is no frame {}; the clip's frames are 0 to {}", row.frame,
-                                                  motion.frame_count() - 1));
-        std::vector<bool>& frames = contacts[static_cast<std::size_t>(leg - motion.legs.begin())];
+        if (row.frame >= frame_count)
+            throw formats::InputError(
+                file, row.line,
+                fmt::format("there is no frame {}; the clip's frames are 0 to {}", row.frame, frame_count - 1));
+        std::vector<bool>& frames = contacts[static_cast<std::size_t>(leg - legs.begin())];
         std::fill(frames.begin() + row.frame, frames.end(), row.is_on);  // rows are in the order of their frames
     }
     return contacts;

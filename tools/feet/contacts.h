@@ -37,9 +37,9 @@ std::optional<Eigen::Vector3d> missing_way(const LegMotion& motion, const Contac
 // The rows of a table: each leg's first frame, and each in which its contact begins or ends.
 std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts& contacts);
 
-// And back. A row holds until the leg's next one; before its first, a leg is not in contact. Throws InputError, naming
-// file and line, for a limb that is no leg of the motion, and for a frame beyond it.
-Contacts contacts_of_rows(const LegMotion& motion, std::span<const formats::ContactRow> rows,
-                          const std::filesystem::path& file);
+// And back. A row holds until the leg's next one; before its first, a leg is not in contact. frame_count: of the clip.
+// Throws InputError, naming file and line, for a limb that is none of the legs, and for a frame beyond the last.
+Contacts contacts_of_rows(std::span<const LegPath> legs, std::size_t frame_count,
+                          std::span<const formats::ContactRow> rows, const std::filesystem::path& file);
 
 }  // namespace swivel::tools

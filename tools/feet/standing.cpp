@@ -40,6 +40,19 @@ Ground read_ground(const formats::CrowdFile& file, double floor)
     return ground;
 }
 
+// What the file's own table says of one clip.
+Contacts read_contacts(const formats::CrowdFile& file, std::span<const LegPath> legs, const ClipPart& part,
+                       const FramesInFile& frames)
+{
+    const std::filesystem::path path = file.path.parent_path() / file.ground->contacts->value;
+    const Contacts in_file = contacts_of_rows(legs, frames.count, formats::read_contacts_csv(path), path);
+    Contacts contacts(legs.size());
+    for (std::size_t leg = 0; leg < legs.size(); ++leg)
+        for (std::size_t frame = 0; frame < part.count; ++frame)
+            contacts[leg].push_back(in_file[leg][frames.first + frame % part.starts]);
+    return contacts;
+}
+
 // The quantile `share` of a point's heights while the foot is down. point: in the ankle's axes.
 double height_down(const formats::Clip& clip, int ankle, const Vector3d& point, const std::vector<bool>& contact,
                    double share)
@@ -66,7 +79,7 @@ Vector3d toe_in_ankle(const formats::Clip& clip, const Limb& leg, const LegPath&
 }  // namespace
 
 void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
-                     const FigureAxes& figure, CrowdPlan& plan)
+                     const FigureAxes& figure, const FramesInFile& frames, CrowdPlan& plan)
 {
     const auto refuse = [&](std::string_view cause) {
         throw formats::InputError(file.path, file.ground->line, fmt::format("ground: {}", cause));
@@ -82,7 +95,11 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
     plan.foot.y() = floor_of(clip);
     // Of clips one by one: from the end of one to the start of another is no motion.
     std::vector<ClipPart> parts = plan.clips;
-    if (parts.empty()) parts = {{0, clip.frame_count, 0}};
+    if (parts.empty()) parts = {{0, clip.frame_count, clip.frame_count}};
+    const auto& own = file.ground->contacts;
+    if (own && parts.size() > 1)
+        throw formats::InputError(file.path, own->line,
+                                  fmt::format("{}: is of one clip; take this or crowd.clips out", own->key));
     LegMotion motion;  // of the first clip
     Contacts contacts(legs.size());
     for (const ClipPart& part : parts) {
@@ -90,10 +107,10 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
         if (parts.size() > 1) alone = frames_of(clip, part);
         LegMotion of_part = leg_motion(alone ? *alone : clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
         const ContactBars bars;
-        if (missing_way(of_part, bars))
+        if (!own && missing_way(of_part, bars))
             refuse(fmt::format("the clip{} walks in place, so its feet slide; move its root first",
                                part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
-        const Contacts found = find_contacts(of_part, bars);
+        const Contacts found = own ? read_contacts(file, of_part.legs, part, frames) : find_contacts(of_part, bars);
         for (std::size_t n = 0; n < legs.size(); ++n)
             contacts[n].insert(contacts[n].end(), found[n].begin(), found[n].end());
         if (part.first == 0) motion = std::move(of_part);
@@ -106,9 +123,8 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
         LimbPlan& to = plan.limbs[n];
         if (std::ranges::none_of(contact, [](bool is_down) { return is_down; }))
             refuse(
-                fmt::format("the clip never has the {} foot on the ground, by the rule of swivel feet; take another "
-                            "clip, or take this out",
-                            side_name(limbs[n].name.side)));
+                fmt::format("the clip never has the {} foot on the ground, by {}; take another clip, or take this out",
+                            side_name(limbs[n].name.side), own ? own->key : "the rule of swivel feet"));
         if (!to.has(SWIVEL_WITH_EFFECTOR)) {
             to.effector = toe_in_ankle(clip, limbs[n], path);
             FixedField effector{SWIVEL_EFFECTOR, {}};

@@ -13,14 +13,18 @@ struct FigureAxes {
     Eigen::Vector3d up_w;
     int carrier;
 };
+// Which frames of its motion file a clip shows: those from `first` on, where it goes on and on. The file has so many.
+struct FramesInFile {
+    std::size_t first, count;
+};
 
 // Makes the legs of a crowd stand on the ground that its file has. A foot stands on its toe, or without one on its
-// ankle. An effector that the file gives counts instead. Reads the picture of heights.
+// ankle. An effector that the file gives counts instead. Reads the picture of heights and the table of contacts.
 //
 // Throws InputError, naming the file's line, for what cannot stand: a crowd without legs, one with a budget, and a
 // figure that is not upright along Y. It also does for clips of uneven frames, that walk in place, or whose feet are
-// never on the ground.
+// never on the ground, and for a table of contacts beside several clips.
 void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
-                     const FigureAxes& figure, CrowdPlan& plan);
+                     const FigureAxes& figure, const FramesInFile& frames, CrowdPlan& plan);
 
 }  // namespace swivel::tools

@@ -249,7 +249,8 @@ void read_crowd(TomlTable table, CrowdFile& to)
 
 void read_ground(TomlTable table, CrowdFile& to)
 {
-    GroundSettings ground{table.line(), table.text("heights"), table.vector("size"), table.vector("middle")};
+    GroundSettings ground{table.line(), table.text("heights"), table.vector("size"), table.vector("middle"),
+                          table.text("contacts")};
     table.finish();
     if (ground.heights && !ground.size) table.fail("size", "is missing; write how large the picture is: [x, y, z]");
     if (ground.size && !ground.heights) table.fail("size", "is of a picture; name it by heights, or take this out");

@@ -94,6 +94,7 @@ struct GroundSettings {
     Maybe<std::string> heights;     // a picture; a relative path starts at the file's folder
     Maybe<Eigen::Vector3d> size;    // of the picture: along x, of white, along z; above 0
     Maybe<Eigen::Vector3d> middle;  // where the picture's middle lies, at black
+    Maybe<std::string> contacts;    // a table of when feet are down; its path as that of heights
 };
 
 // The table [look].

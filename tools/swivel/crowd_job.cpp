@@ -202,9 +202,12 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     job.plan.clips = std::move(parts);
     if (job.crowd && job.crowd->ground) {
-        stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)}, job.plan);
-        if (job.crowd->ground->heights)
-            job.heights = (job.crowd->path.parent_path() / job.crowd->ground->heights->value).string();
+        stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)},
+                        {job.loops.empty() ? 0 : job.loops[0].loop.first, job.clip_frames}, job.plan);
+        const auto named = [&](const formats::Maybe<std::string>& name) {
+            return name ? (job.crowd->path.parent_path() / name->value).string() : std::string();
+        };
+        job.heights = named(job.crowd->ground->heights), job.contacts = named(job.crowd->ground->contacts);
     }
     if (job.crowd && job.crowd->look) job.plan.look = look_of(*job.crowd, clip, job);
     if (options.characters) job.plan.characters = *options.characters;

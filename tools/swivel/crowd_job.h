@@ -36,7 +36,7 @@ struct CrowdJob {
     std::size_t clip_frames = 0;  // that the file has
     std::string targets;          // "clip" or a file
     std::optional<GivenTargets> given;
-    std::string heights;  // the picture of the ground; empty: none
+    std::string heights, contacts;  // the picture of the ground, the table of contacts; empty: none
 };
 
 // A motion's file as pages and caches call it, and what is performed of it and of further clips.

@@ -106,7 +106,8 @@ void bind_legs(const FeetOptions& options, MotionFile& file, FeetRun& run)
 Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
 {
     if (!options.contacts.empty())
-        return contacts_of_rows(run.motion, formats::read_contacts_csv(options.contacts), options.contacts);
+        return contacts_of_rows(run.motion.legs, run.motion.frame_count(), formats::read_contacts_csv(options.contacts),
+                                options.contacts);
     if (const auto way_w = missing_way(run.motion, run.bars))
         throw InputError(
             run.file, fmt::format("it walks in place: on the ground its feet slide by {:.2g} leg lengths a second, and "

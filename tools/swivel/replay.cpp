@@ -17,6 +17,7 @@
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/motion_file.h"
 
 namespace swivel::tools {
 
@@ -172,6 +173,9 @@ Range within(Range whole, std::uint32_t first, std::uint32_t count)
 
 void run_replay(const ReplayOptions& options)
 {
+    if (const std::string suffix = formats::lower_suffix(options.out); is_bvh(suffix) || is_gltf(suffix))
+        throw CommandError(2,
+                           fmt::format("--out {}: poses of a cache are written as a table; name a .csv", options.out));
     const Cache cache(options.folder);
     const CachedCrowd& crowd = cache.crowd();
     const ChunkShape chunk = crowd.chunk;

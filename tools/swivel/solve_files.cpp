@@ -99,7 +99,8 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
     std::vector<ReadFile> read{{options.file, "the clip"},
                                {job.targets == "clip" ? "" : job.targets, "the table of targets"},
                                {options.crowd, "the crowd file"},
-                               {job.heights, "the picture of heights"}};
+                               {job.heights, "the picture of heights"},
+                               {job.contacts, "the table of contacts"}};
     for (const FurtherMotion& each : job.further) read.push_back({each.file.string(), "a clip"});
     require_own_outputs(outputs, read);
     require_not_beside(outputs, clip);

@@ -57,11 +57,11 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
             counts += fmt::format(", {} {}{}", count * characters, kind_name(kind), count * characters == 1 ? "" : "s");
     }
     if (const auto& ground = job.plan.ground)
-        say(to, "ground   {}; feet stand, bodies hang lower by {:.3g}\n",
+        say(to, "ground   {}; feet stand{}, bodies hang lower by {:.3g}\n",
             job.heights.empty()
                 ? "level"
                 : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
-            -job.plan.shift_wish);
+            job.contacts.empty() ? "" : " when " + shown_file(job.contacts) + " says", -job.plan.shift_wish);
     say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
         job.targets == "clip" ? "the clip" : shown_file(job.targets),
         options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
