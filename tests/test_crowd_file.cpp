@@ -194,7 +194,8 @@ TEST_CASE("crowd file: documentation, examples and reader know the same keys")
             std::smatch found;
             if (std::regex_search(line, found, std::regex("^\\[(.+)\\]"))) table = found[1];
             table = std::regex_replace(table, std::regex("^limb\\.[a-z_]+"), "limb.SELECTOR");
-            if (std::regex_search(line, found, std::regex("^(?:# )?([a-z_]+) = "))) shown.insert(table + "." + found[1].str());
+            if (std::regex_search(line, found, std::regex("^(?:# )?([a-z_]+) = ")))
+                shown.insert(table + "." + found[1].str());
         }
     }
     CHECK(shown == known);
