@@ -43,7 +43,10 @@ Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const
             const double sine = upper.normalized().cross(lower.normalized()).norm(),
                          most = 2e-6 + 4e-7 * length * length / (upper.norm() * lower.norm() * sine),
                          off = (place(after[1]) - place(before[1])).norm() / length;
-            keep(is_bent ? worst.lower_bent : worst.lower_straight, is_bent ? off / most : off);
+            const bool is_folded = is_bent && sine <= 0.02;
+            keep(is_bent ? worst.lower_bent : worst.lower_straight, is_folded ? off / 1e-5
+                                                                    : is_bent ? off / most
+                                                                              : off);
             keep(worst.orientation, (plain_axes(after[2]) - plain_axes(before[2])).norm());
             keep(worst.others, (place(after[0]) - place(before[0])).norm() / length);
             for (const int node : limb)

@@ -27,10 +27,10 @@ inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.lin
 // must have the local transforms they had.
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs);
 
-// Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad, and an elbow is off
-// its place by no more of the limb's length. All other places: 1e-5 of that length. For an elbow bent by less than 0.02
-// rad it is 2e-3. The elbow's height over the line from shoulder to wrist is then the root of a float's error in the
-// reach; see tests/test_clip_back.cpp.
+// Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad. An elbow misses its
+// place by at most this number times the limb's length. All other places, and folded elbows: 1e-5 of that length. For
+// an elbow bent by less than 0.02 rad it is 2e-3. The elbow's height over the line from shoulder to wrist is then the
+// root of a float's error in the reach; see tests/test_clip_back.cpp.
 void require_closed(const Closure& worst);
 
 }  // namespace swivel::test

@@ -95,8 +95,11 @@ TEST_CASE("heads look at a point, by necks and head alone")
     }
     CHECK(clips_own > 30);
     const nlohmann::json looks = stage.json(look_at(target), kFew).at("looks");
-    CHECK(looks ==
-          nlohmann::json{{"count", motion.lines.size()}, {"met", motion.lines.size()}, {"limited", 0}, {"faded", 0}});
+    CHECK(looks == nlohmann::json{{"count", motion.lines.size()},
+                                  {"met", motion.lines.size()},
+                                  {"limited", 0},
+                                  {"faded", 0},
+                                  {"on_their_way", 0}});
 }
 
 TEST_CASE("no joint of a look turns further than it may, and behind a head there is nothing to see")
@@ -128,7 +131,24 @@ TEST_CASE("each of a crowd looks from where it is, whatever its size")
     }
     CHECK(ahead > 20);
     CHECK(ahead < 80);
-    CHECK(all.at("looks") == nlohmann::json{{"count", 100}, {"met", ahead}, {"limited", 0}, {"faded", 100 - ahead}});
+    CHECK(all.at("looks") ==
+          nlohmann::json{{"count", 100}, {"met", ahead}, {"limited", 0}, {"faded", 100 - ahead}, {"on_their_way", 0}});
+}
+
+TEST_CASE("heads look in a clip that goes on and on, on ground, and where no arm is solved")
+{
+    const CrowdStage stage{100, 2};
+    const Vector3d target = aside(stage.clip, 60), face = face_in(stage);
+    for (const std::string& toml : {std::string("[crowd]\nlimbs = \"legs\"\n"),
+                                    std::string("[crowd]\nlimbs = \"legs\"\nloop = [0, 100]\n[ground]\n")}) {
+        INFO(toml);
+        const PlainMotion motion = stage.motion(toml + look_at(target), kFew);
+        for (std::size_t frame = 0; frame < kCount; ++frame) CHECK(missed_by(motion, frame, face, target) < 0.01);
+    }
+    // Of a file that is written back, all but the rows of the frames stays.
+    const PlainMotion whole = stage.motion(look_at(target));
+    CHECK(whole.header == stage.clip.header);
+    CHECK(whole.lines.size() == stage.clip.lines.size());
 }
 
 TEST_CASE("looks that cannot be are refused with file, line and key")
@@ -138,6 +158,8 @@ TEST_CASE("looks that cannot be are refused with file, line and key")
                           "c.toml:1: look.target: is missing; write what heads look at: [x, y, z]");
     stage.require_refused(look_at({1, 2, 3}, "most_deg = 181\n"), "c.toml:3: look.most_deg: ");
     stage.require_refused(look_at({1, 2, 3}, "joints = 2\n"), "c.toml:3: look.joints: ");
+    stage.require_refused(look_at({1, 2, 3}) + "[budget]\nblocks = 1\n",
+                          "c.toml:1: look: heads that look are solved in every frame; take this or [budget] out");
     spill(stage.folder / "arms.bvh", kTwoArms);
     spill(stage.folder / "c.toml", look_at({1, 2, 3}));
     const Outcome headless = run_command(stage.folder.path, {"solve", "arms.bvh", "--crowd", "c.toml"});

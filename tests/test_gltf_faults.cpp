@@ -109,6 +109,9 @@ TEST_CASE("gltf faults: uneven frames are solved, and what needs even ones asks 
     CHECK_THAT(crowd.err, Contains("arm.glb: its keys lie at uneven times") && Contains("give --fps"));
     CHECK(limit.exit_code == 1);
     CHECK_THAT(limit.err, Contains("second.toml:3: ") && Contains("give --fps"));
+    spill(folder / "look.toml", "[look]\ntarget = [1, 2, 3]\n");
+    CHECK_THAT(solve({"--crowd", "look.toml"}).err,
+               Contains("look.toml:1: look: the clip's keys lie at uneven times; give --fps"));
     CHECK(solve({"--characters", "2", "--fps", "30"}).exit_code == 0);
     CHECK(solve({"--crowd", "second.toml", "--fps", "30"}).exit_code == 0);
     CHECK(json::parse(solve({"--json", "--fps", "10"}).out).at("frames") == 7);

@@ -291,11 +291,20 @@ TEST_CASE("a table says when feet are down: of the file's frames, however the cl
     CHECK_THAT(stage.refused(ground + table),
                Contains("the clip never has the left foot on the ground, by ground.contacts; take another clip"));
     spill(stage.folder / "c.csv", "frame,limb,contact\n9999,right_leg,on\n");
-    CHECK_THAT(stage.refused(ground + table), Contains("c.csv:2: there is no frame 9999"));
+    CHECK_THAT(stage.refused(ground + table), Contains("c.toml:4: ground.contacts: c.csv:2: there is no frame 9999"));
     CHECK_THAT(stage.refused(ground + "clips = [{ file = \"walk.bvh\" }]\n" + table),
                Contains("c.toml:5: ground.contacts: is of one clip; take this or crowd.clips out"));
+    CHECK_THAT(stage.refused(ground + "[ground]\ncontacts = \"-\"\n"), Contains("standard input is no file; name one"));
+    CHECK_THAT(stage.refused(ground + "[ground]\ncontacts = \"none.csv\"\n"),
+               Contains("c.toml:4: ground.contacts: none.csv: "));
+
+    const std::string good = "frame,limb,contact\n0,left_leg,on\n0,right_leg,on\n";
+    spill(stage.folder / "c.csv", good);
+    spill(stage.folder / "c.toml", ground + table);
     const Outcome over = run_command(stage.folder.path, {"solve", "walk.bvh", "--crowd", "c.toml", "--out", "c.csv"});
-    CHECK(over.exit_code == 1);
+    CHECK(over.exit_code == 2);
+    CHECK_THAT(over.err, Contains("c.csv: is the table of contacts, too"));
+    CHECK(slurp(stage.folder / "c.csv") == good);
 }
 
 TEST_CASE("a ground that cannot be is refused, by the line")

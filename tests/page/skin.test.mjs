@@ -91,7 +91,7 @@ test('textures, and meshes that hang on joints, ask nothing of a network', async
   });
 });
 
-test('heads look to the pointer, bodies and bits stay', async () => {
+test('heads look at the pointer, bodies and bits stay', async () => {
   await visit(write('heads.html', 'view', figure, '--limbs', 'all', '--characters', '4'), async (page) => {
     /** How far each face is turned from the point that heads look at, in degrees, and how all joints that are not of the neck lie. */
     const look = () => page.evaluate(() => {

@@ -32,7 +32,6 @@ struct CachedLimb {
 
 // Heads that look: as a limb. A page has them, a cache has not.
 struct CachedLook {
-    std::vector<int> joints;  // among the cached ones, of which all are some
     LimbSetup setup;
     std::vector<goal_source> sources;
 };

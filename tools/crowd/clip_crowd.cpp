@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <type_traits>
 
 #include "tools/crowd/parallel.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -16,19 +16,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 static_assert(formats::kMostTwistBones == SWIVEL_MOST_TWIST_BONES);  // a format knows no solver
-
-template <class Number>
-void store(const Vector3d& v, Number (&to)[3])
-{
-    for (int n = 0; n < 3; ++n) to[n] = static_cast<Number>(v[n]);
-}
-
-template <class Numbers>
-void store(const Quaterniond& q, Numbers& to)
-{
-    for (std::size_t n = 0; n < 4; ++n)
-        to[n] = static_cast<std::remove_reference_t<decltype(to[n])>>(q.coeffs()[static_cast<Eigen::Index>(n)]);
-}
 
 std::vector<std::span<const goal_source>> sources_of(const ClipMotion& motion, std::size_t limb_count)
 {
@@ -78,13 +65,13 @@ void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
     const LimbPlan& plan = plans_[limb];
     const formats::Target& target = *given(limb, character);
     goal_input& input = crowd_.input(limb, character);
-    store(target.position + plan.target_offset, input.target);
+    put(target.position + plan.target_offset, input.target);
     std::copy_n(setups_[limb].goals.weights, 2, input.weights);
     if (target.has_pole && !plan.pole_fixed) {
-        store(target.pole, input.pole);
+        put(target.pole, input.pole);
         input.weights[2] = setups_[limb].goals.weights[2];
     }
-    if (target.has_orientation && !plan.has(SWIVEL_WITH_AIM)) store(target.orientation, input.hand);
+    if (target.has_orientation && !plan.has(SWIVEL_WITH_AIM)) put(target.orientation.coeffs(), input.hand);
 }
 
 // As it was given or made, before the plan's offset.
@@ -151,9 +138,9 @@ formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) cons
     const std::array<Quaterniond, 3> own = local_rotations(
         clip_, clip_frame(character), chain,
         {shoulder * unaimed(from.upper_aim), fore * unaimed(from.fore_aim), fore * quaternion(row.wrist)});
-    store(own[0], row.shoulder);
-    store(own[1], row.elbow);
-    store(own[2], row.wrist);
+    put(own[0].coeffs(), row.shoulder);
+    put(own[1].coeffs(), row.elbow);
+    put(own[2].coeffs(), row.wrist);
     return row;
 }
 
@@ -172,7 +159,7 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
     if (crowd_.has(limb, SWIVEL_WRIST))
         row.wrist = crowd_.rotation(limb, character, 3);
     else
-        store(limbs_[limb].as_solved(in_clip(limb, character).local_wrist()), row.wrist);
+        put(limbs_[limb].as_solved(in_clip(limb, character).local_wrist()).coeffs(), row.wrist);
     crowd_.read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
     return row;
 }
@@ -196,7 +183,7 @@ formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) c
         crowd_.read(limb, SWIVEL_STRETCH, character, 1, {&extra.stretch, sizeof extra.stretch});
     if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) {
         extra.has_clavicle = true;
-        store(clavicle(limb, character), extra.clavicle);
+        put(clavicle(limb, character).coeffs(), extra.clavicle);
     }
     extra.twist_count = plans_[limb].twist_count();
     for (unsigned n = 0; n < extra.twist_count; ++n) extra.twist[n] = crowd_.rotation(limb, character, GOAL_JOINTS + n);

@@ -50,10 +50,16 @@ std::vector<int> look_joints(const Clip& clip, const std::vector<BodyPart>& body
     const auto carries_limb = [&](int joint) {
         return std::ranges::any_of(limbs, [&](const Limb& limb) { return is_above(clip, joint, limb.upper()); });
     };
-    if (heads.empty() || rest_pose(clip)[static_cast<std::size_t>(heads.back())].mirrored) return {};
+    if (heads.empty()) return {};
+    const std::vector<JointPose> at_rest = rest_pose(clip);
+    const auto turns_freely = [&](int joint) {  // a mirror's half turn is no turn of the joint
+        const formats::Joint& of = joint_at(clip, joint);
+        return !at_rest[static_cast<std::size_t>(joint)].mirrored && of.rest_scale.minCoeff() > 0 && of.scale_track < 0;
+    };
     std::vector<int> joints;
     for (int joint = heads.back(); joint >= 0 && joints.size() < kMost; joint = joint_at(clip, joint).parent) {
-        if (carries_limb(joint) || (!joints.empty() && std::ranges::count(necks, joint) == 0)) break;
+        const bool is_one = joints.empty() || std::ranges::count(necks, joint) > 0;
+        if (!is_one || carries_limb(joint) || !turns_freely(joint)) break;
         joints.insert(joints.begin(), joint);
     }
     return joints;

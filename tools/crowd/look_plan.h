@@ -18,8 +18,8 @@ struct LookPlan {
     LimbSetup setup;
 };
 
-// The joints of neck and head, from the head inwards as far as no limb hangs below them. Empty: no head is known, or it
-// is mirrored.
+// The joints of neck and head, from the head inwards as far as no limb hangs below them and none is mirrored or changes
+// its size. Empty: no such head is known.
 std::vector<int> look_joints(const formats::Clip& clip, const std::vector<BodyPart>& body, std::span<const Limb> limbs);
 // Where the face is, in the axes of the head's joint. faces_w: where the figure looks at rest.
 Eigen::Vector3d face_of(const formats::Clip& clip, int head, const Eigen::Vector3d& faces_w);

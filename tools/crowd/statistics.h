@@ -118,9 +118,9 @@ struct LimbStatistics {
     }
 };
 
-// Of heads that look. Each is one of these, or its way there is not at its end.
+// Of heads that look. Each meets its target, has it behind or too near, turns no further, or is on its way there.
 struct LookStatistics {
-    std::uint64_t count = 0, met = 0, limited = 0, faded = 0;  // faded: the target is behind, or too near
+    std::uint64_t count = 0, met = 0, faded = 0, limited = 0;
 
     void add_flags(std::uint32_t word)
     {
@@ -134,6 +134,7 @@ struct LookStatistics {
     {
         count += other.count, met += other.met, limited += other.limited, faded += other.faded;
     }
+    std::uint64_t on_their_way() const { return count - met - faded - limited; }
 };
 
 struct Statistics {

@@ -9,6 +9,7 @@
 #include "tools/feet/contacts.h"
 #include "tools/formats/error.h"
 #include "tools/formats/height_picture.h"
+#include "tools/formats/text.h"
 #include "tools/rig/vectors.h"
 
 namespace swivel::tools {
@@ -29,7 +30,7 @@ Ground read_ground(const formats::CrowdFile& file, double floor)
     Ground ground{{{1, 1, 1}, {middle.x(), middle.y() + floor, middle.z()}, 0, 0}, {}};
     if (!from.heights) return ground;
     try {
-        formats::HeightPicture picture = formats::read_height_picture(file.path.parent_path() / from.heights->value);
+        formats::HeightPicture picture = formats::read_height_picture(beside(file, *from.heights));
         std::ranges::copy(from.size->value, ground.grid.size);
         ground.grid.columns = picture.columns, ground.grid.rows = picture.rows;
         ground.heights = std::move(picture.heights);
@@ -44,12 +45,19 @@ Ground read_ground(const formats::CrowdFile& file, double floor)
 Contacts read_contacts(const formats::CrowdFile& file, std::span<const LegPath> legs, const ClipPart& part,
                        const FramesInFile& frames)
 {
-    const std::filesystem::path path = file.path.parent_path() / file.ground->contacts->value;
-    const Contacts in_file = contacts_of_rows(legs, frames.count, formats::read_contacts_csv(path), path);
+    const formats::Given<std::string>& named = *file.ground->contacts;
+    const std::filesystem::path path = beside(file, named);
     Contacts contacts(legs.size());
-    for (std::size_t leg = 0; leg < legs.size(); ++leg)
-        for (std::size_t frame = 0; frame < part.count; ++frame)
-            contacts[leg].push_back(in_file[leg][frames.first + frame % part.starts]);
+    try {
+        if (formats::is_standard_stream(named.value))
+            throw formats::InputError(path, "standard input is no file; name one");
+        const Contacts in_file = contacts_of_rows(legs, frames.count, formats::read_contacts_csv(path), path);
+        for (std::size_t leg = 0; leg < legs.size(); ++leg)
+            for (std::size_t frame = 0; frame < part.count; ++frame)
+                contacts[leg].push_back(in_file[leg][frames.first + frame % part.starts]);
+    } catch (const formats::InputError& error) {
+        throw formats::InputError(file.path, named.line, fmt::format("{}: {}", named.key, error.what()));
+    }
     return contacts;
 }
 
@@ -107,7 +115,7 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
         if (parts.size() > 1) alone = frames_of(clip, part);
         LegMotion of_part = leg_motion(alone ? *alone : clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
         const ContactBars bars;
-        if (!own && missing_way(of_part, bars))
+        if (missing_way(of_part, bars))
             refuse(fmt::format("the clip{} walks in place, so its feet slide; move its root first",
                                part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
         const Contacts found = own ? read_contacts(file, of_part.legs, part, frames) : find_contacts(of_part, bars);

@@ -13,9 +13,10 @@ struct FigureAxes {
     Eigen::Vector3d up_w;
     int carrier;
 };
-// Which frames of its motion file a clip shows: those from `first` on, where it goes on and on. The file has so many.
+// Which frames of its motion file a clip shows: those from `first` on.
 struct FramesInFile {
-    std::size_t first, count;
+    std::size_t first;
+    std::size_t count;  // of the file
 };
 
 // Makes the legs of a crowd stand on the ground that its file has. A foot stands on its toe, or without one on its

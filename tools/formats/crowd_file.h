@@ -136,6 +136,12 @@ CrowdFile read_crowd_file(const std::filesystem::path& path);
 // are written for the left; those of a right limb are marked mirrored.
 LimbSettings settings_of(const CrowdFile& file, LimbName limb);
 
+// A file that the crowd file names: a relative path starts at its folder.
+inline std::filesystem::path beside(const CrowdFile& file, const Given<std::string>& name)
+{
+    return file.path.parent_path() / name.value;
+}
+
 // True if [limb.SELECTOR] speaks of this limb.
 bool selects(std::string_view selector, LimbName limb);
 

@@ -6,8 +6,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace swivel::tools {
@@ -18,11 +20,11 @@ inline double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b
     return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
 }
 
-// Copies a vector, or a quaternion's coeffs() as x, y, z, w.
-template <class Number, std::size_t Count>
-void put(const auto& from, Number (&to)[Count])
+// Copies a vector, or a quaternion's coeffs() as x, y, z, w, to an array of floats or doubles.
+void put(const auto& from, auto& to)
 {
-    for (std::size_t n = 0; n < Count; ++n) to[n] = static_cast<Number>(from[static_cast<Eigen::Index>(n)]);
+    for (std::size_t n = 0; n < std::size(to); ++n)
+        to[n] = static_cast<std::remove_cvref_t<decltype(to[n])>>(from[static_cast<Eigen::Index>(n)]);
 }
 
 // The axis of the world that is nearest to a direction, with its sign.

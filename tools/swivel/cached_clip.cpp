@@ -7,13 +7,17 @@
 
 namespace swivel::tools {
 
-std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs)
+std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
 {
-    std::vector<std::size_t> drawn;
-    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
-        const auto has = [&](const Limb& limb) { return std::ranges::count(limb.joints, static_cast<int>(n)) > 0; };
-        if (clip.joints[n].is_bone || std::ranges::any_of(limbs, has)) drawn.push_back(n);
+    std::vector<int> own;
+    for (const Limb& limb : limbs) own.insert(own.end(), limb.joints.begin(), limb.joints.end());
+    if (plan.look) {
+        own.push_back(joint_at(clip, plan.look->joints.front()).parent);
+        own.insert(own.end(), plan.look->joints.begin(), plan.look->joints.end());
     }
+    std::vector<std::size_t> drawn;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n)
+        if (clip.joints[n].is_bone || std::ranges::count(own, static_cast<int>(n)) > 0) drawn.push_back(n);
     return drawn;
 }
 
@@ -46,7 +50,7 @@ std::vector<float> positions_of(const formats::Clip& clip, std::span<const std::
 CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::span<const Limb> limbs,
                         const CrowdPlan& plan, const ClipMotion& motion)
 {
-    const std::vector<std::size_t> drawn = drawn_joints(clip, limbs);
+    const std::vector<std::size_t> drawn = drawn_joints(clip, limbs, plan);
     const std::vector<LimbSetup> setups = limb_setups(limbs, plan);
     CachedCrowd crowd;
     crowd.title = names.title;
@@ -67,8 +71,7 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
     }
     if (plan.look) {
         const auto sources = motion.sources(limbs.size());
-        crowd.look = {{}, plan.look->setup, {sources.begin(), sources.end()}};
-        for (const int joint : plan.look->joints) crowd.look->joints.push_back(drawn_at(clip, drawn, joint));
+        crowd.look = {plan.look->setup, {sources.begin(), sources.end()}};
     }
     return crowd;
 }

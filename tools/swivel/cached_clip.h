@@ -15,8 +15,8 @@ struct ClipNames {
     std::string clip;   // the animation in it; may be empty
 };
 
-// The clip's joints that are drawn: bones, and the limbs' own.
-std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs);
+// The clip's joints that are drawn: bones, the limbs' own, and those of the plan's look with the one above.
+std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan);
 
 // Its joints are those that are drawn. All frames of the clip, all characters of the plan.
 CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::span<const Limb> limbs,

@@ -79,11 +79,13 @@ FoundLoop loop_of(const formats::CrowdFile& file, const std::string& name, const
 LookPlan look_of(const formats::CrowdFile& file, const formats::Clip& clip, const CrowdJob& job)
 {
     constexpr double kRadians = std::numbers::pi / 180;
+    const auto refuse = [&](std::string_view cause) {
+        throw formats::InputError(file.path, file.look->line, fmt::format("look: {}", cause));
+    };
+    if (clip.frame_time == 0 && clip.frame_count > 1) refuse("the clip's keys lie at uneven times; give --fps");
+    if (job.plan.budget_blocks > 0) refuse("heads that look are solved in every frame; take this or [budget] out");
     std::vector<int> joints = look_joints(clip, job.body, job.limbs);
-    if (joints.empty())
-        throw formats::InputError(file.path, file.look->line,
-                                  "look: no head of the clip is known that can turn; see swivel rig FILE, or take this "
-                                  "out");
+    if (joints.empty()) refuse("no head of the clip is known that can turn; see swivel rig FILE, or take this out");
     return plan_look(clip, std::move(joints), job.faces_w, file.look->target, kRadians * file.look->most_deg);
 }
 
@@ -205,7 +207,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
         stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)},
                         {job.loops.empty() ? 0 : job.loops[0].loop.first, job.clip_frames}, job.plan);
         const auto named = [&](const formats::Maybe<std::string>& name) {
-            return name ? (job.crowd->path.parent_path() / name->value).string() : std::string();
+            return name ? beside(*job.crowd, *name).string() : std::string();
         };
         job.heights = named(job.crowd->ground->heights), job.contacts = named(job.crowd->ground->contacts);
     }

@@ -13,6 +13,7 @@ void MotionKeys::add(const ClipCrowd& crowd)
         }
         if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) clavicles_[limb].push_back(crowd.clavicle(limb, 0));
     }
+    for (std::size_t n = 0; n < looking_.size(); ++n) looking_[n].push_back(crowd.looking(n, 0));
 }
 
 std::vector<formats::JointKeys> MotionKeys::overrides(const formats::Clip& clip) const
@@ -24,6 +25,7 @@ std::vector<formats::JointKeys> MotionKeys::overrides(const formats::Clip& clip)
         const int above = joint_at(clip, limbs_[limb].upper()).parent;
         if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) overrides.push_back({above, clavicles_[limb]});
     }
+    for (std::size_t n = 0; n < looking_.size(); ++n) overrides.push_back({look_joints_[n], looking_[n]});
     return overrides;
 }
 

@@ -13,11 +13,13 @@ namespace swivel::tools {
 
 class MotionKeys {
 public:
-    // Of a limb three joints, or two where the hand is not solved, and the joint above one with a clavicle. limbs and
-    // plan must outlive it.
+    // Of a limb three joints, or two where the hand is not solved, and the joint above one with a clavicle; and those
+    // that look. limbs and plan must outlive it.
     MotionKeys(std::span<const Limb> limbs, const CrowdPlan& plan)
         : limbs_(limbs), plans_(plan.limbs), keys_(3 * limbs.size()), clavicles_(limbs.size())
     {
+        if (plan.look) look_joints_ = plan.look->joints;
+        looking_.resize(look_joints_.size());
     }
 
     // Takes the frame that the crowd has solved.
@@ -35,6 +37,8 @@ private:
     std::span<const Limb> limbs_;
     std::span<const LimbPlan> plans_;
     std::vector<std::vector<Eigen::Quaterniond>> keys_, clavicles_;  // [3 * limb + joint][frame], [limb][frame]
+    std::vector<int> look_joints_;
+    std::vector<std::vector<Eigen::Quaterniond>> looking_;  // [look joint][frame]
 };
 
 }  // namespace swivel::tools

@@ -13,14 +13,15 @@ std::optional<PageSkin> page_skin(const MotionFile& file, const CrowdJob& job)
     skin.glb = file.figure_glb();
     if (skin.glb.empty()) return {};
     const formats::Clip& clip = file.clip();
-    const std::vector<std::size_t> drawn = drawn_joints(clip, job.limbs);
+    const std::vector<std::size_t> drawn = drawn_joints(clip, job.limbs, job.plan);
     for (const std::size_t joint : drawn) skin.nodes.push_back(clip.joints[joint].number);
     const auto place_of = [&](int joint) {
         return static_cast<std::size_t>(std::ranges::lower_bound(drawn, static_cast<std::size_t>(joint)) -
                                         drawn.begin());
     };
-    const std::vector<int> heads = look_joints(clip, job.body, job.limbs);
+    std::vector<int> heads = look_joints(clip, job.body, job.limbs);
     const auto is_drawn = [&](int joint) { return std::ranges::binary_search(drawn, static_cast<std::size_t>(joint)); };
+    while (!heads.empty() && !is_drawn(heads.front())) heads.erase(heads.begin());
     if (!heads.empty() && std::ranges::all_of(heads, is_drawn)) {
         for (const int joint : heads) skin.head.push_back(place_of(joint));
         const Eigen::Vector3d face = face_of(clip, heads.back(), job.faces_w);

@@ -123,8 +123,11 @@ void print_statistics(std::FILE* to, const Statistics& statistics)
     for (const auto& [name, stat] : flags_of(statistics))
         if (stat.count > 0) say(to, "flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
     if (const LookStatistics& looks = statistics.looks; looks.count > 0)
-        say(to, "looks    {} of {} meet their target, {} turn no further, {} have it behind them or too near\n",
-            looks.met, looks.count, looks.limited, looks.faded);
+        say(to,
+            "looks    {} of {} meet their target, {} turn no further, {} have it behind them or too near, {} are on "
+            "their "
+            "way\n",
+            looks.met, looks.count, looks.limited, looks.faded, looks.on_their_way());
     if (went_wrong(statistics))
         say(to, "note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
 }
@@ -146,7 +149,11 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
         if (stat.count > 0) out["first_flagged"][name] = json_of(stat.first_pose);
     }
     if (const LookStatistics& looks = statistics.looks; looks.count > 0)
-        out["looks"] = {{"count", looks.count}, {"met", looks.met}, {"limited", looks.limited}, {"faded", looks.faded}};
+        out["looks"] = {{"count", looks.count},
+                        {"met", looks.met},
+                        {"limited", looks.limited},
+                        {"faded", looks.faded},
+                        {"on_their_way", looks.on_their_way()}};
     out["out_of_reach"] = statistics.unreached();
     out["bad_input"] = statistics.bad();
     out["went_wrong"] = went_wrong(statistics);

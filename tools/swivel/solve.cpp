@@ -47,9 +47,8 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     std::optional<formats::TargetsCsv> exported;
     if (!options.export_targets.empty()) exported.emplace(options.export_targets);
     // New frames where the clip's own do not fit, else the file's own keys of the limbs.
-    const bool is_whole =
-        kind == OutKind::motion && (!job.plan.clips.empty() || job.plan.characters > 1 ||
-                                    job.frame_count < job.clip_frames || job.plan.ground || job.plan.look);
+    const bool is_whole = kind == OutKind::motion && (!job.plan.clips.empty() || job.plan.characters > 1 ||
+                                                      job.frame_count < job.clip_frames || job.plan.ground);
     MotionKeys keys(job.limbs, job.plan);
     std::optional<WholeKeys> whole;
     if (is_whole) whole.emplace(file.clip(), job.limbs, job.plan);

@@ -80,6 +80,7 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
                                {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
     if (job.plan.ground) out["ground"] = job.heights.empty() ? "level" : job.heights;
+    if (!job.contacts.empty()) out["contacts"] = job.contacts;
     for (std::size_t n = 0; n < job.plan.clips.size(); ++n) {
         const ClipPart& part = job.plan.clips[n];
         nlohmann::ordered_json& of = out["performed"].emplace_back();

@@ -83,7 +83,7 @@ Json json_of_look(const CachedLook& look)
     const swivel_look& how = *look.setup.look;
     return {{"plan", base64_of(std::span(&look.setup.goals, 1))},
             {"sources", base64_of(std::span<const goal_source>(look.sources))},
-            {"joints", look.joints},
+            {"joint_count", how.joint_count},
             {"axis", how.axis},
             {"cos_most", how.cos_most[0]}};
 }

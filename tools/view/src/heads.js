@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Heads that look at a point, by looks of the library: as the crowd file says, or at the pointer. Those are a crowd of their own, beside the
-// one whose bits are the command's.
+// Heads that look at a point, by looks of the library: as the crowd file says, or at the pointer. Heads that look at the pointer are a crowd
+// of their own, beside the one whose bits are the command's.
 import { Matrix4, Quaternion } from "three";
 
 import { Field } from "./stage.js";

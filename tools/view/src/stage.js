@@ -82,9 +82,9 @@ export class Stage {
         };
     }
 
-    makeLook({ sources, joints, axis, cos_most: cosMost }) {
+    makeLook({ sources, joint_count: count, axis, cos_most: cosMost }) {
         const first = this.skeleton.parents.length - 3;  // in the crowd's skeleton, whose last joints are a shoulder, elbow and wrist
-        return { sourcesAt: this.keep(bytesOf(sources)), joints, how: { joints: joints.map((_, n) => first + n), axis, cosMost } };
+        return { sourcesAt: this.keep(bytesOf(sources)), how: { joints: Array.from({ length: count }, (_, n) => first + n), axis, cosMost } };
     }
 
     /** Makes the crowd, with the features that the user's fields need. The old one stays if that fails. */
