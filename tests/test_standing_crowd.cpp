@@ -275,7 +275,7 @@ TEST_CASE("a table says when feet are down: of the file's frames, however the cl
 
     // A part of one step alone, where the foot does stand.
     const std::vector<bool>& left = stage.contacts[0];
-    const auto begin = static_cast<std::size_t>(std::search_n(left.begin() + 10, left.end(), 12, true) - left.begin());
+    const auto begin = static_cast<std::size_t>(std::search_n(left.begin() + 20, left.end(), 12, true) - left.begin());
     REQUIRE(begin + 40 < left.size());
     spill(stage.folder / "c.csv",
           fmt::format("frame,limb,contact\n{},left_leg,on\n{},left_leg,off\n0,right_leg,on\n", begin, begin + 12));
