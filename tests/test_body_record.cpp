@@ -78,12 +78,12 @@ TEST_CASE("what is kept of a pose")
             const Vector3d root = vec(body.root_position), wrist = root + at[limb.wrist].place;
             const double length = (at[limb.elbow].place - at[limb.shoulder].place).norm() +
                                   (at[limb.wrist].place - at[limb.elbow].place).norm();
-            const double bound = 1e-5 * (way_to(solved.skeleton, at, limb.wrist) + root.norm());
+            const double way = way_to(solved.skeleton, at, limb.wrist), bound = 1e-5 * (way + root.norm());
             RC_ASSERT((Eigen::Map<const Vector3d>(elbows[n].data()) - root - at[limb.elbow].place).norm() <= bound);
             RC_ASSERT((Eigen::Map<const Vector3d>(wrists[n].data()) - wrist).norm() <= bound);
             RC_ASSERT(Quaterniond(hands[n].data()).angularDistance(at[limb.wrist].rotation) <= 1e-5);
             const double missed = (wrist - vec(solved.goals[0][n].target)).norm() / length;
-            RC_ASSERT(std::fabs(residuals[n] - missed) <= bound / length + 1e-6 * missed);
+            RC_ASSERT(std::fabs(residuals[n] - missed) * length <= bound + 1e-6 * way * missed);  // its length's error
         }
     });
 }
