@@ -117,6 +117,60 @@ void solve_late(const HillWalkers& walkers, Crowd& crowd, PoseBuffer& poses)
     for (std::uint32_t leg = 0; leg < 2; ++leg) HillWalkers::write(crowd, leg, walkers.samples(crowd, leg));
 }
 
+// Walkers whose hands hold a rifle: where the animation has it, or where the root goes. Then arms take up what the
+// pelvis's shift moves shoulders by.
+struct ArmedWalkers : HillWalkers {
+    static constexpr std::uint32_t kShift = 2, kRifle = 3, kFirstArm = 4;  // groups
+
+    ArmedWalkers(std::uint64_t seed, std::uint32_t count) : HillWalkers(seed, count, bumpy_field())
+    {
+        for (const float side : {0.18f, -0.18f}) {
+            const std::uint32_t first = skeleton.size();
+            for (const std::int32_t parent : {0, static_cast<int>(first), static_cast<int>(first) + 1})
+                skeleton.parents.push_back(parent);
+            for (const Float3& place : {Float3{side, 0.5f, 0}, Float3{0, -0.3f, 0}, Float3{0, -0.26f, 0}})
+                skeleton.translations.push_back(place), skeleton.rotations.push_back({0, 0, 0, 1});
+            skeleton.limbs.push_back({first, first + 1, first + 2, {0, 0, 1}, {}});
+        }
+    }
+    Crowd armed_crowd() const
+    {
+        const std::array<swivel_limb_joints, 2> arms = {skeleton.joints(2), skeleton.joints(3)};
+        std::vector<swivel_group_def> more = {swivel_default_prop_group_def()};
+        for (const swivel_limb_joints& arm : arms) {
+            more.push_back(body_group(arm, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK));
+            more.back().link = kRifle;
+        }
+        Crowd made = crowd(kFeatures, SWIVEL_KEEP_POSE, more);
+        made.write_all(SWIVEL_GRIP, kFirstArm, std::array{0.1f, 0.02f, 0.15f, 0.f, 0.f, 0.f, 1.f});
+        made.write_all(SWIVEL_GRIP, kFirstArm + 1, std::array{-0.1f, 0.f, -0.1f, 0.f, 0.f, 0.f, 1.f});
+        return made;
+    }
+    // Arms as they are animated: bent, in front of the chest.
+    void raise_arms()
+    {
+        for (Body& body : bodies)
+            for (const std::size_t arm : {2u, 3u}) {
+                body.rotations[skeleton.limbs[arm].shoulder] = pitched(-0.6);
+                body.rotations[skeleton.limbs[arm].elbow] = pitched(-1.2);
+            }
+    }
+    void write_rifles(Crowd& crowd) const
+    {
+        std::vector<Float3> places;
+        std::vector<Float4> turns;
+        for (std::uint32_t n = 0; n < count(); ++n) {
+            const Quaterniond facing = quat(bodies[n].root_rotation);
+            places.push_back(floats(Vector3d(roots[n] + facing * Vector3d(0, kPelvis + 0.3, 0.3))));
+            turns.push_back(bodies[n].root_rotation);
+        }
+        crowd.write(SWIVEL_PROP_PLACE, kRifle, places), crowd.write(SWIVEL_PROP_TURN, kRifle, turns);
+    }
+
+private:
+    static Float4 pitched(double angle) { return floats(Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitX()))); }
+};
+
 }  // namespace
 
 TEST_CASE("feet stand on hills, however their ground is sampled, with the same bits")
@@ -214,4 +268,38 @@ TEST_CASE("on stairs no sole goes through a tread that it is over")
     CHECK(is.heel <= 1e-3);
     CHECK(is.toe <= 1e-3);
     CHECK(is.slide <= 1e-4);
+}
+
+TEST_CASE("arms that hold a rifle turn slowly while the pelvis comes down")
+{
+    const auto turn = [](bool goes_with_root) {
+        ArmedWalkers walkers(1, 500);
+        Crowd crowd = walkers.armed_crowd();
+        std::vector<std::array<Quaterniond, 6>> was(walkers.count());
+        double most = 0, shift = 0;
+        for (int frame = 0; frame < kWalkedFrames; ++frame) {
+            walkers.go_to(frame);
+            walkers.raise_arms();
+            if (goes_with_root) walkers.write_rifles(crowd);
+            PoseBuffer poses = walkers.poses();
+            walkers.probe_and_solve(crowd, poses);
+            const auto shifts = read<Float3>(crowd, SWIVEL_SHIFT, ArmedWalkers::kShift);
+            for (std::uint32_t n = 0; n < walkers.count(); ++n) {
+                const std::vector<JointAt> at = joints_at(walkers.skeleton, poses.read(n, walkers.bodies[n]));
+                shift = std::max(shift, double{std::fabs(shifts[n][0])});
+                for (std::uint32_t joint = 0; joint < 6; ++joint) {
+                    const Quaterniond& is = at[walkers.skeleton.limbs[2].shoulder + joint].rotation;
+                    if (frame > 0) most = std::max(most, is.angularDistance(was[n][joint]));
+                    was[n][joint] = is;
+                }
+                for (std::uint32_t arm = 0; arm < 2; ++arm)
+                    REQUIRE(flags_of(crowd, ArmedWalkers::kFirstArm + arm, n) & SWIVEL_REACHED);
+            }
+        }
+        std::printf("arms turn by %.4f rad a frame; the pelvis shifts by up to %.0f mm\n", most, 1e3 * shift);
+        CHECK(shift > 0.1);
+        return most;
+    };
+    CHECK(turn(false) <= 0.052);
+    CHECK(turn(true) <= 0.058);
 }
