@@ -75,6 +75,14 @@ nlohmann::json CrowdStage::json(const std::string& toml, Words more) const
     return nlohmann::json::parse(outcome.out);
 }
 
+Vector3d CrowdStage::face() const
+{
+    const Outcome rig = run_command(folder.path, {"rig", "clip.bvh", "--json"});
+    REQUIRE(rig.exit_code == 0);
+    const nlohmann::json faces = nlohmann::json::parse(rig.out).at("faces");
+    return Vector3d(faces.at(0), 0, faces.at(2)).normalized();
+}
+
 ArmAxes CrowdStage::axes(std::size_t arm) const
 {
     const nlohmann::json bend = json("[crowd]\n").at("arms_bound").at(arm).at("bend");

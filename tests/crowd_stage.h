@@ -49,6 +49,8 @@ struct CrowdStage {
     std::vector<PoseLine> rows(const std::string& toml, const std::string& limb, const std::string& columns = "",
                                const Words& more = {}) const;
     nlohmann::json json(const std::string& toml, Words more = {}) const;
+    // Where the figure faces at rest, level: joints have the world's axes then.
+    Vector3d face() const;
     // Of a limb whose bones lie on one line at rest, as this clip's arms do. The hinge is the one that is reported.
     ArmAxes axes(std::size_t arm) const;
     void require_refused(const std::string& toml, const std::string& said, const std::string& out = "out.csv",

@@ -36,14 +36,6 @@ double turn_between(const Matrix3d& a, const Matrix3d& b)
     return kDegrees * Eigen::AngleAxisd(a.transpose() * b).angle();
 }
 
-// Where the figure faces at rest, level: joints have the world's axes then.
-Vector3d face_in(const CrowdStage& stage)
-{
-    const Outcome rig = run_command(stage.folder.path, {"rig", "clip.bvh", "--json"});
-    REQUIRE(rig.exit_code == 0);
-    const nlohmann::json faces = nlohmann::json::parse(rig.out).at("faces");
-    return Vector3d(faces.at(0), 0, faces.at(2)).normalized();
-}
 // By how many degrees the face misses the target.
 double missed_by(const PlainMotion& motion, std::size_t frame, const Vector3d& face, const Vector3d& target)
 {
@@ -81,7 +73,7 @@ Vector3d aside(const PlainMotion& clip, double far)
 TEST_CASE("heads look at a point, by necks and head alone")
 {
     const CrowdStage stage{100, 2};
-    const Vector3d target = aside(stage.clip, 60), face = face_in(stage);
+    const Vector3d target = aside(stage.clip, 60), face = stage.face();
     const PlainMotion motion = stage.motion(look_at(target), kFew);
     REQUIRE(motion.lines.size() == kCount);
     double clips_own = 0;
@@ -119,7 +111,7 @@ TEST_CASE("each of a crowd looks from where it is, whatever its size")
 {
     const CrowdStage stage{100, 2};
     const PlainPose head = pose_of(stage.clip, 0)[static_cast<std::size_t>(joint_named(stage.clip, "Head"))];
-    const Vector3d face = head.rotation * face_in(stage), target = head.position + Vector3d(150, -5, 170);
+    const Vector3d face = head.rotation * stage.face(), target = head.position + Vector3d(150, -5, 170);
     const std::string toml = "[crowd]\ncharacters = 100\nstagger = false\nsize = [0.5, 2]\n";
     const nlohmann::json all = stage.json(toml + look_at(target, "most_deg = 180\n"), {"--frames", "1"});
     std::size_t ahead = 0;
@@ -138,7 +130,7 @@ TEST_CASE("each of a crowd looks from where it is, whatever its size")
 TEST_CASE("heads look in a clip that goes on and on, on ground, and where no arm is solved")
 {
     const CrowdStage stage{100, 2};
-    const Vector3d target = aside(stage.clip, 60), face = face_in(stage);
+    const Vector3d target = aside(stage.clip, 60), face = stage.face();
     for (const std::string& toml : {std::string("[crowd]\nlimbs = \"legs\"\n"),
                                     std::string("[crowd]\nlimbs = \"legs\"\nloop = [0, 100]\n[ground]\n")}) {
         INFO(toml);

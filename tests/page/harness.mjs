@@ -31,11 +31,18 @@ export function write(name, ...words) {
 }
 export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding: 'utf8' });
 
+const contexts = new Map();  // by their options: a new one opens a window of its own, which takes as long as a page
+async function newPage(options = {}) {
+  const key = JSON.stringify(options);
+  if (!contexts.has(key)) contexts.set(key, await browser.newContext(options));
+  return contexts.get(key).newPage();
+}
+
 /** Opens a page, which stands still; use gets playwright's page. options: of a context, and `before`, run in the page before its script. */
 export async function visit(file, use, { before, hash = '', ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 800, height: 500 }, reducedMotion: 'reduce', ...options });
+  const page = await newPage({ viewport: { width: 800, height: 500 }, reducedMotion: 'reduce', ...options });
   try {
-    const page = await context.newPage(), faults = [];
+    const faults = [];
     page.on('console', (message) => faults.push(`console: ${message.text()}`));
     page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
     page.on('dialog', (dialog) => faults.push(`dialog: ${dialog.message()}`));
@@ -46,13 +53,13 @@ export async function visit(file, use, { before, hash = '', ...options } = {}) {
     await use(page);
     assert.deepEqual(faults, []);
   } finally {
-    await context.close();
+    await page.close();
   }
 }
 
 /** What a page shows in place of a crowd. before: as visit() has it. */
 export async function refusal(place, { before } = {}) {
-  const page = await browser.newPage();
+  const page = await newPage();
   try {
     if (before) await page.addInitScript(before);
     await page.goto(`file://${encodeURI(place)}`);

@@ -73,3 +73,34 @@ test('a dragged foot, let go again, and as a table for the command', async () =>
     assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
   }, { acceptDownloads: true });
 });
+
+test('boxes are between the hands of those who carry one, and are seen', async () => {
+  const carrying = file('boxes.toml', `[crowd]
+limbs = "all"
+size = [0.8, 1.2]
+[ground]
+[carry]
+share = 0.5
+size = [6, 4, 5]
+`);
+  await visit(write('boxes.html', 'view', clip, '--characters', '12', '--frames', '60', '--crowd', carrying), async (page) => {
+    assert.ok((await digests(page, [0, 59, 30])).every(([, state]) => state === 'equal'));
+    const [count, hands] = await page.evaluate(() => {
+      const { stage, view: { bodies: { boxes } } } = swivelPage, hands = [];
+      boxes.carriers.forEach((character, n) => {
+        const matrix = boxes.meshes[0].matrixWorld.clone();
+        boxes.meshes[0].getMatrixAt(n, matrix);
+        const side = (name) => stage.pose(stage.limbs.find((limb) => limb.name === name), character).wrist;
+        hands.push(...['left_arm', 'right_arm'].map((name) => boxes.meshes[0].position.clone().fromArray(side(name)).applyMatrix4(matrix.clone().invert()).toArray()));
+      });
+      return [boxes.meshes[0].count, hands];
+    });
+    assert.ok(count > 2 && count < 10 && hands.length === 2 * count, `${count} boxes`);
+    hands.forEach(([x, y, z], n) => {  // in its axes, of size 1: beside it, behind its middle
+      const palm = (n % 2 ? -x : x) - 3;
+      assert.ok(palm > 0.1 && palm < 1.5 && Math.abs(y) < 1e-3 && z < -0.5 && z > -2.5, `${x} ${y} ${z}`);
+    });
+    const { share } = await difference(page, () => page.evaluate(() => swivelPage.view.bodies.boxes.meshes.forEach((mesh) => { mesh.visible = false; })));
+    assert.ok(share > 0.002, `${share} of the picture`);
+  });
+});

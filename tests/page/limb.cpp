@@ -49,7 +49,7 @@ int main()
     swivel::Crowd crowd(skeleton, 1, std::span(&limb, 1));
     float pose[4 * GOAL_JOINTS] = {};
     swivel_job job = swivel_default_job();
-    const goal_character who{1, {}, 0, 0, 0, 1};
+    const goal_character who{1, {}, 0, 0, 0, 1, 0, 0};
     swivel::check(swivel_goals_solve(crowd.get(), nullptr, nullptr, 0, &who, &root, &input, pose, &job));
     double elbow[3], wrist[3];
     swivel::check(swivel_forward(crowd.get(), 0, 0, 1, {elbow, sizeof elbow}, {wrist, sizeof wrist}, {nullptr, 0}));

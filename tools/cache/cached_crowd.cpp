@@ -279,8 +279,8 @@ void require_solvable(const CachedCrowd& crowd)
     for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
     const goal_source none{};
     const Ground level{};  // the cache's own heights come later
-    GoalCrowd crowd_of_one(setups, std::vector(setups.size(), std::span(&none, 1)), {goal_character{1, {}, 0, 0, 0, 1}},
-                           0, crowd.ground ? &level : nullptr, 0);
+    GoalCrowd crowd_of_one(setups, std::vector(setups.size(), std::span(&none, 1)),
+                           {goal_character{1, {}, 0, 0, 0, 1, 0, 0}}, 0, crowd.ground ? &level : nullptr, 0);
     crowd_of_one.set_frame(0);
     crowd_of_one.solve();
 }

@@ -52,6 +52,8 @@ struct CachedCrowd {
     std::vector<float> positions;  // [frame of the clip][joint][3], in the world
     std::vector<CachedLimb> limbs;
     std::optional<CachedLook> look;
+    // Of characters of size 1 that carry a box: its sides, and how far it is ahead of the wrists. Not in a cache.
+    std::optional<std::array<double, 4>> box;
     std::optional<Ground> ground;  // that legs stand on
     bool has_given = false;        // goals of one's own
     bool has_poses = true;         // it keeps them; goals give the same poses again on any machine

@@ -26,6 +26,7 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
     : plan_(plan),
       random_(plan.seed),
+      carriers_(~plan.seed),
       clips_(plan.clips),
       columns_(static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)))),
       spacing_(plan.spacing * limb_span(limbs))
@@ -39,8 +40,16 @@ goal_character CharacterStream::next()
     const auto wish = [&](double size) { return static_cast<float>(size * plan_.shift_wish); };
     const auto performing = [&](std::size_t clip, double size, const Eigen::Vector3d& place, std::size_t start) {
         const auto word = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
-        return goal_character{size,       {place.x(), place.y(), place.z()}, word(start),
-                              wish(size), word(clips_[clip].first),          word(clips_[clip].count)};
+        const std::uint32_t carries =
+            plan_.carry && (n == 0 ? plan_.carry->share >= 1 : unit(carriers_) < plan_.carry->share);
+        return goal_character{size,
+                              {place.x(), place.y(), place.z()},
+                              word(start),
+                              wish(size),
+                              word(clips_[clip].first),
+                              word(clips_[clip].count),
+                              carries,
+                              0};
     };
     if (n == 0) return performing(0, 1, Eigen::Vector3d(0, 0, 0), 0);
     const double size = static_cast<float>(plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_));

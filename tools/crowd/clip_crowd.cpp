@@ -46,11 +46,17 @@ std::size_t ClipCrowd::limb_index(formats::LimbName name) const
     return static_cast<std::size_t>(std::ranges::find(limbs_, name, &Limb::name) - limbs_.begin());
 }
 
+// Whether the limb holds a box.
+bool ClipCrowd::carries(std::size_t limb, std::uint32_t character) const
+{
+    return characters()[character].carries && motion_.sources(limb).front().carries;
+}
+
 // Whether elbow and upper arm should be the clip's.
 bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
     const LimbPlan& plan = plans_[limb];
-    return plan.follows_clip() && !crowd_.has_ground() && !given(limb, character);
+    return plan.follows_clip() && !crowd_.has_ground() && !given(limb, character) && !carries(limb, character);
 }
 
 const formats::Target* ClipCrowd::given(std::size_t limb, std::uint32_t character) const
@@ -217,7 +223,8 @@ std::span<const formats::Target> ClipCrowd::targets()
     rows_of(targets_, [&](std::size_t limb, std::uint32_t character) { return target(limb, character); });
     std::erase_if(targets_, [&](const formats::Target& of) {  // their targets do not count
         const std::size_t limb = limb_index(of.limb);
-        return crowd_.has_ground() && setups_[limb].goals.goes_along && !given(limb, of.character);
+        return crowd_.has_ground() && setups_[limb].goals.goes_along && !given(limb, of.character) &&
+               !carries(limb, of.character);
     });
     return targets_;
 }

@@ -67,6 +67,7 @@ private:
         return motion_.at(clip_frame(character), limb);
     }
     std::size_t limb_index(formats::LimbName name) const;  // of one that is solved
+    bool carries(std::size_t limb, std::uint32_t character) const;
     bool follows_clip(std::size_t limb, std::uint32_t character) const;
     // The same rotations between the two bones that the solver knows.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;

@@ -98,7 +98,12 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, c
             sources_[n].push_back(
                 source_of(limbs_.back(), pose_w[static_cast<std::size_t>(limb.upper())].position, root));
             const std::vector<bool>& contact = plan.limbs[n].contact;
-            sources_[n].back().contact = frame < contact.size() && contact[frame] ? 1.0f : 0.0f;
+            goal_source& source = sources_[n].back();
+            source.contact = frame < contact.size() && contact[frame] ? 1.0f : 0.0f;
+            if (plan.carry && limb.name.kind == formats::LimbKind::arm) {
+                source.carries = 1;
+                put(carrying_wrist(*plan.carry, limb.name, pose_w) - Vector3d(source.origin), source.carried);
+            }
         }
         if (plan.look) sources_.back().push_back(look_source(clip, plan.look->joints, pose_w, root));
     }

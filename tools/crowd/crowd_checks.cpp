@@ -25,6 +25,15 @@ template <class T>
     throw InputError(file.path, given.line, fmt::format("{}: {}", given.key, cause));
 }
 
+// Refuses the first of them that is given.
+void refuse_given(const CrowdFile& file, std::string_view cause, const auto&... given)
+{
+    const auto check = [&](const auto& each) {
+        if (each) refuse(file, *each, cause);
+    };
+    (check(given), ...);
+}
+
 }  // namespace
 
 std::string checked_targets(const CrowdFile& file)
@@ -80,17 +89,22 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
 
 void require_can_stand(const CrowdFile& file, const LimbSettings& s)
 {
-    const auto check = [&](const auto&... given) {
-        const auto check_one = [&](const auto& each) {
-            if (each)
-                refuse(file, *each,
-                       fmt::format("keeps a leg from standing on the ground of line {}; take one of them out",
-                                   file.ground->line));
-        };
-        (check_one(given), ...);
-    };
-    check(s.aim, s.target_point, s.soft_far, s.soft_near, s.most_stretch, s.least_distance);
-    if (s.hand && !s.hand->value) check(s.hand);
+    const std::string cause =
+        fmt::format("keeps a leg from standing on the ground of line {}; take one of them out", file.ground->line);
+    refuse_given(file, cause, s.aim, s.target_point, s.soft_far, s.soft_near, s.most_stretch, s.least_distance);
+    if (s.hand && !s.hand->value) refuse_given(file, cause, s.hand);
+}
+
+void require_can_carry(const CrowdFile& file, const LimbSettings& s)
+{
+    const std::string cause = fmt::format(
+        "is of a hand's goal, and with the table of line {}, carry, hands go along with forearms; take one "
+        "of them out",
+        file.carry->line);
+    if (s.hand && s.hand->value) refuse_given(file, cause, s.hand);
+    if (s.pole_kind && s.pole_kind->value == PoleKind::hand) refuse_given(file, cause, s.pole_kind);
+    refuse_given(file, cause, s.aim, s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
+                 s.wrist_box, s.twist_bones);
 }
 
 void require_solved(const CrowdFile& file, std::span<const Limb> limbs)

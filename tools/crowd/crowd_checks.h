@@ -25,6 +25,9 @@ void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& 
 // Nothing is asked of a leg that keeps it from standing on ground.
 void require_can_stand(const formats::CrowdFile& file, const formats::LimbSettings& settings);
 
+// Nothing is asked of an arm's hand, which goes along with the forearm where characters carry boxes.
+void require_can_carry(const formats::CrowdFile& file, const formats::LimbSettings& settings);
+
 // With a clavicle: the joint above the limb is there, some way from it, and carries nothing else that it would turn
 // along.
 void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,

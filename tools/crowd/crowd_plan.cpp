@@ -265,8 +265,11 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
         require_sense(*file, settings);
         require_own_clavicle(*file, settings, clip, limbs[n]);
         require_even_frames(*file, settings, clip);
-        if (file->ground && limbs[n].name.kind == formats::LimbKind::leg) require_can_stand(*file, settings);
+        const bool is_leg = limbs[n].name.kind == formats::LimbKind::leg;
+        if (file->ground && is_leg) require_can_stand(*file, settings);
+        if (file->carry && !is_leg) require_can_carry(*file, settings);
         Planner planner{settings, clip, limbs[n]};
+        if (file->carry && !is_leg) planner.plan.features &= ~SWIVEL_WITH_HAND;
         planner.goal();
         planner.pole();
         planner.aim();

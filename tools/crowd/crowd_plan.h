@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/crowd/carry_plan.h"
 #include "tools/crowd/clip_parts.h"
 #include "tools/crowd/ground.h"
 #include "tools/crowd/limb_setup.h"
@@ -58,6 +59,7 @@ struct CrowdPlan {
     double shift_wish = 0;                           // then: of a body of size 1
     std::vector<LimbPlan> limbs;                     // one for each limb solved
     std::optional<LookPlan> look;                    // heads look at a point
+    std::optional<CarryPlan> carry;                  // a box in both hands
 };
 
 // What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and bends to

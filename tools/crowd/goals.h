@@ -21,10 +21,11 @@ typedef struct goal_source {
     double lengths[2];                                  // upper arm, forearm
     double origin[3];                                   // the shoulder in the world
     double root[3];                                     // where the pose hangs; the same of all limbs
+    double carried[3];                                  // where the wrist is of a character that carries a box
     float parent[4];                                    // of the joint above
     float shoulder[4], elbow_local[4], wrist_local[4];  // the clip's own pose between the two bones
-    float contact;  // of a leg that stands: 1 while the clip has its foot on the ground, else 0
-    uint32_t reserved;
+    float contact;     // of a leg that stands: 1 while the clip has its foot on the ground, else 0
+    uint32_t carries;  // 1: carried counts, for characters that carry
 } goal_source;
 
 // A character of the crowd; the first is the clip's own. What is at x in the clip is at place + size * x.
@@ -34,6 +35,8 @@ typedef struct goal_character {
     uint32_t start;         // frame of its clip that it starts at
     float wish;             // of its shift, where the crowd has shifts
     uint32_t first, count;  // its clip: frames of the sources, which it plays round and round; count is 1 or more
+    uint32_t carries;       // 1: a box in both hands
+    uint32_t reserved;
 } goal_character;
 
 // What a goal's pole is.
@@ -51,8 +54,8 @@ typedef struct goal_plan {
     uint32_t pole;                              // a goal_pole
     uint32_t holds_pole;                        // 1: the clip's own pole counts, too; 0: the elbow goes as in the clip
     uint32_t hand_is_local;  // 1: the hand goal is the wrist's own local rotation, for SWIVEL_WITH_AIM
-    uint32_t goes_along;     // 1: on ground its target and hand do not count, so it moves with its body
-    uint32_t is_look;        // 1: no limb, but neck and head; target_offset is what they look at, in the world
+    uint32_t goes_along;  // 1: on ground its target and hand do not count, so it moves with its body; unless it carries
+    uint32_t is_look;     // 1: no limb, but neck and head; target_offset is what they look at, in the world
 } goal_plan;
 
 // What a limb is asked for, in the world. Pole and hand are as the plan says.
@@ -85,7 +88,7 @@ typedef struct goal_input {
     float contact;          // as the source's
 } goal_input;
 
-static_assert(sizeof(goal_source) == 216 && sizeof(goal_character) == 48 && sizeof(goal_plan) == 208 &&
+static_assert(sizeof(goal_source) == 240 && sizeof(goal_character) == 56 && sizeof(goal_plan) == 208 &&
               sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 208);
 
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after

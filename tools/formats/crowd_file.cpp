@@ -268,11 +268,22 @@ void read_look(TomlTable table, CrowdFile& to)
     to.look = {table.line(), target->value, most_deg ? most_deg->value : LookSettings().most_deg};
 }
 
+void read_carry(TomlTable table, CrowdFile& to)
+{
+    const Maybe<double> share = table.number("share", 0, 1);
+    CarrySettings carry{table.line(), share ? share->value : CarrySettings().share, table.vector("size"),
+                        table.vector("place")};
+    table.finish();
+    if (carry.size && !(carry.size->value.array() > 0).all()) table.fail("size", "is not above 0; write [x, y, z]");
+    if (table.is_there()) to.carry = std::move(carry);
+}
+
 void read_root(TomlTable root, CrowdFile& to)
 {
     read_crowd(root.table("crowd"), to);
     read_ground(root.table("ground"), to);
     read_look(root.table("look"), to);
+    read_carry(root.table("carry"), to);
     TomlTable budget = root.table("budget");
     to.budget_blocks = budget.whole("blocks", 1, UINT32_MAX);
     budget.finish();

@@ -104,6 +104,13 @@ struct LookSettings {
     double most_deg = 45;    // that each joint turns at most, 0 to 180
 };
 
+// The table [carry]: a box in both hands.
+struct CarrySettings {
+    std::size_t line = 0;
+    double share = 0.1;                  // of the characters, 0 to 1
+    Maybe<Eigen::Vector3d> size, place;  // of the box, above 0; of its middle, as CarryPlan has them
+};
+
 // One of the list crowd.clips; at least one of them is there.
 struct FurtherClip {
     std::size_t line = 0;
@@ -124,6 +131,7 @@ struct CrowdFile {
     Maybe<std::int64_t> budget_blocks;
     std::optional<GroundSettings> ground;
     std::optional<LookSettings> look;
+    std::optional<CarrySettings> carry;
     std::vector<LimbSection> sections;  // those in the file, the general before the special
 };
 

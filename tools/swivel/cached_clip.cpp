@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tools/crowd/crowd_plan.h"
+#include "tools/rig/vectors.h"
 
 namespace swivel::tools {
 
@@ -73,6 +74,8 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
         const auto sources = motion.sources(limbs.size());
         crowd.look = {plan.look->setup, {sources.begin(), sources.end()}};
     }
+    if (const auto& carry = plan.carry)
+        crowd.box = {carry->size.x(), carry->size.y(), carry->size.z(), -carry->palm.z()};
     return crowd;
 }
 

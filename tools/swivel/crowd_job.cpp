@@ -89,6 +89,20 @@ LookPlan look_of(const formats::CrowdFile& file, const formats::Clip& clip, cons
     return plan_look(clip, std::move(joints), job.faces_w, file.look->target, kRadians * file.look->most_deg);
 }
 
+CarryPlan carry_of(const formats::CrowdFile& file, const formats::Clip& clip, const Eigen::Vector3d& up_w,
+                   const CrowdJob& job)
+{
+    const formats::CarrySettings& carry = *file.carry;
+    if (!can_carry(clip, job.limbs))
+        throw formats::InputError(file.path, carry.line,
+                                  "carry: takes both arms, and not both are solved; write limbs = \"arms\" or "
+                                  "\"all\" in [crowd], or take this out");
+    const auto value = [](const formats::Maybe<Eigen::Vector3d>& given) {
+        return given ? std::optional(given->value) : std::nullopt;
+    };
+    return plan_carry(clip, job.limbs, carry.share, value(carry.size), value(carry.place), up_w, job.faces_w);
+}
+
 // Reads one of the further clips. Its joints are the same ones.
 formats::Clip further_clip(const SolveOptions& options, const formats::FurtherClip& from, const formats::Clip& first,
                            std::span<const int> joints, CrowdJob& job)
@@ -212,6 +226,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
         job.heights = named(job.crowd->ground->heights), job.contacts = named(job.crowd->ground->contacts);
     }
     if (job.crowd && job.crowd->look) job.plan.look = look_of(*job.crowd, clip, job);
+    if (job.crowd && job.crowd->carry) job.plan.carry = carry_of(*job.crowd, clip, up_w, job);
     if (options.characters) job.plan.characters = *options.characters;
     if (clip.frame_time == 0 && job.plan.characters > 1)
         throw formats::InputError(options.file,

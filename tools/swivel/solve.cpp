@@ -96,9 +96,11 @@ nlohmann::ordered_json json_of_run(const SolveOptions& options, const MotionFile
                                    const Statistics& statistics, double seconds)
 {
     nlohmann::ordered_json out = json_of_clip(options, file, job);
-    for (const goal_character& each : characters_of(job.plan, job.limbs, file.clip().frame_count))
+    for (const goal_character& each : characters_of(job.plan, job.limbs, file.clip().frame_count)) {
         out["each_character"].push_back(
             {{"place", each.place}, {"size", each.size}, {"start", each.first + each.start}});
+        if (job.plan.carry) out["each_character"].back()["carries"] = each.carries == 1;
+    }
     out.update(json_of(statistics));
     out["seconds"] = seconds;
     if (!options.out.empty()) out["out"] = options.out;

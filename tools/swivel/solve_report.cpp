@@ -62,6 +62,9 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
                 ? "level"
                 : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
             job.contacts.empty() ? "" : " when " + shown_file(job.contacts) + " says", -job.plan.shift_wish);
+    if (const auto& carry = job.plan.carry)
+        say(to, "carry    {:.3g} % of the characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
+            100 * carry->share, carry->size.x(), carry->size.y(), carry->size.z());
     say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
         job.targets == "clip" ? "the clip" : shown_file(job.targets),
         options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
@@ -79,6 +82,8 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
                                {"seed", job.plan.seed},
                                {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
+    if (const auto& carry = job.plan.carry)
+        out["carry"] = {{"share", carry->share}, {"size", {carry->size.x(), carry->size.y(), carry->size.z()}}};
     if (job.plan.ground) out["ground"] = job.heights.empty() ? "level" : job.heights;
     if (!job.contacts.empty()) out["contacts"] = job.contacts;
     for (std::size_t n = 0; n < job.plan.clips.size(); ++n) {

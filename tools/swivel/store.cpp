@@ -127,6 +127,9 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
     if (job.plan.look)
         throw formats::InputError(options.crowd.crowd, job.crowd->look->line,
                                   "look: a cache has limbs alone, no heads; take this out");
+    if (job.plan.carry)
+        throw formats::InputError(options.crowd.crowd, job.crowd->carry->line,
+                                  "carry: a cache does not keep who carries a box; take this out");
     CachedCrowd crowd = cached_clip({title_of(options.crowd.file), motion_of(file, job)}, clip, job.limbs, job.plan,
                                     ClipMotion(clip, job.limbs, job.plan));
     crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);

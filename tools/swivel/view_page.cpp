@@ -164,6 +164,7 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd, const s
                         {"turns", base64_of(std::span(skin->turns))},
                         {"head", skin->head},
                         {"face", skin->face}};
+    if (cached.box) page["box"] = *cached.box;
     if (cached.look) page["look"] = json_of_look(*cached.look);
     const LimbSkeleton skeleton = skeleton_of(crowd.limbs());
     page["skeleton"] = {

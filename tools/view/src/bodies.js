@@ -9,6 +9,7 @@ import {
 
 import bodyFragment from "./body.frag.glsl";
 import bodyVertex from "./body.vert.glsl";
+import { Boxes } from "./boxes.js";
 import capsule from "./capsule.glsl";
 import { CHOSEN, flagColours, flagMasks, LIMB_COLOURS, rampColours, rgb } from "./colours.js";
 import crowdGlsl from "./crowd.glsl";
@@ -80,6 +81,8 @@ export class Bodies {
         this.addBody();
         this.limbs = stage.limbs.map((limb) => this.addLimb(limb));
         this.capsules = this.meshes.slice();
+        this.boxes = stage.data.box ? new Boxes(stage, stage.data.box, this.shared) : null;
+        if (this.boxes) this.meshes.push(...this.boxes.meshes);
         this.skins = null;
         this.colouredBy = 0;
     }
@@ -151,7 +154,9 @@ export class Bodies {
         for (const mesh of this.capsules) mesh.geometry.instanceCount = drawnCount + (this.extra === null ? 0 : 1);
         this.isInSkins = this.colouredBy === SKIN && drawnCount <= MOST_SKINS;
         this.isPosed = false;
-        for (const mesh of this.meshes) mesh.visible = this.capsules.includes(mesh) !== this.isInSkins;
+        for (const mesh of this.capsules) mesh.visible = !this.isInSkins;
+        for (const mesh of this.skins?.meshes ?? []) mesh.visible = this.isInSkins;
+        this.boxes?.show(drawnCount, this.extra);
     }
     /** Before a picture: poses skins, once after all that has been shown. */
     pose() {

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise of a crowd file's [carry]: those who carry a box have both wrists beside it, all else stays as it is.
+// Checked in the files that are written, by the tests' own forward kinematics.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/crowd_stage.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kAll = "[carry]\nshare = 1\n";
+const std::string kNoHands = "[limb.left_arm]\nhand = false\n[limb.right_arm]\nhand = false\n";
+const std::string kCrowd = "[crowd]\ncharacters = 300\nlimbs = \"all\"\n";
+
+// Of one frame: the wrists from the middle of the shoulders, to the left, up and ahead as the chest has it. At rest its
+// joint has the world's axes.
+struct Held {
+    Vector3d left, right;
+};
+Held held_in(const PlainMotion& motion, std::size_t frame, const Vector3d& face)
+{
+    Matrix3d axes;
+    axes << Vector3d::UnitY().cross(face), Vector3d::UnitY(), face;
+    const std::vector<PlainPose> pose = pose_of(motion, frame);
+    const auto at = [&](const char* name) { return pose[static_cast<std::size_t>(joint_named(motion, name))]; };
+    const auto offset = [&](const char* name) { return motion.joint(joint_named(motion, name)).offset; };
+    const PlainPose chest = at("Spine1");
+    const Vector3d shoulders =
+        0.5 * (offset("LeftShoulder") + offset("LeftArm") + offset("RightShoulder") + offset("RightArm"));
+    const auto from_shoulders = [&](const char* name) {
+        const Vector3d from_chest = chest.rotation.transpose() * (at(name).position - chest.position);
+        return Vector3d(axes.transpose() * (from_chest - shoulders));
+    };
+    return {from_shoulders("LeftHand"), from_shoulders("RightHand")};
+}
+
+std::size_t carrier_count(const nlohmann::json& crowd)
+{
+    return static_cast<std::size_t>(
+        std::ranges::count_if(crowd.at("each_character"), [](const auto& each) { return each.at("carries") == true; }));
+}
+
+}  // namespace
+
+TEST_CASE("both wrists go along with a box on the chest, and nothing else moves")
+{
+    const CrowdStage stage;
+    const PlainMotion motion = stage.motion(kAll + "size = [6, 4, 5]\nplace = [1, -5, 7]\n");
+    const Vector3d face = stage.face();
+    const Held first = held_in(motion, 0, face);
+    const Vector3d palm = first.left - Vector3d(1 + 3, -5, 7), middle = 0.5 * (first.left + first.right);
+    CHECK((palm - Vector3d(palm.x(), 0, palm.z())).norm() < 1e-3);  // beside the box, and behind its middle
+    CHECK(palm.x() > 0);
+    CHECK(palm.z() < 0);
+    CHECK((middle - Vector3d(1, -5, 7 + palm.z())).norm() < 1e-3);
+    for (std::size_t frame = 0; frame < motion.lines.size(); ++frame) {
+        const Held held = held_in(motion, frame, face);
+        CHECK((held.left - first.left).norm() < 1e-3);
+        CHECK((held.right - first.right).norm() < 1e-3);
+        const std::vector<PlainPose> was = pose_of(stage.clip, frame), is = pose_of(motion, frame);
+        for (const char* name : {"Head", "LeftArm", "RightArm", "LeftFoot", "RightToeBase"}) {
+            const auto joint = static_cast<std::size_t>(joint_named(motion, name));
+            CHECK((is[joint].position - was[joint].position).norm() < 1e-3);
+        }
+    }
+}
+
+TEST_CASE("a share of a crowd carries boxes, by the seed, and who has none moves as in a crowd without them")
+{
+    const CrowdStage stage;
+    const Words few{"--frames", "3"};
+    const nlohmann::json some = stage.json(kCrowd + "[carry]\nshare = 0.3\n", few),
+                         without = stage.json(kCrowd + kNoHands, few);
+    const std::size_t count = carrier_count(some);
+    CHECK(count > 60);
+    CHECK(count < 120);
+    CHECK(carrier_count(stage.json(kCrowd + kAll, few)) == 300);
+    CHECK(carrier_count(stage.json(kCrowd + "[carry]\nshare = 0\n", few)) == 0);
+    const auto carriers = [&](const Words& more) {
+        Words words = few;
+        words.insert(words.end(), more.begin(), more.end());
+        return stage.json(kCrowd + "[carry]\nshare = 0.3\n", words).at("each_character");
+    };
+    CHECK(carriers({"--seed", "2"}) != some.at("each_character"));
+    for (std::size_t n = 0; n < 300; ++n) {
+        nlohmann::json each = some.at("each_character").at(n);
+        each.erase("carries");
+        CHECK(each == without.at("each_character").at(n));
+    }
+    for (const std::string& more : {std::string(), std::string("[ground]\n")})
+        for (const char* limb : {"left_arm", "right_leg"}) {
+            const auto boxes = stage.rows(kCrowd + "[carry]\nshare = 0.3\n" + more, limb, "", few),
+                       none = stage.rows(kCrowd + kNoHands + more, limb, "", few);
+            REQUIRE(boxes.size() == none.size());
+            std::size_t moved = 0;
+            for (std::size_t n = 0; n < boxes.size(); ++n) {
+                const bool carries = some.at("each_character").at(boxes[n].character).at("carries");
+                const auto same = [&](std::size_t joint) {
+                    return boxes[n].joint[joint].coeffs() == none[n].joint[joint].coeffs();
+                };
+                const bool is_same = same(0) && same(1) && same(2);
+                if (!carries || limb[0] == 'r') CHECK(is_same);
+                moved += !is_same;
+            }
+            CHECK(moved == (limb[0] == 'l' ? 3 * count : 0));
+        }
+}
+
+TEST_CASE("boxes that cannot be carried are refused with file, line and key")
+{
+    const CrowdStage stage;
+    stage.require_refused("[carry]\nshare = 1.5\n", "c.toml:2: carry.share: ");
+    stage.require_refused("[carry]\nsize = [1, 0, 1]\n", "c.toml:2: carry.size: is not above 0; write [x, y, z]");
+    stage.require_refused("[carry]\nheavy = true\n", "c.toml:2: carry.heavy: ");
+    stage.require_refused("[crowd]\nlimbs = \"legs\"\n[carry]\n",
+                          "c.toml:3: carry: takes both arms, and not both are solved; write limbs = \"arms\" or "
+                          "\"all\" in [crowd], or take this out");
+    for (const char* key : {"hand = true", "effector = [1, 0, 0]", "weights.hand = 0.5", "pole.kind = \"hand\""}) {
+        INFO(key);
+        stage.require_refused("[carry]\n[limb.left_arm]\n" + std::string(key) + "\n",
+                              "is of a hand's goal, and with the table of line 1, carry, hands go along with forearms");
+    }
+    stage.require_refused("[carry]\n[crowd]\nlimbs = \"all\"\n[limb.left_leg]\nhand = true\neffector = [1, 0]\n",
+                          "limb.left_leg.effector");  // legs keep theirs
+    spill(stage.folder / "c.toml", "[carry]\n");
+    const Outcome stored = run_command(stage.folder.path, {"store", "clip.bvh", "cache", "--crowd", "c.toml"});
+    CHECK(stored.exit_code == 1);
+    CHECK_THAT(stored.err, Contains("c.toml:1: carry: a cache does not keep who carries a box; take this out"));
+}
