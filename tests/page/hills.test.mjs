@@ -45,6 +45,22 @@ test('the command\'s bits, played or scrubbed, and the shader\'s limbs and shado
     assert.ok(feet < 0.3, `an ankle is ${feet} heights from the ground`);
     const { share, colours } = await difference(page, () => page.evaluate(() => swivelPage.setFrame(20)));
     assert.ok(colours > 100 && share > 0.01, `${colours} colours, ${share} changed`);
+    const slides = await page.evaluate(() => {  // as drawn, and how fast the offset of a planted point fades
+      const { stage } = swivelPage;
+      return [20, 100, 110, 120].flatMap((frame) => {
+        swivelPage.setFrame(frame);
+        swivelPage.draw();
+        return stage.limbs.flatMap((limb) => {
+          const drawn = swivelPage.readback(limb, stage.characterCount), isLeg = limb.name.endsWith('leg');
+          return stage.characters.map((_, n) => [drawn[2 * n + 1][3],
+            isLeg && stage.flags(limb, n) & 2 ** 17 ? Math.hypot(...stage.read(limb, n, 'PLANT').subarray(6, 9)) / stage.armLength(limb, n) : -1]);
+        });
+      });
+    });
+    assert.ok(slides.every(([drawn, slide]) => Math.abs(drawn - slide) < 1e-5), `${slides}`);
+    assert.ok(slides.some(([drawn]) => drawn > 0.01) && slides.some(([drawn]) => drawn === 0) && slides.some(([drawn]) => drawn < 0), `${slides}`);
+    const slid = await difference(page, () => page.getByLabel('Colour limbs by').selectOption('Slide'));
+    assert.ok(slid.share > 0.002, `${slid.share}`);
     await page.evaluate(() => swivelPage.select({ limb: swivelPage.stage.limbs.find(({ name }) => name === 'left_arm'), character: 2 }));
     assert.equal(await page.textContent('.why'), 'It goes along with its body.');
   });

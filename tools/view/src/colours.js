@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The page's colours, light and dark, and what a limb's colour may say. limb.frag.glsl has the same ranges of error and flexion.
+// The page's colours, light and dark, and what a limb's colour may say. limb.frag.glsl has the same ranges of error, flexion and slide.
 import { Flag } from "swivel-wasm/layout.js";
 import { Color } from "three";
 
@@ -26,6 +26,8 @@ export const COLOUR_BY = [
     { name: "Error", unit: "from the target, in lengths of the limb", legend: RAMP.map((colour, n) => [colour, n < 4 ? `1e-0${8 - 2 * n}` : "1"]) },
     { name: "Flag", legend: FLAGS.map(([name, colour]) => [colour, name]) },
     { name: "Flexion", unit: "degrees", legend: RAMP.map((colour, n) => [colour, `${Math.round(37.5 * n)}`]) },
+    { name: "Slide", needs: "PLANT", unit: "of a foot that is down, in leg lengths a second; all else is grey",
+        legend: RAMP.map((colour, n) => [colour, ["0.001", "0.006", "0.03", "0.2", "1"][n]]) },
 ];
 
 /** A colour as the shaders take it: the screen's own numbers. */

@@ -4,6 +4,7 @@ uniform highp usampler2D uInputs, uResults;
 uniform int uTargetRow, uEffectorRow, uAimRow, uWeightsRow;                         // of inputs; -1: there are none
 uniform int uShoulderRow, uElbowRow, uWristRow, uFlagsRow, uStretchRow, uRecordRow;  // of results
 uniform int uGoalRow;       // of results, too: where a foot that stands was sent
+uniform int uPlantRow;      // of results, too: how a foot's point stands
 uniform int uBlocks;        // of the rows before the extra one
 uniform vec4 uHandFromArm;  // from the hand, which has the arm frame's axes at rest, to the wrist joint
 uniform vec3 uTip;          // the hand's end, in the wrist joint's frame
@@ -36,10 +37,17 @@ float missedBy(int limb, vec3 wrist, vec4 hand, float scale) {
     return length(miss);
 }
 
+// How fast a point that is down moves, in lengths of the limb a second; -1 where it is not down, or no foot.
+float slideOf(int limb, float limbLength) {
+    bool isDown = uPlantRow >= 0 && (int(number(uResults, uPlantRow + 10, limb)) & 1) == 1;
+    return isDown ? length(vector(uResults, uPlantRow + 6, limb)) / max(limbLength, 1e-30) : -1.0;
+}
+
 struct Limb {
     vec3 shoulder, elbow, wrist, tip;
     uint flags;
     float flexion, missed;  // radians; as swivel_residuals() has it, in arm lengths
+    float slide;            // as slideOf() has it
 };
 
 // SWIVEL_RECORD has the shoulder's place, the arm frame, the scale and both lengths, then the incoming rotations, which
@@ -56,5 +64,5 @@ Limb limbOf(int limb) {
     vec3 elbow = shoulder + bones.x * upperAxis, wrist = elbow + bones.y * foreAxis;
     return Limb(shoulder, elbow, wrist, wrist + sizes.x * turned(hand, uTip), word(uResults, uFlagsRow, limb),
                 acos(clamp(dot(upperAxis, foreAxis), -1.0, 1.0)),
-                missedBy(limb, wrist, hand, sizes.x) / max(bones.x + bones.y, 1e-30));
+                missedBy(limb, wrist, hand, sizes.x) / max(bones.x + bones.y, 1e-30), slideOf(limb, bones.x + bones.y));
 }

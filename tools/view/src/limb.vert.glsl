@@ -2,7 +2,7 @@
 uniform vec4 uRadii;  // at shoulder, elbow, wrist and the hand's end
 uniform int uChosen;  // a character, or -1
 flat out uint vFlags;
-flat out float vFlexion, vMissed, vChosen;
+flat out float vFlexion, vMissed, vSlide, vChosen;
 
 void main() {
     int character = characterOf(gl_InstanceID), n = int(part);
@@ -16,5 +16,6 @@ void main() {
     vFlags = limb.flags;
     vFlexion = limb.flexion;
     vMissed = limb.missed;
+    vSlide = limb.slide;
     vChosen = character == uChosen ? 1.0 : 0.0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the shader makes of a limb, read back for tests: elbow and wrist of those that are drawn, relative to the
-// character's place, and how far the limb misses, by the vertex shader's own function.
+// character's place, with how far the limb misses and how it slides, by the vertex shader's own function.
 import { BufferGeometry, FloatType, GLSL3, NearestFilter, Points, RGBAFormat, Scene, ShaderMaterial, WebGLRenderTarget } from "three";
 
 import crowdGlsl from "./crowd.glsl";
@@ -14,7 +14,7 @@ void main() {
     int character = characterOf(gl_VertexID / 2);
     Limb limb = limbOf(limbOfInstance(gl_VertexID / 2));
     vec3 root = rootOf(character) + vec3(0.0, risesOf(character).y, 0.0);
-    vJoint = vec4(root + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist), limb.missed);
+    vJoint = gl_VertexID % 2 == 0 ? vec4(root + limb.elbow, limb.missed) : vec4(root + limb.wrist, limb.slide);
     gl_Position = vec4((float(gl_VertexID) + 0.5) / float(2 * uCount) * 2.0 - 1.0, 0.0, 0.0, 1.0);
     gl_PointSize = 1.0;
 }`;
@@ -23,7 +23,7 @@ flat in vec4 vJoint;
 out vec4 colour;
 void main() { colour = vJoint; }`;
 
-/** Elbow and wrist in turns: three numbers each, and what the limb misses by. count: at most some thousand. */
+/** Elbow and wrist in turns: three numbers each, and what the limb misses by, or its slide. count: at most some thousand. */
 export function readback(view, limb, count) {
     const { bodies, renderer, camera } = view, { uniforms } = bodies.limbs[limb.index];
     const target = new WebGLRenderTarget(2 * count, 1, { type: FloatType, format: RGBAFormat, minFilter: NearestFilter, magFilter: NearestFilter });
