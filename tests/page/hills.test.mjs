@@ -94,6 +94,7 @@ test('boxes are between the hands of those who carry one, and are seen', async (
   const carrying = file('boxes.toml', `[crowd]
 limbs = "all"
 size = [0.8, 1.2]
+legs = [0.8, 1.2]
 [ground]
 [carry]
 share = 0.5

@@ -100,12 +100,12 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
     if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
     if (nearest_axis(figure.up_w) != Vector3d::UnitY())
         refuse("the figure does not stand along Y; turn the clip, or take this out");
-    plan.foot.y() = floor_of(clip);
     // Of clips one by one: from the end of one to the start of another is no motion.
     std::vector<ClipPart> parts = plan.clips;
     if (parts.empty()) parts = {{0, clip.frame_count, clip.frame_count}};
+    plan.foot.y() = floor_of(frames_of(clip, parts[0]));  // all others are put on the same floor
     const auto& own = file.ground->contacts;
-    if (own && parts.size() > 1)
+    if (own && !file.clips.empty())
         throw formats::InputError(file.path, own->line,
                                   fmt::format("{}: is of one clip; take this or crowd.clips out", own->key));
     LegMotion motion;  // of the first clip

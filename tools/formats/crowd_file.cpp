@@ -238,6 +238,9 @@ void read_crowd(TomlTable table, CrowdFile& to)
     to.seed = table.whole("seed", 0, INT64_MAX);
     to.spacing = table.number("spacing", 0, 1e6);
     to.size = table.range("size", 0.01, 100, 100);
+    to.legs = table.range("legs", 0.2, 5, 5);
+    to.arms = table.range("arms", 0.2, 5, 5);
+    to.spine = table.range("spine", 0.2, 5, 5);
     to.stagger = table.flag("stagger");
     to.loop = read_loop(table);
     to.clips = read_clips(table);

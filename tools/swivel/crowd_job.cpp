@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "tools/cli/command_error.h"
@@ -135,8 +136,41 @@ formats::Clip further_clip(const SolveOptions& options, const formats::FurtherCl
     return file.clip();
 }
 
-// Puts what the crowd performs in place of the clip: clips as they go on, or several of them, one after the other.
-// Returns the parts.
+constexpr std::size_t kBuilds = 8;  // figures of which each character is one, where proportions differ
+
+// The builds of a crowd, the clip's own first.
+std::vector<Proportions> builds_of(const SolveOptions& options, const formats::CrowdFile& file,
+                                   const std::vector<BodyPart>& body)
+{
+    const auto characters = file.characters ? file.characters->value : 1;
+    if ((!file.legs && !file.arms && !file.spine) || options.characters.value_or(characters) == 1)
+        return std::vector<Proportions>(1);
+    const std::uint64_t seed = file.seed ? static_cast<std::uint64_t>(file.seed->value) : CrowdPlan().seed;
+    std::mt19937_64 random(options.seed.value_or(seed));
+    const auto drawn = [&](const formats::Maybe<formats::NumberRange>& range) {
+        const double share = static_cast<double>(random() >> 11) * 0x1p-53;
+        return range ? range->value.least + (range->value.most - range->value.least) * share : 1;
+    };
+    std::vector<Proportions> builds(1);
+    while (builds.size() < kBuilds) {
+        const double legs = drawn(file.legs), arms = drawn(file.arms), spine = drawn(file.spine);
+        builds.push_back({legs, arms, spine});
+    }
+    const std::pair<const formats::Maybe<formats::NumberRange>*, Proportions> asked[] = {
+        {&file.legs, {0, 1, 1}}, {&file.arms, {1, 0, 1}}, {&file.spine, {1, 1, 0}}};
+    for (const auto& [range, alone] : asked) {
+        const std::string part = *range ? unknown_part(body, alone) : "";
+        if (!part.empty())
+            throw formats::InputError(
+                file.path, (*range)->line,
+                fmt::format("{}: no joint of the clip is known as {}; see swivel rig FILE, or take this out",
+                            (*range)->key, part));
+    }
+    return builds;
+}
+
+// Puts what the crowd performs in place of the clip: clips as they go on, or several of them, one after the other, each
+// by figures of all builds. Returns the parts.
 std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> joints, MotionFile& file, CrowdJob& job)
 {
     const formats::Clip& clip = file.clip();
@@ -150,22 +184,27 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
         const std::size_t most = options.frames > 0 ? options.frames : from.frame_count;
         const ClipLoop loop = is_loop ? job.loops.emplace_back(loop_of(*job.crowd, name, from, body)).loop : ClipLoop();
         const std::size_t first = parts.empty() ? 0 : parts.back().first + parts.back().count,
-                          count = is_loop ? job.frame_count + loop.length() : std::min(most, from.frame_count);
+                          count = is_loop ? job.frame_count + loop.length() : std::min(most, from.frame_count),
+                          all = job.builds.size() * (first + count);
         parts.push_back({first, count, is_loop ? loop.length() : count});
-        if (const double bytes = static_cast<double>((first + count) * from.joints.size()) * 32; bytes > 0x1p33)
+        if (const double bytes = static_cast<double>(all * from.joints.size()) * 32; bytes > 0x1p33)
             throw formats::InputError(
                 job.crowd->path,
-                fmt::format("crowd: {} frames of {} joints take {:.1f} GiB, more than 8; give fewer --frames",
-                            first + count, from.joints.size(), bytes / 0x1p30));
-        clips.push_back(is_loop ? looped(from, body, loop, count) : frames_of(from, parts.back().count));
+                fmt::format("crowd: {} frames of {} joints take {:.1f} GiB, more than 8; give fewer --frames", all,
+                            from.joints.size(), bytes / 0x1p30));
+        clips.push_back(is_loop ? looped(from, body, loop, count) : frames_of(from, count));
     };
     add("the clip", clip);
     for (const formats::FurtherClip& each : job.crowd->clips) {
         const formats::Clip further = further_clip(options, each, clip, joints, job);
         add(job.further.back().words, further);
     }
-    if (!is_loop) job.frame_count = clips[0].frame_count;
-    file.replace(clips.size() == 1 ? std::move(clips[0]) : joined(clips, body));
+    if (!is_loop) job.frame_count = parts[0].count;
+    formats::Clip all = clips.size() == 1 ? std::move(clips[0]) : joined(clips, body);
+    for (std::size_t build = 1; build < job.builds.size(); ++build)
+        for (std::size_t n = 0; n < clips.size(); ++n)
+            parts.push_back({build * all.frame_count + parts[n].first, parts[n].count, parts[n].starts});
+    file.replace(job.builds.size() == 1 ? std::move(all) : proportioned(all, job.body, job.builds));
     return parts;
 }
 
@@ -212,7 +251,8 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
         if (!finding.limb) job.missing.push_back(std::move(finding));
     job.frame_count = job.clip_frames = clip.frame_count;
     std::vector<ClipPart> parts;
-    if (job.crowd && (job.crowd->loop || !job.crowd->clips.empty()))
+    if (job.crowd) job.builds = builds_of(options, *job.crowd, job.body);
+    if (job.crowd && (job.crowd->loop || !job.crowd->clips.empty() || job.builds.size() > 1))
         parts = perform(options, joints_of(joints), file, job);
     if (!job.further.empty()) job.limbs = require_limbs(bind_limbs(clip, joints, choice), options.file);  // in all
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);

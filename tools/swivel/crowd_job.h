@@ -11,6 +11,7 @@
 #include "tools/crowd/clip_loop.h"
 #include "tools/crowd/crowd_plan.h"
 #include "tools/crowd/given_targets.h"
+#include "tools/crowd/proportions.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/motion_file.h"
 
@@ -32,6 +33,8 @@ struct CrowdJob {
     CrowdPlan plan;
     std::vector<FoundLoop> loops;  // of each clip, where they go on and on
     std::vector<FurtherMotion> further;
+    // Figures that perform the clips: all clips by the first one, then by the next one.
+    std::vector<Proportions> builds = std::vector<Proportions>(1);
     std::size_t frame_count = 0;  // to solve: those of the first clip, fewer, or of loops any number
     std::size_t clip_frames = 0;  // that the file has
     std::string targets;          // "clip" or a file

@@ -62,6 +62,8 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
                 ? "level"
                 : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
             job.contacts.empty() ? "" : " when " + shown_file(job.contacts) + " says", -job.plan.shift_wish);
+    if (job.builds.size() > 1)
+        say(to, "builds   {}: the clip's own, and others whose legs, arms or spine differ\n", job.builds.size());
     if (const auto& carry = job.plan.carry)
         say(to, "carry    {:.3g} % of the characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
             100 * carry->share, carry->size.x(), carry->size.y(), carry->size.z());
@@ -89,10 +91,13 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
     for (std::size_t n = 0; n < job.plan.clips.size(); ++n) {
         const ClipPart& part = job.plan.clips[n];
         nlohmann::ordered_json& of = out["performed"].emplace_back();
-        of = {{"motion", n == 0 ? file.describe() : job.further[n - 1].words},
+        const std::size_t which = n % (1 + job.further.size());
+        const Proportions& build = job.builds[n / (1 + job.further.size())];
+        of = {{"motion", which == 0 ? file.describe() : job.further[which - 1].words},
               {"first", part.first},
               {"frames", part.count}};
-        if (!job.loops.empty()) of["loop"] = {job.loops[n].loop.first, job.loops[n].loop.last};
+        if (!job.loops.empty()) of["loop"] = {job.loops[which].loop.first, job.loops[which].loop.last};
+        if (job.builds.size() > 1) of["legs"] = build.legs, of["arms"] = build.arms, of["spine"] = build.spine;
     }
     if (!job.loops.empty()) out["loop"] = {job.loops[0].loop.first, job.loops[0].loop.last};
     if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;

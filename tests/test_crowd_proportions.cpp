@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise of crowd.legs, arms and spine: bones are so much longer, joints turn as they did, who walks goes as far
+// as the legs are long, and feet that stand are on the same floor.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "tests/crowd_stage.h"
+#include "tools/crowd/proportions.h"
+#include "tools/formats/bvh.h"
+#include "tools/rig/limbs.h"
+
+using namespace swivel;
+using namespace swivel::test;
+using namespace swivel::tools;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kBodies = "[crowd]\ncharacters = 60\nlimbs = \"all\"\nsize = [1, 1]\n";
+const std::string kBuilds = "legs = [0.7, 1.3]\narms = [0.8, 1.2]\nspine = [0.9, 1.1]\n";
+
+struct Bvh {
+    formats::Clip clip;
+    std::vector<BodyPart> body;
+
+    explicit Bvh(const CrowdStage& stage) : clip(formats::read_bvh(stage.folder / "clip.bvh").clip)
+    {
+        LimbChoice choice;
+        choice.kinds = "all";
+        body = bind_limbs(clip, choose_joints(clip, "clip.bvh", choice), choice).body;
+    }
+    std::size_t joint(std::string_view name) const
+    {
+        return static_cast<std::size_t>(std::ranges::find(clip.joints, name, &formats::Joint::name) -
+                                        clip.joints.begin());
+    }
+};
+
+// Where all joints are, by products of the clip's own rotations and places.
+std::vector<Vector3d> places_of(const formats::Clip& clip, std::size_t frame)
+{
+    std::vector<Vector3d> places;
+    std::vector<Quaterniond> turns;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        const int above = clip.joints[n].parent;
+        const Vector3d place = formats::local_translation(clip, frame, n);
+        const Quaterniond& turn = clip.rotation[frame * clip.joints.size() + n];
+        const auto at = static_cast<std::size_t>(above);
+        places.push_back(above < 0 ? place : Vector3d(places[at] + turns[at] * place));
+        turns.push_back(above < 0 ? turn : turns[at] * turn);
+    }
+    return places;
+}
+
+}  // namespace
+
+TEST_CASE("bones have their factors, joints turn as they did, and feet that stand keep their floor")
+{
+    const Bvh from{CrowdStage{0, 5}};
+    const Proportions builds[] = {{}, {0.75, 1.25, 1.1}};
+    const formats::Clip both = proportioned(from.clip, from.body, builds);
+    const std::size_t count = from.clip.frame_count, joints = from.clip.joints.size();
+    REQUIRE(both.frame_count == 2 * count);
+    const auto at = [&](const std::vector<Vector3d>& places, std::string_view name) {
+        return places[from.joint(name)];
+    };
+    const auto length = [&](const std::vector<Vector3d>& places, std::string_view a, std::string_view b) {
+        return (at(places, a) - at(places, b)).norm();
+    };
+    const auto middle = [&](const std::vector<Vector3d>& places) {
+        return Vector3d(0.5 * (at(places, "LeftUpLeg") + at(places, "RightUpLeg")));
+    };
+    const std::vector<Vector3d> start = places_of(from.clip, 0), start_of_other = places_of(both, count);
+    double lowest = 1e9, lowest_of_other = 1e9;
+    for (std::size_t frame = 0; frame < count; ++frame) {
+        const std::vector<Vector3d> was = places_of(from.clip, frame), same = places_of(both, frame),
+                                    other = places_of(both, count + frame);
+        for (std::size_t n = 0; n < joints; ++n) {
+            CHECK((same[n] - was[n]).norm() < 1e-9);
+            const Quaterniond &is = both.rotation[(count + frame) * joints + n],
+                              &in_clip = from.clip.rotation[frame * joints + n];
+            CHECK(is.coeffs() == in_clip.coeffs());
+        }
+        for (const std::string side : {"Left", "Right"}) {
+            for (const auto& [a, b] : {std::pair{"UpLeg", "Leg"}, {"Leg", "Foot"}})
+                CHECK(length(other, side + a, side + b) == Approx(0.75 * length(was, side + a, side + b)));
+            for (const auto& [a, b] : {std::pair{"Arm", "ForeArm"}, {"ForeArm", "Hand"}})
+                CHECK(length(other, side + a, side + b) == Approx(1.25 * length(was, side + a, side + b)));
+            CHECK(length(other, side + "Foot", side + "ToeBase") ==
+                  Approx(length(was, side + "Foot", side + "ToeBase")));
+        }
+        CHECK(length(other, "Spine", "Spine1") == Approx(1.1 * length(was, "Spine", "Spine1")));
+        CHECK(length(other, "Hips", "LeftUpLeg") == Approx(length(was, "Hips", "LeftUpLeg")));
+        const Vector3d way = middle(was) - middle(start), way_of_other = middle(other) - middle(start_of_other);
+        CHECK((way_of_other - 0.75 * way).norm() < 1e-9);
+        for (const char* foot : {"LeftFoot", "RightFoot"}) {
+            lowest = std::min(lowest, at(was, foot).y());
+            lowest_of_other = std::min(lowest_of_other, at(other, foot).y());
+        }
+    }
+    CHECK(std::abs(lowest_of_other - lowest) < 0.02 * length(start, "LeftUpLeg", "LeftFoot"));
+}
+
+TEST_CASE("characters have one of eight builds by the seed, the first one its own, in every output")
+{
+    const CrowdStage stage;
+    const nlohmann::json out = stage.json(kBodies + kBuilds), again = stage.json(kBodies + kBuilds, {"--seed", "2"});
+    const nlohmann::json& performed = out.at("performed");
+    REQUIRE(performed.size() == 8);
+    CHECK(performed.at(0).at("legs") == 1);
+    CHECK(again.at("performed").at(1).at("legs") != performed.at(1).at("legs"));
+    std::set<std::size_t> seen;
+    const std::size_t frames = performed.at(0).at("frames");
+    for (const nlohmann::json& each : out.at("each_character"))
+        seen.insert(each.at("start").get<std::size_t>() / frames);
+    CHECK(seen.size() == 8);
+    CHECK(out.at("each_character").at(0).at("start") == 0);
+    for (std::size_t n = 1; n < 8; ++n)
+        for (const auto& [key, least, most] : {std::tuple{"legs", 0.7, 1.3}, {"arms", 0.8, 1.2}, {"spine", 0.9, 1.1}}) {
+            CHECK(performed.at(n).at(key) > least);
+            CHECK(performed.at(n).at(key) < most);
+        }
+    CHECK(out.at("out_of_reach") == 0);
+    // With targets of one's own all bodies reach for one place.
+    const nlohmann::json there =
+        stage.json("[crowd]\ncharacters = 60\nspacing = 0\nsize = [1, 1]\nstagger = false\narms = [0.5, 2]\n");
+    CHECK(there.at("out_of_reach") == 0);
+    // One character alone is the clip's own, and can be written as its clip.
+    CHECK(stage.motion("[crowd]\nlegs = [0.7, 1.3]\n").header == stage.clip.header);
+}
+
+TEST_CASE("proportions that cannot be are refused with file, line and key")
+{
+    const CrowdStage stage;
+    stage.require_refused("[crowd]\nlegs = [0.1, 1]\n", "c.toml:2: crowd.legs: ");
+    stage.require_refused("[crowd]\narms = 1.2\n", "c.toml:2: crowd.arms: ");
+    spill(stage.folder / "arms.bvh", kTwoArms);
+    for (const auto& [key, part] : {std::pair{"legs", "leftUpperLeg"}, {"spine", "spine"}}) {
+        spill(stage.folder / "c.toml", "[crowd]\ncharacters = 2\n" + std::string(key) + " = [0.9, 1.1]\n");
+        const Outcome unknown = run_command(stage.folder.path, {"solve", "arms.bvh", "--crowd", "c.toml"});
+        CHECK(unknown.exit_code == 1);
+        CHECK_THAT(unknown.err, Contains("c.toml:3: crowd." + std::string(key) + ": no joint of the clip is known as " +
+                                         part + "; see swivel rig FILE, or take this out"));
+    }
+}
