@@ -50,7 +50,7 @@ async function open(path) {
   const part = ({ data, shape }, index) => data.subarray(index * shape[2], (index + 1) * shape[2]);
   const sources = attrs.limbs.map((_, limb) => Buffer.concat(Array.from({ length: frames }, (__, frame) => {
     const row = clip.map((array) => Buffer.from(part(array, limb * frames + frame).slice().buffer));
-    return Buffer.concat([...row, Buffer.alloc(4)]);
+    return Buffer.concat([...row.slice(0, 6), Buffer.alloc(24), ...row.slice(6), Buffer.alloc(4)]);  // nobody carries a box
   })));
   const [size, place, ...words] = await readAll(...['size', 'place', 'start', 'first', 'count', 'wish'].map((name) => `character/${name}`));
   const [start, first, count, wish] = words.map(({ data }) => data);
@@ -140,7 +140,7 @@ class Column {
     this.count = Math.min(most, characters - first);
     const who = Array.from({ length: this.count }, (_, n) => first + n);
     this.characters = this.keep(Buffer.concat(who.map((c) => Buffer.concat([
-      doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c]), floats(cache.wish[c]), words(cache.first[c], cache.count[c])]))));
+      doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c]), floats(cache.wish[c]), words(cache.first[c], cache.count[c], 0, 0)]))));
     this.ground = cache.heights ? [this.keep(groundBytes(cache.attrs.ground)), this.keep(Buffer.from(cache.heights.slice().buffer))] : [0, 0];
     this.plans = this.keep(Buffer.concat(limbs.map(({ goals }) => planBytes(goals))));
     this.sources = this.keep(words(...cache.sources.map((bytes) => this.keep(bytes))));
