@@ -6,8 +6,12 @@
 #include <catch2/catch.hpp>
 
 #include "tests/crowd_stage.h"
+#include "tools/crowd/carry_plan.h"
+#include "tools/formats/bvh.h"
 
+using namespace swivel;
 using namespace swivel::test;
+using namespace swivel::tools;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -110,6 +114,29 @@ TEST_CASE("a share of a crowd carries boxes, by the seed, and who has none moves
         }
 }
 
+TEST_CASE("in a mirror each wrist is at the side of its own arm")
+{
+    const CrowdStage stage;
+    formats::Clip clip = formats::read_bvh(stage.folder / "clip.bvh").clip;
+    for (const double mirror : {1.0, -1.0}) {
+        clip.joints[0].rest_scale.x() = mirror;
+        const LimbChoice choice;
+        const LimbSearch search = bind_limbs(clip, choose_joints(clip, "clip.bvh", choice), choice);
+        const std::vector<Limb> arms = require_limbs(search, "clip.bvh");
+        const std::vector<formats::JointPose> pose = rest_pose(clip);
+        REQUIRE(why_not_carry(clip, arms).empty());
+        const CarryPlan plan =
+            plan_carry(clip, arms, {1, Vector3d(8, 4, 4), Vector3d(0, -5, 7), 1}, Vector3d::UnitY(), stage.face());
+        for (const Limb& arm : arms) {
+            const auto away = [&](const Limb& from) {
+                return (carrying_wrist(plan, arm.name, pose) - pose[static_cast<std::size_t>(from.upper())].position)
+                    .norm();
+            };
+            CHECK(away(arm) < away(&arm == &arms[0] ? arms[1] : arms[0]));
+        }
+    }
+}
+
 TEST_CASE("boxes that cannot be carried are refused with file, line and key")
 {
     const CrowdStage stage;
@@ -118,7 +145,7 @@ TEST_CASE("boxes that cannot be carried are refused with file, line and key")
     stage.require_refused("[carry]\nheavy = true\n", "c.toml:2: carry.heavy: ");
     stage.require_refused("[crowd]\nlimbs = \"legs\"\n[carry]\n",
                           "c.toml:3: carry: takes both arms, and not both are solved; write limbs = \"arms\" or "
-                          "\"all\" in [crowd], or take this out");
+                          "\"all\" in [crowd], see swivel rig FILE, or take this out");
     for (const char* key : {"hand = true", "effector = [1, 0, 0]", "weights.hand = 0.5", "pole.kind = \"hand\""}) {
         INFO(key);
         stage.require_refused("[carry]\n[limb.left_arm]\n" + std::string(key) + "\n",

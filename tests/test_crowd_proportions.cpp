@@ -113,8 +113,11 @@ TEST_CASE("characters have one of eight builds by the seed, the first one its ow
     CHECK(again.at("performed").at(1).at("legs") != performed.at(1).at("legs"));
     std::set<std::size_t> seen;
     const std::size_t frames = performed.at(0).at("frames");
-    for (const nlohmann::json& each : out.at("each_character"))
-        seen.insert(each.at("start").get<std::size_t>() / frames);
+    for (const nlohmann::json& each : out.at("each_character")) {
+        const std::size_t build = each.at("start").get<std::size_t>() / frames;
+        seen.insert(build);
+        CHECK(each.at("performs") == build);
+    }
     CHECK(seen.size() == 8);
     CHECK(out.at("each_character").at(0).at("start") == 0);
     for (std::size_t n = 1; n < 8; ++n)
@@ -122,13 +125,28 @@ TEST_CASE("characters have one of eight builds by the seed, the first one its ow
             CHECK(performed.at(n).at(key) > least);
             CHECK(performed.at(n).at(key) < most);
         }
-    CHECK(out.at("out_of_reach") == 0);
-    // With targets of one's own all bodies reach for one place.
-    const nlohmann::json there =
-        stage.json("[crowd]\ncharacters = 60\nspacing = 0\nsize = [1, 1]\nstagger = false\narms = [0.5, 2]\n");
-    CHECK(there.at("out_of_reach") == 0);
+    // One place is too far away for short arms alone.
+    const auto shoulder = [&](std::size_t arm) { return arm_pose(stage.clip, stage.arms[arm], 0).shoulder; };
+    const Vector3d above = 0.5 * (shoulder(0) + shoulder(1)) + Vector3d(0, stage.arms[0].length(), 0);
+    const std::string one_place = "spacing = 0\nstagger = false\narms = [0.5, 2]\n[limb.arms]\ntarget.point = ";
+    const nlohmann::json there = stage.json(kBodies + one_place + text_of(above) + "\n", {"--frames", "1"});
+    CHECK(there.at("out_of_reach") > 10);
+    CHECK(there.at("out_of_reach") < 110);
+    CHECK(stage.json(kBodies + "arms = [0.9, 0.9]\n").at("performed").size() == 2);
     // One character alone is the clip's own, and can be written as its clip.
     CHECK(stage.motion("[crowd]\nlegs = [0.7, 1.3]\n").header == stage.clip.header);
+}
+
+TEST_CASE("a figure's root on the ground stays there, and so do bodies of all sizes")
+{
+    const TempFolder folder;
+    spill(folder / "c.toml", "[crowd]\ncharacters = 40\nlimbs = \"all\"\nsize = [0.5, 0.5]\nlegs = [0.3, 0.4]\n");
+    const Outcome outcome = run_command(
+        folder.path, {"solve", std::string(SWIVEL_SOURCE_DIR "/tools/view/figure.glb"), "--crowd", "c.toml", "--json"});
+    REQUIRE(outcome.exit_code == 0);
+    const nlohmann::json out = nlohmann::json::parse(outcome.out);
+    for (const nlohmann::json& each : out.at("each_character"))
+        CHECK(std::abs(each.at("place").at(1).get<double>()) < 1e-6);
 }
 
 TEST_CASE("proportions that cannot be are refused with file, line and key")

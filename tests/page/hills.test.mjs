@@ -90,6 +90,47 @@ test('a dragged foot, let go again, and as a table for the command', async () =>
   }, { acceptDownloads: true });
 });
 
+test('dragged hips go down as far as they may, with the feet where they stand; let go, undone, and everyone\'s', async () => {
+  await visit(write('hips.html', ...words), async (page) => {
+    const seen = () => page.evaluate(() => {
+      const { stage } = swivelPage, legs = stage.limbs.filter(({ name }) => name.endsWith('leg'));
+      return stage.characters.map((_, n) => ({ hip: stage.shoulder(legs[0], n)[1], feet: legs.map((leg) => stage.pose(leg, n).wrist), length: stage.armLength(legs[0], n) }));
+    });
+    const pull = async (pixels) => {
+      const from = await page.evaluate(() => swivelPage.view.project(swivelPage.picker.handles.hips.position.toArray()));
+      await drag(page, from, { x: from.x, y: from.y + pixels });
+    };
+    await page.evaluate(() => {
+      swivelPage.setFrame(20);  // they stand
+      swivelPage.select({ limb: swivelPage.stage.limbs[0], character: 3 });
+      swivelPage.look(swivelPage.stage.limbs[0], 3);
+      swivelPage.draw();
+    });
+    const before = await seen();
+    await pull(60);
+    const low = await seen();
+    for (const [n, { hip, feet, length }] of before.entries()) {
+      const down = (hip - low[n].hip) / length, off = Math.max(...feet.flatMap((foot, leg) => foot.map((x, axis) => Math.abs(x - low[n].feet[leg][axis])))) / length;
+      assert.ok(n === 3 ? down > 0.05 && down < 0.11 : down === 0, `${n} went down by ${down}`);
+      assert.ok(off < 0.02, `a foot of ${n} went ${off} away`);
+    }
+    assert.deepEqual((await digests(page, [20])).map(([, state]) => state), ['changed']);
+    assert.deepEqual([await page.getByRole('button', { name: 'Save as table' }).isVisible(), await page.getByRole('button', { name: 'Let all go' }).isVisible()], [false, true]);
+    await page.getByRole('button', { name: 'Undo' }).click();
+    assert.deepEqual((await digests(page, [20])).map(([, state]) => state), ['equal']);
+    await page.getByLabel("Drag everyone's").check();
+    await pull(60);
+    const all = await seen();
+    const down = before.map(({ hip, length }, n) => (hip - all[n].hip) / length);  // some have come down for their slope already
+    assert.ok(down.filter((by) => by > 0.05).length > 6 && down.every((by) => by > -1e-3), `${down}`);
+    await page.getByRole('button', { name: 'Let go', exact: true }).click();
+    const still = await seen();
+    assert.ok(Math.abs(still[3].hip - before[3].hip) < 0.01 * before[3].length && still.every(({ hip }, n) => n === 3 || hip === all[n].hip));
+    await page.getByRole('button', { name: 'Let all go' }).click();
+    assert.deepEqual((await digests(page, [20, 149, 20])).map(([, state]) => state), ['equal', 'equal', 'equal']);
+  });
+});
+
 test('boxes are between the hands of those who carry one, and are seen', async () => {
   const carrying = file('boxes.toml', `[crowd]
 limbs = "all"
@@ -102,16 +143,18 @@ size = [6, 4, 5]
 `);
   await visit(write('boxes.html', 'view', clip, '--characters', '12', '--frames', '60', '--crowd', carrying), async (page) => {
     assert.ok((await digests(page, [0, 59, 30])).every(([, state]) => state === 'equal'));
-    const [count, hands] = await page.evaluate(() => {
-      const { stage, view: { bodies: { boxes } } } = swivelPage, hands = [];
+    const [count, hands, axes] = await page.evaluate(() => {
+      const { stage, view: { bodies: { boxes } } } = swivelPage, hands = [], axes = [];
       boxes.carriers.forEach((character, n) => {
         const matrix = boxes.meshes[0].matrixWorld.clone();
         boxes.meshes[0].getMatrixAt(n, matrix);
         const side = (name) => stage.pose(stage.limbs.find((limb) => limb.name === name), character).wrist;
+        axes.push([matrix.elements[5], matrix.elements[10]].map((part) => part / stage.characters[character].size));
         hands.push(...['left_arm', 'right_arm'].map((name) => boxes.meshes[0].position.clone().fromArray(side(name)).applyMatrix4(matrix.clone().invert()).toArray()));
       });
-      return [boxes.meshes[0].count, hands];
+      return [boxes.meshes[0].count, hands, axes];
     });
+    assert.ok(axes.every(([up, ahead]) => up > 0.8 && ahead > 0.7), `${axes}`);  // the figures face +z
     assert.ok(count > 2 && count < 10 && hands.length === 2 * count, `${count} boxes`);
     hands.forEach(([x, y, z], n) => {  // in its axes, of size 1: beside it, behind its middle
       const palm = (n % 2 ? -x : x) - 3;

@@ -31,34 +31,42 @@ int chest_of(const formats::Clip& clip, std::span<const Limb> arms)
 
 }  // namespace
 
-bool can_carry(const formats::Clip& clip, std::span<const Limb> limbs)
+std::string why_not_carry(const formats::Clip& clip, std::span<const Limb> limbs)
 {
     const std::vector<Limb> arms = arms_of(limbs);
-    if (arms.size() != 2) return false;
+    if (arms.size() != 2)
+        return "takes both arms, and not both are solved; write limbs = \"arms\" or \"all\" in [crowd], see swivel rig "
+               "FILE";
     const int chest = chest_of(clip, arms);
-    return chest >= 0 && rest_pose(clip)[static_cast<std::size_t>(chest)].scale > 0;
+    if (chest < 0) return "goes along with the joint where both arms meet, and there is none; give the arms one";
+    if (rest_pose(clip)[static_cast<std::size_t>(chest)].scale == 0)
+        return "goes along with the joint where both arms meet, and that has no size; give it one";
+    return {};
 }
 
-CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, double share,
-                     const std::optional<Vector3d>& size, const std::optional<Vector3d>& place, const Vector3d& up_w,
-                     const Vector3d& faces_w)
+CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, const AskedBox& asked,
+                     const Vector3d& up_w, const Vector3d& faces_w)
 {
-    const std::vector<Limb> arms = arms_of(limbs);
+    std::vector<Limb> arms = arms_of(limbs);
+    std::ranges::sort(arms, {}, [](const Limb& arm) { return arm.name; });  // the left one first
     const std::vector<formats::JointPose> rest = rest_pose(clip);
     const auto at = [&](int joint) { return rest[static_cast<std::size_t>(joint)]; };
     double length = 0;
     for (const Limb& arm : arms) length += 0.5 * (double{arm.bound.lengths[0]} + double{arm.bound.lengths[1]});
+    length *= asked.shortest;
     Eigen::Matrix3d axes_w;
     axes_w << up_w.cross(faces_w), up_w, faces_w;
+    const Vector3d left = at(arms[0].upper()).position, right = at(arms[1].upper()).position;
     CarryPlan plan;
-    plan.share = share;
-    plan.size = size.value_or(length * Vector3d(kSize));
-    plan.place = place.value_or(length * Vector3d(kPlace));
-    plan.chest = chest_of(clip, arms);
+    plan.share = asked.share;
+    plan.size = asked.size.value_or(length * Vector3d(kSize));
+    plan.place = asked.place.value_or(length * Vector3d(kPlace));
     plan.palm = length * Vector3d(kPalm);
+    plan.left = axes_w.col(0).dot(left - right) < 0 ? -1 : 1;
+    plan.chest = chest_of(clip, arms);
     const formats::JointPose chest = at(plan.chest);
-    const Vector3d shoulders = 0.5 * (at(arms[0].upper()).position + at(arms[1].upper()).position);
-    plan.middle = chest.rotation.conjugate() * (shoulders + axes_w * plan.place - chest.position) / chest.scale;
+    const Vector3d place(plan.left * plan.place.x(), plan.place.y(), plan.place.z());
+    plan.middle = chest.rotation.conjugate() * (0.5 * (left + right) + axes_w * place - chest.position) / chest.scale;
     plan.turn = chest.rotation.conjugate() * Quaterniond(axes_w);
     return plan;
 }
@@ -67,7 +75,7 @@ Vector3d carrying_wrist(const CarryPlan& plan, formats::LimbName arm, std::span<
 {
     const formats::JointPose& chest = pose_w[static_cast<std::size_t>(plan.chest)];
     Vector3d wrist = 0.5 * plan.size.x() * Vector3d::UnitX() + plan.palm;
-    if (arm.side == formats::Side::right) wrist.x() = -wrist.x();
+    wrist.x() *= arm.side == formats::Side::left ? plan.left : -plan.left;
     return chest.position + chest.rotation * Vector3d(chest.scale * plan.middle + plan.turn * wrist);
 }
 

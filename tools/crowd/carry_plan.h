@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "tools/rig/limbs.h"
 
@@ -19,15 +20,20 @@ struct CarryPlan {
     Eigen::Vector3d middle;   // in the chest's axes and unit
     Eigen::Vector3d palm;     // from the middle of the box's left side to that wrist, in the box's axes
     Eigen::Quaterniond turn;  // from the box's axes to the chest's
+    double left;              // where the left arm is along the box's x: 1, or -1 in a mirror
 };
 
-// Whether both arms are there and meet at a joint that has a size.
-bool can_carry(const formats::Clip& clip, std::span<const Limb> limbs);
+// Why the figure cannot carry a box, and what to do: it takes both arms, and a joint where they meet. Empty: it can.
+std::string why_not_carry(const formats::Clip& clip, std::span<const Limb> limbs);
 
-// A box that suits the arms, unless size or place are given. up_w, faces_w: of the figure at rest, unit, at right
-// angles. can_carry() must be true.
-CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, double share,
-                     const std::optional<Eigen::Vector3d>& size, const std::optional<Eigen::Vector3d>& place,
+// What is asked for.
+struct AskedBox {
+    double share;
+    std::optional<Eigen::Vector3d> size, place;  // where not given, they suit the arms
+    double shortest;                             // of the arms, as a share of the clip's own
+};
+// up_w, faces_w: of the figure at rest, unit, at right angles. The figure must be able to carry.
+CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, const AskedBox& asked,
                      const Eigen::Vector3d& up_w, const Eigen::Vector3d& faces_w);
 
 // Where an arm's wrist is at the box's side, in the world. pose_w: of one frame of the clip.

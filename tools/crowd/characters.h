@@ -13,10 +13,10 @@
 namespace swivel::tools {
 
 // The characters of a crowd, one after the other. Character 0 is the first clip's own. The others differ by the seed: a
-// size within the plan's, one of its clips, and a start anywhere in that, if the plan staggers them. By the seed some
-// of them carry a box; character 0 does where all do. Their feet, which the plan says, stand on a square grid in X and
-// Z: character n in column n % w and row n / w, w = ceil(sqrt(characters)). Neighbours are the plan's spacing apart, in
-// arm spans, or in leg spans where no arm is solved.
+// size within the plan's, one of its clips, a start anywhere in that, if the plan staggers them, and whether they carry
+// a box; character 0 does where all do. Their feet, which the plan says, stand on a square grid in X and Z: character n
+// in column n % w and row n / w, w = ceil(sqrt(characters)). Neighbours are the plan's spacing apart, in arm spans, or
+// in leg spans where no arm is solved.
 class CharacterStream {
 public:
     CharacterStream(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count);

@@ -207,20 +207,6 @@ struct Planner {
     }
 };
 
-// Below the first joint's first place, as low as any joint ever is.
-Eigen::Vector3d foot_of(const formats::Clip& clip)
-{
-    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
-    double ground = std::numeric_limits<double>::infinity();
-    std::vector<formats::JointPose> pose_w(clip.joints.size());
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        formats::world_pose(clip, frame, pose_w);
-        if (frame == 0) foot = pose_w[0].position;
-        for (const formats::JointPose& joint : pose_w) ground = std::min(ground, joint.position.y());
-    }
-    return {foot.x(), std::isfinite(ground) ? ground : 0, foot.z()};
-}
-
 }  // namespace
 
 void add_choice(const CrowdFile& file, LimbChoice& choice)
@@ -247,10 +233,23 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
     }
 }
 
+Eigen::Vector3d foot_of(const formats::Clip& clip, std::size_t frame_count)
+{
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
+    double ground = std::numeric_limits<double>::infinity();
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (std::size_t frame = 0; frame < frame_count; ++frame) {
+        formats::world_pose(clip, frame, pose_w);
+        if (frame == 0) foot = pose_w[0].position;
+        for (const formats::JointPose& joint : pose_w) ground = std::min(ground, joint.position.y());
+    }
+    return {foot.x(), std::isfinite(ground) ? ground : 0, foot.z()};
+}
+
 CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs)
 {
     CrowdPlan plan;
-    plan.foot = foot_of(clip);
+    plan.foot = foot_of(clip, clip.frame_count);
     plan.limbs.resize(limbs.size());
     if (!file) return plan;
     require_solved(*file, limbs);

@@ -53,7 +53,8 @@ struct CrowdPlan {
     double least_size = 0.85, most_size = 1.15;      // factor of all lengths; the first character's is 1
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();  // in the clip: where characters of all sizes stand alike
     bool stagger = true;                             // characters start anywhere in their clip
-    std::vector<ClipPart> clips;                     // each character performs one of them; none: all frames are one
+    std::vector<ClipPart> clips;                     // each character performs one of them: a clip by a figure of one
+                                                     // build; none: all frames are one
     std::uint32_t budget_blocks = 0;                 // of 16 characters, solved in a frame; 0: all
     std::optional<Ground> ground;                    // that legs stand on: see tools/feet/standing.h
     double shift_wish = 0;                           // then: of a body of size 1
@@ -66,6 +67,9 @@ struct CrowdPlan {
 // the choice, and its limbs unless the choice has kinds already. Throws InputError naming line and key for joints of a
 // kind that is left out.
 void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
+
+// Below the first joint's first place, as low as any joint ever is in the first frames.
+Eigen::Vector3d foot_of(const formats::Clip& clip, std::size_t frame_count);
 
 // The plan for limbs of a clip. file: null without a crowd file; then all is as the clip has it. Throws InputError
 // naming line and key for tables of limbs that are not solved, for keys that mean nothing beside others, and for a

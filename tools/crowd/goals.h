@@ -21,7 +21,7 @@ typedef struct goal_source {
     double lengths[2];                                  // upper arm, forearm
     double origin[3];                                   // the shoulder in the world
     double root[3];                                     // where the pose hangs; the same of all limbs
-    double carried[3];                                  // where the wrist is of a character that carries a box
+    double carried[3];                                  // the wrist of who carries a box, from the shoulder
     float parent[4];                                    // of the joint above
     float shoulder[4], elbow_local[4], wrist_local[4];  // the clip's own pose between the two bones
     float contact;     // of a leg that stands: 1 while the clip has its foot on the ground, else 0

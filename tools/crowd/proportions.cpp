@@ -15,11 +15,15 @@ using Eigen::Vector3d;
 using formats::Clip;
 using formats::JointPose;
 
-// Scales the bones between two joints, or down from a joint `top`.
+// Scales the places of all joints that hang on a chain from `top` down to right above `joint`: they lie along its
+// bones.
 void scale_bones(const Clip& clip, int top, int joint, double factor, std::vector<double>& factors)
 {
-    for (; joint >= 0 && joint != top; joint = joint_at(clip, joint).parent)
-        factors[static_cast<std::size_t>(joint)] = factor;
+    do {
+        joint = joint_at(clip, joint).parent;
+        for (std::size_t n = 0; n < clip.joints.size(); ++n)
+            if (clip.joints[n].parent == joint) factors[n] = factor;
+    } while (joint != top);
 }
 
 // Of each joint, for its place in the frame of the one above.
@@ -27,24 +31,38 @@ std::vector<double> factors_of(const Clip& clip, const std::vector<BodyPart>& bo
 {
     std::vector<double> factors(clip.joints.size(), 1.0);
     const auto first = [&](const std::string& name) { return joints_of(body, name).front(); };
-    for (const std::string side : {"left", "right"}) {
-        if (to.legs != 1) scale_bones(clip, first(side + "UpperLeg"), first(side + "Foot"), to.legs, factors);
-        if (to.arms != 1) scale_bones(clip, first(side + "UpperArm"), first(side + "Hand"), to.arms, factors);
-    }
+    const auto scale_limb = [&](const std::string& upper, const std::string& end, double factor) {
+        if (factor != 1) scale_bones(clip, first(upper), first(end), factor, factors);
+    };
     if (to.spine != 1) {
-        const int hips = first("hips"), chest = joints_of(body, "spine").back();
-        scale_bones(clip, hips, chest, to.spine, factors);
-        for (std::size_t n = 0; n < clip.joints.size(); ++n)
-            if (clip.joints[n].parent == chest) factors[n] = to.spine;
+        const std::vector<int> spine = joints_of(body, "spine");
+        factors[static_cast<std::size_t>(spine.front())] = to.spine;
+        for (const int joint : spine)
+            for (std::size_t n = 0; n < clip.joints.size(); ++n)
+                if (clip.joints[n].parent == joint) factors[n] = to.spine;
+    }
+    for (const std::string side : {"left", "right"}) {
+        scale_limb(side + "UpperLeg", side + "Foot", to.legs);
+        scale_limb(side + "UpperArm", side + "Hand", to.arms);
     }
     return factors;
 }
 
-// How the legs carry a body: the joint that they all hang on, and in each frame the middle of both hips, from where
-// that starts at the height of an ankle that stands.
+// How legs carry a body: in each frame how far the middle of both hips is from where that starts, at the height of an
+// ankle that stands. The root takes the way along the ground, the hips that along Y, so roots on the ground stay there.
 struct LegsWay {
-    int root = -1;
-    std::vector<Vector3d> hips;
+    int root = -1, hips = -1;
+    std::vector<Vector3d> middle;
+    std::vector<JointPose> above;  // the hips
+
+    Vector3d of(int joint, std::size_t frame) const
+    {
+        Vector3d way = Vector3d::Zero();
+        if (joint == root) way += Vector3d(middle[frame].x(), 0, middle[frame].z());
+        if (joint == hips)
+            way += above[frame].rotation.conjugate() * Vector3d(0, middle[frame].y() / above[frame].scale, 0);
+        return way;
+    }
 };
 LegsWay legs_way(const Clip& clip, const std::vector<BodyPart>& body, std::span<const Proportions> builds)
 {
@@ -54,18 +72,20 @@ LegsWay legs_way(const Clip& clip, const std::vector<BodyPart>& body, std::span<
         return std::array{joints_of(body, "left" + name).front(), joints_of(body, "right" + name).front()};
     };
     const std::array upper = both("UpperLeg"), feet = both("Foot");
-    way.root = upper[0];
+    way.root = way.hips = joints_of(body, "hips").front();
     while (joint_at(clip, way.root).parent >= 0) way.root = joint_at(clip, way.root).parent;
     std::vector<JointPose> pose_w(clip.joints.size());
     std::vector<double> lower;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         formats::world_pose(clip, frame, pose_w);
-        const auto at = [&](int joint) { return pose_w[static_cast<std::size_t>(joint)].position; };
-        way.hips.push_back(0.5 * (at(upper[0]) + at(upper[1])));
-        lower.push_back(std::min(at(feet[0]).y(), at(feet[1]).y()));
+        const auto at = [&](int joint) { return pose_w[static_cast<std::size_t>(joint)]; };
+        const int above = joint_at(clip, way.hips).parent;
+        way.middle.push_back(0.5 * (at(upper[0]).position + at(upper[1]).position));
+        way.above.push_back(above < 0 ? JointPose() : at(above));
+        lower.push_back(std::min(at(feet[0]).position.y(), at(feet[1]).position.y()));
     }
-    const Vector3d start(way.hips[0].x(), quantile(std::move(lower), 0.25), way.hips[0].z());
-    for (Vector3d& place : way.hips) place -= start;
+    const Vector3d start(way.middle[0].x(), quantile(std::move(lower), 0.25), way.middle[0].z());
+    for (Vector3d& place : way.middle) place -= start;
     return way;
 }
 
@@ -75,10 +95,10 @@ std::string unknown_part(const std::vector<BodyPart>& body, const Proportions& a
 {
     std::vector<std::string> needed;
     for (const std::string side : {"left", "right"}) {
-        if (asked.legs != 1) needed.insert(needed.end(), {side + "UpperLeg", side + "Foot"});
+        if (asked.legs != 1) needed.insert(needed.end(), {side + "UpperLeg", side + "Foot", "hips"});
         if (asked.arms != 1) needed.insert(needed.end(), {side + "UpperArm", side + "Hand"});
     }
-    if (asked.spine != 1) needed.insert(needed.end(), {"hips", "spine"});
+    if (asked.spine != 1) needed.push_back("spine");
     for (const std::string& name : needed)
         if (joints_of(body, name).empty()) return name;
     return {};
@@ -94,7 +114,8 @@ Clip proportioned(const Clip& clip, const std::vector<BodyPart>& body, std::span
     all.rotation.clear(), all.translation.clear(), all.scale.clear();
     all.track_count = 0, all.frame_count = builds.size() * clip.frame_count;
     for (std::size_t n = 0; n < joints; ++n) {
-        const bool moves = clip.joints[n].track >= 0 || static_cast<int>(n) == legs.root ||
+        const bool carries = static_cast<int>(n) == legs.root || static_cast<int>(n) == legs.hips;
+        const bool moves = clip.joints[n].track >= 0 || carries ||
                            std::ranges::any_of(factors, [&](const auto& of) { return of[n] != 1; });
         all.joints[n].track = moves ? static_cast<int>(all.track_count++) : -1;
     }
@@ -103,7 +124,7 @@ Clip proportioned(const Clip& clip, const std::vector<BodyPart>& body, std::span
             for (std::size_t n = 0; n < joints; ++n) {
                 if (all.joints[n].track < 0) continue;
                 Vector3d place = factors[build][n] * formats::local_translation(clip, frame, n);
-                if (static_cast<int>(n) == legs.root) place += (builds[build].legs - 1) * legs.hips[frame];
+                if (builds[build].legs != 1) place += (builds[build].legs - 1) * legs.of(static_cast<int>(n), frame);
                 all.translation.push_back(place);
             }
     for (std::size_t build = 0; build < builds.size(); ++build) {

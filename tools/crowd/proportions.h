@@ -13,19 +13,19 @@
 namespace swivel::tools {
 
 // Factors of the bones' lengths. Legs are thighs and shins, arms upper arms and forearms; the spine leads from the hips
-// to neck and clavicles.
+// to all joints that hang on the chest. What else hangs on these bones lies along them.
 struct Proportions {
     double legs = 1, arms = 1, spine = 1;
 
-    bool is_own() const { return legs == 1 && arms == 1 && spine == 1; }
+    bool operator==(const Proportions&) const = default;
 };
 
 // The parts without which it cannot be told which joints these factors are of, in VRM's words; empty: all are known.
 std::string unknown_part(const std::vector<BodyPart>& body, const Proportions& asked);
 
 // All frames of the clip by a figure of each build, one after the other. Joints turn as they did. The root goes as far
-// as the legs are long, and is as high as they need: the middle of both hips is scaled about where it starts, at the
-// height of an ankle that stands. All parts must be known.
+// as the legs are long, and the hips are as high as they need: the middle of both is scaled about where it starts, at
+// the height of an ankle that stands. All parts must be known, and Y is up.
 formats::Clip proportioned(const formats::Clip& clip, const std::vector<BodyPart>& body,
                            std::span<const Proportions> builds);
 

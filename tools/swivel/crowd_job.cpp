@@ -94,14 +94,14 @@ CarryPlan carry_of(const formats::CrowdFile& file, const formats::Clip& clip, co
                    const CrowdJob& job)
 {
     const formats::CarrySettings& carry = *file.carry;
-    if (!can_carry(clip, job.limbs))
-        throw formats::InputError(file.path, carry.line,
-                                  "carry: takes both arms, and not both are solved; write limbs = \"arms\" or "
-                                  "\"all\" in [crowd], or take this out");
+    if (const std::string cause = why_not_carry(clip, job.limbs); !cause.empty())
+        throw formats::InputError(file.path, carry.line, fmt::format("carry: {}, or take this out", cause));
+    const double shortest = std::ranges::min(job.builds, {}, &Proportions::arms).arms;
     const auto value = [](const formats::Maybe<Eigen::Vector3d>& given) {
         return given ? std::optional(given->value) : std::nullopt;
     };
-    return plan_carry(clip, job.limbs, carry.share, value(carry.size), value(carry.place), up_w, job.faces_w);
+    return plan_carry(clip, job.limbs, {carry.share, value(carry.size), value(carry.place), shortest}, up_w,
+                      job.faces_w);
 }
 
 // Reads one of the further clips. Its joints are the same ones.
@@ -140,22 +140,11 @@ constexpr std::size_t kBuilds = 8;  // figures of which each character is one, w
 
 // The builds of a crowd, the clip's own first.
 std::vector<Proportions> builds_of(const SolveOptions& options, const formats::CrowdFile& file,
-                                   const std::vector<BodyPart>& body)
+                                   const Eigen::Vector3d& up_w, const std::vector<BodyPart>& body)
 {
-    const auto characters = file.characters ? file.characters->value : 1;
-    if ((!file.legs && !file.arms && !file.spine) || options.characters.value_or(characters) == 1)
-        return std::vector<Proportions>(1);
-    const std::uint64_t seed = file.seed ? static_cast<std::uint64_t>(file.seed->value) : CrowdPlan().seed;
-    std::mt19937_64 random(options.seed.value_or(seed));
-    const auto drawn = [&](const formats::Maybe<formats::NumberRange>& range) {
-        const double share = static_cast<double>(random() >> 11) * 0x1p-53;
-        return range ? range->value.least + (range->value.most - range->value.least) * share : 1;
-    };
     std::vector<Proportions> builds(1);
-    while (builds.size() < kBuilds) {
-        const double legs = drawn(file.legs), arms = drawn(file.arms), spine = drawn(file.spine);
-        builds.push_back({legs, arms, spine});
-    }
+    const auto characters = file.characters ? file.characters->value : 1;
+    if ((!file.legs && !file.arms && !file.spine) || options.characters.value_or(characters) == 1) return builds;
     const std::pair<const formats::Maybe<formats::NumberRange>*, Proportions> asked[] = {
         {&file.legs, {0, 1, 1}}, {&file.arms, {1, 0, 1}}, {&file.spine, {1, 1, 0}}};
     for (const auto& [range, alone] : asked) {
@@ -165,6 +154,21 @@ std::vector<Proportions> builds_of(const SolveOptions& options, const formats::C
                 file.path, (*range)->line,
                 fmt::format("{}: no joint of the clip is known as {}; see swivel rig FILE, or take this out",
                             (*range)->key, part));
+    }
+    if (file.legs && up_w != Eigen::Vector3d::UnitY())
+        throw formats::InputError(
+            file.path, file.legs->line,
+            fmt::format("{}: the figure does not stand along Y; turn the clip, or take this out", file.legs->key));
+    const std::uint64_t seed = file.seed ? static_cast<std::uint64_t>(file.seed->value) : CrowdPlan().seed;
+    std::mt19937_64 random(options.seed.value_or(seed) ^ 0x6275696c6473u);  // unlike those that draw characters
+    const auto drawn = [&](const formats::Maybe<formats::NumberRange>& range) {
+        const double share = static_cast<double>(random() >> 11) * 0x1p-53;
+        return range ? range->value.least + (range->value.most - range->value.least) * share : 1;
+    };
+    for (std::size_t n = 1; n < kBuilds; ++n) {
+        const double legs = drawn(file.legs), arms = drawn(file.arms), spine = drawn(file.spine);
+        const Proportions build{legs, arms, spine};
+        if (std::ranges::find(builds, build) == builds.end()) builds.push_back(build);
     }
     return builds;
 }
@@ -251,12 +255,13 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
         if (!finding.limb) job.missing.push_back(std::move(finding));
     job.frame_count = job.clip_frames = clip.frame_count;
     std::vector<ClipPart> parts;
-    if (job.crowd) job.builds = builds_of(options, *job.crowd, job.body);
+    if (job.crowd) job.builds = builds_of(options, *job.crowd, up_w, job.body);
     if (job.crowd && (job.crowd->loop || !job.crowd->clips.empty() || job.builds.size() > 1))
         parts = perform(options, joints_of(joints), file, job);
     if (!job.further.empty()) job.limbs = require_limbs(bind_limbs(clip, joints, choice), options.file);  // in all
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     job.plan.clips = std::move(parts);
+    job.plan.foot = foot_of(clip, clip.frame_count / job.builds.size());  // of the clip's own figure
     if (job.crowd && job.crowd->ground) {
         stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)},
                         {job.loops.empty() ? 0 : job.loops[0].loop.first, job.clip_frames}, job.plan);

@@ -99,7 +99,10 @@ nlohmann::ordered_json json_of_run(const SolveOptions& options, const MotionFile
     for (const goal_character& each : characters_of(job.plan, job.limbs, file.clip().frame_count)) {
         out["each_character"].push_back(
             {{"place", each.place}, {"size", each.size}, {"start", each.first + each.start}});
-        if (job.plan.carry) out["each_character"].back()["carries"] = each.carries == 1;
+        nlohmann::ordered_json& of = out["each_character"].back();
+        if (job.plan.carry) of["carries"] = each.carries == 1;
+        if (!job.plan.clips.empty())
+            of["performs"] = std::ranges::find(job.plan.clips, each.first, &ClipPart::first) - job.plan.clips.begin();
     }
     out.update(json_of(statistics));
     out["seconds"] = seconds;

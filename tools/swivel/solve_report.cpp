@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tools/cli/streams.h"
+#include "tools/crowd/characters.h"
 #include "tools/formats/printable.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
@@ -65,8 +66,9 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     if (job.builds.size() > 1)
         say(to, "builds   {}: the clip's own, and others whose legs, arms or spine differ\n", job.builds.size());
     if (const auto& carry = job.plan.carry)
-        say(to, "carry    {:.3g} % of the characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
-            100 * carry->share, carry->size.x(), carry->size.y(), carry->size.z());
+        say(to, "carry    {} of {} characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
+            std::ranges::count(characters_of(job.plan, limbs, clip.frame_count), 1u, &goal_character::carries),
+            characters, carry->size.x(), carry->size.y(), carry->size.z());
     say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
         job.targets == "clip" ? "the clip" : shown_file(job.targets),
         options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));

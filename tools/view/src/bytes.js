@@ -5,10 +5,10 @@
 /** Bytes of each structure. */
 export const SIZE = { character: 56, source: 240, plan: 208, ground: 56, root: 32, input: 208, given: 80 };
 
-/** Where members of a goal_plan begin, the goals of a goal_input, and the shift of a goal_root. */
+/** Where members of a goal_plan begin, the goals of a goal_input, the shift of a goal_root, and the wish of a goal_character. */
 export const PLAN = { targetOffset: 24, weights: 168, hasFixedPole: 184 };
 export const INPUT = { target: 0, pole: 24, hand: 48, weights: 64 };
-export const ROOT_SHIFT = 28;
+export const ROOT_SHIFT = 28, WISH = 36;
 const TURNS = 168;  // the rotations of a goal_source
 
 /** How many bytes a text stands for. */
@@ -29,7 +29,7 @@ export function charactersOf(bytes) {
     const view = new DataView(bytes.buffer);
     return Array.from({ length: bytes.length / SIZE.character }, (_, n) => {
         const at = n * SIZE.character, double = (place) => view.getFloat64(at + 8 * place, true);
-        return { size: double(0), place: [double(1), double(2), double(3)], start: view.getUint32(at + 32, true),
+        return { size: double(0), place: [double(1), double(2), double(3)], start: view.getUint32(at + 32, true), wish: view.getFloat32(at + WISH, true),
             first: view.getUint32(at + 40, true), count: view.getUint32(at + 44, true), carries: view.getUint32(at + 48, true) === 1 };
     });
 }

@@ -11,6 +11,7 @@ export const THEMES = {
 export const LIMB_COLOURS = ["#f08a3c", "#3f97e8", "#e2588f", "#2eb39a"];  // of the limbs, in their order
 export const CHOSEN = "#ffd34d";
 export const BOX = "#b08a57";  // that characters carry
+export const HIPS = "#63b5ff";  // the ball that moves them
 export const CONE = "#ff5fa8";  // of the shoulder's limit and of the ball on its rim
 
 const RAMP = ["#2c7fb8", "#41b6a6", "#d9e26a", "#f6a03c", "#d7301f"];

@@ -7,13 +7,14 @@ import { Quaternion, Vector3 } from "three";
 const THICKNESS = 0.057;  // of a bone that carries one unit of bones, in roots of that unit: a human arm's own
 
 export class Figure {
-    constructor(data, positions, limbs) {
+    /** clip: the frames of the first character's, { first, count }. */
+    constructor(data, positions, limbs, clip) {
         this.joints = data.joints;
         this.positions = positions;
         this.limbs = limbs;
         this.jointCount = data.joints.length;
         this.frameCount = positions.length / (3 * this.jointCount);  // of the clip
-        this.height = this.extent();
+        this.height = this.extent(clip);
         this.hanging = this.hangingLengths();
         this.solved = this.jointsOfLimbs();
     }
@@ -25,15 +26,16 @@ export class Figure {
         return parent < 0 ? 0 : this.at(joint).distanceTo(this.at(parent));
     }
 
-    /** The largest extent of the first frame: what all else is measured by. The ground is the lowest of all frames. */
-    extent() {
+    /** The largest extent of the first frame: what all else is measured by. The ground is the lowest of the first character's frames. */
+    extent({ first, count }) {
         const least = new Vector3(Infinity, Infinity, Infinity), most = new Vector3(-Infinity, -Infinity, -Infinity);
         for (let joint = 0; joint < this.jointCount; ++joint) {
             least.min(this.at(joint));
             most.max(this.at(joint));
         }
         this.ground = Infinity;
-        for (let n = 1; n < this.positions.length; n += 3) this.ground = Math.min(this.ground, this.positions[n]);
+        const heights = this.positions.subarray(3 * first * this.jointCount, 3 * (first + count) * this.jointCount);
+        for (let n = 1; n < heights.length; n += 3) this.ground = Math.min(this.ground, heights[n]);
         const size = most.sub(least);
         return Math.max(size.x, size.y, size.z) || 1;
     }

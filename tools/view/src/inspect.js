@@ -26,7 +26,7 @@ function rowsOf(stage, limb, character) {
 
 export function makeInspector(page) {
     const { stage } = page;
-    const none = element("p", { class: "hint" }, "Click a limb. Then drag the yellow ball, its target, or the white one, its pole.");
+    const none = element("p", { class: "hint" }, "Click a limb. Then drag the yellow ball, its target, or the white one, its pole. On ground the blue one moves the hips up and down.");
     const title = element("h3"), table = element("div"), flags = element("p", { class: "flags" }), why = element("p", { class: "why" });
     const everyone = checkbox("Drag everyone's", false, (isOn) => { page.dragsEveryone = isOn; },
         { title: "A drag moves this limb of all characters by the same offset, times their size. Those moved alone go along" });
@@ -39,7 +39,8 @@ export function makeInspector(page) {
     const show = () => {
         none.hidden = page.selection !== null;
         body.hidden = release.hidden = page.selection === null;
-        all.hidden = save.hidden = lack.hidden = !stage.isAnyDragged();
+        all.hidden = !stage.isAnyDragged();
+        save.hidden = lack.hidden = !stage.isAnyGoalMoved();
         undo.hidden = !page.undo.canTakeBack;
         if (!lack.hidden) lack.textContent = lackOf(stage);
         if (!page.selection || !box.open) return;
@@ -48,7 +49,7 @@ export function makeInspector(page) {
         table.replaceChildren(facts(rowsOf(stage, limb, character)));
         flags.replaceChildren(...flagNames(stage.flags(limb, character)).map((flag) => element("span", {}, saidOf(limb, wordsOf(flag)))));
         why.textContent = stage.goesAlong(limb, character) ? "It goes along with its body." : saidOf(limb, stage.explain(limb, character));
-        release.disabled = stage.movedParts(limb, character).length === 0;
+        release.disabled = stage.movedParts(limb, character).length === 0 && !stage.hips.has(character);
     };
     page.on("frame", show);
     page.on("select", show);

@@ -54,7 +54,7 @@ class Page {
         this.selection = null;
         this.chosen = 0;  // the character that was chosen last
         this.dragsEveryone = false;
-        this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs));
+        this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs, stage.characters[0]));
         this.mostDrawn = Math.min(stage.characterCount, MOST_DRAWN, mostDrawn(this.view.bodies.mostTexels));
         this.drawnCount = Math.min(this.mostDrawn, DRAWN);
         this.view.controls.addEventListener("change", () => this.redraw());

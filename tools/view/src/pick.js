@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Choosing a limb by a click, and dragging its wrist and pole in a plane that faces the viewer.
+// Choosing a limb by a click, and dragging its wrist, its pole and the body's hips in a plane that faces the viewer.
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
 
-import { CHOSEN } from "./colours.js";
+import { CHOSEN, HIPS } from "./colours.js";
+import { hasHips, hipsOf } from "./hips.js";
 import { handle } from "./marks.js";
 
 const SLACK = 6;  // pixels that a click may move
@@ -14,11 +15,12 @@ export class Picker {
     constructor(page) {
         this.page = page;
         this.caster = new Raycaster();
-        this.handles = { target: this.handle(CHOSEN, 1), pole: this.handle("#ffffff", 0.7) };
+        this.handles = { target: this.handle(CHOSEN, 1), pole: this.handle("#ffffff", 0.7), hips: this.handle(HIPS, 1) };
         page.view.marks.add(...Object.values(this.handles));
         this.drags = {  // what a drag of each handle to a place in the world does
             target: (world) => page.drag("target", world),
             pole: (world) => page.drag("pole", world),
+            hips: (world) => page.drag("hips", world),
         };
         const { domElement } = page.view.renderer;
         domElement.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
@@ -50,6 +52,9 @@ export class Picker {
             mesh.visible = selection !== null && (part === "target" || stage.hasPole(selection.limb));
             if (mesh.visible) mesh.position.fromArray(stage.goal(selection.limb, selection.character, part));
         }
+        const { hips } = this.handles;
+        hips.visible = selection !== null && hasHips(stage);
+        if (hips.visible) hips.position.fromArray(hipsOf(stage, selection.character));
     }
 
     aim(event) {

@@ -10,6 +10,7 @@ import { Quaternion, Vector3 } from "three";
 import { bytesOf, charactersOf, givenOf, gridOf, INPUT, PLAN, ROOT_SHIFT, SIZE, Sources } from "./bytes.js";
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT, unit } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
+import { dragHips, dropHips, putHips } from "./hips.js";
 
 const KEPT = 64;  // frames from one state that is kept to the next, at least
 const MOST_KEPT = 2 ** 28;  // bytes of them
@@ -38,6 +39,7 @@ export class Stage {
         this.clips = [...new Set(this.characters.map(({ first }) => first))].sort((a, b) => a - b);  // their first frames
         this.ground = data.ground && this.makeGround(data.ground);
         this.given = givenOf(data.given);
+        this.hips = new Map();  // heights that bodies' shifts wish for, by the user
         this.pins = new Map();  // goals moved alone: "limb:character" to { target, pole } in the world
         const asked = askedOf(data);
         this.inputCount = asked.length;  // of a character
@@ -260,26 +262,30 @@ export class Stage {
         return this.isPoint(limb, part) ? Array.from(asked) : unit(asked).map((coordinate, axis) => length * coordinate + origin[axis]);
     }
 
-    /** Moves a goal to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
+    /** Moves a goal, or the hips, to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
     drag(limb, character, part, world, everyone) {
-        (everyone ? dragEveryone : dragOne)(this, limb, character, part, world);
+        if (part === "hips") dragHips(this, character, world, everyone);
+        else (everyone ? dragEveryone : dragOne)(this, limb, character, part, world);
         this.changed = this.isHeld = true;
         this.solveAgain();
     }
-    /** Gives a limb's goals back to the clip, and everyone's of that limb. Solves the crowd. */
+    /** Gives a limb's goals back to the clip, everyone's of that limb, and the character's hips. Solves the crowd. */
     letGo(limb, character) {
         dropDrags(this, limb, character);
+        dropHips(this, character);
         this.noteChanges();
         this.solveAgain();
         this.settle();
     }
     letAllGo() {
         dropAllDrags(this);
+        putHips(this, new Map());
         this.noteChanges();
         this.solveAgain();
         this.settle();
     }
-    isAnyDragged() { return this.pins.size > 0 || this.limbs.some(isShifted); }
+    isAnyGoalMoved() { return this.pins.size > 0 || this.limbs.some(isShifted); }
+    isAnyDragged() { return this.isAnyGoalMoved() || this.hips.size > 0; }
     movedParts(limb, character) { return movedParts(this, limb, character); }
     noteChanges() { this.changed = this.isAnyDragged() || this.limbs.some((limb) => limb.own.size > 0); }
 
@@ -304,10 +310,11 @@ export class Stage {
         }
     }
     /** All that the user has changed. */
-    get changes() { return { pins: new Map(this.pins), shifts: this.limbs.map(({ shift }) => shift), owns: this.limbs.map(({ own }) => own) }; }
+    get changes() { return { pins: new Map(this.pins), hips: this.hips, shifts: this.limbs.map(({ shift }) => shift), owns: this.limbs.map(({ own }) => own) }; }
     /** Takes all changes back to what they were. Solves the crowd. Changes nothing if it fails. */
-    restore({ pins, shifts, owns }) {
+    restore({ pins, hips, shifts, owns }) {
         this.setOwn(owns);
+        putHips(this, hips);
         this.pins = pins;
         this.limbs.forEach((limb, n) => { limb.shift = shifts[n]; });
         this.noteChanges();

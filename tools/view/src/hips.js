@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// Hips that the user has moved up or down. Where feet stand on ground, a body wishes for a shift, and comes as near to it as its legs reach.
+import { ROOT_SHIFT, SIZE, WISH } from "./bytes.js";
+
+const legsOf = (stage) => stage.limbs.filter((limb) => stage.has(limb, "PLANT"));
+export const hasHips = (stage) => legsOf(stage).length > 0;
+
+/** The middle of the hips in the world. */
+export function hipsOf(stage, character) {
+    const places = legsOf(stage).map((leg) => stage.shoulder(leg, character));
+    return [0, 1, 2].map((axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length);
+}
+/** Puts the wishes of stage.hips, a map from characters to heights, in place of those of the command. */
+export function putHips(stage, hips) {
+    stage.hips = hips;
+    stage.characters.forEach(({ wish }, n) => { stage.memory.floats(stage.charactersAt + n * SIZE.character + WISH, 1)[0] = hips.get(n) ?? wish; });
+}
+/** Moves hips to the height of a place in the world, and everyone's by as much of their size, if asked. */
+export function dragHips(stage, character, [, height], everyone) {
+    const [shift] = stage.memory.floats(stage.rootsAt + character * SIZE.root + ROOT_SHIFT, 1), { characters } = stage;
+    const wished = height - (hipsOf(stage, character)[1] - shift), by = (wished - characters[character].wish) / characters[character].size;
+    putHips(stage, everyone ? new Map(characters.map(({ wish, size }, n) => [n, wish + size * by])) : new Map(stage.hips).set(character, wished));
+}
+export function dropHips(stage, character) {
+    const hips = new Map(stage.hips);
+    hips.delete(character);
+    putHips(stage, hips);
+}
