@@ -133,6 +133,8 @@ TEST_CASE("characters have one of eight builds by the seed, the first one its ow
     CHECK(there.at("out_of_reach") > 10);
     CHECK(there.at("out_of_reach") < 110);
     CHECK(stage.json(kBodies + "arms = [0.9, 0.9]\n").at("performed").size() == 2);
+    CHECK_THAT(stage.run(kBodies + "arms = [0.9, 0.9]\n", {"--out", "x.csv"}).out,
+               Contains("builds   2: legs 1 to 1, arms 0.9 to 1, spine 1 to 1 times the clip's own\n"));
     // One character alone is the clip's own, and can be written as its clip.
     CHECK(stage.motion("[crowd]\nlegs = [0.7, 1.3]\n").header == stage.clip.header);
 }

@@ -63,8 +63,14 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
                 ? "level"
                 : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
             job.contacts.empty() ? "" : " when " + shown_file(job.contacts) + " says", -job.plan.shift_wish);
-    if (job.builds.size() > 1)
-        say(to, "builds   {}: the clip's own, and others whose legs, arms or spine differ\n", job.builds.size());
+    if (job.builds.size() > 1) {
+        const auto factors = [&](double Proportions::*of) {
+            const auto [least, most] = std::ranges::minmax(job.builds, {}, of);
+            return fmt::format("{:.3g} to {:.3g}", least.*of, most.*of);
+        };
+        say(to, "builds   {}: legs {}, arms {}, spine {} times the clip's own\n", job.builds.size(),
+            factors(&Proportions::legs), factors(&Proportions::arms), factors(&Proportions::spine));
+    }
     if (const auto& carry = job.plan.carry)
         say(to, "carry    {} of {} characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
             std::ranges::count(characters_of(job.plan, limbs, clip.frame_count), 1u, &goal_character::carries),
