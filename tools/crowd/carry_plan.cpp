@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 // Of arms: the box is held with bent elbows, in front of the belly.
 constexpr double kSize[] = {0.65, 0.5, 0.5}, kPlace[] = {0, -0.5, 0.65};
-constexpr double kPalm[] = {0.09, 0,
-                            -0.15};  // a hand lies along the side: its wrist is beside it, and behind the middle
+// A hand lies along the side: its wrist is beside it, and behind the middle.
+constexpr double kPalm[] = {0.09, 0, -0.15};
 
 std::vector<Limb> arms_of(std::span<const Limb> limbs)
 {

@@ -18,9 +18,6 @@ double limb_span(std::span<const Limb> limbs)
     return 2 * most;
 }
 
-// Uniform in 0..1; std::uniform_real_distribution may differ between libraries.
-double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
 }  // namespace
 
 CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
@@ -41,7 +38,7 @@ goal_character CharacterStream::next()
     const auto performing = [&](std::size_t clip, double size, const Eigen::Vector3d& place, std::size_t start) {
         const auto word = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
         const std::uint32_t carries =
-            plan_.carry && (n == 0 ? plan_.carry->share >= 1 : unit(carriers_) < plan_.carry->share);
+            plan_.carry && (n == 0 ? plan_.carry->share >= 1 : drawn_share(carriers_) < plan_.carry->share);
         return goal_character{size,
                               {place.x(), place.y(), place.z()},
                               word(start),
@@ -52,7 +49,8 @@ goal_character CharacterStream::next()
                               0};
     };
     if (n == 0) return performing(0, 1, Eigen::Vector3d(0, 0, 0), 0);
-    const double size = static_cast<float>(plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_));
+    const double size =
+        static_cast<float>(plan_.least_size + (plan_.most_size - plan_.least_size) * drawn_share(random_));
     const std::uint64_t drawn = random_();
     const std::size_t clip = clips_.size() == 1 ? 0 : random_() % clips_.size();
     const std::size_t start = plan_.stagger ? drawn % clips_[clip].starts : 0;

@@ -49,7 +49,7 @@ std::size_t ClipCrowd::limb_index(formats::LimbName name) const
 // Whether the limb holds a box.
 bool ClipCrowd::carries(std::size_t limb, std::uint32_t character) const
 {
-    return characters()[character].carries && motion_.sources(limb).front().carries;
+    return swivel_goal_carries(&motion_.sources(limb)[clip_frame(character)], &characters()[character]);
 }
 
 // Whether elbow and upper arm should be the clip's.

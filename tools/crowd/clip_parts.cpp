@@ -77,18 +77,18 @@ Clip joined(std::span<const Clip> clips, int body)
     }
     const auto begin_of = [&](const Clip& clip) {
         const Vector3d place = formats::world_pose(clip, 0)[static_cast<std::size_t>(body)].position;
-        return Vector3d(place.x(), floor_of(clip), place.z());
+        return Vector3d(place.x(), floor_of(clip, clip.frame_count), place.z());
     };
     const Vector3d begin = begin_of(clips[0]);
     for (const Clip& clip : clips) append(to, clip, {0, clip.frame_count, 0}, begin - begin_of(clip));
     return to;
 }
 
-double floor_of(const Clip& clip)
+double floor_of(const Clip& clip, std::size_t frame_count)
 {
     std::vector<double> lowest;
     std::vector<formats::JointPose> pose_w(clip.joints.size());
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+    for (std::size_t frame = 0; frame < frame_count; ++frame) {
         formats::world_pose(clip, frame, pose_w);
         const auto height = [](const formats::JointPose& joint) { return joint.position.y(); };
         lowest.push_back(height(*std::ranges::min_element(pose_w, {}, height)));

@@ -28,8 +28,8 @@ formats::Clip joined(std::span<const formats::Clip> clips, int body);
 formats::Clip frames_of(const formats::Clip& clip, std::size_t frame_count);
 formats::Clip frames_of(const formats::Clip& clip, const ClipPart& part);
 
-// The floor of a clip, along y: its lowest joint is lower in a quarter of all frames. A toe that is low now and then
-// does not count.
-double floor_of(const formats::Clip& clip);
+// The floor of a clip's first frames, along y: the lowest joint is lower in a quarter of them. A toe that is low now
+// and then does not count.
+double floor_of(const formats::Clip& clip, std::size_t frame_count);
 
 }  // namespace swivel::tools

@@ -46,12 +46,10 @@ Vec3 shoulder_of(const goal_source& from, const goal_character& who)
     return vec3(who.place) + who.size * vec3(from.origin);
 }
 
-bool carries(const goal_source& from, const goal_character& who) { return from.carries && who.carries; }
-
 Vec3 target_of(const goal_plan& plan, const goal_source& from, const goal_character& who)
 {
     if (plan.is_look) return vec3(plan.target_offset);
-    if (carries(from, who)) return shoulder_of(from, who) + who.size * vec3(from.carried);
+    if (swivel_goal_carries(&from, &who)) return shoulder_of(from, who) + who.size * vec3(from.carried);
     const Vec3 place =
         plan.has_target_point
             ? vec3(who.place) + who.size * vec3(plan.target_point)
@@ -79,7 +77,7 @@ void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, cons
     copy(asked.hand, input.hand);
     copy(plan.weights, input.weights);
     if (!plan.has_pole_fixed && !plan.holds_pole) input.weights[2] = 0;
-    if (on_ground && plan.goes_along && !carries(from, who)) input.weights[0] = input.weights[1] = 0;
+    if (on_ground && plan.goes_along && !swivel_goal_carries(&from, &who)) input.weights[0] = input.weights[1] = 0;
     store(vec3(from.origin) - root - turned(from.parent, vec3(plan.shoulder_place)), input.places[0]);
     copy(plan.shoulder_place, input.places[1]);
     for (int bone = 0; bone < 2; ++bone) store(from.lengths[bone] * vec3(plan.bones[bone]), input.places[2 + bone]);

@@ -106,6 +106,12 @@ inline uint32_t swivel_goal_frame(const goal_character* character, uint32_t fram
     return character->first + (uint32_t)((frame + (uint64_t)character->start) % character->count);
 }
 
+// Whether a limb of a character holds its box. Any thread; no allocation.
+inline bool swivel_goal_carries(const goal_source* source, const goal_character* character)
+{
+    return source->carries != 0 && character->carries != 0;
+}
+
 // The goal of a limb of a character. Any thread; no allocation.
 goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 

@@ -24,8 +24,8 @@ struct Proportions {
 std::string unknown_part(const std::vector<BodyPart>& body, const Proportions& asked);
 
 // All frames of the clip by a figure of each build, one after the other. Joints turn as they did. The root goes as far
-// as the legs are long, and the hips are as high as they need: the middle of both is scaled about where it starts, at
-// the height of an ankle that stands. All parts must be known, and Y is up.
+// as the legs are long, and the hips are as high as these need. For that the middle of both hips is scaled, about where
+// it starts at the height of an ankle that stands. All parts must be known, and Y is up.
 formats::Clip proportioned(const formats::Clip& clip, const std::vector<BodyPart>& body,
                            std::span<const Proportions> builds);
 

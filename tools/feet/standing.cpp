@@ -103,7 +103,7 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
     // Of clips one by one: from the end of one to the start of another is no motion.
     std::vector<ClipPart> parts = plan.clips;
     if (parts.empty()) parts = {{0, clip.frame_count, clip.frame_count}};
-    plan.foot.y() = floor_of(frames_of(clip, parts[0]));  // all others are put on the same floor
+    plan.foot.y() = floor_of(clip, parts[0].count);  // all others are put on the same floor
     const auto& own = file.ground->contacts;
     if (own && !file.clips.empty())
         throw formats::InputError(file.path, own->line,

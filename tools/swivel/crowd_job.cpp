@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tools/cli/command_error.h"
+#include "tools/crowd/characters.h"
 #include "tools/crowd/crowd_checks.h"
 #include "tools/feet/leg_motion.h"
 #include "tools/feet/standing.h"
@@ -162,7 +163,7 @@ std::vector<Proportions> builds_of(const SolveOptions& options, const formats::C
     const std::uint64_t seed = file.seed ? static_cast<std::uint64_t>(file.seed->value) : CrowdPlan().seed;
     std::mt19937_64 random(options.seed.value_or(seed) ^ 0x6275696c6473u);  // unlike those that draw characters
     const auto drawn = [&](const formats::Maybe<formats::NumberRange>& range) {
-        const double share = static_cast<double>(random() >> 11) * 0x1p-53;
+        const double share = drawn_share(random);
         return range ? range->value.least + (range->value.most - range->value.least) * share : 1;
     };
     for (std::size_t n = 1; n < kBuilds; ++n) {

@@ -4,7 +4,7 @@
 // their vertices find elbow and wrist from its rows.
 import { layout } from "swivel-wasm/layout.js";
 import {
-    CapsuleGeometry, Float32BufferAttribute, GLSL3, InstancedBufferGeometry, Mesh, Quaternion, ShaderMaterial, Vector3, Vector4,
+    CapsuleGeometry, Float32BufferAttribute, InstancedBufferGeometry, Mesh, Quaternion, Vector3, Vector4,
 } from "three";
 
 import bodyFragment from "./body.frag.glsl";
@@ -12,13 +12,11 @@ import bodyVertex from "./body.vert.glsl";
 import { Boxes } from "./boxes.js";
 import capsule from "./capsule.glsl";
 import { CHOSEN, flagColours, flagMasks, LIMB_COLOURS, rampColours, rgb } from "./colours.js";
-import crowdGlsl from "./crowd.glsl";
-import light from "./light.frag.glsl";
 import limbFragment from "./limb.frag.glsl";
 import limbGlsl from "./limb.glsl";
 import limbVertex from "./limb.vert.glsl";
-import put from "./put.glsl";
 import { floatTexture, LimbRows } from "./rows.js";
+import { withShadow } from "./shaded.js";
 import { MOST_SKINS, Skins } from "./skins.js";
 
 export const SKIN = -1;  // in place of limbs' colours
@@ -98,7 +96,7 @@ export class Bodies {
         const texels = floatTexture("the bones", bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]), this.mostTexels);
         this.bodyColour = { value: rgb("#888888") };
         const uniforms = { uBones: { value: texels }, uColour: this.bodyColour };
-        this.add(bones.length, uniforms, [crowdGlsl, put, capsule, bodyVertex], bodyFragment);
+        this.add(bones.length, uniforms, [capsule, bodyVertex], bodyFragment);
     }
     addLimb(limb) {
         const { radii, tip } = this.figure.limbShape(limb);
@@ -111,7 +109,7 @@ export class Bodies {
         for (const name of Object.keys(uniforms)) uniforms[name] = { value: uniforms[name] };
         const drawn = { limb, uniforms, rows: null, crowd: null };
         this.takeRows(drawn);
-        this.add(3, uniforms, [crowdGlsl, put, limbGlsl, capsule, limbVertex], limbFragment);
+        this.add(3, uniforms, [limbGlsl, capsule, limbVertex], limbFragment);
         return drawn;
     }
     /** The rows of those that are drawn. The crowd is made again when features change. */
@@ -127,20 +125,9 @@ export class Bodies {
             drawn.uniforms[name].value = value;
         }
     }
-    /** A mesh, and its shadow. Shadows are drawn after the ground and before all bodies, and have no depth, because they lie on it. */
     add(partCount, own, vertex, fragment) {
-        const uniforms = { ...this.shared, ...own };
-        for (const shadow of [false, true]) {
-            const material = new ShaderMaterial({
-                uniforms, glslVersion: GLSL3, defines: { FLAG_COLOURS: flagMasks().length, ...(shadow && { SHADOW: "" }) },
-                vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
-                depthWrite: !shadow, polygonOffset: shadow, polygonOffsetFactor: -2, polygonOffsetUnits: -2,
-            });
-            const mesh = new Mesh(capsules(partCount, shadow), material);
-            mesh.frustumCulled = false;
-            mesh.renderOrder = shadow ? 1 : 2;
-            this.meshes.push(mesh);
-        }
+        const uniforms = { ...this.shared, ...own }, defines = { FLAG_COLOURS: flagMasks().length };
+        this.meshes.push(...withShadow({ uniforms, defines, vertex, fragment }, (material, isShadow) => new Mesh(capsules(partCount, isShadow), material)));
     }
 
     /** Draws the first characters and perhaps one more, as the stage has them now. */

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Boxes between the hands of characters that carry one, level from front to back.
-import { BoxGeometry, GLSL3, InstancedBufferAttribute, InstancedMesh, Matrix4, ShaderMaterial, Vector3 } from "three";
+import { BoxGeometry, InstancedBufferAttribute, InstancedMesh, Matrix4, Vector3 } from "three";
 
 import bodyFragment from "./body.frag.glsl";
 import boxVertex from "./box.vert.glsl";
 import { BOX, rgb } from "./colours.js";
-import crowdGlsl from "./crowd.glsl";
-import light from "./light.frag.glsl";
-import put from "./put.glsl";
+import { withShadow } from "./shaded.js";
 
 const UP = new Vector3(0, 1, 0);
 
@@ -21,16 +19,7 @@ export class Boxes {
         const geometry = new BoxGeometry(width, height, depth), uniforms = { ...shared, uColour: { value: rgb(BOX) } };
         this.ids = new InstancedBufferAttribute(new Float32Array(this.carriers.length), 1);
         geometry.setAttribute("carrier", this.ids);
-        this.meshes = [false, true].map((isShadow) => {
-            const mesh = new InstancedMesh(geometry, new ShaderMaterial({
-                uniforms, glslVersion: GLSL3, defines: isShadow ? { SHADOW: "" } : {},
-                vertexShader: [crowdGlsl, put, boxVertex].join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${bodyFragment}`,
-                depthWrite: !isShadow, polygonOffset: isShadow, polygonOffsetFactor: -2, polygonOffsetUnits: -2,
-            }), this.carriers.length);
-            mesh.frustumCulled = false;
-            mesh.renderOrder = isShadow ? 1 : 2;
-            return mesh;
-        });
+        this.meshes = withShadow({ uniforms, vertex: [boxVertex], fragment: bodyFragment }, (material) => new InstancedMesh(geometry, material, this.carriers.length));
         this.meshes[1].instanceMatrix = this.meshes[0].instanceMatrix;
     }
     /** Puts the boxes of the first characters, and of one more unless extra is null, where the hands are now. */

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Characters in the figure's own skin, an instance for each. The poses of their bones are a texture, made anew after each solve.
-import { Float32BufferAttribute, GLSL3, Matrix4, Mesh, NoColorSpace, ShaderMaterial } from "three";
+import { Float32BufferAttribute, Matrix4, Mesh, NoColorSpace } from "three";
 
 import { CHOSEN, rgb } from "./colours.js";
-import crowdGlsl from "./crowd.glsl";
-import light from "./light.frag.glsl";
 import { Poses } from "./poses.js";
-import put from "./put.glsl";
 import { floatTexture } from "./rows.js";
+import { withShadow } from "./shaded.js";
 import skinFragment from "./skin.frag.glsl";
 import skinVertex from "./skin.vert.glsl";
 
@@ -27,21 +25,13 @@ export class Skins {
         };
         this.meshes = meshes.flatMap((mesh) => this.draw(mesh, shared));
     }
-    /** A mesh, and its shadow, as Bodies has them. */
+    /** A mesh, and its shadow. */
     draw({ geometry, material: { color, map, side, alphaTest }, firstBone }, shared) {
         geometry.setAttribute("limb", this.limbsOf(geometry.attributes, firstBone));
         if (map) map.colorSpace = NoColorSpace;  // the shaders' colours are the screen's own
         const uniforms = { ...shared, ...this.uniforms, uFirstBone: { value: firstBone }, uColour: { value: color.clone().convertLinearToSRGB() }, uMap: { value: map } };
-        return [false, true].map((isShadow) => {
-            const mesh = new Mesh(geometry, new ShaderMaterial({
-                uniforms, glslVersion: GLSL3, side, defines: { ALPHA_TEST: alphaTest.toFixed(3), ...(map && { MAP: "" }), ...(isShadow && { SHADOW: "" }) },
-                vertexShader: [crowdGlsl, put, skinVertex].join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${skinFragment}`,
-                depthWrite: !isShadow, polygonOffset: isShadow, polygonOffsetFactor: -2, polygonOffsetUnits: -2,
-            }));
-            mesh.frustumCulled = false;
-            mesh.renderOrder = isShadow ? 1 : 2;
-            return mesh;
-        });
+        const defines = { ALPHA_TEST: alphaTest.toFixed(3), ...(map && { MAP: "" }) };
+        return withShadow({ uniforms, side, defines, vertex: [skinVertex], fragment: skinFragment }, (material) => new Mesh(geometry, material));
     }
 
     /** The limb of each vertex, by the bone that it mostly follows; -1: the body. */
