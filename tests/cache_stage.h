@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,15 @@ inline void require_done(const Outcome& outcome)
 {
     CAPTURE(outcome.err);
     REQUIRE(outcome.exit_code == 0);
+}
+
+// A replay goes through the characters in another order.
+inline std::multiset<std::string> sorted_lines(const fs::path& path)
+{
+    std::istringstream text(slurp(path));
+    std::multiset<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.insert(line);
+    return lines;
 }
 
 inline const std::string kLimited =

@@ -7,9 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include <set>
-#include <sstream>
 
 #include "tests/cache_stage.h"
+#include "tools/cache/cache_attributes.h"
 #include "tools/cache/digest.h"
 #include "tools/cache/fill.h"
 
@@ -35,15 +35,6 @@ CachedCrowd some_crowd()
 
 // Where a chunk is, as a number that orders work.
 std::pair<std::uint32_t, std::uint32_t> in_order(ChunkAt at) { return {at.column, at.time}; }
-
-// A replay goes through the characters in another order.
-std::multiset<std::string> sorted_lines(const fs::path& path)
-{
-    std::istringstream text(slurp(path));
-    std::multiset<std::string> lines;
-    for (std::string line; std::getline(text, line);) lines.insert(line);
-    return lines;
-}
 
 }  // namespace
 

@@ -153,8 +153,4 @@ TEST_CASE("boxes that cannot be carried are refused with file, line and key")
     }
     stage.require_refused("[carry]\n[crowd]\nlimbs = \"all\"\n[limb.left_leg]\nhand = true\neffector = [1, 0]\n",
                           "limb.left_leg.effector");  // legs keep theirs
-    spill(stage.folder / "c.toml", "[carry]\n");
-    const Outcome stored = run_command(stage.folder.path, {"store", "clip.bvh", "cache", "--crowd", "c.toml"});
-    CHECK(stored.exit_code == 1);
-    CHECK_THAT(stored.err, Contains("c.toml:1: carry: a cache does not keep who carries a box; take this out"));
 }

@@ -20,7 +20,9 @@ STATE = LIMITED + """
 [limb.all.swivel]
 most_deg_per_second = 900
 """
-GROUND = f"""{STATE}
+WHOLE = f"""{STATE}
+[look]
+target = [60, 15, 160]
 [ground]
 heights = "{ROOT}/examples/hills.png"
 size = [900, 60, 900]

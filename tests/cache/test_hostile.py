@@ -16,7 +16,7 @@ import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
-from stage import GROUND, LIMITED, SWIVEL, Stage, unittest
+from stage import LIMITED, SWIVEL, WHOLE, Stage, unittest
 
 MEMORY = 1024 + 128  # MiB: what a cache may take, and beside it attributes of 4 MiB as JSON
 SECONDS = 60  # a command that takes longer hangs
@@ -128,8 +128,8 @@ class Hostile(Stage):
         (self.folder / "share/swivel/view.html").write_text('<script data-digest="">start(/*crowd*/null)</script>')
         self.program = shutil.copy(SWIVEL, self.folder / "bin/swivel")
         shape = dict(characters=20, frames=6, chunk="2,16")
-        self.bases = [self.store("plain", **shape), self.fill(self.store("limited", toml=LIMITED, **shape)), self.fill(self.store("state", toml=GROUND, **shape)),
-                      self.fill(self.store("goals", "--no-poses", **shape))]
+        self.bases = [self.store("plain", **shape), self.fill(self.store("limited", toml=LIMITED, **shape)), self.fill(self.store("state", toml=WHOLE, **shape)),
+                      self.fill(self.store("goals", "--no-poses", **shape)), self.fill(self.store("boxes", toml="[carry]\n", **shape))]
         self.codes = collections.Counter()
 
     def try_one(self, seed):

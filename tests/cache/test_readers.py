@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import zarr
 
-from stage import CLIP, GROUND, LIMITED, ROOT, STATE, Stage, unittest
+from stage import CLIP, LIMITED, ROOT, STATE, WHOLE, Stage, unittest
 
 LIMBS = ["left_arm", "right_arm", "left_leg", "right_leg"]
 
@@ -122,7 +122,7 @@ class Documentation(Stage):
         text = (ROOT / "docs/cache.md").read_text(encoding="utf-8")
         rows = {name: (kind, dimensions) for name, kind, dimensions in re.findall(r"^\| `([a-z_/]+)` \| `\\?([<|][a-z]\d)` \| ([a-z_, ]+) \|", text, re.M)}
         self.swivel("solve", CLIP, "--export-targets", "targets.csv", "--limbs", "all", "--quiet")
-        folder = self.store("cache", "--targets", "targets.csv", toml=GROUND, characters=20, frames=4, chunk="2,16")
+        folder = self.store("cache", "--targets", "targets.csv", toml=WHOLE, characters=20, frames=4, chunk="2,16")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             cache, found = zarr.open(str(folder), mode="r"), {}

@@ -151,7 +151,8 @@ test('goals of one\'s own are the command\'s, too', async () => {
 
 test('a page of a cache has the command\'s digests, too', async () => {
   rmSync(join(process.env.WORK, 'crowd.zarr'), { recursive: true, force: true });
-  assert.equal(run('store', clip, 'crowd.zarr', '--characters', '20', '--frames', '5', '--no-poses').status, 0);
+  const toml = file('cached.toml', '[crowd]\nlimbs = "all"\n[look]\ntarget = [60, 15, 160]\n[carry]\nshare = 0.5\n');
+  assert.equal(run('store', clip, 'crowd.zarr', '--characters', '20', '--frames', '5', '--no-poses', '--crowd', toml).status, 0);
   assert.equal(run('fill', 'crowd.zarr').status, 0);
   await visit(write('cache.html', 'view', 'crowd.zarr'), async (page) => assert.deepEqual(await state(page, [0, 1, 4]), Array(3).fill('equal')));
 });

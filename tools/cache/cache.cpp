@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/cache/cache_attributes.h"
 #include "tools/cache/digest.h"
 #include "tools/cache/members.h"
 #include "tools/formats/error.h"
@@ -70,14 +71,16 @@ Cache::Cache(PlainFolder files) : crowd_(read_crowd(files)), arrays_(crowd_), st
 
 void Cache::read_clip()
 {
-    for (CachedLimb& limb : crowd_.limbs) limb.sources.resize(crowd_.clip_frames);
+    std::vector<std::vector<goal_source>*> sources;  // of each limb
+    for (CachedLimb& limb : crowd_.limbs) sources.push_back(&limb.sources);
+    if (crowd_.look) sources.push_back(&crowd_.look->sources);
+    for (std::vector<goal_source>* of_limb : sources) of_limb->resize(crowd_.clip_frames);
     for (std::size_t n = 0; n < std::size(kSourceMembers); ++n) {
         std::vector<std::byte> bytes(arrays_.clip[n].chunk_bytes());
         require_made(arrays_.clip[n], {}, bytes);
-        const std::size_t of_limb = bytes.size() / crowd_.limbs.size();
-        for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb)
-            scatter(std::span(bytes).subspan(limb * of_limb, of_limb), kSourceMembers[n],
-                    std::span(crowd_.limbs[limb].sources));
+        const std::size_t of_limb = bytes.size() / sources.size();
+        for (std::size_t limb = 0; limb < sources.size(); ++limb)
+            scatter(std::span(bytes).subspan(limb * of_limb, of_limb), kSourceMembers[n], std::span(*sources[limb]));
     }
     crowd_.positions.resize(arrays_.clip.back().chunk_bytes() / sizeof(float));
     require_made(arrays_.clip.back(), {}, std::as_writable_bytes(std::span(crowd_.positions)));
@@ -229,7 +232,7 @@ void require_memory(const fs::path& folder, const CachedCrowd& crowd, const Cach
     for (const ZarrArray& array : arrays.made()) bytes += 16 * chunks_of(array);  // digests: each, and all in one list
     for (const auto& made : {arrays.clip, arrays.ground, arrays.given}) bytes += 2 * bytes_of(made);  // files, numbers
     bytes += 3 * (bytes_of(arrays.results) + bytes_of(arrays.state));  // and as they are solved again
-    bytes += kSolverBytes * characters * static_cast<double>(crowd.limbs.size());
+    bytes += kSolverBytes * characters * static_cast<double>(crowd.limb_count());
     if (bytes > kMostMemory * kMebibyte)
         throw InputError(folder, fmt::format("takes {:.0f} MiB of memory at once, more than {:.0f}; {}",
                                              bytes / kMebibyte, kMostMemory, advice));

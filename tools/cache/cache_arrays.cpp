@@ -26,8 +26,8 @@ ZarrArray by_character(const CachedCrowd& crowd, std::string name, std::string t
     ZarrArray array{std::move(name),
                     std::move(type),
                     {"frame", "limb", "character"},
-                    {crowd.frame_count, crowd.limbs.size(), crowd.character_count},
-                    {crowd.chunk.frames, crowd.limbs.size(), crowd.chunk.characters},
+                    {crowd.frame_count, crowd.limb_count(), crowd.character_count},
+                    {crowd.chunk.frames, crowd.limb_count(), crowd.chunk.characters},
                     std::move(meaning)};
     array.dimensions.insert(array.dimensions.end(), part_dimensions.begin(), part_dimensions.end());
     array.shape.insert(array.shape.end(), parts.begin(), parts.end());
@@ -86,7 +86,7 @@ CacheArrays::CacheArrays(const CachedCrowd& crowd)
         results.push_back(by_character(crowd, field.name, type, field.meaning, field.parts, field.part_dimensions));
         if (crowd.carries_state()) state.push_back(state_array(crowd, results.back()));
     }
-    const std::uint64_t limb_count = crowd.limbs.size(), clip_frames = crowd.clip_frames;
+    const std::uint64_t limb_count = crowd.limb_count(), clip_frames = crowd.clip_frames;
     for (const Member& member : kSourceMembers)
         clip.push_back(whole(fmt::format("clip/{}", member.name), member.type, {"limb", "clip_frame", "part"},
                              {limb_count, clip_frames, member.count}, member.meaning));

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "tools/cache/cache_attributes.h"
 #include "tools/cache/digest.h"
 #include "tools/cache/members.h"
 #include "tools/formats/error.h"
@@ -67,8 +68,8 @@ void CacheMaker::write_clip()
     const std::uint64_t frame_count = crowd_.clip_frames;
     for (std::size_t n = 0; n < std::size(kSourceMembers); ++n) {
         std::vector<std::byte> bytes;
-        for (const CachedLimb& limb : crowd_.limbs) {
-            const auto part = gathered(std::span(limb.sources), kSourceMembers[n], frame_count);
+        for (const std::span<const goal_source> sources : sources_of(crowd_)) {
+            const auto part = gathered(sources, kSourceMembers[n], frame_count);
             bytes.insert(bytes.end(), part.begin(), part.end());
         }
         write(arrays_.clip[n], {}, bytes);

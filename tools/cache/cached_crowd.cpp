@@ -1,307 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "tools/cache/cached_crowd.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
-#include <stdexcept>
-#include <utility>
-
-#include "tools/cache/digest.h"
-#include "tools/crowd/goal_crowd.h"
-#include "tools/formats/error.h"
-#include "tools/formats/printable.h"
-#include "tools/formats/text.h"
-
 namespace swivel::tools {
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr int kFormat = 6;
-constexpr std::uint32_t kLimbsInChunk = 65'536;
-constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
-constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
-constexpr double kMostLength = 1e15;             // as swivel.h has it
-constexpr std::uint32_t kMostHeights = 16'384;   // along a side: formats::read_height_picture() has no more
-constexpr std::int64_t kMostJoints = 1'000'000;  // more than the attributes have room for
-
-// The numbers of a chain, by the names of swivel_chain.
-constexpr std::pair<const char*, float (swivel_chain::*)[4]> kChainRotations[] = {
-    {"shoulder_rotation", &swivel_chain::shoulder_rotation},
-    {"elbow_rotation", &swivel_chain::elbow_rotation},
-    {"wrist_rotation", &swivel_chain::wrist_rotation}};
-constexpr std::pair<const char*, float (swivel_chain::*)[3]> kChainVectors[] = {
-    {"elbow_offset", &swivel_chain::elbow_offset},
-    {"wrist_offset", &swivel_chain::wrist_offset},
-    {"bend", &swivel_chain::bend}};
-
-// A number within its range. JSON's own conversions would wrap, cut or round others.
-std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std::uint32_t most)
-{
-    const Json& value = json.at(name);
-    // From 2^63 on it becomes negative, and is out of range as well.
-    const std::int64_t number = value.is_number_integer() ? value.get<std::int64_t>() : -1;
-    if (number < least || number > most)
-        throw std::invalid_argument(
-            fmt::format("{} is {}, not a number from {} to {}", name, formats::printable(value.dump()), least, most));
-    return static_cast<std::uint32_t>(number);
-}
-bool yes_or_no(const Json& json, const char* name) { return whole(json, name, 0, 1) != 0; }
-template <class Enum>
-Enum one_of(const Json& json, const char* name, Enum last)
-{
-    return static_cast<Enum>(whole(json, name, 0, last));
-}
-
-// A joint's place in the list, or -1.
-int place_of(const Json& json)
-{
-    if (!json.is_number_integer() || json.get<std::int64_t>() < -1 || json.get<std::int64_t>() > kMostJoints)
-        throw std::invalid_argument("a joint's number is out of range");
-    return json.get<int>();
-}
-
-Json json_of(const swivel_chain& chain)
-{
-    Json out;
-    for (const auto& [name, rotation] : kChainRotations) out[name] = chain.*rotation;
-    for (const auto& [name, vector] : kChainVectors) out[name] = chain.*vector;
-    return out;
-}
-
-// A number, or what JSON has in place of one that is not finite.
-float number_of(const Json& json)
-{
-    return json.is_null() ? std::numeric_limits<float>::quiet_NaN() : json.get<float>();
-}
-template <class Number, std::size_t Count>
-void get(const Json& json, Number (&to)[Count])
-{
-    if (json.size() != Count) throw std::invalid_argument("a list is too short or too long");
-    for (std::size_t n = 0; n < Count; ++n)
-        if constexpr (std::is_array_v<Number>)
-            get(json[n], to[n]);
-        else if constexpr (std::is_same_v<Number, float>)
-            to[n] = number_of(json[n]);
-        else
-            json[n].get_to(to[n]);  // throws for what is no number
-}
-
-swivel_chain chain_of(const Json& json)
-{
-    swivel_chain chain = swivel_default_chain();
-    for (const auto& [name, rotation] : kChainRotations) get(json.at(name), chain.*rotation);
-    for (const auto& [name, vector] : kChainVectors) get(json.at(name), chain.*vector);
-    return chain;
-}
-
-Json json_of(const goal_plan& goals)
-{
-    return {{"target_point", goals.target_point},
-            {"target_offset", goals.target_offset},
-            {"effector", goals.effector},
-            {"pole_fixed", goals.pole_fixed},
-            {"shoulder_place", goals.shoulder_place},
-            {"bones", goals.bones},
-            {"weights", goals.weights},
-            {"has_target_point", goals.has_target_point},
-            {"has_pole_fixed", goals.has_pole_fixed},
-            {"pole", goals.pole},
-            {"holds_pole", goals.holds_pole},
-            {"hand_is_local", goals.hand_is_local},
-            {"goes_along", goals.goes_along}};
-}
-
-goal_plan goals_of(const Json& json)
-{
-    goal_plan goals{};
-    get(json.at("target_point"), goals.target_point);
-    get(json.at("target_offset"), goals.target_offset);
-    get(json.at("effector"), goals.effector);
-    get(json.at("pole_fixed"), goals.pole_fixed);
-    get(json.at("shoulder_place"), goals.shoulder_place);
-    get(json.at("bones"), goals.bones);
-    get(json.at("weights"), goals.weights);
-    goals.has_target_point = yes_or_no(json, "has_target_point");
-    goals.has_pole_fixed = yes_or_no(json, "has_pole_fixed");
-    goals.pole = one_of(json, "pole", GOAL_POLE_NORMAL);
-    goals.holds_pole = yes_or_no(json, "holds_pole");
-    goals.hand_is_local = yes_or_no(json, "hand_is_local");
-    goals.goes_along = yes_or_no(json, "goes_along");
-    return goals;
-}
-
-Json json_of(const swivel_region& region)
-{
-    Json half_spaces = Json::array();
-    for (std::uint32_t n = 0; n < region.first[region.part_count]; ++n) {
-        const swivel_half_space& half = region.half_space[n];
-        half_spaces.push_back({{"axis", half.axis}, {"cosine", half.cosine}, {"is_edge", half.is_edge}});
-    }
-    return {{"first", std::vector(region.first, region.first + region.part_count + 1)},
-            {"half_spaces", std::move(half_spaces)}};
-}
-
-// The solver checks what it says.
-swivel_region region_of(const Json& json)
-{
-    swivel_region region = swivel_default_region();
-    const Json &first = json.at("first"), &half_spaces = json.at("half_spaces");
-    if (first.empty() || first.size() > std::size(region.first) || half_spaces.size() > std::size(region.half_space))
-        throw std::invalid_argument("a region has too many parts, or none");
-    region.part_count = static_cast<std::uint32_t>(first.size() - 1);
-    for (std::size_t n = 0; n < first.size(); ++n) {
-        const std::int64_t at = first[n].is_number_integer() ? first[n].get<std::int64_t>() : -1;
-        if (at < 0 || at > static_cast<std::int64_t>(half_spaces.size()))
-            throw std::invalid_argument("a region's part starts at no half-space");
-        region.first[n] = static_cast<std::uint32_t>(at);
-    }
-    region.cut_count = region.first[0];
-    for (std::size_t n = 0; n < half_spaces.size(); ++n) {
-        swivel_half_space& half = region.half_space[n];
-        get(half_spaces[n].at("axis"), half.axis);
-        half_spaces[n].at("cosine").get_to(half.cosine);
-        half.is_edge = yes_or_no(half_spaces[n], "is_edge");
-    }
-    return region;
-}
-
-Json json_of(const goal_ground& grid)
-{
-    return {{"size", grid.size}, {"place", grid.place}, {"columns", grid.columns}, {"rows", grid.rows}};
-}
-
-// Without its heights.
-Ground ground_of(const Json& json)
-{
-    Ground ground{};
-    get(json.at("size"), ground.grid.size);
-    get(json.at("place"), ground.grid.place);
-    const auto is_length = [](double length) { return length > 0 && length <= kMostLength; };
-    const auto is_place = [](double place) { return std::fabs(place) <= kMostLength; };
-    if (!std::ranges::all_of(ground.grid.size, is_length) || !std::ranges::all_of(ground.grid.place, is_place))
-        throw std::invalid_argument("a ground's size or place is out of range");
-    ground.grid.columns = whole(json, "columns", 0, kMostHeights);
-    ground.grid.rows = whole(json, "rows", 0, kMostHeights);
-    if (std::min(ground.grid.columns, ground.grid.rows) < 2 && ground.grid.columns + ground.grid.rows > 0)
-        throw std::invalid_argument("a ground has one row or column");
-    return ground;
-}
-
-Json json_of(const CachedLimb& limb)
-{
-    const LimbSetup& setup = limb.setup;
-    Json fixed = Json::array();
-    for (const FixedField& each : setup.fields) fixed.push_back({{"field", each.field}, {"value", each.value}});
-    Json json{{"name", formats::limb_word(limb.name)},
-              {"joints", limb.joints},
-              {"features", setup.features},
-              {"shoulder_order", setup.shoulder_order},
-              {"wrist_order", setup.wrist_order},
-              {"mirrored", setup.mirrored ? 1 : 0},
-              {"chain", json_of(setup.chain)},
-              {"goals", json_of(setup.goals)},
-              {"fixed", std::move(fixed)}};
-    if (setup.region) json["region"] = json_of(*setup.region);
-    if (setup.has(SWIVEL_WITH_GROUND)) json["clearances"] = {setup.ground.toe_clearance, setup.ground.heel_clearance};
-    return json;
-}
-
-CachedLimb limb_of(const Json& json)
-{
-    CachedLimb limb;
-    const auto name = formats::limb_of_word(json.at("name").get<std::string>());
-    if (!name) throw std::invalid_argument("a limb has no name that is known");
-    limb.name = *name;
-    for (const Json& joint : json.at("joints")) limb.joints.push_back(place_of(joint));
-    LimbSetup& setup = limb.setup;
-    if (!json.at("features").is_number_unsigned()) throw std::invalid_argument("features is no set of bits");
-    json.at("features").get_to(setup.features);
-    setup.shoulder_order = one_of(json, "shoulder_order", SWIVEL_ZYX);
-    setup.wrist_order = one_of(json, "wrist_order", SWIVEL_ZYX);
-    setup.mirrored = yes_or_no(json, "mirrored");
-    setup.chain = chain_of(json.at("chain"));
-    setup.goals = goals_of(json.at("goals"));
-    for (const Json& each : json.at("fixed")) {
-        FixedField& fixed = setup.fields.emplace_back();
-        fixed.field = one_of(each, "field", SWIVEL_CLAVICLE_TURN);
-        each.at("value").get_to(fixed.value);
-    }
-    if (json.contains("region")) setup.region = region_of(json.at("region"));
-    if (json.contains("clearances")) {
-        float clearances[2];
-        get(json.at("clearances"), clearances);
-        setup.ground.toe_clearance = clearances[0], setup.ground.heel_clearance = clearances[1];
-    }
-    return limb;
-}
-
-// What the rest of the program relies on, beside the ranges of numbers.
-void require_sane(const CachedCrowd& crowd)
-{
-    if (crowd.limbs.empty() || crowd.limbs.size() > kMostLimbs)
-        throw std::invalid_argument("there are no limbs, or too many");
-    const auto joint_count = static_cast<int>(crowd.joints.size());
-    for (int n = 0; n < joint_count; ++n)
-        if (const int parent = crowd.joints[static_cast<std::size_t>(n)].parent; parent < -1 || parent >= n)
-            throw std::invalid_argument("a joint comes before its parent");
-    const auto is_joint = [&](int joint) { return joint >= 0 && joint < joint_count; };
-    for (const CachedLimb& limb : crowd.limbs)
-        if (limb.joints.size() != 3 || !std::ranges::all_of(limb.joints, is_joint))
-            throw std::invalid_argument("a limb's joints are not three of the joints");
-}
-
-// All that is carried is kept, and legs stand where there is a ground, and nowhere else.
-void require_kept(const CachedCrowd& crowd)
-{
-    const std::vector<ResultField> kept = result_fields(crowd);
-    swivel_features all = 0;
-    for (const CachedLimb& limb : crowd.limbs) {
-        all |= limb.setup.features;
-        swivel_field_info info;
-        for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-            if (info.kind == SWIVEL_FIELD_CARRIED && swivel_component_count(info.field, limb.setup.features) > 0 &&
-                std::ranges::find(kept, info.field, &ResultField::field) == kept.end())
-                throw std::invalid_argument(fmt::format("a limb carries {}, which no cache keeps", info.name));
-    }
-    constexpr swivel_features kStands = SWIVEL_WITH_GROUND | SWIVEL_WITH_FIT;
-    if ((all & kStands) != (crowd.ground ? kStands : 0))
-        throw std::invalid_argument("legs stand without a ground, or there is one that none stands on");
-}
-
-// The solver knows what it takes: features that go together, unit rotations, fields that there are.
-void require_solvable(const CachedCrowd& crowd)
-{
-    std::vector<LimbSetup> setups;
-    for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
-    const goal_source none{};
-    const Ground level{};  // the cache's own heights come later
-    GoalCrowd crowd_of_one(setups, std::vector(setups.size(), std::span(&none, 1)),
-                           {goal_character{1, {}, 0, 0, 0, 1, 0, 0}}, 0, crowd.ground ? &level : nullptr, 0);
-    crowd_of_one.set_frame(0);
-    crowd_of_one.solve();
-}
-
-std::string digest_text(const Json& attributes)
-{
-    const std::string text = attributes.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return fmt::format("{:016x}", digest_of(std::as_bytes(std::span(text))));
-}
-
-}  // namespace
 
 bool CachedCrowd::carries_state() const
 {
-    return std::ranges::any_of(limbs, [](const CachedLimb& limb) {
-        return limb.setup.has(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT);
-    });
+    return look || std::ranges::any_of(limbs, [](const CachedLimb& limb) {
+               return limb.setup.has(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT);
+           });
+}
+
+std::vector<LimbSetup> setups_of(const CachedCrowd& crowd)
+{
+    std::vector<LimbSetup> setups;
+    for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
+    if (crowd.look) setups.push_back(crowd.look->setup);
+    return setups;
+}
+
+std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
+{
+    std::vector<std::span<const goal_source>> sources;
+    for (const CachedLimb& limb : crowd.limbs) sources.push_back(limb.sources);
+    if (crowd.look) sources.push_back(crowd.look->sources);
+    return sources;
 }
 
 ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count)
 {
+    constexpr std::uint32_t kLimbsInChunk = 65'536;
     const std::uint64_t blocks = (std::uint64_t{characters} + SWIVEL_LANES - 1) / SWIVEL_LANES;
     const auto most = static_cast<std::uint32_t>(kLimbsInChunk / limb_count);
     const auto of_chunk =
@@ -320,15 +47,15 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
 {
     swivel_features features = 0;
     unsigned twist_bones = 0;
-    for (const CachedLimb& limb : crowd.limbs) {
-        features |= limb.setup.features;
-        twist_bones = std::max(twist_bones, limb.setup.twist_bone_count());
+    for (const LimbSetup& limb : setups_of(crowd)) {
+        features |= limb.features;
+        twist_bones = std::max(twist_bones, limb.twist_bone_count());
     }
     const auto has = [&](swivel_features feature) { return (features & feature) != 0; };
     std::vector<ResultField> fields{
         {SWIVEL_SHOULDER, "shoulder", "local rotation of the shoulder joint, x y z w", {4}, {"xyzw"}},
         {SWIVEL_ELBOW, "elbow", "local rotation of the elbow joint, x y z w", {4}, {"xyzw"}}};
-    if (has(SWIVEL_WITH_HAND))
+    if (has(SWIVEL_WITH_HAND | SWIVEL_LOOK))
         fields.push_back({SWIVEL_WRIST, "wrist", "local rotation of the wrist joint, x y z w", {4}, {"xyzw"}});
     fields.push_back({SWIVEL_FLAGS, "flags", "bits of swivel_flag", {}, {}});
     if (has(SWIVEL_WITH_REACH)) fields.push_back({SWIVEL_STRETCH, "stretch", "factor of both bone lengths", {}, {}});
@@ -354,77 +81,10 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
                           {"part"}});
     if (has(SWIVEL_WITH_GROUND))
         fields.push_back({SWIVEL_LIFT, "lift", "how far the ground lifts a foot, as SWIVEL_LIFT", {3}, {"part"}, true});
+    if (has(SWIVEL_LOOK))
+        fields.push_back(
+            {SWIVEL_LOOK_LINE, "look_line", "where a look points, as SWIVEL_LOOK_LINE", {4}, {"part"}, true});
     return fields;
-}
-
-Json attributes_of(const CachedCrowd& crowd)
-{
-    Json joints = Json::array(), limbs = Json::array();
-    for (const CachedJoint& joint : crowd.joints) joints.push_back({{"name", joint.name}, {"parent", joint.parent}});
-    for (const CachedLimb& limb : crowd.limbs) limbs.push_back(json_of(limb));
-    Json out{{"swivel_cache", kFormat},
-             {"has_poses", crowd.has_poses},
-             {"frames", crowd.frame_count},
-             {"characters", crowd.character_count},
-             {"chunk_frames", crowd.chunk.frames},
-             {"chunk_characters", crowd.chunk.characters},
-             {"has_given", crowd.has_given},
-             {"title", crowd.title},
-             {"clip", crowd.clip},
-             {"clip_frames", crowd.clip_frames},
-             {"frame_seconds", crowd.frame_seconds},
-             {"goals_digest", fmt::format("{:016x}", crowd.goals_digest)},
-             {"joints", std::move(joints)},
-             {"limbs", std::move(limbs)}};
-    if (crowd.ground) out["ground"] = json_of(crowd.ground->grid);
-    out["digest"] = digest_text(out);
-    return out;
-}
-
-CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::path& path)
-{
-    const auto refuse = [&](const std::string& why) { throw formats::InputError(path, why); };
-    if (!attributes.contains("swivel_cache")) refuse("describes no cache of swivel; swivel store makes one");
-    if (attributes["swivel_cache"] != kFormat)
-        refuse(
-            fmt::format("the cache has format {}, this swivel reads format {}; make it anew by swivel store, or use "
-                        "the swivel that made it",
-                        formats::printable(attributes["swivel_cache"].dump()), kFormat));
-    Json without = attributes;
-    without.erase("digest");
-    if (attributes.value("digest", Json()) != digest_text(without))
-        refuse("was changed: its digest is another; take it from a copy, or make the cache anew");
-    CachedCrowd crowd;
-    try {
-        attributes.at("has_poses").get_to(crowd.has_poses);
-        crowd.frame_count = whole(attributes, "frames", 1, kMost);
-        crowd.character_count = whole(attributes, "characters", 1, kMost);
-        crowd.chunk.frames = whole(attributes, "chunk_frames", 1, kMostFramesInChunk);
-        crowd.chunk.characters = whole(attributes, "chunk_characters", SWIVEL_LANES, kMostCharactersInChunk);
-        if (crowd.chunk.characters % SWIVEL_LANES != 0)
-            throw std::invalid_argument("chunk_characters is no multiple of 16");
-        attributes.at("has_given").get_to(crowd.has_given);
-        attributes.at("title").get_to(crowd.title);
-        attributes.at("clip").get_to(crowd.clip);
-        crowd.clip_frames = whole(attributes, "clip_frames", 1, kMost);
-        attributes.at("frame_seconds").get_to(crowd.frame_seconds);
-        if (!(crowd.frame_seconds >= 0 && crowd.frame_seconds <= kMostLength))
-            throw std::invalid_argument("frame_seconds is out of range");
-        crowd.goals_digest = std::stoull(attributes.at("goals_digest").get<std::string>(), nullptr, 16);
-        for (const Json& joint : attributes.at("joints"))
-            crowd.joints.push_back({joint.at("name").get<std::string>(), place_of(joint.at("parent"))});
-        for (const Json& limb : attributes.at("limbs")) crowd.limbs.push_back(limb_of(limb));
-        if (attributes.contains("ground")) crowd.ground = ground_of(attributes.at("ground"));
-        require_sane(crowd);
-        require_kept(crowd);
-        require_solvable(crowd);
-    } catch (const formats::InputError&) {
-        throw;
-    } catch (const std::exception& error) {  // the digest holds, so another program wrote it
-        refuse(fmt::format("cannot be understood: {}; make the cache anew by swivel store",
-                           formats::printable(error.what(), formats::kMostQuoted)));
-    }
-    return crowd;
 }
 
 }  // namespace swivel::tools

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +30,7 @@ struct CachedLimb {
     std::vector<goal_source> sources;  // one for each frame of the clip
 };
 
-// Heads that look: as a limb. A page has them, a cache has not.
+// Heads that look, as a limb: the last one of a character.
 struct CachedLook {
     LimbSetup setup;
     std::vector<goal_source> sources;
@@ -52,7 +52,7 @@ struct CachedCrowd {
     std::vector<float> positions;  // [frame of the clip][joint][3], in the world
     std::vector<CachedLimb> limbs;
     std::optional<CachedLook> look;
-    // Of characters of size 1 that carry a box: its sides, and how far it is ahead of the wrists. Not in a cache.
+    // Of characters of size 1 that carry a box: its sides, and how far it is ahead of the wrists.
     std::optional<std::array<double, 4>> box;
     std::optional<Ground> ground;  // that legs stand on
     bool has_given = false;        // goals of one's own
@@ -60,6 +60,8 @@ struct CachedCrowd {
     ChunkShape chunk{1, 16};
     std::uint64_t goals_digest = 0;  // of all arrays that are written once
 
+    // Of a character, with its look.
+    std::size_t limb_count() const { return limbs.size() + (look ? 1 : 0); }
     // Chunks along the frames and along the characters.
     std::uint32_t time_count() const { return (frame_count + chunk.frames - 1) / chunk.frames; }
     std::uint32_t column_count() const { return (character_count + chunk.characters - 1) / chunk.characters; }
@@ -74,11 +76,15 @@ struct CachedCrowd {
     // The place of a character's limb in arrays [frame][limb][character] of a chunk; all three counted within it.
     std::size_t place(std::size_t frame, std::size_t limb, std::size_t character) const
     {
-        return (frame * limbs.size() + limb) * chunk.characters + character;
+        return (frame * limb_count() + limb) * chunk.characters + character;
     }
     // Whether a frame's results depend on the frame before.
     bool carries_state() const;
 };
+
+// All limbs as GoalCrowd takes them, the look last. Sources live as long as the crowd.
+std::vector<LimbSetup> setups_of(const CachedCrowd& crowd);
+std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd);
 
 // A chunk of about 64,000 limbs, whatever the memory and the number of machines: characters first, then frames.
 ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count);
@@ -96,11 +102,5 @@ struct ResultField {
 };
 // The fields that any of the limbs has, in the solver's order. Each number is 4 bytes.
 std::vector<ResultField> result_fields(const CachedCrowd& crowd);
-
-// The attributes of the cache's folder. Arrays hold sources and positions.
-nlohmann::ordered_json attributes_of(const CachedCrowd& crowd);
-// The way back, without sources and positions. All numbers are within their ranges, and the limbs are some that the
-// solver takes. Throws InputError naming path where a value is missing, damaged or of another version.
-CachedCrowd crowd_of_attributes(const nlohmann::ordered_json& attributes, const std::filesystem::path& path);
 
 }  // namespace swivel::tools

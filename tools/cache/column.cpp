@@ -25,7 +25,8 @@ std::size_t joint_of(swivel_field field)
 
 bool is_carried(swivel_field field)
 {
-    return field == SWIVEL_NORMAL || field == SWIVEL_PLANT || field == SWIVEL_LIFT || field == SWIVEL_SHIFT;
+    return field == SWIVEL_NORMAL || field == SWIVEL_PLANT || field == SWIVEL_LIFT || field == SWIVEL_SHIFT ||
+           field == SWIVEL_LOOK_LINE;
 }
 
 }  // namespace
@@ -39,15 +40,21 @@ Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_c
 {
 }
 
+bool Column::has(std::size_t limb, swivel_field field) const
+{
+    const std::size_t joint = joint_of(field);
+    const std::optional<swivel_look>& look = setups_[limb].look;
+    return look && joint > 0 ? joint <= look->joint_count : crowd_.has(limb, field);
+}
+
 void Column::read_frame(std::uint32_t frame, Results& results) const
 {
     for (std::size_t n = 0; n < fields_.size(); ++n)
-        for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
+        for (std::size_t limb = 0; limb < setups_.size(); ++limb) {
             const swivel_field field = fields_[n].field;
-            const std::size_t count = fields_[n].count();
-            if (!crowd_.has(limb, field)) continue;
+            const std::size_t count = fields_[n].count(), joint = joint_of(field);
+            if (!has(limb, field)) continue;
             std::uint32_t* to = &results[n][cached_.place(frame, limb, 0) * count];
-            const std::size_t joint = joint_of(field);
             if (joint == 0) {
                 crowd_.read(limb, field, 0, crowd_.character_count(), {to, count * sizeof *to});
                 if (field != SWIVEL_SHIFT) continue;
@@ -66,7 +73,7 @@ void Column::read_frame(std::uint32_t frame, Results& results) const
 void Column::restore(const Results& state)
 {
     for (std::size_t n = 0; n < fields_.size(); ++n)
-        for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
+        for (std::size_t limb = 0; limb < setups_.size(); ++limb) {
             const swivel_field field = fields_[n].field;
             if (!is_carried(field) || !crowd_.has(limb, field)) continue;
             const std::size_t count = fields_[n].count(), at = cached_.place(0, limb, 0) * count;
@@ -109,24 +116,10 @@ void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t
         }
 }
 
-std::vector<LimbSetup> setups_of(const CachedCrowd& crowd)
-{
-    std::vector<LimbSetup> setups;
-    for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
-    return setups;
-}
-
-std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
-{
-    std::vector<std::span<const goal_source>> sources;
-    for (const CachedLimb& limb : crowd.limbs) sources.push_back(limb.sources);
-    return sources;
-}
-
 Results empty_results(const CachedCrowd& crowd)
 {
     Results results;
-    const std::size_t limbs = std::size_t{crowd.chunk.frames} * crowd.limbs.size() * crowd.chunk.characters;
+    const std::size_t limbs = std::size_t{crowd.chunk.frames} * crowd.limb_count() * crowd.chunk.characters;
     for (const ResultField& field : result_fields(crowd))
         results.emplace_back(limbs * field.count(), field.field == SWIVEL_FLAGS ? 0 : kNoNumber);
     return results;

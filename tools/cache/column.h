@@ -23,6 +23,8 @@ public:
     std::uint64_t solve(std::uint32_t time, const ChunkGoals& goals, Results& results);
 
 private:
+    // Whether a limb has a field of the results. Joints of a look are as those of a limb.
+    bool has(std::size_t limb, swivel_field field) const;
     void read_frame(std::uint32_t frame, Results& results) const;
 
     const CachedCrowd& cached_;
@@ -37,9 +39,7 @@ private:
 void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t frame, std::uint32_t first,
                GoalCrowd& crowd, std::vector<GivenPlace>* places = nullptr);
 
-// The limbs of a crowd as GoalCrowd takes them.
-std::vector<LimbSetup> setups_of(const CachedCrowd& crowd);
-std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd);
+// What its legs stand on; null: nothing.
 inline const Ground* ground_of(const CachedCrowd& crowd) { return crowd.ground ? &*crowd.ground : nullptr; }
 
 // Whole chunks' results, all of them NaN, and 0 where they are flags.

@@ -34,7 +34,9 @@ constexpr Member kSourceMembers[] = {
     {"shoulder", "<f4", offsetof(goal_source, shoulder), 4, "the clip's own local rotation, x y z w"},
     {"elbow_local", "<f4", offsetof(goal_source, elbow_local), 4, "the clip's own local rotation, x y z w"},
     {"wrist_local", "<f4", offsetof(goal_source, wrist_local), 4, "the clip's own local rotation, x y z w"},
-    {"contact", "<f4", offsetof(goal_source, contact), 1, "1 while the foot is on the ground"}};
+    {"contact", "<f4", offsetof(goal_source, contact), 1, "1 while the foot is on the ground"},
+    {"carried", "<f8", offsetof(goal_source, carried), 3, "from the shoulder, the wrist of who carries a box"},
+    {"carries", "<u4", offsetof(goal_source, carries), 1, "1: the arm of who carries a box follows carried"}};
 
 constexpr Member kCharacterMembers[] = {
     {"size", "<f8", offsetof(goal_character, size), 1, "factor of all lengths, also of the way it goes"},
@@ -42,7 +44,8 @@ constexpr Member kCharacterMembers[] = {
     {"start", "<u4", offsetof(goal_character, start), 1, "frame of its clip that it starts at"},
     {"wish", "<f4", offsetof(goal_character, wish), 1, "the shift where no leg asks for another; below 0 is lower"},
     {"first", "<u4", offsetof(goal_character, first), 1, "first frame of its clip"},
-    {"count", "<u4", offsetof(goal_character, count), 1, "frames of its clip, which it plays round and round"}};
+    {"count", "<u4", offsetof(goal_character, count), 1, "frames of its clip, which it plays round and round"},
+    {"carries", "<u4", offsetof(goal_character, carries), 1, "1: it carries a box"}};
 
 // The member of all structures, side by side, and zeros up to that many rows.
 template <class Struct>

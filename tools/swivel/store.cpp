@@ -33,7 +33,7 @@ public:
 
     void add_given(std::uint32_t frame, const ClipCrowd& solved)
     {
-        const std::size_t limbs = crowd_.limbs.size(), wide = crowd_.chunk.characters;
+        const std::size_t limbs = crowd_.limb_count(), wide = crowd_.chunk.characters;
         for (const GivenPlace& place : solved.given_places()) {
             ChunkGoals& goals = columns_[place.character / crowd_.chunk.characters];
             if (goals.target.empty()) {
@@ -124,18 +124,12 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
         throw formats::InputError(
             options.crowd.crowd,
             "has a budget, which is for live crowds: a cache solves all limbs; leave [budget] out");
-    if (job.plan.look)
-        throw formats::InputError(options.crowd.crowd, job.crowd->look->line,
-                                  "look: a cache has limbs alone, no heads; take this out");
-    if (job.plan.carry)
-        throw formats::InputError(options.crowd.crowd, job.crowd->carry->line,
-                                  "carry: a cache does not keep who carries a box; take this out");
     CachedCrowd crowd = cached_clip({title_of(options.crowd.file), motion_of(file, job)}, clip, job.limbs, job.plan,
                                     ClipMotion(clip, job.limbs, job.plan));
     crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);
     crowd.has_given = job.given->count(job.frame_count) > 0;
     crowd.has_poses = !options.no_poses;
-    crowd.chunk = options.chunk.empty() ? chunk_shape(crowd.frame_count, crowd.character_count, crowd.limbs.size())
+    crowd.chunk = options.chunk.empty() ? chunk_shape(crowd.frame_count, crowd.character_count, crowd.limb_count())
                                         : chunk_of(options.chunk);
     return crowd;
 }
