@@ -8,7 +8,7 @@ import { chromium } from "../../tests/page/node_modules/playwright-core/index.mj
 
 const [folder] = process.argv.slice(2);
 const browser = await chromium.launch({
-    executablePath: "/usr/bin/chromium",
+    executablePath: "/usr/bin/chromium-headless-shell",
     args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader"],
 });
 async function open(options) {
