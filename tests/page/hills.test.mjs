@@ -164,3 +164,53 @@ size = [6, 4, 5]
     assert.ok(share > 0.002, `${share} of the picture`);
   });
 });
+
+test('dragged ground rises below the one who stands there, as far as the pointer goes, and feet stand on it', async () => {
+  await visit(write('mound.html', ...words), async (page) => {
+    const seen = () => page.evaluate(() => {
+      const { stage } = swivelPage, legs = stage.limbs.filter(({ name }) => name.endsWith('leg'));
+      return stage.characters.map((_, n) => {
+        const root = Array.from(stage.root(n)), over = legs.map((leg) => stage.pose(leg, n).wrist).map(([x, y, z]) => y - stage.groundHeight(x, z));
+        return { root, over, ground: stage.groundHeight(root[0], root[2]), length: stage.armLength(legs[0], n) };
+      });
+    });
+    const look = () => page.evaluate(() => {
+      swivelPage.setFrame(20);  // they stand
+      swivelPage.select({ limb: swivelPage.stage.limbs[0], character: 3 });
+      swivelPage.look(swivelPage.stage.limbs[0], 3);
+      for (const at of [swivelPage.view.camera.position, swivelPage.view.controls.target]) at.y -= 0.35;  // the feet are above the bar
+      swivelPage.view.controls.update();
+      swivelPage.draw();
+    });
+    const handle = () => page.evaluate(() => {
+      const { position } = swivelPage.picker.handles.ground;
+      return { ...swivelPage.view.project(position.toArray()), height: position.y };
+    });
+    await look();
+    const before = await seen(), from = await handle();
+    const { share } = await difference(page, () => drag(page, from, { x: from.x, y: from.y - 60 }));
+    assert.ok(share > 0.02, `${share} of the picture changed`);
+    const after = await seen(), at = await handle(), by = (after[3].ground - before[3].ground) / after[3].length;
+    assert.ok(Math.abs(at.y - (from.y - 60)) < 1.5, `the ball is at ${at.y}, the pointer at ${from.y - 60}`);
+    assert.ok(by > 0.2 && Math.abs(after[3].root[1] - before[3].root[1] - (after[3].ground - before[3].ground)) < 1e-6 * after[3].length, `${by}`);
+    const far = await page.evaluate(() => {  // beyond the mound and the heights beside it
+      const { mounds: [{ rim }], ground: { size, columns, rows } } = swivelPage.stage;
+      return rim + 2 * Math.max(size[0] / (columns - 1), size[2] / (rows - 1));
+    });
+    for (const [n, { root, over, length }] of after.entries()) {
+      const away = Math.hypot(root[0] - before[3].root[0], root[2] - before[3].root[2]);
+      if (away > far + length) assert.deepEqual(over, before[n].over);
+      else over.forEach((foot, leg) => assert.ok(Math.abs(foot - before[n].over[leg]) < 0.06 * length, `foot ${leg} of ${n} is ${foot / length} over the ground, ${before[n].over[leg] / length} before`));
+    }
+    assert.deepEqual((await digests(page, [20])).map(([, state]) => state), ['changed']);
+    await page.getByRole('button', { name: 'Undo' }).click();
+    assert.deepEqual((await digests(page, [20])).map(([, state]) => state), ['equal']);
+    await drag(page, from, { x: from.x, y: from.y + 40 });  // one gesture, one mound
+    await drag(page, await handle(), { x: from.x, y: from.y + 400 });
+    const deep = await seen(), mounds = await page.evaluate(() => swivelPage.stage.mounds);
+    assert.equal(mounds.length, 2);
+    assert.ok(mounds.every(({ height, rim }) => height < 0 && height >= -0.5 * rim) && deep[3].ground < before[3].ground);
+    await page.getByRole('button', { name: 'Let all go' }).click();
+    assert.deepEqual((await digests(page, [20, 149, 20])).map(([, state]) => state), ['equal', 'equal', 'equal']);
+  });
+});

@@ -12,6 +12,7 @@ export const LIMB_COLOURS = ["#f08a3c", "#3f97e8", "#e2588f", "#2eb39a"];  // of
 export const CHOSEN = "#ffd34d";
 export const BOX = "#b08a57";  // that characters carry
 export const HIPS = "#63b5ff";  // the ball that moves them
+export const GROUND = "#8fd16a";  // the one that moves the ground
 export const CONE = "#ff5fa8";  // of the shoulder's limit and of the ball on its rim
 
 const RAMP = ["#2c7fb8", "#41b6a6", "#d9e26a", "#f6a03c", "#d7301f"];

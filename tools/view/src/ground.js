@@ -3,6 +3,8 @@
 // The ground that is drawn: a plane, or the crowd's hills, in metres of the scene. Shadows read the same heights.
 import { BufferGeometry, DataTexture, Float32BufferAttribute, FloatType, PlaneGeometry, RedFormat, Vector4 } from "three";
 
+import { hasHills } from "./mounds.js";
+
 const FAR = 2000;  // metres to the ends of what is drawn
 const MOST = 512;  // heights along a side that are drawn
 
@@ -12,34 +14,52 @@ function places(middle, size, count) {
     return Array.from({ length: drawn }, (_, n) => middle + size * (n / (drawn - 1) - 0.5));
 }
 
-/** { geometry, uniforms }. metres: of the scene for a unit of the clip; floor: of the clip, where the scene has its height 0. */
-export function makeGround(stage, metres, floor) {
-    const hasHills = stage.ground?.columns > 0, { middle, size, columns, rows } = stage.ground ?? {};
-    const xs = hasHills ? places(middle[0], size[0], columns) : [], zs = hasHills ? places(middle[2], size[2], rows) : [];
-    const heightAt = (x, z) => metres * (stage.groundHeight(x, z) - floor);
-    const heights = Float32Array.from(zs.flatMap((z) => xs.map((x) => heightAt(x, z))));
-    const uniforms = { uHeights: { value: heightTexture(xs.length, zs.length, heights) }, uHills: { value: hasHills }, uGrid: { value: gridOf(xs, zs, metres) } };
-    if (!hasHills) {
-        const geometry = new PlaneGeometry(2 * FAR, 2 * FAR).rotateX(-Math.PI / 2);
-        return { geometry: geometry.translate(0, stage.ground ? heightAt(0, 0) : 0, 0), uniforms };
+export class Ground {
+    /** metres: of the scene for a unit of the clip; floor: of the clip, where the scene has its height 0. */
+    constructor(stage, metres, floor) {
+        Object.assign(this, { stage, metres, floor, mounds: stage.mounds });
+        const { middle, size, columns, rows } = stage.ground ?? {}, isHilly = hasHills(stage);
+        this.xs = isHilly ? places(middle[0], size[0], columns) : [];
+        this.zs = isHilly ? places(middle[2], size[2], rows) : [];
+        this.heights = heightTexture(this.xs.length, this.zs.length);
+        this.uniforms = { uHeights: { value: this.heights }, uHills: { value: isHilly }, uGrid: { value: gridOf(this.xs, this.zs, metres) } };
+        this.geometry = isHilly ? this.makeHills() : new PlaneGeometry(2 * FAR, 2 * FAR).rotateX(-Math.PI / 2).translate(0, stage.ground ? this.heightAt(0, 0) : 0, 0);
+        if (isHilly) this.rise();
     }
-    const far = FAR / metres, along = (line) => [Math.min(-far, line[0] - far), ...line, Math.max(far, line.at(-1) + far)];
-    const [wide, deep] = [along(xs), along(zs)], positions = [], indices = [];
-    for (const z of deep) for (const x of wide) positions.push(metres * x, heightAt(x, z), metres * z);
-    for (let row = 1; row < deep.length; ++row)
-        for (let column = 1; column < wide.length; ++column) {
-            const at = row * wide.length + column, before = at - wide.length;
-            indices.push(before - 1, at - 1, before, before, at - 1, at);
-        }
-    const geometry = new BufferGeometry();
-    geometry.setIndex(indices);
-    geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
-    geometry.computeVertexNormals();
-    return { geometry, uniforms };
+    heightAt(x, z) { return this.metres * (this.stage.groundHeight(x, z) - this.floor); }
+    /** Level yet. */
+    makeHills() {
+        const far = FAR / this.metres, along = (line) => [Math.min(-far, line[0] - far), ...line, Math.max(far, line.at(-1) + far)];
+        const wide = this.wide = along(this.xs), deep = this.deep = along(this.zs), positions = [], indices = [];
+        for (const z of deep) for (const x of wide) positions.push(this.metres * x, 0, this.metres * z);
+        for (let row = 1; row < deep.length; ++row)
+            for (let column = 1; column < wide.length; ++column) {
+                const at = row * wide.length + column, before = at - wide.length;
+                indices.push(before - 1, at - 1, before, before, at - 1, at);
+            }
+        const geometry = new BufferGeometry();
+        geometry.setIndex(indices);
+        return geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
+    }
+    /** Takes the heights that the stage has now. */
+    rise() {
+        const { wide, deep, geometry: { attributes: { position } } } = this, { data, width } = this.heights.image;
+        deep.forEach((z, row) => wide.forEach((x, column) => position.setY(row * wide.length + column, this.heightAt(x, z))));
+        position.needsUpdate = true;
+        this.geometry.computeVertexNormals();
+        for (let n = 0; n < data.length; ++n) data[n] = position.getY((Math.floor(n / width) + 1) * wide.length + n % width + 1);  // the hills end before the ground
+        this.heights.needsUpdate = true;
+    }
+    /** Before a picture: whether the user has changed the hills. */
+    see() {
+        if (this.mounds === this.stage.mounds) return;
+        this.mounds = this.stage.mounds;
+        this.rise();
+    }
 }
 
-function heightTexture(width, height, heights) {
-    const texture = width > 0 ? new DataTexture(heights, width, height, RedFormat, FloatType) : new DataTexture(new Float32Array(1), 1, 1, RedFormat, FloatType);
+function heightTexture(width, height) {
+    const texture = width > 0 ? new DataTexture(new Float32Array(width * height), width, height, RedFormat, FloatType) : new DataTexture(new Float32Array(1), 1, 1, RedFormat, FloatType);
     texture.internalFormat = "R32F";
     texture.needsUpdate = true;
     return texture;

@@ -3,7 +3,7 @@
 // Hips that the user has moved up or down. Where feet stand on ground, a body wishes for a shift, and comes as near to it as its legs reach.
 import { ROOT_SHIFT, SIZE, WISH } from "./bytes.js";
 
-const legsOf = (stage) => stage.limbs.filter((limb) => stage.has(limb, "PLANT"));
+export const legsOf = (stage) => stage.limbs.filter((limb) => stage.has(limb, "PLANT"));
 export const hasHips = (stage) => legsOf(stage).length > 0;
 
 /** The middle of the hips in the world. */

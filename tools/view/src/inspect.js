@@ -26,7 +26,7 @@ function rowsOf(stage, limb, character) {
 
 export function makeInspector(page) {
     const { stage } = page;
-    const none = element("p", { class: "hint" }, "Click a limb. Then drag the yellow ball, its target, or the white one, its pole. On ground the blue one moves the hips up and down.");
+    const none = element("p", { class: "hint" }, "Click a limb. Then drag the yellow ball, its target, or the white one, its pole. On ground the blue one moves the hips up and down, and on hills the green one the ground.");
     const title = element("h3"), table = element("div"), flags = element("p", { class: "flags" }), why = element("p", { class: "why" });
     const everyone = checkbox("Drag everyone's", false, (isOn) => { page.dragsEveryone = isOn; },
         { title: "A drag moves this limb of all characters by the same offset, times their size. Those moved alone go along" });

@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: MIT
 //
-// Choosing a limb by a click, and dragging its wrist, its pole and the body's hips in a plane that faces the viewer.
+// Choosing a limb by a click, and dragging its wrist, its pole, the body's hips and the ground in a plane that faces the viewer.
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
 
-import { CHOSEN, HIPS } from "./colours.js";
+import { CHOSEN, GROUND, HIPS } from "./colours.js";
 import { hasHips, hipsOf } from "./hips.js";
 import { handle } from "./marks.js";
+import { footingOf, hasHills } from "./mounds.js";
 
 const SLACK = 6;  // pixels that a click may move
 const HANDLE_PIXELS = 22;
+const UPRIGHT = ["hips", "ground"];  // which go up and down
 
 export class Picker {
     /** page: main.js has it. */
     constructor(page) {
         this.page = page;
         this.caster = new Raycaster();
-        this.handles = { target: this.handle(CHOSEN, 1), pole: this.handle("#ffffff", 0.7), hips: this.handle(HIPS, 1) };
+        this.handles = { target: this.handle(CHOSEN, 1), pole: this.handle("#ffffff", 0.7), hips: this.handle(HIPS, 1), ground: this.handle(GROUND, 1) };
         page.view.marks.add(...Object.values(this.handles));
         this.drags = {  // what a drag of each handle to a place in the world does
             target: (world) => page.drag("target", world),
             pole: (world) => page.drag("pole", world),
             hips: (world) => page.drag("hips", world),
+            ground: (world) => page.drag("ground", world),
         };
         const { domElement } = page.view.renderer;
         domElement.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
@@ -52,9 +55,11 @@ export class Picker {
             mesh.visible = selection !== null && (part === "target" || stage.hasPole(selection.limb));
             if (mesh.visible) mesh.position.fromArray(stage.goal(selection.limb, selection.character, part));
         }
-        const { hips } = this.handles;
+        const { hips, ground } = this.handles;
         hips.visible = selection !== null && hasHips(stage);
         if (hips.visible) hips.position.fromArray(hipsOf(stage, selection.character));
+        ground.visible = selection !== null && hasHills(stage);
+        if (ground.visible) ground.position.fromArray(footingOf(stage, selection.character));
     }
 
     aim(event) {
@@ -111,8 +116,9 @@ export class Picker {
         if (part) this.start(event, part);
     }
     start(event, part) {
-        const { view } = this.page, at = this.handles[part].getWorldPosition(new Vector3());
-        this.dragging = { part, plane: new Plane().setFromNormalAndCoplanarPoint(view.camera.getWorldDirection(new Vector3()), at) };
+        const { view } = this.page, at = this.handles[part].getWorldPosition(new Vector3()), facing = view.camera.getWorldDirection(new Vector3());
+        if (UPRIGHT.includes(part)) facing.setY(0);
+        this.dragging = { part, plane: new Plane().setFromNormalAndCoplanarPoint(facing, at) };
         view.controls.enabled = false;
         event.target.setPointerCapture(event.pointerId);
     }

@@ -8,7 +8,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import { Bodies } from "./bodies.js";
 import { rgb, THEMES } from "./colours.js";
-import { makeGround } from "./ground.js";
+import { Ground } from "./ground.js";
 import groundGlsl from "./ground.glsl";
 
 const HEIGHT = 1.75;  // of a figure in the scene, metres
@@ -32,9 +32,9 @@ export class View {
         this.controls.maxPolarAngle = 0.497 * Math.PI;  // above level ground
         this.controls.minDistance = 0.4;
         this.controls.maxDistance = 400;
-        const ground = makeGround(stage, this.metres, figure.ground);
-        this.bodies = new Bodies(stage, figure, this.metres, this.renderer.capabilities.maxTextureSize, ground.uniforms);
-        this.addGround(ground.geometry, ground.uniforms.uHills.value);
+        this.relief = new Ground(stage, this.metres, figure.ground);
+        this.bodies = new Bodies(stage, figure, this.metres, this.renderer.capabilities.maxTextureSize, this.relief.uniforms);
+        this.addGround(this.relief.geometry, this.relief.uniforms.uHills.value);
         this.scene.add(...this.bodies.meshes);
         this.marks = new Group();  // what is drawn on top: handles and overlays, in units of the clip
         this.marks.scale.setScalar(this.metres);
@@ -149,6 +149,7 @@ export class View {
         const distance = this.camera.position.distanceTo(this.controls.target);
         this.bodies.shared.uFar.value = Math.max(45, 6 * distance);
         this.bodies.pose();
+        this.relief.see();
         this.renderer.render(this.scene, this.camera);
     }
     /** Pixels on the page of a point of the clip's world; null behind the camera. */

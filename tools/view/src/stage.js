@@ -7,10 +7,11 @@ import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, charactersOf, givenOf, gridOf, INPUT, PLAN, ROOT_SHIFT, SIZE, Sources } from "./bytes.js";
+import { bytesOf, charactersOf, floatsOf, givenOf, gridOf, INPUT, PLAN, ROOT_SHIFT, SIZE, Sources } from "./bytes.js";
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT, unit } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
-import { dragHips, dropHips, putHips } from "./hips.js";
+import { dragHips, dropHips, legsOf, putHips } from "./hips.js";
+import { dragMound, putMounds } from "./mounds.js";
 
 const KEPT = 64;  // frames from one state that is kept to the next, at least
 const MOST_KEPT = 2 ** 28;  // bytes of them
@@ -39,6 +40,7 @@ export class Stage {
         this.clips = [...new Set(this.characters.map(({ first }) => first))].sort((a, b) => a - b);  // their first frames
         this.ground = data.ground && this.makeGround(data.ground);
         this.given = givenOf(data.given);
+        this.mounds = [];  // of the ground, by the user
         this.hips = new Map();  // heights that bodies' shifts wish for, by the user
         this.pins = new Map();  // goals moved alone: "limb:character" to { target, pole } in the world
         const asked = askedOf(data);
@@ -55,8 +57,8 @@ export class Stage {
     }
 
     makeGround({ grid, heights }) {
-        const bytes = bytesOf(grid), at = this.keep(bytes), heightsAt = heights === "" ? 0 : this.keep(bytesOf(heights));
-        return { ...gridOf(bytes), pointers: [at, heightsAt] };
+        const bytes = bytesOf(grid), own = floatsOf(heights), at = this.keep(bytes), heightsAt = heights === "" ? 0 : this.keep(new Uint8Array(own.buffer));
+        return { ...gridOf(bytes), own, pointers: [at, heightsAt] };
     }
     get characterCount() { return this.characters.length; }
     get limbCount() { return this.limbs.length * this.characterCount; }
@@ -242,6 +244,8 @@ export class Stage {
         const [upper, fore] = limb.sources.lengths(this.clipFrame(character));
         return this.characters[character].size * (upper + fore);
     }
+    /** Of the longest of its legs that stand. */
+    legLength(character) { return Math.max(...legsOf(this).map((leg) => this.armLength(leg, character))); }
     featuresOf(limb) { return this.crowd.features(limb.index); }
     /** Poles may be points or directions; a direction is shown at the end of the limb. */
     poleIsPoint(limb) { return (this.featuresOf(limb) & Feature.POLE_DIRECTION) === 0n; }
@@ -262,9 +266,10 @@ export class Stage {
         return this.isPoint(limb, part) ? Array.from(asked) : unit(asked).map((coordinate, axis) => length * coordinate + origin[axis]);
     }
 
-    /** Moves a goal, or the hips, to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
+    /** Moves a goal, the hips or the ground to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
     drag(limb, character, part, world, everyone) {
-        if (part === "hips") dragHips(this, character, world, everyone);
+        if (part === "ground") dragMound(this, character, world);
+        else if (part === "hips") dragHips(this, character, world, everyone);
         else (everyone ? dragEveryone : dragOne)(this, limb, character, part, world);
         this.changed = this.isHeld = true;
         this.solveAgain();
@@ -280,12 +285,13 @@ export class Stage {
     letAllGo() {
         dropAllDrags(this);
         putHips(this, new Map());
+        putMounds(this, []);
         this.noteChanges();
         this.solveAgain();
         this.settle();
     }
     isAnyGoalMoved() { return this.pins.size > 0 || this.limbs.some(isShifted); }
-    isAnyDragged() { return this.isAnyGoalMoved() || this.hips.size > 0; }
+    isAnyDragged() { return this.isAnyGoalMoved() || this.hips.size > 0 || this.mounds.length > 0; }
     movedParts(limb, character) { return movedParts(this, limb, character); }
     noteChanges() { this.changed = this.isAnyDragged() || this.limbs.some((limb) => limb.own.size > 0); }
 
@@ -310,11 +316,12 @@ export class Stage {
         }
     }
     /** All that the user has changed. */
-    get changes() { return { pins: new Map(this.pins), hips: this.hips, shifts: this.limbs.map(({ shift }) => shift), owns: this.limbs.map(({ own }) => own) }; }
+    get changes() { return { pins: new Map(this.pins), hips: this.hips, mounds: this.mounds, shifts: this.limbs.map(({ shift }) => shift), owns: this.limbs.map(({ own }) => own) }; }
     /** Takes all changes back to what they were. Solves the crowd. Changes nothing if it fails. */
-    restore({ pins, hips, shifts, owns }) {
+    restore({ pins, hips, mounds, shifts, owns }) {
         this.setOwn(owns);
         putHips(this, hips);
+        putMounds(this, mounds);
         this.pins = pins;
         this.limbs.forEach((limb, n) => { limb.shift = shifts[n]; });
         this.noteChanges();

@@ -8,7 +8,7 @@ const MOST_ROWS = 2e6;
 /** What the user sees and the table does not hold: a sentence, or nothing. The crowd file's own pole comes before a table's. */
 export function lackOf(stage) {
     const isPoleLost = (limb) => limb.hasFixedPole && stage.characters.some((_, n) => stage.movedParts(limb, n).includes("pole"));
-    const lacks = [[stage.limbs.some(({ own }) => own.size > 0), "limits and weights"], [stage.limbs.some(isPoleLost), "poles that the crowd file sets"], [stage.hips.size > 0, "hips that were moved"],
+    const lacks = [[stage.limbs.some(({ own }) => own.size > 0), "limits and weights"], [stage.limbs.some(isPoleLost), "poles that the crowd file sets"], [stage.hips.size > 0, "hips that were moved"], [stage.mounds.length > 0, "the ground that was moved"],
         [stage.given.size > 0, "the table that this page was made with"]];
     const names = lacks.filter(([isLack]) => isLack).map(([, name]) => name);
     return names.length > 0 ? `The table does not hold ${names.join(", nor ")}.` : "";
