@@ -78,19 +78,22 @@ PlainContacts plain_contacts(const PlainLegs& legs, double speed, double height)
 {
     PlainContacts contacts;
     const int last = static_cast<int>(legs.frame_count()) - 1;
+    const auto floor_of = [&](std::size_t side) {
+        std::vector<double> heights;
+        for (const Eigen::Vector3d& toe : legs.legs[side].toe) heights.push_back(toe.y());
+        std::ranges::sort(heights);
+        return heights[static_cast<std::size_t>(last / 50)];
+    };
     for (std::size_t side = 0; side < 2; ++side) {
-        const double length = legs.leg_length(side);
+        const double length = legs.leg_length(side), floor = floor_of(side);
+        const bool is_held_up = floor >= floor_of(1 - side) + height * length;
         const auto toe = [&](int frame) {
             return legs.legs[side].toe[static_cast<std::size_t>(std::clamp(frame, 0, last))];
         };
-        std::vector<double> heights;
-        for (int frame = 0; frame <= last; ++frame) heights.push_back(toe(frame).y());
-        std::ranges::sort(heights);
-        const double floor = heights[static_cast<std::size_t>(last / 50)];
         const auto stands = [&](int frame) {
             const int at = std::clamp(frame, 0, last), before = std::max(at - 1, 0), after = std::min(at + 1, last);
             const double way = (toe(after) - toe(before)).norm(), time = (after - before) * legs.frame_time;
-            return way < speed * length * time && toe(at).y() < floor + height * length;
+            return !is_held_up && way < speed * length * time && toe(at).y() < floor + height * length;
         };
         for (int frame = 0; frame <= last; ++frame) {
             int count = 0;

@@ -177,6 +177,26 @@ TEST_CASE("feet: a clip that skates tells its own contacts, and all else of its 
     }
 }
 
+TEST_CASE("feet: who stands still on one leg has the other in the air")
+{
+    const PlainMotion jump = plain_motion_of(must_find_jump());
+    const PlainLegs legs = legs_path(jump, 1.0 / 120);
+    const auto over = [&](std::size_t frame) { return legs.legs[0].toe[frame].y() - legs.legs[1].toe[frame].y(); };
+    std::size_t raised = 0;  // where the left toe is highest over the right one
+    for (std::size_t frame = 1; frame < legs.frame_count(); ++frame)
+        if (over(frame) > over(raised)) raised = frame;
+    REQUIRE(over(raised) > 0.09 * legs.leg_length(0));
+    std::string still = jump.header;
+    still.replace(still.find("Frames:"), std::string::npos, "Frames: 60\nFrame Time: 0.0166667\n");
+    for (int frame = 0; frame < 60; ++frame) still += jump.lines[raised];
+    const TempFolder folder;
+    spill(folder / "still.bvh", still);
+    feet_done(folder, {"still.bvh", "--export-contacts", "c.csv"});
+    const PlainContacts found = contacts_in_table(slurp(folder / "c.csv"), 60);
+    CHECK(found[0] == std::vector<bool>(60, false));
+    CHECK(found[1] == std::vector<bool>(60, true));
+}
+
 TEST_CASE("feet: on hills they stand on the ground as it lies")
 {
     const fs::path path = find_or_warn("cmu_02_01_walk.bvh");

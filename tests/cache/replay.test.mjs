@@ -156,7 +156,7 @@ class Column {
       joints: chains[n], features: BigInt(limb.features), shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, onBadInput: OnBadInput.REST_POSE,
       ...(limb.region ? { region: this.swivel.region(new Uint8Array(regionBytes(limb.region))) } : {}),
       ...(limb.clearances ? { ground: { toeClearance: limb.clearances[0], heelClearance: limb.clearances[1] }, plant: { run: 1 } } : {}) }));
-    if (limbs.some(({ features }) => BigInt(features) & Feature.WITH_FIT)) groups.push({ fit: { half: 0.05 } });
+    if (limbs.some(({ features }) => BigInt(features) & Feature.WITH_FIT)) groups.push({ fit: { half: 0.03, drop: 0.2 } });
     this.crowd = this.swivel.bodies({ skeleton, bodyCount: this.count, groups });
     limbs.forEach(({ fixed }, group) => {
       for (const { field, value } of fixed) this.crowd.write(field, value.slice(0, this.crowd.componentCount(field, group)), { group });

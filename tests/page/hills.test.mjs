@@ -111,7 +111,7 @@ test('dragged hips go down as far as they may, with the feet where they stand; l
     const low = await seen();
     for (const [n, { hip, feet, length }] of before.entries()) {
       const down = (hip - low[n].hip) / length, off = Math.max(...feet.flatMap((foot, leg) => foot.map((x, axis) => Math.abs(x - low[n].feet[leg][axis])))) / length;
-      assert.ok(n === 3 ? down > 0.05 && down < 0.11 : down === 0, `${n} went down by ${down}`);
+      assert.ok(n === 3 ? down > 0.05 && down < 0.21 : down === 0, `${n} went down by ${down}`);
       assert.ok(off < 0.02, `a foot of ${n} went ${off} away`);
     }
     assert.deepEqual((await digests(page, [20])).map(([, state]) => state), ['changed']);

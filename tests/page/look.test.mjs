@@ -177,7 +177,7 @@ test('goals that were moved can all be let go when nothing is chosen', async () 
 test('handles have colours of their own, and a rim that is seen on any ground', async () => {
   await visit(crowd, async (page) => {
     const colours = await page.evaluate(() => Object.values(swivelPage.picker.handles).map((mesh) => [mesh, ...mesh.children].map(({ material }) => material.color.getHexString('srgb-linear'))));
-    assert.equal(new Set(colours.map(([own]) => own)).size, 4, `${colours}`);
+    assert.equal(new Set(colours.map(([own]) => own)).size, 5, `${colours}`);
     for (const [own, rim] of colours) assert.ok(rim !== undefined && parseInt(rim.slice(2, 4), 16) < 64, `${own}: ${rim}`);
     const pole = await pixel(page, 'pole');
     await drag(page, pole, { x: pole.x - 100, y: pole.y });  // else the target's ball hides a part of it

@@ -41,8 +41,10 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         group.ground = limbs[n].ground;
         group.plant.run = GOAL_PLANT_RUN;
     }
-    if (std::ranges::any_of(limbs, [](const LimbSetup& limb) { return limb.has(SWIVEL_WITH_FIT); }))
-        groups.push_back(swivel_default_fit_group_def()), groups.back().fit.half = GOAL_FIT_HALF;
+    if (std::ranges::any_of(limbs, [](const LimbSetup& limb) { return limb.has(SWIVEL_WITH_FIT); })) {
+        swivel_fit& fit = groups.emplace_back(swivel_default_fit_group_def()).fit;
+        fit.half = GOAL_FIT_HALF, fit.drop = GOAL_FIT_DROP;
+    }
     Crowd crowd(skeleton, characters, groups);
     for (std::uint32_t n = 0; n < limbs.size(); ++n)
         for (const FixedField& fixed : limbs[n].fields)

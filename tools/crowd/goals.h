@@ -96,9 +96,9 @@ static_assert(sizeof(goal_source) == 240 && sizeof(goal_character) == 56 && size
 enum { GOAL_JOINTS = 4 };
 enum { GOAL_MOST_LIMBS = 8 };  // of a character, with its look
 
-// Of groups that stand on ground: swivel_plant's run and swivel_fit's half, where they are not as usual. A body comes
-// down sooner than usual, because hills come as fast as steps.
-static const float GOAL_PLANT_RUN = 1, GOAL_FIT_HALF = 0.05f;
+// Of groups that stand on ground: swivel_plant's run, swivel_fit's half and drop, where they are not as usual. A body
+// comes down sooner and further than usual, because hills come as fast as steps.
+static const float GOAL_PLANT_RUN = 1, GOAL_FIT_HALF = 0.03f, GOAL_FIT_DROP = 0.2f;
 
 // The frame of the sources that a character shows in a frame of the crowd. Any thread; no allocation.
 inline uint32_t swivel_goal_frame(const goal_character* character, uint32_t frame)

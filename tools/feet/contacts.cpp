@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/formats/error.h"
 #include "tools/rig/vectors.h"
@@ -22,14 +23,22 @@ std::size_t frames_within(const LegMotion& motion, double seconds)
     return static_cast<std::size_t>(std::clamp(std::round(seconds / motion.frame_time), 1.0, most));
 }
 
-// The frames in which a toe is low.
-std::vector<bool> low_frames(const LegMotion& motion, const LegPath& leg, const ContactBars& bars)
+// The height that a fiftieth of a toe's frames are not above.
+double floor_below(const LegMotion& motion, const LegPath& leg)
 {
     std::vector<double> heights;
     for (const Vector3d& toe_w : leg.toe_w) heights.push_back(toe_w.dot(motion.up_w));
-    const double most = quantile(heights, 0.02) + bars.height * leg.length;
+    return quantile(std::move(heights), 0.02);
+}
+
+// The frames in which a toe is low. One that is always held up is low in none.
+std::vector<bool> low_frames(const LegMotion& motion, const LegPath& leg, const ContactBars& bars)
+{
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const LegPath& each : motion.legs) lowest = std::min(lowest, floor_below(motion, each));
+    const double floor = floor_below(motion, leg), bar = bars.height * leg.length;
     std::vector<bool> low;
-    for (const double height : heights) low.push_back(height < most);
+    for (const Vector3d& toe_w : leg.toe_w) low.push_back(floor < lowest + bar && toe_w.dot(motion.up_w) < floor + bar);
     return low;
 }
 

@@ -16,8 +16,9 @@ using Contacts = std::vector<std::vector<bool>>;  // [leg][frame]
 
 // A foot is in contact while its toe is slower and lower than these, in most frames of a twelfth of a second.
 struct ContactBars {
-    double speed = 0.8;     // leg lengths a second, over a thirtieth of a second
-    double height = 0.085;  // leg lengths over the toe's floor, which a fiftieth of its frames are not above
+    double speed = 0.8;  // leg lengths a second, over a thirtieth of a second
+    // Leg lengths over the toe's floor, which a fiftieth of its frames are not above, and of that over the lowest one.
+    double height = 0.085;
 };
 
 Contacts find_contacts(const LegMotion& motion, const ContactBars& bars);

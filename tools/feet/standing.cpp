@@ -61,9 +61,9 @@ Contacts read_contacts(const formats::CrowdFile& file, std::span<const LegPath> 
     return contacts;
 }
 
-// The quantile `share` of a point's heights while the foot is down. point: in the ankle's axes.
-double height_down(const formats::Clip& clip, int ankle, const Vector3d& point, const std::vector<bool>& contact,
-                   double share)
+// The quantile `share` of a point's heights while the foot is down; nothing if it never is. point: in the ankle's axes.
+std::optional<double> height_down(const formats::Clip& clip, int ankle, const Vector3d& point,
+                                  const std::vector<bool>& contact, double share)
 {
     std::vector<double> heights;
     std::vector<formats::JointPose> pose_w(clip.joints.size());
@@ -73,6 +73,7 @@ double height_down(const formats::Clip& clip, int ankle, const Vector3d& point, 
         const formats::JointPose& at = pose_w[static_cast<std::size_t>(ankle)];
         heights.push_back((at.position + at.rotation * point).y());
     }
+    if (heights.empty()) return std::nullopt;
     return quantile(std::move(heights), share);
 }
 
@@ -123,16 +124,16 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
             contacts[n].insert(contacts[n].end(), found[n].begin(), found[n].end());
         if (part.first == 0) motion = std::move(of_part);
     }
+    const auto is_ever = [](const std::vector<bool>& down) { return std::ranges::find(down, true) != down.end(); };
+    if (std::ranges::none_of(contacts, is_ever))
+        refuse(fmt::format("the clip never has a foot on the ground, by {}; take another clip, or take this out",
+                           own ? own->key : "the rule of swivel feet"));
     std::size_t leg = 0;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         if (limbs[n].name.kind != formats::LimbKind::leg) continue;
         const LegPath& path = motion.legs[leg];
         const std::vector<bool>& contact = contacts[leg++];
         LimbPlan& to = plan.limbs[n];
-        if (std::ranges::none_of(contact, [](bool is_down) { return is_down; }))
-            refuse(
-                fmt::format("the clip never has the {} foot on the ground, by {}; take another clip, or take this out",
-                            side_name(limbs[n].name.side), own ? own->key : "the rule of swivel feet"));
         if (!to.has(SWIVEL_WITH_EFFECTOR)) {
             to.effector = toe_in_ankle(clip, limbs[n], path);
             FixedField effector{SWIVEL_EFFECTOR, {}};
@@ -144,8 +145,8 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
         to.fields.push_back(kCap);
         to.contact = contact;
         const auto clearance = [&](const Vector3d& point, double share) {
-            const double height = height_down(clip, limbs[n].end(), point, contact, share) - plan.foot.y();
-            return static_cast<float>(std::max(0.0, height));
+            const double height = height_down(clip, limbs[n].end(), point, contact, share).value_or(plan.foot.y());
+            return static_cast<float>(std::max(0.0, height - plan.foot.y()));
         };
         to.ground.toe_clearance = clearance(to.effector, 0.5);
         to.ground.heel_clearance = clearance(Vector3d::Zero(), 0.02);

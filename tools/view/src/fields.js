@@ -6,7 +6,7 @@ import { Feature, Field, OnBadInput } from "swivel-wasm/layout.js";
 
 const NAMES = new Map(Object.entries(Field).map(([name, field]) => [field, name]));
 const ALL = [1, 1, 1];  // weights that say nothing
-const PLANT_RUN = 1, FIT_HALF = 0.05;  // as tools/crowd/goals.h has them
+const PLANT_RUN = 1, FIT_HALF = 0.03, FIT_DROP = 0.2;  // as tools/crowd/goals.h has them
 
 /** The crowd file's values, by the field's name. */
 export function fixedOf({ fixed, weights }) {
@@ -53,7 +53,7 @@ export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
         return { ...shape, ...(region && { region: swivel.region(region) }), ...(ground && { ground, plant: { run: PLANT_RUN } }) };
     });
     if (look) groups.push({ look });
-    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: { half: FIT_HALF } });
+    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: { half: FIT_HALF, drop: FIT_DROP } });
     const crowd = swivel.bodies({ skeleton, bodyCount, groups });
     try {
         limbs.forEach((limb) => writeFields(crowd, limb));
