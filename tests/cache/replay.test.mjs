@@ -33,10 +33,10 @@ const regionBytes = ({ first, half_spaces: halfSpaces }) => Buffer.concat([
   ...halfSpaces.map(({ axis, cosine, is_edge: isEdge }) => Buffer.concat([floats(axis, [cosine]), words(isEdge)])), Buffer.alloc(20 * (64 - halfSpaces.length))]);
 const planBytes = (p, isLook) => Buffer.concat([
   doubles(p.target_point, p.target_offset, p.effector, p.pole_fixed, p.shoulder_place, p.bones.flat()), floats(p.weights),
-  words(p.has_target_point, p.has_pole_fixed, p.pole, p.holds_pole, p.hand_is_local, p.goes_along, isLook ? 1 : 0)]);
+  words(p.has_target_point, p.has_pole_fixed, p.pole, p.holds_pole, p.hand_is_local, p.goes_along, isLook ? 1 : 0, p.holds, 0)]);
 const groundBytes = ({ size, place, columns, rows }) => Buffer.concat([doubles(size, place), words(columns, rows)]);
 /** Bytes of a goal_root and a goal_input, and where the goals of that begin. */
-const ROOT = 32, INPUT = 208, GOAL = { target: 0, pole: 24, hand: 48, weights: 64 };
+const ROOT = 32, INPUT = 240, GOAL = { target: 0, pole: 24, hand: 48, weights: 64 };
 
 /** Members of a goal_source and of a goal_character, in their order. */
 const SOURCE = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'root', 'carried', 'parent', 'shoulder', 'elbow_local', 'wrist_local', 'contact', 'carries'];
@@ -154,6 +154,7 @@ class Column {
     this.inputs = memory.allocate(INPUT * limbs.length * this.count);
     const groups = limbs.map((limb, n) => (limb.isLook ? { look: lookOf(limb, chains[n]) } : {
       joints: chains[n], features: BigInt(limb.features), shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, onBadInput: OnBadInput.REST_POSE,
+      ...(limb.goals.holds > 0 ? { link: limb.goals.holds - 1 } : {}),
       ...(limb.region ? { region: this.swivel.region(new Uint8Array(regionBytes(limb.region))) } : {}),
       ...(limb.clearances ? { ground: { toeClearance: limb.clearances[0], heelClearance: limb.clearances[1] }, plant: { run: 1 } } : {}) }));
     if (limbs.some(({ features }) => BigInt(features) & Feature.WITH_FIT)) groups.push({ fit: { half: 0.03, drop: 0.2 } });
@@ -220,12 +221,14 @@ const LIMITED = `${readFileSync(new URL('limited.toml', import.meta.url), 'utf8'
 [limb.arms]
 effector = [0, -0.4, 0]
 `;
-// Legs without hands, arms with boxes of two orders.
+// Legs without hands, arms with boxes of two orders, one of which holds the other.
 const UNLIKE = `
 [crowd]
 limbs = "all"
 [limb.legs]
 hand = false
+[limb.left_arm]
+hold = "right_arm"
 [limb.left_arm.limits.shoulder_box]
 order = "ZYX"
 x_deg = [-80, 80]

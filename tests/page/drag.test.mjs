@@ -90,3 +90,27 @@ test('two fingers choose nothing, and a second one does not drag', async () => {
     assert.equal(await chosen(), null);
   }, { ...link, hasTouch: true });
 });
+
+test('a hand that holds the other one has no ball, and follows that one', async () => {
+  const toml = file('hold.toml', '[limb.left_arm]\nhold = "right_arm"\n');
+  await visit(write('hold.html', 'view', clip, '--characters', '6', '--frames', '40', '--crowd', toml), async (page) => {
+    const seen = () => page.evaluate(() => {
+      const { stage } = swivelPage, wrists = ['left_arm', 'right_arm'].map((name) => stage.pose(stage.limbs.find((limb) => limb.name === name), 3).wrist);
+      return { left: wrists[0], apart: wrists[0].map((x, axis) => x - wrists[1][axis]), length: stage.armLength(stage.limbs[0], 3), state: stage.digestState() };
+    });
+    const choose = (name) => page.evaluate((which) => {
+      swivelPage.select({ limb: swivelPage.stage.limbs.find((limb) => limb.name === which), character: 3 });
+      swivelPage.draw();
+      return swivelPage.picker.handles.target.visible;
+    }, name);
+    await page.evaluate(() => { swivelPage.setFrame(20); swivelPage.look(swivelPage.stage.limbs[0], 3); });
+    assert.equal(await choose('left_arm'), false);
+    assert.equal(await choose('right_arm'), true);
+    const before = await seen(), from = await pixel(page, 'target');
+    await drag(page, from, { x: from.x + 8, y: from.y - 12 });
+    const after = await seen(), off = (a, b) => Math.hypot(...a.map((x, axis) => x - b[axis])) / before.length;
+    assert.deepEqual([before.state, after.state], ['equal', 'changed']);
+    assert.ok(off(after.left, before.left) > 0.03, `it went ${off(after.left, before.left)}`);
+    assert.ok(off(after.apart, before.apart) < 1e-5, `it slips by ${off(after.apart, before.apart)}`);
+  });
+});

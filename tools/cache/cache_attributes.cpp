@@ -111,7 +111,8 @@ Json json_of(const goal_plan& goals)
             {"pole", goals.pole},
             {"holds_pole", goals.holds_pole},
             {"hand_is_local", goals.hand_is_local},
-            {"goes_along", goals.goes_along}};
+            {"goes_along", goals.goes_along},
+            {"holds", goals.holds}};
 }
 
 goal_plan goals_of(const Json& json)
@@ -130,6 +131,7 @@ goal_plan goals_of(const Json& json)
     goals.holds_pole = yes_or_no(json, "holds_pole");
     goals.hand_is_local = yes_or_no(json, "hand_is_local");
     goals.goes_along = yes_or_no(json, "goes_along");
+    goals.holds = whole(json, "holds", 0, kMostLimbs);
     return goals;
 }
 
@@ -286,6 +288,8 @@ void require_sane(const CachedCrowd& crowd)
         if (const int parent = crowd.joints[static_cast<std::size_t>(n)].parent; parent < -1 || parent >= n)
             throw std::invalid_argument("a joint comes before its parent");
     const auto is_joint = [&](int joint) { return joint >= 0 && joint < joint_count; };
+    for (std::size_t n = 0; n < crowd.limbs.size(); ++n)
+        if (crowd.limbs[n].setup.goals.holds > n) throw std::invalid_argument("a limb holds none that is before it");
     for (const CachedLimb& limb : crowd.limbs)
         if (limb.joints.size() != 3 || !std::ranges::all_of(limb.joints, is_joint))
             throw std::invalid_argument("a limb's joints are not three of the joints");

@@ -223,6 +223,7 @@ std::span<const formats::Target> ClipCrowd::targets()
     rows_of(targets_, [&](std::size_t limb, std::uint32_t character) { return target(limb, character); });
     std::erase_if(targets_, [&](const formats::Target& of) {  // their targets do not count
         const std::size_t limb = limb_index(of.limb);
+        if (plans_[limb].holds) return true;
         return crowd_.has_ground() && setups_[limb].goals.goes_along && !given(limb, of.character) &&
                !carries(limb, of.character);
     });

@@ -31,7 +31,7 @@ public:
     void set_frame(std::size_t frame, std::span<const formats::Target> given);
 
     // What the frame asks of all limbs, in order of character, then limb: given to set_frame() it asks for the same.
-    // Limbs that go along with a body on ground are left out.
+    // Limbs that go along with a body on ground, or hold another's hand, are left out.
     std::span<const formats::Target> targets();
 
     // Solves the frame; adds the time it took.

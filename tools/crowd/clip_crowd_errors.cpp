@@ -16,7 +16,8 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kBentSine = 0.08715574274765817;  // sin 5 degrees
+constexpr swivel_features kSent = SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK;  // the library makes their goals
+constexpr double kBentSine = 0.08715574274765817;                        // sin 5 degrees
 
 // Of a rotation: its whole angle, and its parts about an axis and across it.
 double angle(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
@@ -69,10 +70,10 @@ ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& 
     return {elbow, elbow + bone * (fore * place(3)), upper, fore, fore * as_solved(row.wrist)};
 }
 
-// Where the limb was sent: a foot that stands is not sent where the clip has it.
+// Where the limb was sent: a foot that stands, or a hand that holds, is not sent where the clip has it.
 Vector3d ClipCrowd::target_point(std::size_t limb, std::uint32_t character) const
 {
-    if (!plans_[limb].has(SWIVEL_WITH_PLANT)) return Vector3d(crowd_.input(limb, character).target);
+    if (!plans_[limb].has(kSent)) return Vector3d(crowd_.input(limb, character).target);
     float goal[7];
     crowd_.read(limb, SWIVEL_GOAL, character, 1, {goal, sizeof goal});
     return Vector3d(crowd_.root(character).place) + Vector3d(goal[0], goal[1], goal[2]);
@@ -103,7 +104,7 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
             (is_reached ? statistics.aimed : statistics.aim_missed).add(distance, pose);
         else if (weights[0] == 1)
             (is_reached ? statistics.reached : statistics.missed).add(distance, pose);
-        if (hand && weights[1] == 1 && !aims && !plan.has(SWIVEL_WITH_PLANT))
+        if (hand && weights[1] == 1 && !aims && !plan.has(kSent))
             statistics.orientation.add(angle(target(limb, n).orientation.conjugate() * at.hand), pose);
         measure_against_clip(limb, pose, at, statistics);
     }

@@ -69,6 +69,8 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
     const bool by_hand = s.pole_kind && s.pole_kind->value == PoleKind::hand;
     if (by_hand) refuse_beside(s.pole_kind, " = \"hand\"", s.pole_fixed, s.aim);
     if (by_hand && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.pole_kind);
+    if (s.hold) refuse_beside(s.hold, "", s.aim, s.target_point, s.target_offset);
+    if (s.hold && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.hold);
     if (s.aim)
         refuse_beside(s.aim, "", s.position_weight, s.hand_weight, s.pole_weight, s.soft_far, s.soft_near,
                       s.least_distance, s.most_stretch, s.flexion_deg, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
@@ -91,7 +93,7 @@ void require_can_stand(const CrowdFile& file, const LimbSettings& s)
 {
     const std::string cause =
         fmt::format("keeps a leg from standing on the ground of line {}; take one of them out", file.ground->line);
-    refuse_given(file, cause, s.aim, s.target_point, s.soft_far, s.soft_near, s.most_stretch, s.least_distance);
+    refuse_given(file, cause, s.hold, s.aim, s.target_point, s.soft_far, s.soft_near, s.most_stretch, s.least_distance);
     if (s.hand && !s.hand->value) refuse_given(file, cause, s.hand);
 }
 
@@ -103,8 +105,29 @@ void require_can_carry(const CrowdFile& file, const LimbSettings& s)
         file.carry->line);
     if (s.hand && s.hand->value) refuse_given(file, cause, s.hand);
     if (s.pole_kind && s.pole_kind->value == PoleKind::hand) refuse_given(file, cause, s.pole_kind);
-    refuse_given(file, cause, s.aim, s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
+    refuse_given(file, cause, s.hold, s.aim, s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
                  s.wrist_box, s.twist_bones);
+}
+
+void require_can_hold(const CrowdFile& file, std::span<const Limb> limbs)
+{
+    for (const Limb& limb : limbs) {
+        const LimbSettings settings = settings_of(file, limb.name);
+        if (!settings.hold) continue;
+        const formats::LimbName held = settings.hold->value;
+        if (held == limb.name) refuse(file, *settings.hold, "is this limb itself; name the other one");
+        if (std::ranges::find(limbs, held, &Limb::name) == limbs.end())
+            refuse(file, *settings.hold, fmt::format("the {} is not solved; see crowd.limbs", plain_name(held)));
+        const LimbSettings of_held = settings_of(file, held);
+        if (of_held.hold)
+            refuse(file, *settings.hold,
+                   fmt::format("the {} holds something itself, by line {}; take one of them out", plain_name(held),
+                               of_held.hold->line));
+        if ((of_held.hand && !of_held.hand->value) || file.carry)
+            refuse(file, *settings.hold,
+                   fmt::format("the {} goes without a hand, by line {}; take one of them out", plain_name(held),
+                               file.carry ? file.carry->line : of_held.hand->line));
+    }
 }
 
 void require_solved(const CrowdFile& file, std::span<const Limb> limbs)

@@ -30,6 +30,9 @@ void require_can_carry(const formats::CrowdFile& file, const formats::LimbSettin
 
 // With a clavicle: the joint above the limb is there, some way from it, and carries nothing else that it would turn
 // along.
+// Limbs that hold another's hand, of those that are solved.
+void require_can_hold(const formats::CrowdFile& file, std::span<const Limb> limbs);
+
 void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,
                           const formats::Clip& clip, const Limb& limb);
 

@@ -60,8 +60,9 @@ goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
                                                  : GOAL_POLE_DIRECTION;
     goals.holds_pole = plan.holds_pole;
     goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
-    goals.goes_along = !plan.target_point && plan.target_offset.isZero(0) && !plan.has(SWIVEL_WITH_PLANT) &&
-                       !plan.has(SWIVEL_WITH_AIM);
+    goals.holds = plan.holds ? static_cast<std::uint32_t>(*plan.holds + 1) : 0;
+    goals.goes_along = !plan.holds && !plan.target_point && plan.target_offset.isZero(0) &&
+                       !plan.has(SWIVEL_WITH_PLANT) && !plan.has(SWIVEL_WITH_AIM);
     return goals;
 }
 
@@ -246,6 +247,12 @@ Eigen::Vector3d foot_of(const formats::Clip& clip, std::size_t frame_count)
     return {foot.x(), std::isfinite(ground) ? ground : 0, foot.z()};
 }
 
+void put_holding_last(const CrowdFile& file, std::vector<Limb>& limbs)
+{
+    require_can_hold(file, limbs);
+    std::ranges::stable_partition(limbs, [&](const Limb& limb) { return !settings_of(file, limb.name).hold; });
+}
+
 CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs)
 {
     CrowdPlan plan;
@@ -270,6 +277,10 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
         Planner planner{settings, clip, limbs[n]};
         if (file->carry && !is_leg) planner.plan.features &= ~SWIVEL_WITH_HAND;
         planner.goal();
+        if (settings.hold) {
+            planner.plan.features |= SWIVEL_WITH_LINK;
+            planner.plan.holds = std::ranges::find(limbs, settings.hold->value, &Limb::name) - limbs.begin();
+        }
         planner.pole();
         planner.aim();
         planner.clavicle();

@@ -27,6 +27,7 @@ struct LimbPlan {
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
     std::vector<bool> contact;                       // then: in which frames of the clip the foot is on the ground
 
+    std::optional<std::size_t> holds;                         // a limb before this one: with SWIVEL_WITH_LINK
     std::optional<Eigen::Vector3d> target_point;              // in the clip
     Eigen::Vector3d target_offset = Eigen::Vector3d::Zero();  // added to targets; world axes
     Eigen::Vector3d effector = Eigen::Vector3d::Zero();       // in the end joint's frame as solved, of size 1
@@ -38,7 +39,7 @@ struct LimbPlan {
     bool follows_pole = true;                                 // elbows go where the clip's go, unless limits forbid
 
     // Nothing is asked of it that the clip does not do.
-    bool follows_clip() const { return !target_point && target_offset.isZero(0) && follows_pole; }
+    bool follows_clip() const { return !holds && !target_point && target_offset.isZero(0) && follows_pole; }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
     unsigned twist_count() const
     {
@@ -71,9 +72,13 @@ void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 // Below the first joint's first place, as low as any joint ever is in the first frames.
 Eigen::Vector3d foot_of(const formats::Clip& clip, std::size_t frame_count);
 
-// The plan for limbs of a clip. file: null without a crowd file; then all is as the clip has it. Throws InputError
-// naming line and key for tables of limbs that are not solved, for keys that mean nothing beside others, and for a
-// clavicle that is not the limb's own.
+// Puts limbs that hold another's hand behind all others, which the solver solves first. Throws InputError naming line
+// and key for one that holds what is not solved, holds itself, or holds one that holds something.
+void put_holding_last(const formats::CrowdFile& file, std::vector<Limb>& limbs);
+
+// The plan for limbs of a clip, holding ones last. file: null without a crowd file; then all is as the clip has it.
+// Throws InputError naming line and key for tables of limbs that are not solved, for keys that mean nothing beside
+// others, and for a clavicle that is not the limb's own.
 CrowdPlan plan_crowd(const formats::CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs);
 
 // The plan for the solver alone, limb by limb, and then the look.

@@ -33,7 +33,7 @@ Target on_the_way(const Target& before, const Target& after, std::size_t frame)
 }  // namespace
 
 GivenTargets::GivenTargets(const std::string& source, Between between, std::size_t frame_count,
-                           std::span<const Limb> limbs, std::uint32_t characters)
+                           std::span<const Limb> limbs, const CrowdPlan& plan)
     : between_(between)
 {
     if (source == "clip") return;
@@ -45,12 +45,17 @@ GivenTargets::GivenTargets(const std::string& source, Between between, std::size
         const auto refuse = [&](const std::string& cause) { throw formats::InputError(source, target.line, cause); };
         if (target.frame >= frame_count)
             refuse(fmt::format("frame {} does not exist; there are frames 0 to {}", target.frame, frame_count - 1));
-        if (target.character >= characters)
+        if (target.character >= plan.characters)
             refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
-                               target.character, characters));
-        if (is_of_kind(target) && std::ranges::find(limbs, target.limb, &Limb::name) == limbs.end())
+                               target.character, plan.characters));
+        const auto limb = std::ranges::find(limbs, target.limb, &Limb::name);
+        if (is_of_kind(target) && limb == limbs.end())
             refuse(fmt::format("the {} is not solved; name it with {} {}", plain_name(target.limb),
                                words_of(target.limb.kind).option, words_of(target.limb.kind).joints));
+        if (limb == limbs.end()) continue;
+        if (const auto held = plan.limbs[static_cast<std::size_t>(limb - limbs.begin())].holds)
+            refuse(fmt::format("the {} holds the {}, so its target means nothing; leave its rows out",
+                               plain_name(target.limb), plain_name(limbs[*held].name)));
     }
     const std::uint32_t line = rows_.front().line;
     const std::string_view limbs_of_row = words_of(rows_.front().limb.kind).limbs;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/crowd/crowd_plan.h"
 #include "tools/formats/targets_csv.h"
-#include "tools/rig/limbs.h"
 
 namespace swivel::tools {
 
@@ -25,9 +25,9 @@ class GivenTargets {
 public:
     // source: "clip" for none, or a file of targets. Rows of arms are left out where no arm is solved, and so are those
     // of legs. Throws InputError, naming the line, for frames, characters and limbs that do not exist or are not
-    // solved, for a table of which no row is left, and as read_targets_csv() does.
+    // solved, for limbs that hold another's hand, for a table of which no row is left, and as read_targets_csv() does.
     GivenTargets(const std::string& source, Between between, std::size_t frame_count, std::span<const Limb> limbs,
-                 std::uint32_t characters);
+                 const CrowdPlan& plan);
 
     // How many rows were left out.
     std::size_t left_out() const { return left_out_; }

@@ -40,6 +40,7 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         if (limbs[n].region) group.region = &*limbs[n].region;
         group.ground = limbs[n].ground;
         group.plant.run = GOAL_PLANT_RUN;
+        if (limbs[n].goals.holds) group.link = limbs[n].goals.holds - 1;
     }
     if (std::ranges::any_of(limbs, [](const LimbSetup& limb) { return limb.has(SWIVEL_WITH_FIT); })) {
         swivel_fit& fit = groups.emplace_back(swivel_default_fit_group_def()).fit;

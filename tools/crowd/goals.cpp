@@ -67,6 +67,25 @@ Vec3 pole_of(const goal_plan& plan, const goal_source& from, const goal_characte
     return plan.pole == GOAL_POLE_NORMAL ? cross(vec3(from.wrist), elbow) : elbow;
 }
 
+// Of two unit quaternions: a turned back by q.
+void turned_back(const double (&q)[4], const double (&a)[4], float* to)
+{
+    const Vec3 u{-q[0], -q[1], -q[2]}, v{a[0], a[1], a[2]};
+    const Vec3 vector = q[3] * v + a[3] * u + cross(u, v);
+    to[0] = static_cast<float>(vector.x), to[1] = static_cast<float>(vector.y), to[2] = static_cast<float>(vector.z);
+    to[3] = static_cast<float>(q[3] * a[3] - (u.x * v.x + u.y * v.y + u.z * v.z));
+}
+
+// Where the clip has a hand, or its effector, on another limb's hand.
+void put_grip(const goal_plan& plan, const goal_source& from, const goal_source& held, float (&grip)[7])
+{
+    const Vec3 hand = vec3(from.origin) + vec3(from.wrist) + turned(from.hand, vec3(plan.effector));
+    const double back[4] = {-held.hand[0], -held.hand[1], -held.hand[2], held.hand[3]};
+    const Vec3 place = turned(back, hand - vec3(held.origin) - vec3(held.wrist));
+    grip[0] = static_cast<float>(place.x), grip[1] = static_cast<float>(place.y), grip[2] = static_cast<float>(place.z);
+    turned_back(held.hand, from.hand, &grip[3]);
+}
+
 void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, const goal_character& who, bool on_ground,
           goal_input& input)
 {
@@ -110,7 +129,7 @@ void sample(const swivel_probes* probes, void* user)
 
 // What a group's limb reads.
 struct GroupInputs {
-    swivel_frame_field fields[6];
+    swivel_frame_field fields[7];
     swivel_frame frame;
 };
 void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& first, size_t stride, GroupInputs& to)
@@ -118,9 +137,9 @@ void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& fi
     const struct {
         swivel_field field;
         const void* data;
-    } inputs[] = {{SWIVEL_TARGET, first.target},    {SWIVEL_POLE, first.pole},
-                  {SWIVEL_HAND, first.hand},        {SWIVEL_WEIGHTS, first.weights},
-                  {SWIVEL_CONTACT, &first.contact}, {SWIVEL_LOOK_TARGET, first.target}};
+    } inputs[] = {{SWIVEL_TARGET, first.target},     {SWIVEL_POLE, first.pole},        {SWIVEL_HAND, first.hand},
+                  {SWIVEL_WEIGHTS, first.weights},   {SWIVEL_CONTACT, &first.contact}, {SWIVEL_GRIP, first.grip},
+                  {SWIVEL_LOOK_TARGET, first.target}};
     to.frame = swivel_default_frame();
     to.frame.fields = to.fields;
     for (const auto& input : inputs)
@@ -191,8 +210,12 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
         store(root_w, roots[n].place);
         roots[n].size = static_cast<float>(who.size);
         roots[n].shift = 0;
-        for (uint32_t limb = 0; limb < limb_count; ++limb)
-            fill(plans[limb], sources[limb][at], root, who, ground, inputs[n * limb_count + limb]);
+        for (uint32_t limb = 0; limb < limb_count; ++limb) {
+            goal_input& input = inputs[n * limb_count + limb];
+            fill(plans[limb], sources[limb][at], root, who, ground, input);
+            if (const uint32_t holds = plans[limb].holds)
+                put_grip(plans[limb], sources[limb][at], sources[holds - 1][at], input.grip);
+        }
     }
 }
 

@@ -56,6 +56,8 @@ typedef struct goal_plan {
     uint32_t hand_is_local;  // 1: the hand goal is the wrist's own local rotation, for SWIVEL_WITH_AIM
     uint32_t goes_along;  // 1: on ground its target and hand do not count, so it moves with its body; unless it carries
     uint32_t is_look;     // 1: no limb, but neck and head; target_offset is what they look at, in the world
+    uint32_t holds;       // SWIVEL_WITH_LINK: 1 more than the number of the limb whose hand this one holds; else 0
+    uint32_t reserved;
 } goal_plan;
 
 // What a limb is asked for, in the world. Pole and hand are as the plan says.
@@ -86,10 +88,12 @@ typedef struct goal_input {
     float places[4][3];
     float rotations[5][4];  // the last one, no turn, is each twist bone's: the clip has none of these
     float contact;          // as the source's
+    float grip[7];          // of a limb that holds another's hand: as in the clip
+    uint32_t reserved;
 } goal_input;
 
-static_assert(sizeof(goal_source) == 240 && sizeof(goal_character) == 56 && sizeof(goal_plan) == 208 &&
-              sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 208);
+static_assert(sizeof(goal_source) == 240 && sizeof(goal_character) == 56 && sizeof(goal_plan) == 216 &&
+              sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 240);
 
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
 // them.

@@ -178,9 +178,11 @@ void read_limits(TomlTable table, LimbSettings& to)
 LimbSettings read_limb(TomlTable table, bool is_one)
 {
     LimbSettings to;
-    if (is_one) {  // others speak of several limbs, which do not share joints
+    if (is_one) {  // others speak of several limbs, which do not share joints, and do not all hold one hand
         to.joints = table.texts("joints", 3);
         to.bend = table.axis("bend");
+        to.hold = converted<LimbName>(table.word("hold", std::span(kSelectors).last(kLimbNames.size())),
+                                      [](std::size_t n) { return kLimbNames[n]; });
     }
     TomlTable target = table.table("target");
     to.target_point = target.vector("point");
@@ -304,11 +306,12 @@ void read_root(TomlTable root, CrowdFile& to)
 template <class Settings>
 auto members(Settings& s)
 {
-    return std::tie(s.joints, s.bend, s.target_point, s.target_offset, s.hand, s.effector, s.aim, s.clavicle_share,
-                    s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight, s.pole_weight,
-                    s.soft_far, s.soft_near, s.least_distance, s.most_stretch, s.most_swivel_deg_per_frame,
-                    s.most_swivel_deg_per_second, s.step_wins, s.flexion_deg, s.humeral_twist_deg, s.forearm_twist_deg,
-                    s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.region, s.twist_bones);
+    return std::tie(s.joints, s.bend, s.hold, s.target_point, s.target_offset, s.hand, s.effector, s.aim,
+                    s.clavicle_share, s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight,
+                    s.pole_weight, s.soft_far, s.soft_near, s.least_distance, s.most_stretch,
+                    s.most_swivel_deg_per_frame, s.most_swivel_deg_per_second, s.step_wins, s.flexion_deg,
+                    s.humeral_twist_deg, s.forearm_twist_deg, s.shoulder_cone, s.hand_cone, s.hand_twist,
+                    s.shoulder_box, s.wrist_box, s.region, s.twist_bones);
 }
 
 void merge(LimbSettings& to, const LimbSettings& from, bool mirrored)

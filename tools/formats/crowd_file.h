@@ -52,6 +52,7 @@ struct LimbSettings {
     Maybe<std::vector<std::string>> joints;  // three
     Maybe<Eigen::Vector3d> bend;             // in the upper joint's frame, unit
 
+    Maybe<LimbName> hold;                                // whose hand this one holds, as the clip has them
     Maybe<Eigen::Vector3d> target_point, target_offset;  // world axes
     Maybe<bool> hand;
     Maybe<Eigen::Vector3d> effector;  // in the hand joint's frame

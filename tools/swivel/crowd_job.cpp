@@ -260,6 +260,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     if (job.crowd && (job.crowd->loop || !job.crowd->clips.empty() || job.builds.size() > 1))
         parts = perform(options, joints_of(joints), file, job);
     if (!job.further.empty()) job.limbs = require_limbs(bind_limbs(clip, joints, choice), options.file);  // in all
+    if (job.crowd) put_holding_last(*job.crowd, job.limbs);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     job.plan.clips = std::move(parts);
     job.plan.foot = foot_of(clip, clip.frame_count / job.builds.size());  // of the clip's own figure
@@ -281,7 +282,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     if (options.seed) job.plan.seed = *options.seed;
     job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
     require_one_reader(options, job.targets);
-    job.given.emplace(job.targets, between_of(options, job.targets), job.frame_count, job.limbs, job.plan.characters);
+    job.given.emplace(job.targets, between_of(options, job.targets), job.frame_count, job.limbs, job.plan);
     if (job.plan.clips.empty() && options.frames > 0 && options.frames < clip.frame_count) {
         file.cut(options.frames);
         job.frame_count = options.frames;

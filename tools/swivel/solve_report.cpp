@@ -71,6 +71,10 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
         say(to, "builds   {}: legs {}, arms {}, spine {} times the clip's own\n", job.builds.size(),
             factors(&Proportions::legs), factors(&Proportions::arms), factors(&Proportions::spine));
     }
+    for (std::size_t n = 0; n < limbs.size(); ++n)
+        if (const auto held = job.plan.limbs[n].holds)
+            say(to, "hold     the {} holds the {} where the clip has it\n", plain_name(limbs[n].name),
+                plain_name(limbs[*held].name));
     if (const auto& carry = job.plan.carry)
         say(to, "carry    {} of {} characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
             std::ranges::count(characters_of(job.plan, limbs, clip.frame_count), 1u, &goal_character::carries),
@@ -121,6 +125,8 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
              {"bend_source", limb.bend_source},
              {"unevenness", limb.unevenness},
              {"notes", limb.notes}});
+        const auto held = job.plan.limbs[static_cast<std::size_t>(&limb - job.limbs.data())].holds;
+        if (held) out[fmt::format("{}_bound", words.limbs)].back()["holds"] = limb_word(job.limbs[*held].name);
     }
     for (const LimbFinding& finding : job.missing)
         out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", problem_text(finding)}});

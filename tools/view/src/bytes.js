@@ -3,10 +3,10 @@
 // The page's binary data: base64 of C structures, as tools/crowd/goals.h and include/swivel/swivel.h lay them out.
 
 /** Bytes of each structure. */
-export const SIZE = { character: 56, source: 240, plan: 208, ground: 56, root: 32, input: 208, given: 80 };
+export const SIZE = { character: 56, source: 240, plan: 216, ground: 56, root: 32, input: 240, given: 80 };
 
 /** Where members of a goal_plan begin, the goals of a goal_input, the shift of a goal_root, and the wish of a goal_character. */
-export const PLAN = { targetOffset: 24, weights: 168, hasFixedPole: 184 };
+export const PLAN = { targetOffset: 24, weights: 168, hasFixedPole: 184, holds: 208 };
 export const INPUT = { target: 0, pole: 24, hand: 48, weights: 64 };
 export const ROOT_SHIFT = 28, WISH = 36;
 const TURNS = 168;  // the rotations of a goal_source

@@ -48,9 +48,9 @@ export function writeFields(crowd, limb) {
 /** Makes the crowd of these limbs, with their fields. look: how heads look, or null. */
 export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
     const groups = limbs.map((limb) => {
-        const { chain: joints, shoulderOrder, wristOrder, region, ground } = limb;
+        const { chain: joints, shoulderOrder, wristOrder, region, ground, held } = limb;
         const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
-        return { ...shape, ...(region && { region: swivel.region(region) }), ...(ground && { ground, plant: { run: PLANT_RUN } }) };
+        return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { ground, plant: { run: PLANT_RUN } }) };
     });
     if (look) groups.push({ look });
     if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: { half: FIT_HALF, drop: FIT_DROP } });

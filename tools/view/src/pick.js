@@ -52,7 +52,7 @@ export class Picker {
         const { selection, stage } = this.page;
         for (const part of ["target", "pole"]) {
             const mesh = this.handles[part];
-            mesh.visible = selection !== null && (part === "target" || stage.hasPole(selection.limb));
+            mesh.visible = selection !== null && (part === "target" ? selection.limb.held < 0 : stage.hasPole(selection.limb));
             if (mesh.visible) mesh.position.fromArray(stage.goal(selection.limb, selection.character, part));
         }
         const { hips, ground } = this.handles;

@@ -81,6 +81,7 @@ export class Stage {
             own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away; never written to
             weights: this.memory.floats(planAt + PLAN.weights, 3),  // of goals, the pole's where that counts
             targetOffset: this.memory.doubles(planAt + PLAN.targetOffset, 3), hasFixedPole: this.memory.words(planAt + PLAN.hasFixedPole, 1)[0] === 1,
+            held: this.memory.words(planAt + PLAN.holds, 1)[0] - 1,  // the limb whose hand it holds; -1: none
             shift: NO_SHIFT,  // of everyone's goals, for a character of size 1
             sourcesAt: this.keep(sources), sources: new Sources(sources),
         };
