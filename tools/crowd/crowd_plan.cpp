@@ -250,7 +250,8 @@ Eigen::Vector3d foot_of(const formats::Clip& clip, std::size_t frame_count)
 void put_holding_last(const CrowdFile& file, std::vector<Limb>& limbs)
 {
     require_can_hold(file, limbs);
-    std::ranges::stable_partition(limbs, [&](const Limb& limb) { return !settings_of(file, limb.name).hold; });
+    std::stable_partition(limbs.begin(), limbs.end(),
+                          [&](const Limb& limb) { return !settings_of(file, limb.name).hold; });
 }
 
 CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs)
