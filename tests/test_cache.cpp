@@ -263,6 +263,14 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
         {"shoulder is a result", [](CachedCrowd& crowd) { crowd.limbs[0].setup.fields[0].field = SWIVEL_SHOULDER; }},
         {"pole is 3", [](CachedCrowd& crowd) { crowd.limbs[0].setup.goals.pole = 3; }},
         {"holds_pole is 2", [](CachedCrowd& crowd) { crowd.limbs[0].setup.goals.holds_pole = 2; }},
+        {"a limb holds none that is before it", [](CachedCrowd& crowd) { crowd.limbs[1].setup.goals.holds = 2; }},
+        {"holds is 5", [](CachedCrowd& crowd) { crowd.limbs[1].setup.goals.holds = 5; }},
+        {"a look holds a hand",
+         [](CachedCrowd& crowd) {
+             crowd.look.emplace().setup.look = swivel_default_look();
+             crowd.look->setup.look->joint_count = 1;
+             crowd.look->setup.goals.holds = 1;
+         }},
         {"quaternion", [](CachedCrowd& crowd) { std::ranges::fill(crowd.limbs[1].setup.chain.elbow_rotation, 0.0f); }}};
     CHECK_NOTHROW(crowd_of_attributes(attributes_of(whole), path));
     for (const auto& [what, change] : changes) {

@@ -102,7 +102,7 @@ TEST_CASE("crowd file: wrong keys, types and values, with what to write")
          "limb.arms.limits.shoulder_cone.opening: unknown key; did you mean opening_deg?"},
         {"[limb.arms.reach]\nbounce = 0.1\n",
          "c.toml:2: limb.arms.reach.bounce: unknown key; known are soft_far, soft_near"},
-        {"[limb.arms]\njoints = [\"a\", \"b\", \"c\"]\n", "limb.arms.joints: unknown key"},
+        {"[limb.arms]\njoints = [\"a\", \"b\", \"c\"]\n", "limb.arms.joints: is of one limb"},
         {"[limb.arms]\n\"a\\nb\" = 3\n", "limb.arms.a\\x0ab: unknown key"},
         {"crowd = 3\n", "c.toml:1: crowd: is a whole number; write a table, [crowd]"},
         {"[crowd]\ncharacters = \"3\"\n", "c.toml:2: crowd.characters: is text; write a whole number from 1"},

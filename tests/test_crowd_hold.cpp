@@ -27,7 +27,7 @@ Grip grip_in(const PlainMotion& motion, std::size_t frame, const char* hand, con
     const PlainPose is = at(hand), on = at(held);
     return {on.rotation.transpose() * (is.position - on.position), on.rotation.transpose() * is.rotation};
 }
-// The most by which a hand's place and rotation on another differ from the clip's; of frames in which it reaches.
+// The most by which a hand's place and rotation on another differ from the clip's.
 double slip(const CrowdStage& stage, const PlainMotion& motion, const char* hand, const char* held)
 {
     double most = 0;
@@ -78,8 +78,7 @@ TEST_CASE("a hand follows where limits keep the one that it holds, by its effect
     CHECK(moved(stage, motion, "RightHand") > 0.2);
     CHECK(slip(stage, motion, "LeftHand", "RightHand") < 1e-5);
     // The point of the hand that holds, and so the wrist, stays.
-    const PlainMotion touching =
-        stage.motion(limited + "[limb.left_arm.weights]\nhand = 1\n[limb.left]\neffector = [0.5, 0, 0]\n");
+    const PlainMotion touching = stage.motion(limited + "[limb.left]\neffector = [0.5, 0, 0]\n");
     CHECK(slip(stage, touching, "LeftHand", "RightHand") < 1e-5);
 }
 
@@ -122,11 +121,12 @@ TEST_CASE("what cannot be held is refused in a line")
     stage.require_refused("[limb.left_arm]\nhold = \"left_leg\"\n",
                           "c.toml:2: limb.left_arm.hold: the left leg is not solved; see crowd.limbs");
     stage.require_refused("[limb.left_arm]\nhold = \"hand\"\n", "c.toml:2: limb.left_arm.hold: ");
-    stage.require_refused("[limb.arms]\nhold = \"left_arm\"\n", "c.toml:2: limb.arms.hold: ");
+    stage.require_refused("[limb.arms]\nhold = \"left_arm\"\n",
+                          "c.toml:2: limb.arms.hold: is of one limb; write it in that one's table");
     stage.require_refused(hold + "[limb.right_arm]\nhold = \"left_arm\"\n",
                           "the right arm holds something itself, by line 4");
     stage.require_refused(hold + "[limb.right_arm]\nhand = false\n", "the right arm goes without a hand, by line 4");
-    stage.require_refused(hold + "[carry]\n", "goes without a hand, by line 3");
+    stage.require_refused(hold + "[carry]\n", "hands that carry a box, by line 3, hold nothing else");
     stage.require_refused(hold + "hand = false\n",
                           "limb.left_arm.hold: means nothing beside limb.left_arm.hand = false");
     stage.require_refused(hold + "target.offset = [1, 0, 0]\n",

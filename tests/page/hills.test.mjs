@@ -194,8 +194,8 @@ test('dragged ground rises below the one who stands there, as far as the pointer
     assert.ok(Math.abs(at.y - (from.y - 60)) < 1.5, `the ball is at ${at.y}, the pointer at ${from.y - 60}`);
     assert.ok(by > 0.2 && Math.abs(after[3].root[1] - before[3].root[1] - (after[3].ground - before[3].ground)) < 1e-6 * after[3].length, `${by}`);
     const far = await page.evaluate(() => {  // beyond the mound and the heights beside it
-      const { mounds: [{ rim }], ground: { size, columns, rows } } = swivelPage.stage;
-      return rim + 2 * Math.max(size[0] / (columns - 1), size[2] / (rows - 1));
+      const { mounds: [{ radius }], ground: { size, columns, rows } } = swivelPage.stage;
+      return radius + 2 * Math.max(size[0] / (columns - 1), size[2] / (rows - 1));
     });
     for (const [n, { root, over, length }] of after.entries()) {
       const away = Math.hypot(root[0] - before[3].root[0], root[2] - before[3].root[2]);
@@ -205,12 +205,31 @@ test('dragged ground rises below the one who stands there, as far as the pointer
     assert.deepEqual((await digests(page, [20])).map(([, state]) => state), ['changed']);
     await page.getByRole('button', { name: 'Undo' }).click();
     assert.deepEqual((await digests(page, [20])).map(([, state]) => state), ['equal']);
-    await drag(page, from, { x: from.x, y: from.y + 40 });  // one gesture, one mound
+    await drag(page, from, { x: from.x, y: from.y + 40 });  // one place, one mound
     await drag(page, await handle(), { x: from.x, y: from.y + 400 });
     const deep = await seen(), mounds = await page.evaluate(() => swivelPage.stage.mounds);
-    assert.equal(mounds.length, 2);
-    assert.ok(mounds.every(({ height, rim }) => height < 0 && height >= -0.5 * rim) && deep[3].ground < before[3].ground);
+    assert.deepEqual(mounds.map(({ height, radius }) => height / radius), [-0.5]);
+    assert.ok(deep[3].ground < before[3].ground);
     await page.getByRole('button', { name: 'Let all go' }).click();
     assert.deepEqual((await digests(page, [20, 149, 20])).map(([, state]) => state), ['equal', 'equal', 'equal']);
   });
+});
+
+test('the ball of the ground stays under the pointer where the camera follows, and beyond the picture', async () => {
+  for (const [name, middle] of [['on', [0, 0, 0]], ['off', [5000, 0, 0]]]) {
+    const place = file(`${name}.toml`, `[crowd]\nlimbs = "legs"\n[ground]\nheights = "hills.png"\nsize = [900, 60, 900]\nmiddle = [${middle}]\n`);
+    await visit(write(`${name}.html`, 'view', clip, '--frames', '30', '--crowd', place), async (page) => {
+      await page.evaluate(() => {
+        swivelPage.select({ limb: swivelPage.stage.limbs[0], character: 0 });
+        for (const at of [swivelPage.view.camera.position, swivelPage.view.controls.target]) at.y -= 0.35;
+        swivelPage.view.controls.update();
+        swivelPage.draw();
+      });
+      const handle = () => page.evaluate(() => swivelPage.view.project(swivelPage.picker.handles.ground.position.toArray()));
+      const from = await handle();
+      await drag(page, from, { x: from.x, y: from.y - 30 });
+      const at = await handle(), [mound] = await page.evaluate(() => swivelPage.stage.mounds);
+      assert.ok(Math.abs(at.y - (from.y - 30)) < 1.5 && mound.height > 0, `${name}: the ball is at ${at.y}, the pointer at ${from.y - 30}`);
+    });
+  }
 });

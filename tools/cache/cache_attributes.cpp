@@ -270,6 +270,7 @@ CachedLook look_of(const Json& json)
     setup.chain = chain_of(json.at("chain"));
     setup.goals = goals_of(json.at("goals"));
     setup.goals.is_look = 1;
+    if (setup.goals.holds > 0) throw std::invalid_argument("a look holds a hand");
     swivel_look& how = setup.look.emplace(swivel_default_look());
     how.joint_count = whole(json, "joint_count", 1, GOAL_JOINTS - 1);
     for (std::uint32_t n = 0; n < how.joint_count; ++n) how.joints[n] = n;

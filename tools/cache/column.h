@@ -23,7 +23,7 @@ public:
     std::uint64_t solve(std::uint32_t time, const ChunkGoals& goals, Results& results);
 
 private:
-    // Whether a limb has a field of the results. Joints of a look are as those of a limb.
+    // Whether a limb has a field of the results. A look has its joints in the fields of shoulder, elbow and wrist.
     bool has(std::size_t limb, swivel_field field) const;
     void read_frame(std::uint32_t frame, Results& results) const;
 

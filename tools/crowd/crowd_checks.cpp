@@ -105,7 +105,7 @@ void require_can_carry(const CrowdFile& file, const LimbSettings& s)
         file.carry->line);
     if (s.hand && s.hand->value) refuse_given(file, cause, s.hand);
     if (s.pole_kind && s.pole_kind->value == PoleKind::hand) refuse_given(file, cause, s.pole_kind);
-    refuse_given(file, cause, s.hold, s.aim, s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
+    refuse_given(file, cause, s.aim, s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
                  s.wrist_box, s.twist_bones);
 }
 
@@ -123,10 +123,15 @@ void require_can_hold(const CrowdFile& file, std::span<const Limb> limbs)
             refuse(file, *settings.hold,
                    fmt::format("the {} holds something itself, by line {}; take one of them out", plain_name(held),
                                of_held.hold->line));
-        if ((of_held.hand && !of_held.hand->value) || file.carry)
+        const bool has_arm = limb.name.kind == formats::LimbKind::arm || held.kind == formats::LimbKind::arm;
+        if (file.carry && has_arm)
+            refuse(file, *settings.hold,
+                   fmt::format("hands that carry a box, by line {}, hold nothing else; take one of them out",
+                               file.carry->line));
+        if (of_held.hand && !of_held.hand->value)
             refuse(file, *settings.hold,
                    fmt::format("the {} goes without a hand, by line {}; take one of them out", plain_name(held),
-                               file.carry ? file.carry->line : of_held.hand->line));
+                               of_held.hand->line));
     }
 }
 

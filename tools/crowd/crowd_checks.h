@@ -28,11 +28,12 @@ void require_can_stand(const formats::CrowdFile& file, const formats::LimbSettin
 // Nothing is asked of an arm's hand, which goes along with the forearm where characters carry boxes.
 void require_can_carry(const formats::CrowdFile& file, const formats::LimbSettings& settings);
 
-// With a clavicle: the joint above the limb is there, some way from it, and carries nothing else that it would turn
-// along.
-// Limbs that hold another's hand, of those that are solved.
+// A limb that holds names another one that is solved, that has a hand, and that holds nothing. Boxes leave no hand
+// free.
 void require_can_hold(const formats::CrowdFile& file, std::span<const Limb> limbs);
 
+// With a clavicle: the joint above the limb is there, some way from it, and carries nothing else that it would turn
+// along.
 void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,
                           const formats::Clip& clip, const Limb& limb);
 

@@ -72,8 +72,8 @@ void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 // Below the first joint's first place, as low as any joint ever is in the first frames.
 Eigen::Vector3d foot_of(const formats::Clip& clip, std::size_t frame_count);
 
-// Puts limbs that hold another's hand behind all others, which the solver solves first. Throws InputError naming line
-// and key for one that holds what is not solved, holds itself, or holds one that holds something.
+// Puts limbs that hold another's hand behind all others, which are then solved before them. Throws InputError naming
+// line and key for one that cannot hold what it names.
 void put_holding_last(const formats::CrowdFile& file, std::vector<Limb>& limbs);
 
 // The plan for limbs of a clip, holding ones last. file: null without a crowd file; then all is as the clip has it.

@@ -67,23 +67,22 @@ Vec3 pole_of(const goal_plan& plan, const goal_source& from, const goal_characte
     return plan.pole == GOAL_POLE_NORMAL ? cross(vec3(from.wrist), elbow) : elbow;
 }
 
-// Of two unit quaternions: a turned back by q.
-void turned_back(const double (&q)[4], const double (&a)[4], float* to)
-{
-    const Vec3 u{-q[0], -q[1], -q[2]}, v{a[0], a[1], a[2]};
-    const Vec3 vector = q[3] * v + a[3] * u + cross(u, v);
-    to[0] = static_cast<float>(vector.x), to[1] = static_cast<float>(vector.y), to[2] = static_cast<float>(vector.z);
-    to[3] = static_cast<float>(q[3] * a[3] - (u.x * v.x + u.y * v.y + u.z * v.z));
-}
-
 // Where the clip has a hand, or its effector, on another limb's hand.
 void put_grip(const goal_plan& plan, const goal_source& from, const goal_source& held, float (&grip)[7])
 {
-    const Vec3 hand = vec3(from.origin) + vec3(from.wrist) + turned(from.hand, vec3(plan.effector));
     const double back[4] = {-held.hand[0], -held.hand[1], -held.hand[2], held.hand[3]};
+    const Vec3 hand = vec3(from.origin) + vec3(from.wrist) + turned(from.hand, vec3(plan.effector));
     const Vec3 place = turned(back, hand - vec3(held.origin) - vec3(held.wrist));
-    grip[0] = static_cast<float>(place.x), grip[1] = static_cast<float>(place.y), grip[2] = static_cast<float>(place.z);
-    turned_back(held.hand, from.hand, &grip[3]);
+    const Vec3 u{back[0], back[1], back[2]}, v{from.hand[0], from.hand[1], from.hand[2]};  // of both quaternions
+    const Vec3 turn = back[3] * v + from.hand[3] * u + cross(u, v);
+    const double numbers[7] = {place.x,
+                               place.y,
+                               place.z,
+                               turn.x,
+                               turn.y,
+                               turn.z,
+                               back[3] * from.hand[3] - (u.x * v.x + u.y * v.y + u.z * v.z)};
+    copy(numbers, grip);
 }
 
 void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, const goal_character& who, bool on_ground,

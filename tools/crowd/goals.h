@@ -88,7 +88,7 @@ typedef struct goal_input {
     float places[4][3];
     float rotations[5][4];  // the last one, no turn, is each twist bone's: the clip has none of these
     float contact;          // as the source's
-    float grip[7];          // of a limb that holds another's hand: as in the clip
+    float grip[7];  // as SWIVEL_GRIP, of size 1: where the clip has it on the wrist that it holds; zeros: it holds none
     uint32_t reserved;
 } goal_input;
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "tools/formats/error.h"
 #include "tools/rig/vectors.h"
@@ -23,29 +22,39 @@ std::size_t frames_within(const LegMotion& motion, double seconds)
     return static_cast<std::size_t>(std::clamp(std::round(seconds / motion.frame_time), 1.0, most));
 }
 
-// The height that a fiftieth of a toe's frames are not above.
-double floor_below(const LegMotion& motion, const LegPath& leg)
+// Of each leg: the height that a fiftieth of its toe's frames are not above.
+std::vector<double> floors_of(const LegMotion& motion)
 {
-    std::vector<double> heights;
-    for (const Vector3d& toe_w : leg.toe_w) heights.push_back(toe_w.dot(motion.up_w));
-    return quantile(std::move(heights), 0.02);
+    std::vector<double> floors;
+    for (const LegPath& leg : motion.legs) {
+        std::vector<double> heights;
+        for (const Vector3d& toe_w : leg.toe_w) heights.push_back(toe_w.dot(motion.up_w));
+        floors.push_back(quantile(std::move(heights), 0.02));
+    }
+    return floors;
 }
 
-// The frames in which a toe is low. One that is always held up is low in none.
-std::vector<bool> low_frames(const LegMotion& motion, const LegPath& leg, const ContactBars& bars)
+// Of each leg: the frames in which its toe is low. One that is always held up is low in none.
+std::vector<std::vector<bool>> low_frames(const LegMotion& motion, const ContactBars& bars)
 {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const LegPath& each : motion.legs) lowest = std::min(lowest, floor_below(motion, each));
-    const double floor = floor_below(motion, leg), bar = bars.height * leg.length;
-    std::vector<bool> low;
-    for (const Vector3d& toe_w : leg.toe_w) low.push_back(floor < lowest + bar && toe_w.dot(motion.up_w) < floor + bar);
+    const std::vector<double> floors = floors_of(motion);
+    std::vector<std::vector<bool>> low;
+    for (std::size_t n = 0; n < floors.size(); ++n) {
+        const LegPath& leg = motion.legs[n];
+        const double bar = bars.height * leg.length;
+        const bool is_held_up = floors[n] >= std::ranges::min(floors) + bar;
+        std::vector<bool>& of_leg = low.emplace_back();
+        for (const Vector3d& toe_w : leg.toe_w)
+            of_leg.push_back(!is_held_up && toe_w.dot(motion.up_w) < floors[n] + bar);
+    }
     return low;
 }
 
-std::vector<bool> find_of_leg(const LegMotion& motion, const LegPath& leg, const ContactBars& bars)
+// stands: in the frames in which its toe is low.
+std::vector<bool> find_of_leg(const LegMotion& motion, const LegPath& leg, std::vector<bool> stands,
+                              const ContactBars& bars)
 {
     const std::size_t last = motion.frame_count() - 1, near = frames_within(motion, 1.0 / 60);
-    std::vector<bool> stands = low_frames(motion, leg, bars);
     for (std::size_t frame = 0; frame <= last; ++frame) {
         const std::size_t before = frame - std::min(frame, near), after = std::min(frame + near, last);
         const double time = static_cast<double>(after - before) * motion.frame_time;
@@ -71,7 +80,9 @@ std::vector<bool> find_of_leg(const LegMotion& motion, const LegPath& leg, const
 Contacts find_contacts(const LegMotion& motion, const ContactBars& bars)
 {
     Contacts contacts;
-    for (const LegPath& leg : motion.legs) contacts.push_back(find_of_leg(motion, leg, bars));
+    std::vector<std::vector<bool>> low = low_frames(motion, bars);
+    for (std::size_t n = 0; n < low.size(); ++n)
+        contacts.push_back(find_of_leg(motion, motion.legs[n], std::move(low[n]), bars));
     return contacts;
 }
 
@@ -90,11 +101,12 @@ std::optional<Vector3d> missing_way(const LegMotion& motion, const ContactBars& 
 {
     Vector3d way = Vector3d::Zero();
     double frames = 0;
-    for (const LegPath& leg : motion.legs) {
-        const std::vector<bool> low = low_frames(motion, leg, bars);
-        for (std::size_t frame = 1; frame < low.size(); ++frame)
-            if (low[frame] && low[frame - 1]) {
-                way += motion.level(leg.toe_w[frame] - leg.toe_w[frame - 1]);
+    const std::vector<std::vector<bool>> low = low_frames(motion, bars);
+    for (std::size_t n = 0; n < low.size(); ++n) {
+        const std::vector<Vector3d>& toe_w = motion.legs[n].toe_w;
+        for (std::size_t frame = 1; frame < toe_w.size(); ++frame)
+            if (low[n][frame] && low[n][frame - 1]) {
+                way += motion.level(toe_w[frame] - toe_w[frame - 1]);
                 ++frames;
             }
     }

@@ -17,7 +17,8 @@ using Contacts = std::vector<std::vector<bool>>;  // [leg][frame]
 // A foot is in contact while its toe is slower and lower than these, in most frames of a twelfth of a second.
 struct ContactBars {
     double speed = 0.8;  // leg lengths a second, over a thirtieth of a second
-    // Leg lengths over the toe's floor, which a fiftieth of its frames are not above, and of that over the lowest one.
+    // Leg lengths. A toe is low up to this height over its floor, which a fiftieth of its frames are not above. A foot
+    // whose floor is as much over the lowest one is held up.
     double height = 0.085;
 };
 

@@ -145,8 +145,8 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
         to.fields.push_back(kCap);
         to.contact = contact;
         const auto clearance = [&](const Vector3d& point, double share) {
-            const double height = height_down(clip, limbs[n].end(), point, contact, share).value_or(plan.foot.y());
-            return static_cast<float>(std::max(0.0, height - plan.foot.y()));
+            const std::optional<double> height = height_down(clip, limbs[n].end(), point, contact, share);
+            return height ? static_cast<float>(std::max(0.0, *height - plan.foot.y())) : 0;
         };
         to.ground.toe_clearance = clearance(to.effector, 0.5);
         to.ground.heel_clearance = clearance(Vector3d::Zero(), 0.02);

@@ -184,6 +184,9 @@ LimbSettings read_limb(TomlTable table, bool is_one)
         to.hold = converted<LimbName>(table.word("hold", std::span(kSelectors).last(kLimbNames.size())),
                                       [](std::size_t n) { return kLimbNames[n]; });
     }
+    for (const char* const key : {"joints", "bend", "hold"})
+        if (!is_one && table.has(key))
+            table.fail(key, "is of one limb; write it in that one's table, such as [limb.left_arm]");
     TomlTable target = table.table("target");
     to.target_point = target.vector("point");
     to.target_offset = target.vector("offset");

@@ -55,7 +55,8 @@ public:
 
     Maybe<std::vector<Eigen::Vector3d>> vectors(std::string_view key);  // a list of them, of any number
 
-    // Whether the key has true or false, or a list.
+    // Whether the key is there, has true or false, or a list.
+    bool has(std::string_view key) const { return table_ && table_->contains(key); }
     bool is_flag(std::string_view key) const { return table_ && table_->get(key) && table_->get(key)->is_boolean(); }
     bool is_list(std::string_view key) const { return table_ && table_->get(key) && table_->get(key)->is_array(); }
 

@@ -73,7 +73,7 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     }
     for (std::size_t n = 0; n < limbs.size(); ++n)
         if (const auto held = job.plan.limbs[n].holds)
-            say(to, "hold     the {} holds the {} where the clip has it\n", plain_name(limbs[n].name),
+            say(to, "hold     the {} keeps its hand to that of the {}, as in the clip\n", plain_name(limbs[n].name),
                 plain_name(limbs[*held].name));
     if (const auto& carry = job.plan.carry)
         say(to, "carry    {} of {} characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",

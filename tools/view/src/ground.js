@@ -24,7 +24,7 @@ export class Ground {
         this.heights = heightTexture(this.xs.length, this.zs.length);
         this.uniforms = { uHeights: { value: this.heights }, uHills: { value: isHilly }, uGrid: { value: gridOf(this.xs, this.zs, metres) } };
         this.geometry = isHilly ? this.makeHills() : new PlaneGeometry(2 * FAR, 2 * FAR).rotateX(-Math.PI / 2).translate(0, stage.ground ? this.heightAt(0, 0) : 0, 0);
-        if (isHilly) this.rise();
+        if (isHilly) this.takeHeights();
     }
     heightAt(x, z) { return this.metres * (this.stage.groundHeight(x, z) - this.floor); }
     /** Level yet. */
@@ -42,19 +42,19 @@ export class Ground {
         return geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
     }
     /** Takes the heights that the stage has now. */
-    rise() {
+    takeHeights() {
         const { wide, deep, geometry: { attributes: { position } } } = this, { data, width } = this.heights.image;
         deep.forEach((z, row) => wide.forEach((x, column) => position.setY(row * wide.length + column, this.heightAt(x, z))));
         position.needsUpdate = true;
         this.geometry.computeVertexNormals();
-        for (let n = 0; n < data.length; ++n) data[n] = position.getY((Math.floor(n / width) + 1) * wide.length + n % width + 1);  // the hills end before the ground
+        for (let n = 0; n < data.length; ++n) data[n] = position.getY((Math.floor(n / width) + 1) * wide.length + n % width + 1);  // the ground goes on by a row and a column
         this.heights.needsUpdate = true;
     }
     /** Before a picture: whether the user has changed the hills. */
-    see() {
+    update() {
         if (this.mounds === this.stage.mounds) return;
         this.mounds = this.stage.mounds;
-        this.rise();
+        this.takeHeights();
     }
 }
 

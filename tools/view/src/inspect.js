@@ -31,7 +31,7 @@ export function makeInspector(page) {
     const everyone = checkbox("Drag everyone's", false, (isOn) => { page.dragsEveryone = isOn; },
         { title: "A drag moves this limb of all characters by the same offset, times their size. Those moved alone go along" });
     const release = button("Let go", () => page.letGo(), { title: "Give the goals back to the clip" });
-    const all = button("Let all go", () => page.letAllGo(), { title: "Give everyone's goals back to the clip" });
+    const all = button("Let all go", () => page.letAllGo(), { title: "Give everyone's goals back to the clip, hips and ground, too" });
     const undo = button("Undo", () => page.undo.takeBack(), { title: "Take back the last drag or change (Ctrl+Z)" });
     const save = button("Save as table", () => saveTable(page), { title: "The moved goals of all frames, for swivel solve --targets" }), lack = element("p", { class: "hint" });
     const body = element("div", {}, title, table, flags, why, everyone);

@@ -36,7 +36,7 @@ export function listen(keys) {
 
 export function makeHelp(keys) {
     const mouse = [["Drag", "turn the camera"], ["Right drag, two fingers", "move it"], ["Wheel, pinch", "nearer or farther"],
-        ["Click, tap", "choose a limb"], ["Drag a ball", "move target, pole or the rim of a limit"]];
+        ["Click, tap", "choose a limb"], ["Drag a ball", "move target, pole, hips, ground or the rim of a limit"]];
     const rows = [...mouse, ...keys.map(({ label, text }) => [label, text])];
     const dialog = element("dialog", { class: "help", "aria-label": "Help" }, element("h2", {}, "Help"),
         element("dl", {}, ...rows.flatMap(([label, text]) => [element("dt", {}, label), element("dd", {}, text)])),

@@ -135,6 +135,7 @@ class Page {
         if (!this.selection) return;
         const { limb, character } = this.selection;
         this.undo.step(this.picker.dragging, () => this.stage.drag(limb, character, part, world, this.dragsEveryone));
+        this.view.stay();
         this.changed();
     }
     /** After a drag. */

@@ -52,7 +52,7 @@ export class Picker {
         const { selection, stage } = this.page;
         for (const part of ["target", "pole"]) {
             const mesh = this.handles[part];
-            mesh.visible = selection !== null && (part === "target" ? selection.limb.held < 0 : stage.hasPole(selection.limb));
+            mesh.visible = selection !== null && selection.limb.held < 0 && (part === "target" || stage.hasPole(selection.limb));
             if (mesh.visible) mesh.position.fromArray(stage.goal(selection.limb, selection.character, part));
         }
         const { hips, ground } = this.handles;
@@ -136,12 +136,12 @@ export class Picker {
         if (!this.isPressed(event)) return;
         const isClick = Math.hypot(event.clientX - this.pressed.x, event.clientY - this.pressed.y) < SLACK;
         if (isClick && !this.dragging) this.page.select(this.limbAt(event));
-        const wasDragging = this.dragging;
         this.stop();
-        if (wasDragging) this.page.settle();
     }
     stop() {
+        const wasDragging = this.dragging;
         this.dragging = this.pressed = null;
         this.page.view.controls.enabled = true;
+        if (wasDragging) this.page.settle();
     }
 }

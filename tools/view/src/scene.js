@@ -120,6 +120,8 @@ export class View {
         this.followed = character;
         this.followedAt = character === null ? null : this.placeOf(character);
     }
+    /** After a change of the ground: stays where it is. */
+    stay() { this.follow(this.followed); }
     /** After a change of the frame: goes along with whom it follows. */
     moveAlong() {
         if (this.followed === null) return;
@@ -149,7 +151,7 @@ export class View {
         const distance = this.camera.position.distanceTo(this.controls.target);
         this.bodies.shared.uFar.value = Math.max(45, 6 * distance);
         this.bodies.pose();
-        this.relief.see();
+        this.relief.update();
         this.renderer.render(this.scene, this.camera);
     }
     /** Pixels on the page of a point of the clip's world; null behind the camera. */

@@ -263,11 +263,12 @@ export class Stage {
         return this.isPoint(limb, part) ? world : world.map((coordinate, axis) => coordinate - origin[axis]);
     }
     goal(limb, character, part) {
+        if (limb.held >= 0 && part === "target") return this.toWorld(character, this.read(limb, character, "GOAL").subarray(0, 3));  // the grip
         const asked = this.input(limb, character, part), origin = this.origin(limb, character), length = this.armLength(limb, character);
         return this.isPoint(limb, part) ? Array.from(asked) : unit(asked).map((coordinate, axis) => length * coordinate + origin[axis]);
     }
 
-    /** Moves a goal, the hips or the ground to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
+    /** Moves a goal or the hips to a place in the world, of this limb alone or by the same offset of everyone's; or the ground. Solves the crowd. */
     drag(limb, character, part, world, everyone) {
         if (part === "ground") dragMound(this, character, world);
         else if (part === "hips") dragHips(this, character, world, everyone);
