@@ -3,10 +3,13 @@
 // The promise of crowd.legs, arms and spine: bones are so much longer, joints turn as they did, who walks goes as far
 // as the legs are long, and feet that stand are on the same floor.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <set>
 
 #include "tests/crowd_stage.h"
+#include "tools/crowd/clip_loop.h"
+#include "tools/crowd/clip_parts.h"
 #include "tools/crowd/proportions.h"
 #include "tools/formats/bvh.h"
 #include "tools/rig/limbs.h"
@@ -134,9 +137,72 @@ TEST_CASE("characters have one of eight builds by the seed, the first one its ow
     CHECK(there.at("out_of_reach") < 110);
     CHECK(stage.json(kBodies + "arms = [0.9, 0.9]\n").at("performed").size() == 2);
     CHECK_THAT(stage.run(kBodies + "arms = [0.9, 0.9]\n", {"--out", "x.csv"}).out,
-               Contains("builds   2: legs 1 to 1, arms 0.9 to 1, spine 1 to 1 times the clip's own\n"));
+               Contains("builds   2: legs 1 to 1, arms 0.9 to 1, spine 1 to 1, speed 1 to 1 times the clip's own\n"));
     // One character alone is the clip's own, and can be written as its clip.
     CHECK(stage.motion("[crowd]\nlegs = [0.7, 1.3]\n").header == stage.clip.header);
+}
+
+TEST_CASE("builds perform at speeds of their own, and loops come round in whole frames")
+{
+    const CrowdStage stage;
+    const auto frame_count = static_cast<double>(stage.clip.lines.size());
+    const std::string speeds = kBodies + "speed = [0.7, 1.4]\n";
+    std::set<double> all;
+    const nlohmann::json performed = stage.json(speeds).at("performed");
+    for (const nlohmann::json& part : performed) {
+        const double speed = part.at("speed");
+        CHECK((speed >= 0.7 && speed <= 1.4));
+        CHECK(part.at("frames") == std::floor((frame_count - 1) / speed) + 1);
+        CHECK(part.at("legs") == 1);
+        all.insert(speed);
+    }
+    CHECK(all.size() == 8);
+    CHECK(all.contains(1));
+    const nlohmann::json loops = stage.json(speeds + "loop = \"auto\"\n", {"--frames", "90"});
+    const double length = loops.at("loop").at(1).get<double>() - loops.at("loop").at(0).get<double>();
+    for (const nlohmann::json& part : loops.at("performed")) {
+        const double round = part.at("frames").get<double>() - 90, speed = part.at("speed");
+        CHECK(speed * round == Approx(length).epsilon(1e-12));
+        CHECK((speed > 0.95 * 0.7 && speed <= 1.4));
+    }
+    // Speeds change no build.
+    const std::string legs = kBodies + "legs = [0.7, 1.3]\n";
+    const nlohmann::json without = stage.json(legs).at("performed"),
+                         with = stage.json(legs + "speed = [0.7, 1.4]\n").at("performed");
+    REQUIRE(without.size() == with.size());
+    for (std::size_t n = 0; n < with.size(); ++n) CHECK(with[n].at("legs") == without[n].at("legs"));
+}
+
+TEST_CASE("between two frames a joint is half-way, and a loop is the same in each round")
+{
+    const CrowdStage stage;
+    const Bvh bvh(stage);
+    const std::size_t joints = bvh.clip.joints.size(), frames = bvh.clip.frame_count;
+    std::vector<ClipPart> parts{{0, frames, frames}};
+    const formats::Clip slow = paced(bvh.clip, parts, std::array{0.5}, 0);
+    REQUIRE(slow.frame_count == 2 * frames - 1);
+    CHECK((parts[0].count == slow.frame_count && parts[0].pace == 0.5));
+    for (std::size_t frame = 0; frame + 1 < frames; ++frame) {
+        const std::vector<Vector3d> was = places_of(bvh.clip, frame), is = places_of(slow, 2 * frame);
+        for (std::size_t n = 0; n < joints; ++n) {
+            CHECK((is[n] - was[n]).norm() == 0);
+            const Quaterniond &a = bvh.clip.rotation[frame * joints + n],
+                              &b = bvh.clip.rotation[(frame + 1) * joints + n],
+                              &middle = slow.rotation[(2 * frame + 1) * joints + n];
+            CHECK(std::abs(middle.angularDistance(a) - middle.angularDistance(b)) < 1e-7);
+            CHECK(middle.angularDistance(a) == Approx(a.angularDistance(b) / 2).margin(1e-7));
+        }
+    }
+    const ClipLoop loop{3, frames - 4};
+    std::vector<ClipPart> round{{0, 260 + loop.length(), loop.length()}};
+    const formats::Clip on = looped(bvh.clip, 0, loop, round[0].count), fast = paced(on, round, std::array{1.3}, 200);
+    const std::size_t length = round[0].starts;
+    REQUIRE(length == static_cast<std::size_t>(std::ceil(static_cast<double>(loop.length()) / 1.3)));
+    REQUIRE(fast.frame_count == 200 + length);
+    for (std::size_t frame = length; frame + length < fast.frame_count; ++frame)
+        for (std::size_t n = 1; n < joints; ++n)  // the root goes on
+            CHECK(fast.rotation[frame * joints + n].angularDistance(fast.rotation[(frame + length) * joints + n]) <
+                  1e-7);
 }
 
 TEST_CASE("a figure's root on the ground stays there, and so do bodies of all sizes")
@@ -156,6 +222,7 @@ TEST_CASE("proportions that cannot be are refused with file, line and key")
     const CrowdStage stage;
     stage.require_refused("[crowd]\nlegs = [0.1, 1]\n", "c.toml:2: crowd.legs: ");
     stage.require_refused("[crowd]\narms = 1.2\n", "c.toml:2: crowd.arms: ");
+    stage.require_refused("[crowd]\nspeed = [0, 1]\n", "c.toml:2: crowd.speed: ");
     spill(stage.folder / "arms.bvh", kTwoArms);
     for (const auto& [key, part] : {std::pair{"legs", "leftUpperLeg"}, {"spine", "spine"}}) {
         spill(stage.folder / "c.toml", "[crowd]\ncharacters = 2\n" + std::string(key) + " = [0.9, 1.1]\n");

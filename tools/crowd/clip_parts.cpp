@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "tools/formats/printable.h"
@@ -24,6 +25,31 @@ Vector3d local_scale(const Clip& clip, std::size_t frame, std::size_t joint)
     const Joint& of = clip.joints[joint];
     return of.scale_track < 0 ? of.rest_scale
                               : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(of.scale_track)];
+}
+
+// Frames beside each other are so alike that a normalised blend turns as evenly as a slerp.
+Eigen::Quaterniond blended(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double share)
+{
+    const double sign = a.dot(b) < 0 ? -1 : 1;
+    return Eigen::Quaterniond((1 - share) * a.coeffs() + sign * share * b.coeffs()).normalized();
+}
+
+// The clip at a time, in frames: between two of them a blend.
+void append_between(Clip& to, const Clip& from, double time)
+{
+    const auto at = static_cast<std::size_t>(time), next = std::min(at + 1, from.frame_count - 1);
+    const double share = time - static_cast<double>(at);
+    const auto mixed = [share](const Vector3d& a, const Vector3d& b) { return Vector3d((1 - share) * a + share * b); };
+    const std::size_t joints = from.joints.size(), tracks = from.track_count, scales = from.scale_track_count;
+    for (std::size_t n = 0; n < joints; ++n) {
+        const Eigen::Quaterniond& rotation = from.rotation[at * joints + n];
+        to.rotation.push_back(share == 0 ? rotation : blended(rotation, from.rotation[next * joints + n], share));
+    }
+    for (std::size_t n = 0; n < tracks; ++n)
+        to.translation.push_back(mixed(from.translation[at * tracks + n], from.translation[next * tracks + n]));
+    for (std::size_t n = 0; n < scales; ++n)
+        to.scale.push_back(mixed(from.scale[at * scales + n], from.scale[next * scales + n]));
+    ++to.frame_count;
 }
 
 void append(Clip& to, const Clip& from, const ClipPart& part, const Vector3d& way)
@@ -81,6 +107,24 @@ Clip joined(std::span<const Clip> clips, int body)
     };
     const Vector3d begin = begin_of(clips[0]);
     for (const Clip& clip : clips) append(to, clip, {0, clip.frame_count, 0}, begin - begin_of(clip));
+    return to;
+}
+
+Clip paced(const Clip& clip, std::vector<ClipPart>& parts, std::span<const double> speeds, std::size_t frames)
+{
+    Clip to = frames_of(clip, 0);
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        const ClipPart from = parts[n];
+        const auto round = static_cast<std::size_t>(std::ceil(static_cast<double>(from.starts) / speeds[n]));
+        ClipPart& part = parts[n];
+        part.pace = frames > 0 ? static_cast<double>(from.starts) / static_cast<double>(round) : speeds[n];
+        part.first = to.frame_count;
+        part.count =
+            frames > 0 ? frames + round : static_cast<std::size_t>(static_cast<double>(from.count - 1) / part.pace) + 1;
+        part.starts = frames > 0 ? round : part.count;
+        for (std::size_t frame = 0; frame < part.count; ++frame)
+            append_between(to, clip, static_cast<double>(from.first) + static_cast<double>(frame) * part.pace);
+    }
     return to;
 }
 

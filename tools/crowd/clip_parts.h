@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/formats/clip.h"
 
@@ -14,7 +15,8 @@ namespace swivel::tools {
 // Frames of a clip that are played round and round.
 struct ClipPart {
     std::size_t first = 0, count = 0;
-    std::size_t starts = 0;  // characters start in as many of them
+    std::size_t starts = 0;  // characters start in as many of them; of a loop: frames of one round
+    double pace = 1;         // how many frames of what it is made of pass in one of these
 };
 
 // How the skeleton of another clip differs, for people: "joint 7 is Hand, not Wrist". Empty: it does not.
@@ -23,6 +25,12 @@ std::string difference_of(const formats::Clip& clip, const formats::Clip& other)
 // All frames, clip after clip. Skeletons do not differ, frame times neither. Each clip but the first is moved, so that
 // `body` begins above where it does in the first, and their floors are one.
 formats::Clip joined(std::span<const formats::Clip> clips, int body);
+
+// Parts of a clip, one after the other, each at its own speed: that many of its frames pass in one. Parts become those
+// of the new clip. frames: of a loop as it goes on; 0: they are no loops. A round of a loop is a whole number of
+// frames, so it may take a little longer. A loop must have frames * speed + starts frames, or more.
+formats::Clip paced(const formats::Clip& clip, std::vector<ClipPart>& parts, std::span<const double> speeds,
+                    std::size_t frames);
 
 // Its first frames alone, and the frames of one of its parts.
 formats::Clip frames_of(const formats::Clip& clip, std::size_t frame_count);

@@ -13,9 +13,10 @@
 namespace swivel::tools {
 
 // Factors of the bones' lengths. Legs are thighs and shins, arms upper arms and forearms; the spine leads from the hips
-// to all joints that hang on the chest. What else hangs on these bones lies along them.
+// to all joints that hang on the chest. What else hangs on these bones lies along them. Speed is how many frames of its
+// clips the figure performs in one.
 struct Proportions {
-    double legs = 1, arms = 1, spine = 1;
+    double legs = 1, arms = 1, spine = 1, speed = 1;
 
     bool operator==(const Proportions&) const = default;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "tools/feet/contacts.h"
@@ -41,6 +42,12 @@ Ground read_ground(const formats::CrowdFile& file, double floor)
     return ground;
 }
 
+// The frame of its file that a part shows, or the nearest one.
+std::size_t frame_of(const ClipPart& part, std::size_t frame)
+{
+    return static_cast<std::size_t>(std::lround(static_cast<double>(frame % part.starts) * part.pace));
+}
+
 // What the file's own table says of one clip.
 Contacts read_contacts(const formats::CrowdFile& file, std::span<const LegPath> legs, const ClipPart& part,
                        const FramesInFile& frames)
@@ -54,7 +61,7 @@ Contacts read_contacts(const formats::CrowdFile& file, std::span<const LegPath> 
         const Contacts in_file = contacts_of_rows(legs, frames.count, formats::read_contacts_csv(path), path);
         for (std::size_t leg = 0; leg < legs.size(); ++leg)
             for (std::size_t frame = 0; frame < part.count; ++frame)
-                contacts[leg].push_back(in_file[leg][frames.first + frame % part.starts]);
+                contacts[leg].push_back(in_file[leg][frames.first + frame_of(part, frame)]);
     } catch (const formats::InputError& error) {
         throw formats::InputError(file.path, named.line, fmt::format("{}: {}", named.key, error.what()));
     }

@@ -246,6 +246,7 @@ void read_crowd(TomlTable table, CrowdFile& to)
     to.legs = table.range("legs", 0.2, 5, 5);
     to.arms = table.range("arms", 0.2, 5, 5);
     to.spine = table.range("spine", 0.2, 5, 5);
+    to.speed = table.range("speed", 0.2, 5, 5);
     to.stagger = table.flag("stagger");
     to.loop = read_loop(table);
     to.clips = read_clips(table);

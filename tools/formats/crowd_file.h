@@ -124,7 +124,7 @@ struct CrowdFile {
     std::filesystem::path path;
     Maybe<std::int64_t> characters, seed;
     Maybe<double> spacing;
-    Maybe<NumberRange> size, legs, arms, spine;  // factors
+    Maybe<NumberRange> size, legs, arms, spine, speed;  // factors
     Maybe<bool> stagger;
     Maybe<LoopFrames> loop;
     std::vector<FurtherClip> clips;

@@ -145,7 +145,8 @@ std::vector<Proportions> builds_of(const SolveOptions& options, const formats::C
 {
     std::vector<Proportions> builds(1);
     const auto characters = file.characters ? file.characters->value : 1;
-    if ((!file.legs && !file.arms && !file.spine) || options.characters.value_or(characters) == 1) return builds;
+    if ((!file.legs && !file.arms && !file.spine && !file.speed) || options.characters.value_or(characters) == 1)
+        return builds;
     const std::pair<const formats::Maybe<formats::NumberRange>*, Proportions> asked[] = {
         {&file.legs, {0, 1, 1}}, {&file.arms, {1, 0, 1}}, {&file.spine, {1, 1, 0}}};
     for (const auto& [range, alone] : asked) {
@@ -161,14 +162,16 @@ std::vector<Proportions> builds_of(const SolveOptions& options, const formats::C
             file.path, file.legs->line,
             fmt::format("{}: the figure does not stand along Y; turn the clip, or take this out", file.legs->key));
     const std::uint64_t seed = file.seed ? static_cast<std::uint64_t>(file.seed->value) : CrowdPlan().seed;
-    std::mt19937_64 random(options.seed.value_or(seed) ^ 0x6275696c6473u);  // unlike those that draw characters
-    const auto drawn = [&](const formats::Maybe<formats::NumberRange>& range) {
-        const double share = drawn_share(random);
+    const std::uint64_t own = options.seed.value_or(seed) ^ 0x6275696c6473u;  // unlike those that draw characters
+    std::mt19937_64 random(own), speeds(~own);                                // so that speeds change no build
+    const auto drawn = [](std::mt19937_64& from, const formats::Maybe<formats::NumberRange>& range) {
+        const double share = drawn_share(from);
         return range ? range->value.least + (range->value.most - range->value.least) * share : 1;
     };
     for (std::size_t n = 1; n < kBuilds; ++n) {
-        const double legs = drawn(file.legs), arms = drawn(file.arms), spine = drawn(file.spine);
-        const Proportions build{legs, arms, spine};
+        const double legs = drawn(random, file.legs), arms = drawn(random, file.arms),
+                     spine = drawn(random, file.spine);
+        const Proportions build{legs, arms, spine, drawn(speeds, file.speed)};
         if (std::ranges::find(builds, build) == builds.end()) builds.push_back(build);
     }
     return builds;
@@ -182,6 +185,9 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
     const int body = common_joint(clip, job.limbs);
     const bool is_loop = job.crowd->loop.has_value();
     if (is_loop && options.frames > 0) job.frame_count = options.frames;
+    const double slowest = std::ranges::min(job.builds, {}, &Proportions::speed).speed,
+                 fastest = std::ranges::max(job.builds, {}, &Proportions::speed).speed;
+    const auto goes_on = static_cast<std::size_t>(std::ceil(static_cast<double>(job.frame_count) * fastest));
     std::vector<formats::Clip> clips;
     std::vector<ClipPart> parts;
     // A clip as it goes on, for as many frames as are solved, wherever in the loop one starts; or its first frames.
@@ -189,8 +195,9 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
         const std::size_t most = options.frames > 0 ? options.frames : from.frame_count;
         const ClipLoop loop = is_loop ? job.loops.emplace_back(loop_of(*job.crowd, name, from, body)).loop : ClipLoop();
         const std::size_t first = parts.empty() ? 0 : parts.back().first + parts.back().count,
-                          count = is_loop ? job.frame_count + loop.length() : std::min(most, from.frame_count),
-                          all = job.builds.size() * (first + count);
+                          count = is_loop ? goes_on + loop.length() : std::min(most, from.frame_count),
+                          all = static_cast<std::size_t>(static_cast<double>(job.builds.size() * (first + count)) /
+                                                         slowest);
         parts.push_back({first, count, is_loop ? loop.length() : count});
         if (const double bytes = static_cast<double>(all * from.joints.size()) * 32; bytes > 0x1p33)
             throw formats::InputError(
@@ -209,7 +216,13 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
     for (std::size_t build = 1; build < job.builds.size(); ++build)
         for (std::size_t n = 0; n < clips.size(); ++n)
             parts.push_back({build * all.frame_count + parts[n].first, parts[n].count, parts[n].starts});
-    file.replace(job.builds.size() == 1 ? std::move(all) : proportioned(all, job.body, job.builds));
+    if (job.builds.size() > 1) all = proportioned(all, job.body, job.builds);
+    if (slowest != 1 || fastest != 1) {
+        std::vector<double> speeds;
+        for (std::size_t n = 0; n < parts.size(); ++n) speeds.push_back(job.builds[n / clips.size()].speed);
+        all = paced(all, parts, speeds, is_loop ? job.frame_count : 0);
+    }
+    file.replace(std::move(all));
     return parts;
 }
 
@@ -262,8 +275,9 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     if (!job.further.empty()) job.limbs = require_limbs(bind_limbs(clip, joints, choice), options.file);  // in all
     if (job.crowd) put_holding_last(*job.crowd, job.limbs);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
+    const std::size_t last = job.further.size();  // of the clip's own figure
+    job.plan.foot = foot_of(clip, parts.empty() ? clip.frame_count : parts[last].first + parts[last].count);
     job.plan.clips = std::move(parts);
-    job.plan.foot = foot_of(clip, clip.frame_count / job.builds.size());  // of the clip's own figure
     if (job.crowd && job.crowd->ground) {
         stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)},
                         {job.loops.empty() ? 0 : job.loops[0].loop.first, job.clip_frames}, job.plan);

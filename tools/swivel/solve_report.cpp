@@ -68,8 +68,9 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
             const auto [least, most] = std::ranges::minmax(job.builds, {}, of);
             return fmt::format("{:.3g} to {:.3g}", least.*of, most.*of);
         };
-        say(to, "builds   {}: legs {}, arms {}, spine {} times the clip's own\n", job.builds.size(),
-            factors(&Proportions::legs), factors(&Proportions::arms), factors(&Proportions::spine));
+        say(to, "builds   {}: legs {}, arms {}, spine {}, speed {} times the clip's own\n", job.builds.size(),
+            factors(&Proportions::legs), factors(&Proportions::arms), factors(&Proportions::spine),
+            factors(&Proportions::speed));
     }
     for (std::size_t n = 0; n < limbs.size(); ++n)
         if (const auto held = job.plan.limbs[n].holds)
@@ -109,7 +110,8 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
               {"first", part.first},
               {"frames", part.count}};
         if (!job.loops.empty()) of["loop"] = {job.loops[which].loop.first, job.loops[which].loop.last};
-        if (job.builds.size() > 1) of["legs"] = build.legs, of["arms"] = build.arms, of["spine"] = build.spine;
+        if (job.builds.size() > 1)
+            of["legs"] = build.legs, of["arms"] = build.arms, of["spine"] = build.spine, of["speed"] = part.pace;
     }
     if (!job.loops.empty()) out["loop"] = {job.loops[0].loop.first, job.loops[0].loop.last};
     if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;
