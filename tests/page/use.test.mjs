@@ -70,6 +70,19 @@ test('a click chooses the limb under it, another place chooses nothing', async (
     assert.equal(chosen[3], chosen[4]);
     await page.mouse.click(30, 400);
     assert.equal(await page.evaluate(() => swivelPage.selection), null);
+    const low = await page.evaluate(() => {  // an arm whose hand is below the bar
+      const { stage, view } = swivelPage, arm = stage.limbs[1], { shoulder, elbow, wrist } = stage.pose(arm, 3);
+      const middle = shoulder.map((c, n) => (c + elbow[n]) / 2);
+      for (let tries = 0; tries < 200 && view.isSeen(wrist); ++tries) {
+        for (const at of [view.camera.position, view.controls.target]) at.y += 0.02;
+        view.controls.update();
+      }
+      return { ...view.project(middle), isSeen: [middle, wrist].map((point) => view.isSeen(point)) };
+    });
+    assert.deepEqual(low.isSeen, [true, false]);
+    await page.mouse.click(low.x, low.y);
+    const all = await page.evaluate(() => swivelPage.pointsOf(swivelPage.selection.limb, swivelPage.selection.character).map((point) => swivelPage.view.isSeen(point)));
+    assert.ok(all.length >= 4 && all.every((isSeen) => isSeen), `${all}`);
   }, link);
 });
 

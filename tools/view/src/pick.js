@@ -135,8 +135,14 @@ export class Picker {
     up(event) {
         if (!this.isPressed(event)) return;
         const isClick = Math.hypot(event.clientX - this.pressed.x, event.clientY - this.pressed.y) < SLACK;
-        if (isClick && !this.dragging) this.page.select(this.limbAt(event));
+        if (isClick && !this.dragging) this.choose(this.limbAt(event));
         this.stop();
+    }
+    /** Chooses a limb, and goes back until its balls are beside bar and panel. */
+    choose(found) {
+        const { page } = this;
+        page.select(found);
+        if (found) page.view.makeSeen(page.pointsOf(found.limb, found.character));
     }
     stop() {
         const wasDragging = this.dragging;
