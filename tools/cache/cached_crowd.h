@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a cache says of its crowd beside the characters: the clip that they perform, the limbs, and how the arrays are
-// cut. docs/cache.md has it for readers of the files.
+// What a cache says of its crowd, beside the characters. That is the clip that they perform, the limbs, and how the
+// arrays are cut. docs/cache.md has it for readers of the files.
 #pragma once
 
 #include <algorithm>

@@ -64,8 +64,8 @@ struct CrowdPlan {
     std::optional<CarryPlan> carry;                  // a box in both hands
 };
 
-// What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and bends to
-// the choice, and its limbs unless the choice has kinds already. Throws InputError naming line and key for joints of a
+// Adds to the choice what the crowd file names of limbs. Joints are for sides that the choice's options do not name.
+// The file's bends always count, its limbs unless the choice has kinds already. Throws InputError naming line and key for joints of a
 // kind that is left out.
 void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 

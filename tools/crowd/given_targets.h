@@ -24,8 +24,8 @@ enum class Between {
 class GivenTargets {
 public:
     // source: "clip" for none, or a file of targets. Rows of arms are left out where no arm is solved, and so are those
-    // of legs. Throws InputError as read_targets_csv() does. It also does, naming the line, for frames and characters
-    // that do not exist, for limbs that are not solved or hold another's hand, and for a table of which no row is left.
+    // of legs. Throws InputError as read_targets_csv() does, and for a table of which no row is left. It also does,
+    // naming the line, for frames and characters that do not exist, and for limbs that are not solved or hold a hand.
     GivenTargets(const std::string& source, Between between, std::size_t frame_count, std::span<const Limb> limbs,
                  const CrowdPlan& plan);
 

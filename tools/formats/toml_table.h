@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A table of a TOML file, read key by key: every value is checked for its type and range where it is asked for, and
-// what nobody asked for is an unknown key. Complaints are InputErrors "FILE:LINE: the.whole.key: cause; what to do".
+// A table of a TOML file, read key by key. A value is checked for its type and range where it is asked for. What nobody
+// asks for is an unknown key. Complaints are InputErrors "FILE:LINE: the.whole.key: cause; what to do".
 // Knows no keys of its own.
 
 #include <toml++/toml.h>
