@@ -65,8 +65,8 @@ struct CrowdPlan {
 };
 
 // Adds to the choice what the crowd file names of limbs. Joints are for sides that the choice's options do not name.
-// The file's bends always count, its limbs unless the choice has kinds already. Throws InputError naming line and key for joints of a
-// kind that is left out.
+// The file's bends always count, its limbs unless the choice has kinds already. Throws InputError naming line and key
+// for joints of a kind that is left out.
 void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 
 // Below the first joint's first place, as low as any joint ever is in the first frames.
