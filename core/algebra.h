@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "core/num.h"
@@ -137,10 +138,21 @@ constexpr Blade nth_blade(BladeSet set, std::size_t n)
     for (; n > 0; --n) set &= set - 1;
     return static_cast<Blade>(std::countr_zero(set));
 }
+constexpr std::size_t index_of(BladeSet set, Blade b) { return std::popcount(set & ((BladeSet{1} << b) - 1u)); }
+
+template <BladeSet S>
+using Components = std::make_index_sequence<std::popcount(S)>;
+
+// Worked out once for each pair of types, and not for each component that asks.
+template <Product Kind, BladeSet A, BladeSet B>
+inline constexpr BladeSet kProductBlades = product_blades(Kind, A, B);
+template <Product Kind, BladeSet A, BladeSet B, Blade Out>
+inline constexpr Terms kTerms = terms(Kind, A, B, Out);
 
 }  // namespace table
 
-// A multivector with exactly the blades of set S, its components in ascending order of blade.
+// A multivector with exactly the blades of set S, its components in ascending order of blade. Compilers need its copies
+// always inlined (core/isa.h), so it says how it is copied.
 template <class T, BladeSet S>
 struct Mv {
     static_assert(S != 0, "this product is zero for every value");
@@ -148,181 +160,248 @@ struct Mv {
     static constexpr std::size_t count = std::popcount(S);
     T c[count];
 
+    Mv() = default;
+    template <class... X>
+    requires(sizeof...(X) == count && (std::is_same_v<X, T> && ...)) SWIVEL_ALWAYS_INLINE constexpr explicit(count == 1)
+        Mv(const X&... x)
+        : c{x...}
+    {
+    }
+    SWIVEL_ALWAYS_INLINE constexpr Mv(const Mv& other) : Mv(other, table::Components<S>{}) {}
+    SWIVEL_ALWAYS_INLINE constexpr Mv& operator=(const Mv& other)
+    {
+        assign(other, table::Components<S>{});
+        return *this;
+    }
+
     template <Blade B>
     static constexpr std::size_t index()
     {
         static_assert((S >> B & 1u) != 0, "this multivector does not have that blade");
-        return std::popcount(S & ((BladeSet{1} << B) - 1u));
+        return table::index_of(S, B);
     }
     template <Blade B>
-    SWIVEL_INLINE constexpr const T& at() const
+    SWIVEL_ALWAYS_INLINE constexpr const T& at() const
     {
         return c[index<B>()];
     }
     template <Blade B>
-    SWIVEL_INLINE constexpr T& at()
+    SWIVEL_ALWAYS_INLINE constexpr T& at()
     {
         return c[index<B>()];
+    }
+
+private:
+    template <std::size_t... N>
+    SWIVEL_ALWAYS_INLINE constexpr Mv(const Mv& other, std::index_sequence<N...>) : c{other.c[N]...}
+    {
+    }
+    template <std::size_t... N>
+    SWIVEL_ALWAYS_INLINE constexpr void assign(const Mv& other, std::index_sequence<N...>)
+    {
+        ((c[N] = other.c[N]), ...);
     }
 };
 
-// The multivector whose component for each blade B of S is make.operator()<B>().
-template <class T, BladeSet S, class Make>
-SWIVEL_INLINE constexpr Mv<T, S> for_each_blade(Make make)
+// Results as lists of their components. Closures would read better, and take compilers four times as long.
+namespace by_component {
+
+template <bool Minus, class T>
+SWIVEL_ALWAYS_INLINE constexpr T with_sign(const T& x)
 {
-    const auto gather = [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA
-    {
-        return Mv<T, S>{{make.template operator()<table::nth_blade(S, N)>()...}};
-    };
-    return gather(std::make_index_sequence<Mv<T, S>::count>{});
+    if constexpr (Minus)
+        return -x;
+    else
+        return x;
 }
+// Each component is one of m, or its negative. A rule says which.
+struct Moved {
+    Blade from;
+    bool minus;
+};
+constexpr Moved same(Blade b) { return {b, false}; }
+constexpr Moved negative(Blade b) { return {b, true}; }
+constexpr Moved reversed(Blade b) { return {b, grade(b) % 4 >= 2}; }
+template <Blade B, BladeSet S>
+constexpr Moved times(Blade b)
+{
+    const table::Term term = table::terms(table::Product::geometric, S, blades(B), b).term[0];
+    return {term.a, term.sign < 0};
+}
+template <Moved (*Rule)(Blade), BladeSet Out, class T, BladeSet S, std::size_t... N>
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, Out> moved(const Mv<T, S>& m, std::index_sequence<N...>)
+{
+    return Mv<T, Out>(
+        with_sign<Rule(table::nth_blade(Out, N)).minus>(m.template at<Rule(table::nth_blade(Out, N)).from>())...);
+}
+
+template <bool Minus, Blade N, class T, BladeSet A, BladeSet B>
+SWIVEL_ALWAYS_INLINE constexpr T sum(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    if constexpr (!(A >> N & 1u))
+        return with_sign<Minus>(b.template at<N>());
+    else if constexpr (!(B >> N & 1u))
+        return a.template at<N>();
+    else if constexpr (Minus)
+        return a.template at<N>() - b.template at<N>();
+    else
+        return a.template at<N>() + b.template at<N>();
+}
+template <bool Minus, class T, BladeSet A, BladeSet B, std::size_t... N>
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, A | B> sums(const Mv<T, A>& a, const Mv<T, B>& b, std::index_sequence<N...>)
+{
+    return Mv<T, A | B>(sum<Minus, table::nth_blade(A | B, N)>(a, b)...);
+}
+
+// The first terms of a component of a product, up to number N.
+template <const table::Terms& terms, std::size_t N, class T, BladeSet A, BladeSet B>
+SWIVEL_ALWAYS_INLINE constexpr T add_up(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    constexpr table::Term term = terms.term[N];
+    if constexpr (N == 0)
+        return with_sign<(term.sign < 0)>(a.template at<term.a>() * b.template at<term.b>());
+    else if constexpr (term.sign > 0)
+        return add_up<terms, N - 1>(a, b) + a.template at<term.a>() * b.template at<term.b>();
+    else
+        return add_up<terms, N - 1>(a, b) - a.template at<term.a>() * b.template at<term.b>();
+}
+template <table::Product Kind, BladeSet Part, class T, BladeSet A, BladeSet B, std::size_t... N>
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, Part> products(const Mv<T, A>& a, const Mv<T, B>& b, std::index_sequence<N...>)
+{
+    return Mv<T, Part>(add_up<table::kTerms<Kind, A, B, table::nth_blade(Part, N)>,
+                              table::kTerms<Kind, A, B, table::nth_blade(Part, N)>.count - 1>(a, b)...);
+}
+
+template <class T, BladeSet S, std::size_t... N>
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> multiples(const T& scalar, const Mv<T, S>& m, std::index_sequence<N...>)
+{
+    return Mv<T, S>((scalar * m.c[N])...);
+}
+template <class T, BladeSet S, std::size_t... N>
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> selected(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b,
+                                                 std::index_sequence<N...>)
+{
+    return Mv<T, S>(select(mask, a.c[N], b.c[N])...);
+}
+template <class T, BladeSet S, std::size_t... N>
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> flipped(const Mv<T, S>& m, const T& sign, std::index_sequence<N...>)
+{
+    return Mv<T, S>(flip_sign(m.c[N], sign)...);
+}
+
+}  // namespace by_component
 
 // A basis blade with coefficient 1.
 template <class T, Blade B>
-SWIVEL_INLINE constexpr Mv<T, blades(B)> unit()
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, blades(B)> unit()
 {
-    return {{T(1)}};
+    return Mv<T, blades(B)>(T(1));
 }
 
 // The chosen blades of a multivector, which must have them all; and all its blades of one grade.
 template <BladeSet Part, class T, BladeSet S>
-SWIVEL_INLINE constexpr Mv<T, Part> part(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, Part> part(const Mv<T, S>& m)
 {
-    return for_each_blade<T, Part>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return m.template at<B>(); });
+    return by_component::moved<by_component::same, Part>(m, table::Components<Part>{});
 }
 template <int Grade, class T, BladeSet S>
-SWIVEL_INLINE constexpr auto grade_part(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr auto grade_part(const Mv<T, S>& m)
 {
     return part<blades_of_grade(S, Grade)>(m);
 }
 
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr Mv<T, S> operator-(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> operator-(const Mv<T, S>& m)
 {
-    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return -m.template at<B>(); });
+    return by_component::moved<by_component::negative, S>(m, table::Components<S>{});
 }
 template <class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr Mv<T, A | B> operator+(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, A | B> operator+(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return for_each_blade<T, A | B>([&]<Blade N>() SWIVEL_INLINE_LAMBDA {
-        if constexpr ((A & B) >> N & 1u)
-            return a.template at<N>() + b.template at<N>();
-        else if constexpr (A >> N & 1u)
-            return a.template at<N>();
-        else
-            return b.template at<N>();
-    });
+    return by_component::sums<false>(a, b, table::Components<A | B>{});
 }
 template <class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr Mv<T, A | B> operator-(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, A | B> operator-(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return for_each_blade<T, A | B>([&]<Blade N>() SWIVEL_INLINE_LAMBDA {
-        if constexpr ((A & B) >> N & 1u)
-            return a.template at<N>() - b.template at<N>();
-        else if constexpr (A >> N & 1u)
-            return a.template at<N>();
-        else
-            return -b.template at<N>();
-    });
+    return by_component::sums<true>(a, b, table::Components<A | B>{});
 }
 
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S>& m)
 {
-    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return scalar * m.template at<B>(); });
+    return by_component::multiples(scalar, m, table::Components<S>{});
 }
 
 // Some blades of a product, which must have them all; and the whole product.
 template <table::Product Kind, BladeSet Part, class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr auto product_part(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, Part> product_part(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return for_each_blade<T, Part>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
-        constexpr table::Terms terms = table::terms(Kind, A, B, Out);
-        const auto term = [&]<std::size_t N>() SWIVEL_INLINE_LAMBDA {
-            return a.template at<terms.term[N].a>() * b.template at<terms.term[N].b>();
-        };
-        const auto add_up = [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA
-        {
-            T sum = terms.term[0].sign > 0 ? term.template operator()<0>() : -term.template operator()<0>();
-            ((sum = terms.term[N + 1].sign > 0 ? sum + term.template operator()<N + 1>()
-                                               : sum - term.template operator()<N + 1>()),
-             ...);
-            return sum;
-        };
-        return add_up(std::make_index_sequence<terms.count - 1>{});
-    });
+    return by_component::products<Kind, Part>(a, b, table::Components<Part>{});
 }
 template <table::Product Kind, class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return product_part<Kind, table::product_blades(Kind, A, B)>(a, b);
+    return product_part<Kind, table::kProductBlades<Kind, A, B>>(a, b);
 }
 // Geometric product.
 template <class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr auto operator*(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr auto operator*(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return product<table::Product::geometric>(a, b);
 }
 // Outer product.
 template <class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr auto operator^(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr auto operator^(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return product<table::Product::outer>(a, b);
 }
 // Inner product: of blades of grades r and s, the part of grade |r - s| of the geometric product.
 template <class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr auto dot(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr auto dot(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return product<table::Product::inner>(a, b);
 }
 // The scalar product <ab>, as a number.
 template <class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr T scalar_product(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr T scalar_product(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return product_part<table::Product::geometric, blades(kScalar)>(a, b).c[0];
 }
 
 // Reverse: the order of each blade's vectors turned round.
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr Mv<T, S> operator~(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> operator~(const Mv<T, S>& m)
 {
-    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA {
-        if constexpr (grade(B) % 4 < 2)
-            return m.template at<B>();
-        else
-            return -m.template at<B>();
-    });
+    return by_component::moved<by_component::reversed, S>(m, table::Components<S>{});
 }
 
 // The geometric product m * B with a basis blade that contains einf and e0 both, or neither. Components change places
 // and signs, and nothing is multiplied.
 template <Blade B, class T, BladeSet S>
-SWIVEL_INLINE constexpr auto times_blade(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr auto times_blade(const Mv<T, S>& m)
 {
-    constexpr table::Product kind = table::Product::geometric;
-    return for_each_blade<T, table::product_blades(kind, S, blades(B))>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
-        constexpr table::Terms terms = table::terms(kind, S, blades(B), Out);
-        static_assert(terms.count == 1);
-        if constexpr (terms.term[0].sign > 0)
-            return m.template at<terms.term[0].a>();
-        else
-            return -m.template at<terms.term[0].a>();
-    });
+    constexpr BladeSet set = table::kProductBlades<table::Product::geometric, S, blades(B)>;
+    static_assert(std::popcount(set) == std::popcount(S), "components would add up");
+    return by_component::moved<by_component::times<B, S>, set>(m, table::Components<set>{});
 }
 
 // dual(A) = A I^-1, where I = e1^e2^e3^einf^e0 and I^-1 = -I.
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr auto dual(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr auto dual(const Mv<T, S>& m)
 {
     return -times_blade<kPseudoscalar>(m);
 }
 
-// Component by component, a where the mask holds, b elsewhere.
+// Component by component, a where the mask holds, b elsewhere; and m with its signs turned over where sign's is set.
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr Mv<T, S> select(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> select(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b)
 {
-    return for_each_blade<T, S>(
-        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return select(mask, a.template at<B>(), b.template at<B>()); });
+    return by_component::selected(mask, a, b, table::Components<S>{});
+}
+template <class T, BladeSet S>
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> flip_sign(const Mv<T, S>& m, const T& sign)
+{
+    return by_component::flipped(m, sign, table::Components<S>{});
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -9,7 +9,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 // The same bits as a value of another type of the same size.
 template <class To, class From>
-SWIVEL_INLINE constexpr To bit_cast(const From& from)
+SWIVEL_ALWAYS_INLINE constexpr To bit_cast(const From& from)
 {
     return __builtin_bit_cast(To, from);
 }

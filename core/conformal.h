@@ -30,13 +30,13 @@ template <class T>
 using CentralLine = Mv<T, blades(kI, kJ, kK)>;
 
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> vector(const T& x, const T& y, const T& z)
+SWIVEL_ALWAYS_INLINE constexpr Vector<T> vector(const T& x, const T& y, const T& z)
 {
-    return {{x, y, z}};
+    return {x, y, z};
 }
 // The quaternion w + xi + yj + zk.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const T& w)
+SWIVEL_ALWAYS_INLINE constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const T& w)
 {
     Rotor<T> q;
     q.template at<kI>() = x;
@@ -48,37 +48,37 @@ SWIVEL_INLINE constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const
 
 // cos + sin i.
 template <class T>
-SWIVEL_INLINE constexpr Hinge<T> hinge(const T& cos, const T& sin)
+SWIVEL_ALWAYS_INLINE constexpr Hinge<T> hinge(const T& cos, const T& sin)
 {
     return cos * unit<T, kScalar>() + sin * unit<T, kI>();
 }
 
 template <class T>
-SWIVEL_INLINE constexpr Point<T> point(const Vector<T>& x)
+SWIVEL_ALWAYS_INLINE constexpr Point<T> point(const Vector<T>& x)
 {
     return x + (T(0.5) * dot(x, x)).c[0] * unit<T, kEinf>() + unit<T, kE0>();
 }
 template <class T>
-SWIVEL_INLINE constexpr Sphere<T> sphere(const Point<T>& centre, const T& radius)
+SWIVEL_ALWAYS_INLINE constexpr Sphere<T> sphere(const Point<T>& centre, const T& radius)
 {
     return centre - (T(0.5) * radius * radius) * unit<T, kEinf>();
 }
 
 // Squared length, and a multivector of Euclidean blades divided by its length.
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr T len2(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr T len2(const Mv<T, S>& m)
 {
     return scalar_product(m, ~m);
 }
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr Mv<T, S> normalise(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> normalise(const Mv<T, S>& m)
 {
     return (T(1) / sqrt(len2(m))) * m;
 }
 
 // The sum of the sizes of the components: 1 to 1.74 times a vector's length, 1 to 2 times a rotor's, and cheaper.
 template <class T, BladeSet S>
-SWIVEL_INLINE constexpr T length1(const Mv<T, S>& m)
+SWIVEL_ALWAYS_INLINE constexpr T length1(const Mv<T, S>& m)
 {
     T sum = abs(m.c[0]);
     for (std::size_t n = 1; n < m.count; ++n) sum = sum + abs(m.c[n]);
@@ -88,7 +88,7 @@ SWIVEL_INLINE constexpr T length1(const Mv<T, S>& m)
 // The normal of the plane through the origin, a and b. It is as long as a x b. It is the dual of e0 ^ b ^ a ^ einf,
 // which is the Euclidean dual of b ^ a.
 template <class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_ALWAYS_INLINE constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return times_blade<kEuclid>(b ^ a);
 }
@@ -96,14 +96,14 @@ SWIVEL_INLINE constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
 // The line through the origin along v: the dual of e0 ^ v ^ einf (eqs. 3.10-3.12). As a unit vector's rotor it turns by
 // pi about that line (eq. 3.23).
 template <class T>
-SWIVEL_INLINE constexpr CentralLine<T> central_line(const Vector<T>& v)
+SWIVEL_ALWAYS_INLINE constexpr CentralLine<T> central_line(const Vector<T>& v)
 {
     return dual(unit<T, kE0>() ^ v ^ unit<T, kEinf>());
 }
 
 // Q v ~Q for a rotor of any length, divided by nothing: the result is |Q|^2 times as long as v (eq. 3.21).
 template <class T, BladeSet Q, BladeSet V>
-SWIVEL_INLINE constexpr auto sandwich(const Mv<T, Q>& q, const Mv<T, V>& v)
+SWIVEL_ALWAYS_INLINE constexpr auto sandwich(const Mv<T, Q>& q, const Mv<T, V>& v)
 {
     return grade_part<1>(q * v * ~q);
 }
@@ -114,14 +114,14 @@ struct Turn {
     Vector<T> e1, e2, e3;
     T length2;  // of the rotor
 
-    SWIVEL_INLINE constexpr Vector<T> operator()(const Vector<T>& v) const
+    SWIVEL_ALWAYS_INLINE constexpr Vector<T> operator()(const Vector<T>& v) const
     {
         return v.template at<kE1>() * e1 + v.template at<kE2>() * e2 + v.template at<kE3>() * e3;
     }
 };
 // With Q = w + x i + y j + z k, from Q e1 ~Q = (ww + xx - yy - zz) e1 + 2 (xy + wz) e2 + 2 (xz - wy) e3 and its like.
 template <class T>
-SWIVEL_INLINE constexpr Turn<T> turn_by(const Rotor<T>& q)
+SWIVEL_ALWAYS_INLINE constexpr Turn<T> turn_by(const Rotor<T>& q)
 {
     const T w = q.template at<kScalar>(), x = q.template at<kI>(), y = q.template at<kJ>(), z = q.template at<kK>();
     const T twice_x = x + x, twice_y = y + y, twice_z = z + z;
@@ -134,14 +134,13 @@ SWIVEL_INLINE constexpr Turn<T> turn_by(const Rotor<T>& q)
 
 // One of the two quaternions of a rotation: q, or -q where leading is negative.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> with_sign_of(const T& leading, const Rotor<T>& q)
+SWIVEL_ALWAYS_INLINE constexpr Rotor<T> with_sign_of(const T& leading, const Rotor<T>& q)
 {
-    return for_each_blade<T, Rotor<T>::set>(
-        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
+    return flip_sign(q, leading);
 }
 // The one with w >= 0, and at w = 0 with the first of x, y, z that is not zero positive.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
+SWIVEL_ALWAYS_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
 {
     const T zero = T(0), x = q.template at<kI>(), y = q.template at<kJ>(), w = q.template at<kScalar>();
     const T among_xyz = select(x == zero, select(y == zero, q.template at<kK>(), y), x);
@@ -150,7 +149,7 @@ SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
 
 // No rotation.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> one()
+SWIVEL_ALWAYS_INLINE constexpr Rotor<T> one()
 {
     return rotor(T(0), T(0), T(0), T(1));
 }

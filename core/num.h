@@ -23,58 +23,58 @@ using Mask = typename NumberTraits<T>::Mask;
 template <class T>
 using Bits = typename NumberTraits<T>::Bits;
 
-SWIVEL_INLINE float sqrt(float x) { return std::sqrt(x); }
-SWIVEL_INLINE double sqrt(double x) { return std::sqrt(x); }
-SWIVEL_INLINE float abs(float x) { return std::fabs(x); }
-SWIVEL_INLINE double abs(double x) { return std::fabs(x); }
+SWIVEL_ALWAYS_INLINE float sqrt(float x) { return std::sqrt(x); }
+SWIVEL_ALWAYS_INLINE double sqrt(double x) { return std::sqrt(x); }
+SWIVEL_ALWAYS_INLINE float abs(float x) { return std::fabs(x); }
+SWIVEL_ALWAYS_INLINE double abs(double x) { return std::fabs(x); }
 // The size of x with the sign bit of sign.
-SWIVEL_INLINE float copysign(float x, float sign) { return std::copysign(x, sign); }
-SWIVEL_INLINE double copysign(double x, double sign) { return std::copysign(x, sign); }
+SWIVEL_ALWAYS_INLINE float copysign(float x, float sign) { return std::copysign(x, sign); }
+SWIVEL_ALWAYS_INLINE double copysign(double x, double sign) { return std::copysign(x, sign); }
 
 // x with its sign bit turned over where sign's is set.
-SWIVEL_INLINE float flip_sign(float x, float sign) { return std::signbit(sign) ? -x : x; }
-SWIVEL_INLINE double flip_sign(double x, double sign) { return std::signbit(sign) ? -x : x; }
+SWIVEL_ALWAYS_INLINE float flip_sign(float x, float sign) { return std::signbit(sign) ? -x : x; }
+SWIVEL_ALWAYS_INLINE double flip_sign(double x, double sign) { return std::signbit(sign) ? -x : x; }
 
 // For a normal number x > 0: the largest power of two that is not above it. per_power_of_two() is 1/2 divided by that
 // power. Its product with x is at least 1/2 and under 1 (x up to 2^125). Products with either are not rounded.
-SWIVEL_INLINE float power_of_two(float x) { return bit_cast<float>(bit_cast<std::uint32_t>(x) & 0x7f800000u); }
-SWIVEL_INLINE double power_of_two(double x)
+SWIVEL_ALWAYS_INLINE float power_of_two(float x) { return bit_cast<float>(bit_cast<std::uint32_t>(x) & 0x7f800000u); }
+SWIVEL_ALWAYS_INLINE double power_of_two(double x)
 {
     return bit_cast<double>(bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u);
 }
-SWIVEL_INLINE float per_power_of_two(float x)
+SWIVEL_ALWAYS_INLINE float per_power_of_two(float x)
 {
     return bit_cast<float>(0x7e800000u - (bit_cast<std::uint32_t>(x) & 0x7f800000u));
 }
-SWIVEL_INLINE double per_power_of_two(double x)
+SWIVEL_ALWAYS_INLINE double per_power_of_two(double x)
 {
     return bit_cast<double>(0x7fd0000000000000u - (bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u));
 }
 
-SWIVEL_INLINE float select(bool mask, float a, float b) { return mask ? a : b; }
-SWIVEL_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
-SWIVEL_INLINE bool any(bool mask) { return mask; }
-SWIVEL_INLINE bool all(bool mask) { return mask; }
+SWIVEL_ALWAYS_INLINE float select(bool mask, float a, float b) { return mask ? a : b; }
+SWIVEL_ALWAYS_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
+SWIVEL_ALWAYS_INLINE bool any(bool mask) { return mask; }
+SWIVEL_ALWAYS_INLINE bool all(bool mask) { return mask; }
 
 // The smaller and the larger of two numbers; b where they do not compare.
 template <class T>
-SWIVEL_INLINE T lo(const T& a, const T& b)
+SWIVEL_ALWAYS_INLINE T lo(const T& a, const T& b)
 {
     return select(a < b, a, b);
 }
 template <class T>
-SWIVEL_INLINE T hi(const T& a, const T& b)
+SWIVEL_ALWAYS_INLINE T hi(const T& a, const T& b)
 {
     return select(a > b, a, b);
 }
 
 // The same word in every lane; the word where the mask holds, 0 elsewhere; one word or the other.
 template <class T>
-SWIVEL_INLINE Bits<T> bits(std::uint32_t word)
+SWIVEL_ALWAYS_INLINE Bits<T> bits(std::uint32_t word)
 {
     return Bits<T>{word};
 }
-SWIVEL_INLINE std::uint32_t bits_where(bool mask, std::uint32_t word) { return mask ? word : 0u; }
-SWIVEL_INLINE std::uint32_t select(bool mask, std::uint32_t a, std::uint32_t b) { return mask ? a : b; }
+SWIVEL_ALWAYS_INLINE std::uint32_t bits_where(bool mask, std::uint32_t word) { return mask ? word : 0u; }
+SWIVEL_ALWAYS_INLINE std::uint32_t select(bool mask, std::uint32_t a, std::uint32_t b) { return mask ? a : b; }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -13,8 +13,7 @@ template <class T>
 SWIVEL_INLINE constexpr Rotor<T> blended(const Rotor<T>& a, const Rotor<T>& b, const T& weight)
 {
     const T side = scalar_product(~a, b);
-    const Rotor<T> near = for_each_blade<T, Rotor<T>::set>(
-        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(b.template at<B>(), side); });
+    const Rotor<T> near = flip_sign(b, side);
     return normalise(a + weight * (near - a));
 }
 

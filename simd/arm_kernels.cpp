@@ -136,10 +136,8 @@ struct SliceAside {
     {
         const Mask<T> where = lanes_where<T>(lanes);
         for (std::uint32_t row = 0; row < kRows; ++row) {
-            const auto in = [&](auto* rows) SWIVEL_INLINE_LAMBDA {
-                return [=](std::size_t lane) SWIVEL_INLINE_LAMBDA { return rows + row_offset(lane, kRows, row); };
-            };
-            store_lanes(in(to), load_lanes<T>(in(results)), where);
+            const std::size_t at = std::size_t{row} * kLanes;
+            store_lanes(to + at, load_lanes<T>(results + at, blocks_of(kRows)), where, blocks_of(kRows));
         }
     }
 };

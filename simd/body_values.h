@@ -21,34 +21,34 @@ using T = typename KernelNumber<SWIVEL_ARCH, 1>::type;
 struct JointRows {
     float* rows;
 
-    SWIVEL_INLINE T get(std::uint32_t row) const
-    {
-        return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + n; });
-    }
-    SWIVEL_INLINE void set(std::uint32_t row, const T& value) const
-    {
-        store_lanes([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + n; }, value);
-    }
-    SWIVEL_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
+    SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(rows + row * kLanes); }
+    SWIVEL_ALWAYS_INLINE void set(std::uint32_t row, const T& value) const { store_lanes(rows + row * kLanes, value); }
+    SWIVEL_ALWAYS_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
     {
         set(row, v.template at<kE1>());
         set(row + 1, v.template at<kE2>());
         set(row + 2, v.template at<kE3>());
     }
-    SWIVEL_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
+    SWIVEL_ALWAYS_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
     {
         set(row, q.template at<kI>());
         set(row + 1, q.template at<kJ>());
         set(row + 2, q.template at<kK>());
         set(row + 3, q.template at<kScalar>());
     }
-    SWIVEL_INLINE Vector<T> get_vector(std::uint32_t row) const { return vector(get(row), get(row + 1), get(row + 2)); }
-    SWIVEL_INLINE Rotor<T> get_rotor(std::uint32_t row) const
+    SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const
+    {
+        return vector(get(row), get(row + 1), get(row + 2));
+    }
+    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const
     {
         return rotor(get(row), get(row + 1), get(row + 2), get(row + 3));
     }
-    SWIVEL_INLINE JointFrame<T> frame() const { return {get_rotor(kTurnRow), get_vector(kPlaceRow), get(kScaleRow)}; }
-    SWIVEL_INLINE void set_frame(const JointFrame<T>& frame) const
+    SWIVEL_ALWAYS_INLINE JointFrame<T> frame() const
+    {
+        return {get_rotor(kTurnRow), get_vector(kPlaceRow), get(kScaleRow)};
+    }
+    SWIVEL_ALWAYS_INLINE void set_frame(const JointFrame<T>& frame) const
     {
         set_rotor(kTurnRow, frame.rotation);
         set_vector(kPlaceRow, frame.place);
@@ -56,8 +56,8 @@ struct JointRows {
     }
 };
 
-SWIVEL_INLINE Vector<T> vector_of(const std::array<T, 3>& v) { return vector(v[0], v[1], v[2]); }
-SWIVEL_INLINE Rotor<T> rotor_of(const std::array<T, 4>& q) { return rotor(q[0], q[1], q[2], q[3]); }
+SWIVEL_ALWAYS_INLINE Vector<T> vector_of(const std::array<T, 3>& v) { return vector(v[0], v[1], v[2]); }
+SWIVEL_ALWAYS_INLINE Rotor<T> rotor_of(const std::array<T, 4>& q) { return rotor(q[0], q[1], q[2], q[3]); }
 
 // Where a block's bodies have their values. Lanes of bodies that are not there take those of one that is.
 struct Bodies {
@@ -76,7 +76,7 @@ struct Bodies {
     {
     }
 };
-SWIVEL_INLINE JointRows rows_of(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
+SWIVEL_ALWAYS_INLINE JointRows rows_of(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
 {
     return {block.rows + row * kLanes + lane};
 }
@@ -86,7 +86,7 @@ struct MatrixParts {
     std::array<T, 3> part[4];
 };
 template <swivel_pose_form Form>
-SWIVEL_INLINE MatrixParts read_parts(LaneValues lane, std::size_t at)
+SWIVEL_ALWAYS_INLINE MatrixParts read_parts(LaneValues lane, std::size_t at)
 {
     MatrixParts m;
     if constexpr (Form == SWIVEL_MATRIX_ROWS) {
@@ -101,7 +101,7 @@ SWIVEL_INLINE MatrixParts read_parts(LaneValues lane, std::size_t at)
     return m;
 }
 template <swivel_pose_form Form>
-SWIVEL_INLINE Vector<T> axis_of(const MatrixParts& m, std::size_t n)
+SWIVEL_ALWAYS_INLINE Vector<T> axis_of(const MatrixParts& m, std::size_t n)
 {
     return Form == SWIVEL_MATRIX_ROWS ? vector(m.part[0][n], m.part[1][n], m.part[2][n]) : vector_of(m.part[n]);
 }

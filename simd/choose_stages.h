@@ -120,9 +120,7 @@ struct GatheredLimits {
     }
     SWIVEL_FLATTEN [[gnu::noinline]] Limits<T, Boxes> load() const  // with boxes it is long
     {
-        const auto row_at = [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA {
-            return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * lanes + n; });
-        };
+        const auto row_at = [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA { return load_lanes<T>(rows + row * lanes); };
         return load_limits<T, Boxes>(
             list.line_count, list.box_count,
             [&](std::uint32_t row)
@@ -153,9 +151,8 @@ struct GatheredInRegion {
     SWIVEL_INLINE LimitsInRegion<T, Boxes> load() const
     {
         const auto line_at = [&](std::uint32_t first) SWIVEL_INLINE_LAMBDA {
-            const auto row_at = [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA {
-                return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * lanes + n; });
-            };
+            const auto row_at = [&](std::uint32_t row)
+                                    SWIVEL_INLINE_LAMBDA { return load_lanes<T>(rows + row * lanes); };
             return OnCircle<T>{row_at(first), row_at(first + 1), row_at(first + 2)};
         };
         return {limits.load(), {limits.strip.run.region, line_at(0), line_at(3), line_at(6)}};
@@ -177,8 +174,8 @@ SWIVEL_INLINE void search(const Strip& strip, const LimitList& list, const LaneL
         for (std::uint32_t n = 0; n < lanes; ++n) gathered.gather(n, of.lane[first + (n < count ? n : 0)]);
         const FoundSwivel<T> found = find(gathered.load());
         alignas(64) float cos[lanes], sin[lanes];
-        store_lanes([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return cos + n; }, found.swivel.cos);
-        store_lanes([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return sin + n; }, found.swivel.sin);
+        store_lanes(cos, found.swivel.cos);
+        store_lanes(sin, found.swivel.sin);
         const std::uint32_t allowed = lane_bits(found.allowed);
         for (std::uint32_t n = 0; n < count; ++n) {
             const std::uint32_t lane = of.lane[first + n];

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Lanes<Arch, Registers>: a few xsimd batches of floats, worked on side by side. It has core/num.h's list of
-// operations, so every formula runs on it unchanged. This is the only file that names xsimd. It makes xsimd's
-// operations equal on all CPUs: unary minus flips the sign bit, lo and hi do as selects do, and NEON's root and
-// quotient are the exact instructions.
+// Lanes: a few registers of floats, worked on side by side. They have core/num.h's list of operations, so every formula
+// runs on them unchanged. This is the only file that names xsimd, which says what an instruction set's registers are.
+// What is done with them is done by the compilers' own operators of vectors, and by single instructions: xsimd's
+// operators are ordinary functions, which compilers take four times as long to inline (core/isa.h), and some have other
+// bits on other CPUs.
 #pragma once
 
 #include <cstddef>
@@ -16,39 +17,43 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// How many lanes a number has, and how they move in and out of rows. address(lane) gives the place of a lane. The lanes
-// of one register lie side by side there, aligned to the register.
+// How many lanes a number has.
 template <class T>
 inline constexpr std::size_t lane_count = 1;
 
-template <class T, class Address>
-requires std::is_same_v<T, float> SWIVEL_INLINE float load_lanes(Address address) { return *address(0); }
-template <class T, class Address>
-requires std::is_same_v<T, float> SWIVEL_INLINE std::uint32_t load_lane_bits(Address address)
+// Lanes lie in memory side by side, aligned to a register. Those of more blocks than one lie in pieces of `lanes`, each
+// `step` floats after the last one.
+struct LaneBlocks {
+    std::size_t lanes = 64, step = 0;  // 64: no number has as many
+    SWIVEL_ALWAYS_INLINE constexpr std::size_t place(std::size_t lane) const
+    {
+        return lane / lanes * step + lane % lanes;
+    }
+};
+
+template <class T>
+requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE float load_lanes(const float* from, LaneBlocks = {})
 {
-    return bit_cast<std::uint32_t>(*address(0));
+    return *from;
 }
-template <class Address>
-SWIVEL_INLINE void store_lanes(Address address, float x)
+template <class T>
+requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE std::uint32_t load_lane_bits(const float* from)
 {
-    *address(0) = x;
+    return bit_cast<std::uint32_t>(*from);
 }
-template <class Address>
-SWIVEL_INLINE void store_lanes(Address address, std::uint32_t bits)
-{
-    *address(0) = bit_cast<float>(bits);
-}
+SWIVEL_ALWAYS_INLINE void store_lanes(float* to, float x, LaneBlocks = {}) { *to = x; }
+SWIVEL_ALWAYS_INLINE void store_lanes(float* to, std::uint32_t bits, LaneBlocks = {}) { *to = bit_cast<float>(bits); }
 // Stores some of the lanes. The places of the others keep what they hold.
-template <class Address, class Value>
-requires(std::is_same_v<Value, float> || std::is_same_v<Value, std::uint32_t>) SWIVEL_INLINE
-    void store_lanes(Address address, Value x, bool where)
+template <class Value>
+requires(std::is_same_v<Value, float> || std::is_same_v<Value, std::uint32_t>) SWIVEL_ALWAYS_INLINE
+    void store_lanes(float* to, Value x, bool where, LaneBlocks = {})
 {
-    if (where) store_lanes(address, x);
+    if (where) store_lanes(to, x);
 }
 // A bit for each lane, the first lane's lowest; and the mask that has these bits.
-SWIVEL_INLINE std::uint32_t lane_bits(bool mask) { return mask; }
+SWIVEL_ALWAYS_INLINE std::uint32_t lane_bits(bool mask) { return mask; }
 template <class T>
-requires std::is_same_v<T, float> SWIVEL_INLINE bool lanes_where(std::uint32_t bits) { return bits & 1; }
+requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE bool lanes_where(std::uint32_t bits) { return bits & 1; }
 
 // The number type of a kernel built for Arch: lanes, or plain float for the scalar build.
 template <class Arch, int Registers>
@@ -60,285 +65,356 @@ struct KernelNumber<float, Registers> {
 
 #ifndef XSIMD_NO_SUPPORTED_ARCHITECTURE  // other CPUs have the scalar build alone
 
-template <class Arch, int Registers>
-struct Lanes {
-    using Batch = xsimd::batch<float, Arch>;
-    static constexpr std::size_t width = Batch::size, count = width * Registers;
-    Batch r[Registers];
+// An instruction set's registers of floats, and what can be asked of them. Words are the same registers as integers. A
+// mask is words too, with all bits of a lane set where a comparison holds. What is here says nothing of an instruction
+// set; Registers<Arch> adds what has to.
+template <class Arch>
+struct VectorRegisters {
+    using Float = typename xsimd::batch<float, Arch>::register_type;
+    using Word = decltype(Float{} < Float{});
+    using Mask = Word;
+    static constexpr std::size_t width = sizeof(Float) / sizeof(float);
 
-    Lanes() = default;
-    // Copies register by register. g++ would copy arrays of these as one piece of memory, through general registers.
-    SWIVEL_INLINE Lanes(const Lanes& other) { *this = other; }
-    SWIVEL_INLINE Lanes& operator=(const Lanes& other)
+    template <std::size_t... N>
+    SWIVEL_ALWAYS_INLINE static Float fill(float x, std::index_sequence<N...>)
     {
-        set([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return other.r[n].data; });
-        return *this;
+        return Float{(static_cast<void>(N), x)...};
     }
-    explicit Lanes(double x)
+    SWIVEL_ALWAYS_INLINE static Float fill(float x) { return fill(x, std::make_index_sequence<width>{}); }
+    SWIVEL_ALWAYS_INLINE static Word words(std::uint32_t word) { return (Word)fill(bit_cast<float>(word)); }
+    SWIVEL_ALWAYS_INLINE static Float load(const float* from) { return *reinterpret_cast<const Float*>(from); }
+    SWIVEL_ALWAYS_INLINE static void store(float* to, Float x) { *reinterpret_cast<Float*>(to) = x; }
+
+    SWIVEL_ALWAYS_INLINE static Mask less(Float a, Float b) { return a < b; }
+    SWIVEL_ALWAYS_INLINE static Mask less_equal(Float a, Float b) { return a <= b; }
+    SWIVEL_ALWAYS_INLINE static Mask equal(Float a, Float b) { return a == b; }
+    SWIVEL_ALWAYS_INLINE static Float select(Mask mask, Float a, Float b)
     {
-        set([&](std::size_t) SWIVEL_INLINE_LAMBDA { return Batch(static_cast<float>(x)).data; });
-    }
-    template <class F>
-    SWIVEL_INLINE void set(F f)
-    {
-        [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA { ((r[N].data = f(N)), ...); }
-        (std::make_index_sequence<Registers>{});
+        return (Float)((mask & (Word)a) | (~mask & (Word)b));
     }
 };
 
-template <class Arch, int Registers>
+template <class Arch>
+struct Registers;
+#if defined(__SSE2__)
+template <>
+struct Registers<xsimd::sse2> : VectorRegisters<xsimd::sse2> {
+    SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm_sqrt_ps(a); }
+    SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm_min_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask)
+    {
+        return static_cast<std::uint32_t>(_mm_movemask_ps((Float)mask));
+    }
+};
+#endif
+#if defined(__AVX2__)
+template <>
+struct Registers<xsimd::avx2> : VectorRegisters<xsimd::avx2> {
+    SWIVEL_ALWAYS_INLINE static Float select(Mask mask, Float a, Float b)
+    {
+        return _mm256_blendv_ps(b, a, (Float)mask);
+    }
+    SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm256_sqrt_ps(a); }
+    SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm256_min_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm256_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask)
+    {
+        return static_cast<std::uint32_t>(_mm256_movemask_ps((Float)mask));
+    }
+};
+#endif
+#if defined(__AVX512BW__)
+template <>
+struct Registers<xsimd::avx512bw> : VectorRegisters<xsimd::avx512bw> {
+    using Mask = __mmask16;  // a bit for each lane
+    SWIVEL_ALWAYS_INLINE static Mask less(Float a, Float b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+    SWIVEL_ALWAYS_INLINE static Mask less_equal(Float a, Float b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+    SWIVEL_ALWAYS_INLINE static Mask equal(Float a, Float b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
+    SWIVEL_ALWAYS_INLINE static Float select(Mask mask, Float a, Float b) { return _mm512_mask_blend_ps(mask, b, a); }
+    SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm512_sqrt_ps(a); }
+    SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm512_min_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm512_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask) { return mask; }
+};
+#endif
+#if defined(__aarch64__)
+template <>
+struct Registers<xsimd::neon64> : VectorRegisters<xsimd::neon64> {
+    SWIVEL_ALWAYS_INLINE static Float select(Mask mask, Float a, Float b) { return vbslq_f32((uint32x4_t)mask, a, b); }
+    SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return vsqrtq_f32(a); }
+    SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask)
+    {
+        const uint32x4_t one_each = {1, 2, 4, 8};
+        return vaddvq_u32(vandq_u32((uint32x4_t)mask, one_each));
+    }
+};
+#endif
+
+// N are the numbers of the registers: 0, or 0 and 1.
+template <class Arch, std::size_t... N>
+struct Lanes {
+    using R = Registers<Arch>;
+    using Register = typename R::Float;
+    static constexpr std::size_t width = R::width, count = width * sizeof...(N);
+    Register r[sizeof...(N)];
+
+    Lanes() = default;
+    SWIVEL_ALWAYS_INLINE explicit Lanes(double x)
+    {
+        const Register all = R::fill(static_cast<float>(x));
+        ((r[N] = all), ...);
+    }
+    template <class... Each>
+    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, Register> && ...)) SWIVEL_ALWAYS_INLINE
+        explicit Lanes(Each... each)
+        : r{each...}
+    {
+    }
+    SWIVEL_ALWAYS_INLINE static Lanes load(const float* from, LaneBlocks blocks)
+    {
+        return Lanes(R::load(from + blocks.place(N * width))...);
+    }
+    // Copies register by register. g++ would copy arrays of these as one piece of memory, through general registers.
+    SWIVEL_ALWAYS_INLINE Lanes(const Lanes& other) : r{other.r[N]...} {}
+    SWIVEL_ALWAYS_INLINE Lanes& operator=(const Lanes& other)
+    {
+        ((r[N] = other.r[N]), ...);
+        return *this;
+    }
+};
+
+template <class Arch, std::size_t... N>
 struct LanesMask {
-    typename xsimd::batch<float, Arch>::batch_bool_type r[Registers];
+    using R = Registers<Arch>;
+    typename R::Mask r[sizeof...(N)];
+
+    // The bits of one register's lanes are compared as floats. They are denormals, which the environment of every
+    // kernel keeps.
+    SWIVEL_ALWAYS_INLINE static LanesMask where(std::uint32_t bits)
+    {
+        alignas(64) static constexpr std::uint32_t bit[16] = {1u << 0,  1u << 1,  1u << 2,  1u << 3, 1u << 4,  1u << 5,
+                                                              1u << 6,  1u << 7,  1u << 8,  1u << 9, 1u << 10, 1u << 11,
+                                                              1u << 12, 1u << 13, 1u << 14, 1u << 15};
+        const Lanes<Arch, 0> each = Lanes<Arch, 0>::load(reinterpret_cast<const float*>(bit), {});
+        return {R::less(R::fill(0.0f), with_bits(each, bits >> N * R::width & ((1u << R::width) - 1)).r[0])...};
+    }
 };
 // 32-bit words, kept in registers of floats. They are only selected, or-ed and stored, and these operations keep the
 // bits.
-template <class Arch, int Registers>
+template <class Arch, std::size_t... N>
 struct LanesBits {
-    using Batch = xsimd::batch<float, Arch>;
-    Batch r[Registers];
+    using R = Registers<Arch>;
+    typename R::Float r[sizeof...(N)];
 
     LanesBits() = default;
-    explicit LanesBits(std::uint32_t word)
+    SWIVEL_ALWAYS_INLINE explicit LanesBits(std::uint32_t word)
     {
-        for (Batch& b : r) b = Batch(bit_cast<float>(word));
+        const typename R::Float all = R::fill(bit_cast<float>(word));
+        ((r[N] = all), ...);
     }
+    template <class... Each>
+    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, typename R::Float> && ...)) SWIVEL_ALWAYS_INLINE
+        explicit LanesBits(Each... each)
+        : r{each...}
+    {
+    }
+    SWIVEL_ALWAYS_INLINE static LanesBits load(const float* from) { return LanesBits(R::load(from + N * R::width)...); }
 };
 
-template <class Arch, int Registers>
-struct NumberTraits<Lanes<Arch, Registers>> {
-    using Mask = LanesMask<Arch, Registers>;
-    using Bits = LanesBits<Arch, Registers>;
+template <class Arch, std::size_t... N>
+struct NumberTraits<Lanes<Arch, N...>> {
+    using Mask = LanesMask<Arch, N...>;
+    using Bits = LanesBits<Arch, N...>;
 };
 
-// {f(0), f(1), ...}: one result for each register.
-template <class Out, class F>
-SWIVEL_INLINE Out each_register(F f)
-{
-    const auto gather = [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA
-    {
-        Out out;
-        ((out.r[N] = f(N)), ...);
-        return out;
-    };
-    return gather(std::make_index_sequence<std::extent_v<decltype(Out::r)>>{});
-}
-
-#define SWIVEL_LANES_BINARY(op, Out)                                                                           \
-    template <class A, int R>                                                                                  \
-    SWIVEL_INLINE Out<A, R> operator op(const Lanes<A, R>& a, const Lanes<A, R>& b)                            \
-    {                                                                                                          \
-        return each_register<Out<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] op b.r[n]; }); \
+#define SWIVEL_LANES_BINARY(op)                                                                       \
+    template <class A, std::size_t... N>                                                              \
+    SWIVEL_ALWAYS_INLINE Lanes<A, N...> operator op(const Lanes<A, N...>& a, const Lanes<A, N...>& b) \
+    {                                                                                                 \
+        return Lanes<A, N...>((a.r[N] op b.r[N])...);                                                 \
     }
-SWIVEL_LANES_BINARY(+, Lanes)
-SWIVEL_LANES_BINARY(-, Lanes)
-SWIVEL_LANES_BINARY(*, Lanes)
-SWIVEL_LANES_BINARY(<, LanesMask)
-SWIVEL_LANES_BINARY(<=, LanesMask)
-SWIVEL_LANES_BINARY(>, LanesMask)
-SWIVEL_LANES_BINARY(>=, LanesMask)
-SWIVEL_LANES_BINARY(==, LanesMask)
+SWIVEL_LANES_BINARY(+)
+SWIVEL_LANES_BINARY(-)
+SWIVEL_LANES_BINARY(*)
+SWIVEL_LANES_BINARY(/)
 #undef SWIVEL_LANES_BINARY
-
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> operator/(const Lanes<A, R>& a, const Lanes<A, R>& b)
+// Compilers may turn x + (-y) z into x - y z.
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> operator-(const Lanes<A, N...>& a)
 {
-#ifdef __aarch64__  // xsimd divides by an estimate there
-    return each_register<Lanes<A, R>>(
-        [&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(vdivq_f32(a.r[n], b.r[n])); });
-#else
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] / b.r[n]; });
-#endif
+    return Lanes<A, N...>((-a.r[N])...);
 }
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> sqrt(const Lanes<A, R>& a)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> sqrt(const Lanes<A, N...>& a)
 {
-#ifdef __aarch64__
-    return each_register<Lanes<A, R>>([&](std::size_t n)
-                                          SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(vsqrtq_f32(a.r[n])); });
-#else
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::sqrt(a.r[n]); });
-#endif
-}
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> operator-(const Lanes<A, R>& a)
-{
-    // This is the compilers' own minus of registers. So they may turn x + (-y) z into x - y z.
-    return each_register<Lanes<A, R>>([&](std::size_t n)
-                                          SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(-a.r[n].data); });
-}
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> abs(const Lanes<A, R>& a)
-{
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::abs(a.r[n]); });
-}
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> copysign(const Lanes<A, R>& a, const Lanes<A, R>& sign)
-{
-    return each_register<Lanes<A, R>>([&](std::size_t n)
-                                          SWIVEL_INLINE_LAMBDA { return xsimd::copysign(a.r[n], sign.r[n]); });
-}
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> flip_sign(const Lanes<A, R>& a, const Lanes<A, R>& sign)
-{
-    using Batch = xsimd::batch<float, A>;
-    return each_register<Lanes<A, R>>([&](std::size_t n)
-                                          SWIVEL_INLINE_LAMBDA { return a.r[n] ^ (sign.r[n] & Batch(-0.0f)); });
+    return Lanes<A, N...>(Registers<A>::sqrt(a.r[N])...);
 }
 
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> power_of_two(const Lanes<A, R>& a)
+// Signs and exponents are bits of the words.
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> with_bits(const Lanes<A, N...>& a, std::uint32_t bits)
 {
-    using Batch = xsimd::batch<float, A>;
-    const Batch exponent(bit_cast<float>(0x7f800000u));
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] & exponent; });
+    using R = Registers<A>;
+    return Lanes<A, N...>((typename R::Float)((typename R::Word)a.r[N] & R::words(bits))...);
 }
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> per_power_of_two(const Lanes<A, R>& a)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> abs(const Lanes<A, N...>& a)
 {
-    using Words = xsimd::batch<std::int32_t, A>;
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA {
-        const Words exponent = xsimd::bitwise_cast<Words>(a.r[n]) & Words(0x7f800000);
-        return xsimd::bitwise_cast<xsimd::batch<float, A>>(Words(0x7e800000) - exponent);
-    });
+    return with_bits(a, 0x7fffffffu);
 }
-
-template <class A, int R>
-SWIVEL_INLINE LanesMask<A, R> operator&(const LanesMask<A, R>& a, const LanesMask<A, R>& b)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> flip_sign(const Lanes<A, N...>& a, const Lanes<A, N...>& sign)
 {
-    return each_register<LanesMask<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] & b.r[n]; });
+    using R = Registers<A>;
+    const Lanes<A, N...> flips = with_bits(sign, 0x80000000u);
+    return Lanes<A, N...>((typename R::Float)((typename R::Word)a.r[N] ^ (typename R::Word)flips.r[N])...);
 }
-template <class A, int R>
-SWIVEL_INLINE LanesMask<A, R> operator|(const LanesMask<A, R>& a, const LanesMask<A, R>& b)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> copysign(const Lanes<A, N...>& a, const Lanes<A, N...>& sign)
 {
-    return each_register<LanesMask<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] | b.r[n]; });
+    return flip_sign(abs(a), sign);
 }
-template <class A, int R>
-SWIVEL_INLINE LanesMask<A, R> operator!(const LanesMask<A, R>& a)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> power_of_two(const Lanes<A, N...>& a)
 {
-    return each_register<LanesMask<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return ~a.r[n]; });
+    return with_bits(a, 0x7f800000u);
 }
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> select(const LanesMask<A, R>& mask, const Lanes<A, R>& a, const Lanes<A, R>& b)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> per_power_of_two(const Lanes<A, N...>& a)
 {
-    return each_register<Lanes<A, R>>([&](std::size_t n)
-                                          SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], a.r[n], b.r[n]); });
+    using R = Registers<A>;
+    const Lanes<A, N...> power = power_of_two(a);
+    return Lanes<A, N...>((typename R::Float)(R::words(0x7e800000u) - (typename R::Word)power.r[N])...);
 }
 
-template <class A, int R>
-SWIVEL_INLINE bool any(const LanesMask<A, R>& mask)
+#define SWIVEL_LANES_COMPARE(op, compare, x, y)                                                           \
+    template <class A, std::size_t... N>                                                                  \
+    SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator op(const Lanes<A, N...>& a, const Lanes<A, N...>& b) \
+    {                                                                                                     \
+        return {Registers<A>::compare(x.r[N], y.r[N])...};                                                \
+    }
+SWIVEL_LANES_COMPARE(<, less, a, b)
+SWIVEL_LANES_COMPARE(<=, less_equal, a, b)
+SWIVEL_LANES_COMPARE(>, less, b, a)
+SWIVEL_LANES_COMPARE(>=, less_equal, b, a)
+SWIVEL_LANES_COMPARE(==, equal, a, b)
+#undef SWIVEL_LANES_COMPARE
+
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator&(const LanesMask<A, N...>& a, const LanesMask<A, N...>& b)
 {
-    auto either = mask.r[0];
-    for (int n = 1; n < R; ++n) either = either | mask.r[n];
-    return xsimd::any(either);
+    return {static_cast<typename Registers<A>::Mask>(a.r[N] & b.r[N])...};
 }
-template <class A, int R>
-SWIVEL_INLINE bool all(const LanesMask<A, R>& mask)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator|(const LanesMask<A, N...>& a, const LanesMask<A, N...>& b)
 {
-    auto both = mask.r[0];
-    for (int n = 1; n < R; ++n) both = both & mask.r[n];
-    return xsimd::all(both);
+    return {static_cast<typename Registers<A>::Mask>(a.r[N] | b.r[N])...};
 }
-template <class A, int R>
-SWIVEL_INLINE std::uint32_t lane_bits(const LanesMask<A, R>& mask)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator!(const LanesMask<A, N...>& a)
 {
-    static_assert(Lanes<A, R>::count <= 32);
-    const auto of_register = [](const auto& lanes) SWIVEL_INLINE_LAMBDA {
-#ifdef __aarch64__
-        const uint32x4_t one_each = {1, 2, 4, 8};
-        return vaddvq_u32(vandq_u32(lanes, one_each));
-#else
-        if constexpr (Lanes<A, R>::width == 16)
-            return std::uint32_t{lanes.data};
-        else if constexpr (Lanes<A, R>::width == 8)
-            return static_cast<std::uint32_t>(_mm256_movemask_ps(lanes));
-        else
-            return static_cast<std::uint32_t>(_mm_movemask_ps(lanes));
-#endif
-    };
-    std::uint32_t bits = 0;
-    for (std::size_t n = 0; n < R; ++n) bits |= of_register(mask.r[n]) << n * Lanes<A, R>::width;
-    return bits;
+    return {static_cast<typename Registers<A>::Mask>(~a.r[N])...};
+}
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> select(const LanesMask<A, N...>& mask, const Lanes<A, N...>& a,
+                                           const Lanes<A, N...>& b)
+{
+    return Lanes<A, N...>(Registers<A>::select(mask.r[N], a.r[N], b.r[N])...);
 }
 #ifdef __x86_64__
 // Here minps and maxps have the bits of num.h's selects: they give the second operand for NaN and for two zeros.
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> lo(const Lanes<A, R>& a, const Lanes<A, R>& b)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> lo(const Lanes<A, N...>& a, const Lanes<A, N...>& b)
 {
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::min(a.r[n], b.r[n]); });
+    return Lanes<A, N...>(Registers<A>::lo(a.r[N], b.r[N])...);
 }
-template <class A, int R>
-SWIVEL_INLINE Lanes<A, R> hi(const Lanes<A, R>& a, const Lanes<A, R>& b)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> hi(const Lanes<A, N...>& a, const Lanes<A, N...>& b)
 {
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::max(a.r[n], b.r[n]); });
+    return Lanes<A, N...>(Registers<A>::hi(a.r[N], b.r[N])...);
 }
 #endif
 
-template <class A, int R>
-SWIVEL_INLINE LanesBits<A, R> operator|(const LanesBits<A, R>& a, const LanesBits<A, R>& b)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE std::uint32_t lane_bits(const LanesMask<A, N...>& mask)
 {
-    return each_register<LanesBits<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] | b.r[n]; });
+    static_assert(Lanes<A, N...>::count <= 32);
+    return ((Registers<A>::bits(mask.r[N]) << N * Registers<A>::width) | ...);
 }
-template <class A, int R>
-SWIVEL_INLINE LanesBits<A, R> select(const LanesMask<A, R>& mask, const LanesBits<A, R>& a, const LanesBits<A, R>& b)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE bool any(const LanesMask<A, N...>& mask)
 {
-    return each_register<LanesBits<A, R>>(
-        [&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], a.r[n], b.r[n]); });
+    return Registers<A>::bits(static_cast<typename Registers<A>::Mask>((mask.r[N] | ...))) != 0;
 }
-template <class A, int R>
-SWIVEL_INLINE LanesBits<A, R> bits_where(const LanesMask<A, R>& mask, std::uint32_t word)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE bool all(const LanesMask<A, N...>& mask)
 {
-    return select(mask, LanesBits<A, R>(word), LanesBits<A, R>(0u));
-}
-
-template <class A, int R>
-inline constexpr std::size_t lane_count<Lanes<A, R>> = Lanes<A, R>::count;
-template <class A, int R>
-inline constexpr std::size_t lane_count<LanesMask<A, R>> = Lanes<A, R>::count;
-
-template <class T, class Address>
-requires(lane_count<T> > 1) SWIVEL_INLINE T load_lanes(Address address)
-{
-    return each_register<T>([&](std::size_t n)
-                                SWIVEL_INLINE_LAMBDA { return T::Batch::load_aligned(address(n * T::width)); });
-}
-template <class T, class Address>
-requires(lane_count<T> > 1) SWIVEL_INLINE Bits<T> load_lane_bits(Address address)
-{
-    return each_register<Bits<T>>([&](std::size_t n)
-                                      SWIVEL_INLINE_LAMBDA { return T::Batch::load_aligned(address(n * T::width)); });
-}
-template <class Address, template <class, int> class L, class A, int R>
-SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x)
-{
-    for (std::size_t n = 0; n < R; ++n) x.r[n].store_aligned(address(n * Lanes<A, R>::width));
+    constexpr std::uint32_t every = (1u << Registers<A>::width) - 1;
+    return Registers<A>::bits(static_cast<typename Registers<A>::Mask>((mask.r[N] & ...))) == every;
 }
 
-template <class Address, template <class, int> class L, class A, int R>
-SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x, const LanesMask<A, R>& where)
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE LanesBits<A, N...> operator|(const LanesBits<A, N...>& a, const LanesBits<A, N...>& b)
 {
-    for (std::size_t n = 0; n < R; ++n) {
-        float* const to = address(n * Lanes<A, R>::width);
-        xsimd::select(where.r[n], x.r[n], xsimd::batch<float, A>::load_aligned(to)).store_aligned(to);
-    }
+    using R = Registers<A>;
+    return LanesBits<A, N...>((typename R::Float)((typename R::Word)a.r[N] | (typename R::Word)b.r[N])...);
 }
-// The bits of one register's lanes, as floats. They are denormals, which the environment of every kernel keeps.
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE LanesBits<A, N...> select(const LanesMask<A, N...>& mask, const LanesBits<A, N...>& a,
+                                               const LanesBits<A, N...>& b)
+{
+    return LanesBits<A, N...>(Registers<A>::select(mask.r[N], a.r[N], b.r[N])...);
+}
+template <class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE LanesBits<A, N...> bits_where(const LanesMask<A, N...>& mask, std::uint32_t word)
+{
+    return select(mask, LanesBits<A, N...>(word), LanesBits<A, N...>(0u));
+}
+
+template <class A, std::size_t... N>
+inline constexpr std::size_t lane_count<Lanes<A, N...>> = Lanes<A, N...>::count;
+template <class A, std::size_t... N>
+inline constexpr std::size_t lane_count<LanesMask<A, N...>> = Lanes<A, N...>::count;
+
 template <class T>
-requires(lane_count<T> > 1) SWIVEL_INLINE Mask<T> lanes_where(std::uint32_t bits)
+requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE T load_lanes(const float* from, LaneBlocks blocks = {})
 {
-    using Batch = typename T::Batch;
-    alignas(64) static constexpr std::uint32_t bit[16] = {1u << 0,  1u << 1,  1u << 2,  1u << 3, 1u << 4,  1u << 5,
-                                                          1u << 6,  1u << 7,  1u << 8,  1u << 9, 1u << 10, 1u << 11,
-                                                          1u << 12, 1u << 13, 1u << 14, 1u << 15};
-    const Batch each = Batch::load_aligned(reinterpret_cast<const float*>(bit));
-    return each_register<Mask<T>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA {
-        const std::uint32_t of_register = bits >> n * T::width & ((1u << T::width) - 1);
-        return (Batch(bit_cast<float>(of_register)) & each) > Batch(0.0f);
-    });
+    return T::load(from, blocks);
+}
+template <class T>
+requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Bits<T> load_lane_bits(const float* from)
+{
+    return Bits<T>::load(from);
+}
+template <class T>
+requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Mask<T> lanes_where(std::uint32_t bits)
+{
+    return Mask<T>::where(bits);
+}
+template <template <class, std::size_t...> class L, class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE void store_lanes(float* to, const L<A, N...>& x, LaneBlocks blocks = {})
+{
+    using R = Registers<A>;
+    (R::store(to + blocks.place(N * R::width), x.r[N]), ...);
+}
+template <template <class, std::size_t...> class L, class A, std::size_t... N>
+SWIVEL_ALWAYS_INLINE void store_lanes(float* to, const L<A, N...>& x, const LanesMask<A, N...>& where,
+                                      LaneBlocks blocks = {})
+{
+    using R = Registers<A>;
+    (R::store(to + blocks.place(N * R::width), R::select(where.r[N], x.r[N], R::load(to + blocks.place(N * R::width)))),
+     ...);
 }
 
-template <class Arch, int Registers>
-struct KernelNumber {
-    using type = Lanes<Arch, Registers>;
+template <class Arch, class Numbers>
+struct LanesOf;
+template <class Arch, std::size_t... N>
+struct LanesOf<Arch, std::index_sequence<N...>> {
+    using type = Lanes<Arch, N...>;
+};
+template <class Arch, int Count>
+struct KernelNumber : LanesOf<Arch, std::make_index_sequence<Count>> {
 };
 
 #endif

@@ -27,13 +27,12 @@ SWIVEL_INLINE void cut_words(const float* held, std::uint32_t from, std::uint32_
 template <class T>
 SWIVEL_INLINE T load_row(const float* rows, std::size_t row, std::size_t first_lane)
 {
-    return load_lanes<T>([&](std::size_t lane)
-                             SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + first_lane + lane; });
+    return load_lanes<T>(rows + row * kLanes + first_lane);
 }
 template <class T>
 SWIVEL_INLINE void store_row(float* rows, std::size_t row, std::size_t first_lane, const T& value)
 {
-    store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + first_lane + lane; }, value);
+    store_lanes(rows + row * kLanes + first_lane, value);
 }
 
 template <class T>

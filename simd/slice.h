@@ -19,10 +19,13 @@ template <swivel_features Features>
 inline constexpr RowPlan kPlan{Features};
 
 template <swivel_features Features>
-SWIVEL_INLINE constexpr swivel_features features_of(const SolveRun& run)
+SWIVEL_ALWAYS_INLINE constexpr swivel_features features_of(const SolveRun& run)
 {
     return Features == kTold ? run.features : Features;
 }
+
+// Where the lanes of a slice lie in blocks of so many rows.
+constexpr LaneBlocks blocks_of(std::uint32_t row_count) { return {kLanes, std::size_t{row_count} * kLanes}; }
 
 // The rows of one slice of T's lanes: the places of its first lane in the first input row and in the first result row.
 // A slice covers whole blocks or lies in one. So every other place is a constant away. A slice whose features are told
@@ -35,76 +38,73 @@ struct Rows {
     float* results;
     std::uint32_t chosen;  // bits of the lanes whose results are stored: see chosen_lanes()
 
-    SWIVEL_INLINE std::uint32_t row(swivel_field field, int component) const
+    SWIVEL_ALWAYS_INLINE std::uint32_t row(swivel_field field, int component) const
     {
         const std::uint32_t first =
             Features == kTold ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
         return first + static_cast<std::uint32_t>(component);
     }
-    SWIVEL_INLINE T load(swivel_field field, int component) const
+    SWIVEL_ALWAYS_INLINE T load(swivel_field field, int component) const
     {
         return lanes(input, kPlan<Features>.input_count, row(field, component));
     }
-    SWIVEL_INLINE T load_result(swivel_field field, int component) const
+    SWIVEL_ALWAYS_INLINE T load_result(swivel_field field, int component) const
     {
         return lanes(results, kPlan<Features>.result_count, row(field, component));
     }
-    SWIVEL_INLINE Vector<T> load_result_vector(swivel_field field, int first) const
+    SWIVEL_ALWAYS_INLINE Vector<T> load_result_vector(swivel_field field, int first) const
     {
         return vector(load_result(field, first), load_result(field, first + 1), load_result(field, first + 2));
     }
-    SWIVEL_INLINE Rotor<T> load_result_rotor(swivel_field field, int first) const
+    SWIVEL_ALWAYS_INLINE Rotor<T> load_result_rotor(swivel_field field, int first) const
     {
         return rotor(load_result(field, first), load_result(field, first + 1), load_result(field, first + 2),
                      load_result(field, first + 3));
     }
-    SWIVEL_INLINE static T lanes(const float* rows, std::uint32_t row_count, std::uint32_t row)
+    SWIVEL_ALWAYS_INLINE static T lanes(const float* rows, std::uint32_t row_count, std::uint32_t row)
     {
-        return load_lanes<T>([&](std::size_t lane)
-                                 SWIVEL_INLINE_LAMBDA { return rows + row_offset(lane, row_count, row); });
+        return load_lanes<T>(rows + std::size_t{row} * kLanes, blocks_of(row_count));
     }
-    SWIVEL_INLINE Vector<T> load_vector(swivel_field field, int first = 0) const
+    SWIVEL_ALWAYS_INLINE Vector<T> load_vector(swivel_field field, int first = 0) const
     {
         return vector(load(field, first), load(field, first + 1), load(field, first + 2));
     }
-    SWIVEL_INLINE Rotor<T> load_rotor(swivel_field field, int first = 0) const
+    SWIVEL_ALWAYS_INLINE Rotor<T> load_rotor(swivel_field field, int first = 0) const
     {
         return rotor(load(field, first), load(field, first + 1), load(field, first + 2), load(field, first + 3));
     }
-    SWIVEL_INLINE Turned<T> load_turned(swivel_field field, int first = 0) const
+    SWIVEL_ALWAYS_INLINE Turned<T> load_turned(swivel_field field, int first = 0) const
     {
         return {load(field, first), load(field, first + 1)};
     }
-    SWIVEL_INLINE Range<T> load_range(swivel_field field, int first = 0) const
+    SWIVEL_ALWAYS_INLINE Range<T> load_range(swivel_field field, int first = 0) const
     {
         return {load_turned(field, first), load_turned(field, first + 2)};
     }
-    SWIVEL_INLINE Cone<T> load_cone(swivel_field field) const { return {load_vector(field), load(field, 3)}; }
-    SWIVEL_INLINE ParentFrame<T> load_parent() const
+    SWIVEL_ALWAYS_INLINE Cone<T> load_cone(swivel_field field) const { return {load_vector(field), load(field, 3)}; }
+    SWIVEL_ALWAYS_INLINE ParentFrame<T> load_parent() const
     {
         return {load_vector(SWIVEL_SHOULDER_POSITION), load_rotor(SWIVEL_PARENT_ROTATION),
                 load(SWIVEL_PARENT_SCALE, 0)};
     }
 
     template <class Value>
-    SWIVEL_INLINE void store(swivel_field field, int component, const Value& value) const
+    SWIVEL_ALWAYS_INLINE void store(swivel_field field, int component, const Value& value) const
     {
-        const std::uint32_t to = row(field, component);
-        const auto place = [&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-            return results + row_offset(lane, kPlan<Features>.result_count, to);
-        };
+        float* const to = results + std::size_t{row(field, component)} * kLanes;
+        constexpr LaneBlocks blocks = blocks_of(kPlan<Features>.result_count);
         if (chosen == kEveryLane)
-            store_lanes(place, value);
+            store_lanes(to, value, blocks);
         else
-            store_lanes(place, value, lanes_where<T>(chosen));
+            store_lanes(to, value, lanes_where<T>(chosen), blocks);
     }
-    SWIVEL_INLINE void store_vector(swivel_field field, const Vector<T>& v, int first = 0) const
+    SWIVEL_ALWAYS_INLINE void store_vector(swivel_field field, const Vector<T>& v, int first = 0) const
     {
         store(field, first, v.template at<kE1>());
         store(field, first + 1, v.template at<kE2>());
         store(field, first + 2, v.template at<kE3>());
     }
-    SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
+    SWIVEL_ALWAYS_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
     {
         store(field, first, q.template at<kI>());
         store(field, first + 1, q.template at<kJ>());
@@ -120,7 +120,7 @@ struct Binding {
     Rotor<float> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
 };
 template <swivel_features Features>
-SWIVEL_INLINE Binding binding_of(const SolveRun& run)
+SWIVEL_ALWAYS_INLINE Binding binding_of(const SolveRun& run)
 {
     const Rotor<float> q = rotor(0.0f, 0.0f, 0.0f, 1.0f);
     if (!(features_of<Features>(run) & (SWIVEL_JOINTS | SWIVEL_BODY))) return {q, q, q, q, q, q};
@@ -134,7 +134,7 @@ SWIVEL_INLINE Binding binding_of(const SolveRun& run)
             normalise(~wrist_parent * broadcast<float>(b.wrist_rest))};
 }
 template <class T>
-SWIVEL_INLINE Rotor<T> broadcast(const Rotor<float>& q)
+SWIVEL_ALWAYS_INLINE Rotor<T> broadcast(const Rotor<float>& q)
 {
     return rotor(T(q.at<kI>()), T(q.at<kJ>()), T(q.at<kK>()), T(q.at<kScalar>()));
 }

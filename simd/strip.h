@@ -43,32 +43,35 @@ struct StripSlice {
     std::uint32_t block, lane;
 
     // Whether the group has a feature; and the same of one that the stage knows, as a constant.
-    SWIVEL_INLINE bool has(swivel_features feature) const
+    SWIVEL_ALWAYS_INLINE bool has(swivel_features feature) const
     {
         return ((Knows & feature ? Has : strip.run.features) & feature) != 0;
     }
     static constexpr bool is(swivel_features feature) { return (Has & feature) != 0; }
 
-    SWIVEL_INLINE T get(std::uint32_t row) const { return load_lanes<T>(address_of(row)); }
-    SWIVEL_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(address_of(kFlagsRow)); }
-    SWIVEL_INLINE Vector<T> get_vector(std::uint32_t row) const { return vector(get(row), get(row + 1), get(row + 2)); }
-    SWIVEL_INLINE Rotor<T> get_rotor(std::uint32_t row) const
+    SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(at(rows, row)); }
+    SWIVEL_ALWAYS_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(at(rows, kFlagsRow)); }
+    SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const
+    {
+        return vector(get(row), get(row + 1), get(row + 2));
+    }
+    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const
     {
         return rotor(get(row), get(row + 1), get(row + 2), get(row + 3));
     }
-    SWIVEL_INLINE Hinge<T> get_elbow() const { return hinge(get(kFlexionRow), -get(kFlexionRow + 1)); }
+    SWIVEL_ALWAYS_INLINE Hinge<T> get_elbow() const { return hinge(get(kFlexionRow), -get(kFlexionRow + 1)); }
     template <class Value>
-    SWIVEL_INLINE void set(std::uint32_t row, const Value& value) const
+    SWIVEL_ALWAYS_INLINE void set(std::uint32_t row, const Value& value) const
     {
-        store_lanes(address_of(row), value);
+        store_lanes(at(rows, row), value);
     }
-    SWIVEL_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
+    SWIVEL_ALWAYS_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
     {
         set(row, v.template at<kE1>());
         set(row + 1, v.template at<kE2>());
         set(row + 2, v.template at<kE3>());
     }
-    SWIVEL_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
+    SWIVEL_ALWAYS_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
     {
         set(row, q.template at<kI>());
         set(row + 1, q.template at<kJ>());
@@ -76,28 +79,28 @@ struct StripSlice {
         set(row + 3, q.template at<kScalar>());
     }
     // Rows of the body: of its limb on the way, and of its joints.
-    SWIVEL_INLINE T body_row(std::uint32_t row) const { return load_lanes<T>(at(body, row)); }
-    SWIVEL_INLINE Rotor<T> body_rotor(std::uint32_t row) const
+    SWIVEL_ALWAYS_INLINE T body_row(std::uint32_t row) const { return load_lanes<T>(at(body, row)); }
+    SWIVEL_ALWAYS_INLINE Rotor<T> body_rotor(std::uint32_t row) const
     {
         return rotor(body_row(row), body_row(row + 1), body_row(row + 2), body_row(row + 3));
     }
-    SWIVEL_INLINE Vector<T> body_vector(std::uint32_t row) const
+    SWIVEL_ALWAYS_INLINE Vector<T> body_vector(std::uint32_t row) const
     {
         return vector(body_row(row), body_row(row + 1), body_row(row + 2));
     }
-    SWIVEL_INLINE Bits<T> body_flags(std::uint32_t row) const { return load_lane_bits<T>(at(body, row)); }
+    SWIVEL_ALWAYS_INLINE Bits<T> body_flags(std::uint32_t row) const { return load_lane_bits<T>(at(body, row)); }
     template <class Value>
-    SWIVEL_INLINE void set_body(std::uint32_t row, const Value& value) const
+    SWIVEL_ALWAYS_INLINE void set_body(std::uint32_t row, const Value& value) const
     {
         store_lanes(at(body, row), value);
     }
-    SWIVEL_INLINE void set_body_vector(std::uint32_t row, const Vector<T>& v) const
+    SWIVEL_ALWAYS_INLINE void set_body_vector(std::uint32_t row, const Vector<T>& v) const
     {
         set_body(row, v.template at<kE1>());
         set_body(row + 1, v.template at<kE2>());
         set_body(row + 2, v.template at<kE3>());
     }
-    SWIVEL_INLINE void set_body_rotor(std::uint32_t row, const Rotor<T>& q) const
+    SWIVEL_ALWAYS_INLINE void set_body_rotor(std::uint32_t row, const Rotor<T>& q) const
     {
         set_body(row, q.template at<kI>());
         set_body(row + 1, q.template at<kJ>());
@@ -105,36 +108,29 @@ struct StripSlice {
         set_body(row + 3, q.template at<kScalar>());
     }
     // A part of the goal: in the strip, if an earlier stage has put it there, or else as it was given.
-    SWIVEL_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
+    SWIVEL_ALWAYS_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
     {
         const float* const at = in_strip ? rows + row * kLanes : io.input + std::size_t{io.row(field, 0)} * kLanes;
-        const auto load = [&](std::size_t c) SWIVEL_INLINE_LAMBDA {
-            return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return at + c * kLanes + n; });
-        };
-        return vector(load(0), load(1), load(2));
+        return vector(load_lanes<T>(at), load_lanes<T>(at + kLanes), load_lanes<T>(at + 2 * kLanes));
     }
 
     // Bits of its lanes.
-    SWIVEL_INLINE std::uint32_t good() const { return strip.good[block] >> lane & kEvery; }
-    SWIVEL_INLINE std::uint32_t chosen() const { return strip.chosen[block] >> lane & kEvery; }
+    SWIVEL_ALWAYS_INLINE std::uint32_t good() const { return strip.good[block] >> lane & kEvery; }
+    SWIVEL_ALWAYS_INLINE std::uint32_t chosen() const { return strip.chosen[block] >> lane & kEvery; }
     // Of those that are limbs, and no padding.
-    SWIVEL_INLINE std::uint32_t limbs() const
+    SWIVEL_ALWAYS_INLINE std::uint32_t limbs() const
     {
         const std::size_t first = std::size_t{strip.block[block]} * kLanes + lane, end = strip.run.padding;
         return first + lane_count<T> <= end ? kEvery : first < end ? (1u << (end - first)) - 1 : 0;
     }
     // Lanes with an input that is not valid are bad from now on.
-    SWIVEL_INLINE void require(const Mask<T>& valid) const
+    SWIVEL_ALWAYS_INLINE void require(const Mask<T>& valid) const
     {
         strip.good[block] &= ~((lane_bits(!valid) & kEvery) << lane);
     }
 
 private:
-    SWIVEL_INLINE static auto at(float* first, std::uint32_t row)
-    {
-        return [from = first + row * kLanes](std::size_t n) SWIVEL_INLINE_LAMBDA { return from + n; };
-    }
-    SWIVEL_INLINE auto address_of(std::uint32_t row) const { return at(rows, row); }
+    SWIVEL_ALWAYS_INLINE static float* at(float* first, std::uint32_t row) { return first + row * kLanes; }
 };
 
 // Calls take(slice) for each slice of a strip that has chosen lanes.

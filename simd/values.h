@@ -16,7 +16,7 @@ namespace swivel::inline SWIVEL_ISA {
 using LaneValues = const char* const*;
 
 template <class T, std::size_t C>
-requires(lane_count<T> == 1) SWIVEL_INLINE std::array<T, C> load_values(LaneValues lane, std::size_t offset)
+requires(lane_count<T> == 1) SWIVEL_ALWAYS_INLINE std::array<T, C> load_values(LaneValues lane, std::size_t offset)
 {
     std::array<T, C> value;
     std::memcpy(value.data(), lane[0] + offset, sizeof value);
@@ -28,7 +28,7 @@ requires(lane_count<T> == 1) SWIVEL_INLINE std::array<T, C> load_values(LaneValu
 using Four = float __attribute__((vector_size(16)));
 
 template <std::size_t C>
-SWIVEL_INLINE Four load_value(const char* value)
+SWIVEL_ALWAYS_INLINE Four load_value(const char* value)
 {
     // The first C numbers one by one would go through memory.
     if constexpr (C == 4) {
@@ -45,26 +45,26 @@ SWIVEL_INLINE Four load_value(const char* value)
 }
 // Two registers as one of twice the lanes.
 template <class V, std::size_t... N>
-SWIVEL_INLINE auto joined(V low, V high, std::index_sequence<N...>)
+SWIVEL_ALWAYS_INLINE auto joined(V low, V high, std::index_sequence<N...>)
 {
     return __builtin_shufflevector(low, high, N...);
 }
 // Within each four lanes: a0 b0 a1 b1, or a2 b2 a3 b3.
 template <std::size_t from, class V, std::size_t... N>
-SWIVEL_INLINE V zipped(V a, V b, std::index_sequence<N...>)
+SWIVEL_ALWAYS_INLINE V zipped(V a, V b, std::index_sequence<N...>)
 {
     return __builtin_shufflevector(a, b, (N / 4 * 4 + N % 4 / 2 + from + (N % 2) * sizeof...(N))...);
 }
 // Within each four lanes: a0 a1 b0 b1, or a2 a3 b2 b3.
 template <std::size_t from, class V, std::size_t... N>
-SWIVEL_INLINE V paired(V a, V b, std::index_sequence<N...>)
+SWIVEL_ALWAYS_INLINE V paired(V a, V b, std::index_sequence<N...>)
 {
     return __builtin_shufflevector(a, b, (N / 4 * 4 + N % 2 + from + (N % 4 / 2) * sizeof...(N))...);
 }
 
 // The values of lanes k, k + 4, ... side by side.
 template <std::size_t width, std::size_t C>
-SWIVEL_INLINE auto every_fourth(LaneValues lane, std::size_t offset)
+SWIVEL_ALWAYS_INLINE auto every_fourth(LaneValues lane, std::size_t offset)
 {
     if constexpr (width == 4) {
         return load_value<C>(lane[0] + offset);
@@ -76,7 +76,7 @@ SWIVEL_INLINE auto every_fourth(LaneValues lane, std::size_t offset)
 }
 
 template <class T, std::size_t C>
-requires(lane_count<T> > 1) SWIVEL_INLINE std::array<T, C> load_values(LaneValues lane, std::size_t offset)
+requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE std::array<T, C> load_values(LaneValues lane, std::size_t offset)
 {
     constexpr std::size_t width = T::width;
     static_assert(lane_count<T> == width && (C == 3 || C == 4));
@@ -85,11 +85,7 @@ requires(lane_count<T> > 1) SWIVEL_INLINE std::array<T, C> load_values(LaneValue
                c = every_fourth<width, C>(lane + 2, offset), d = every_fourth<width, C>(lane + 3, offset);
     const auto ab = zipped<0>(a, b, lanes), cd = zipped<0>(c, d, lanes);
     const auto ab_high = zipped<2>(a, b, lanes), cd_high = zipped<2>(c, d, lanes);
-    const auto number = [](auto v) SWIVEL_INLINE_LAMBDA {
-        T t;
-        std::memcpy(&t.r[0].data, &v, sizeof v);
-        return t;
-    };
+    const auto number = [](auto v) SWIVEL_ALWAYS_INLINE_LAMBDA { return T((typename T::Register)v); };
     std::array<T, C> value;
     value[0] = number(paired<0>(ab, cd, lanes));
     value[1] = number(paired<2>(ab, cd, lanes));

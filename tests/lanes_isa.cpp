@@ -12,15 +12,12 @@ template <class T>
 void run(Op op, const float* a, const float* b, const float* c, float* out, std::size_t count)
 {
     for (std::size_t n = 0; n < count; n += lane_count<T>) {
-        const auto load = [n](const float* from) {
-            return load_lanes<T>([=](std::size_t lane) { return from + n + lane; });
-        };
-        const auto place = [=](std::size_t lane) { return out + n + lane; };
+        const auto load = [n](const float* from) { return load_lanes<T>(from + n); };
         if (op == Op::store_some) {
-            store_lanes(place, load(c));
-            store_lanes(place, load(a), lanes_where<T>(lane_bits(load(a) < load(b))));
+            store_lanes(out + n, load(c));
+            store_lanes(out + n, load(a), lanes_where<T>(lane_bits(load(a) < load(b))));
         } else {
-            apply<T>(op, load(a), load(b), load(c), [&](const auto& result) { store_lanes(place, result); });
+            apply<T>(op, load(a), load(b), load(c), [&](const auto& result) { store_lanes(out + n, result); });
         }
     }
 }
