@@ -10,8 +10,8 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Which of a limb's normals its incoming frames take.
-enum class BendNormal { own, steady, either };
+// Which of a limb's normals its incoming frames take. chosen: lane by lane, its own or the steady one.
+enum class BendNormal { own, chosen };
 
 // What of a limb's joints its bones need, in one space.
 template <class T>
@@ -38,7 +38,7 @@ SWIVEL_INLINE constexpr Vector<T> hinge_across(const Vector<T>& hinge, const Vec
     return select(off, hinge, select(is_e1, vector(T(0), T(1), T(0)), vector(T(1), T(0), T(0))));
 }
 
-// parent_from_arm: as in a binding. hinge: in the shoulder joint's frame. stays: of BendNormal::either, where the own
+// parent_from_arm: as in a binding. hinge: in the shoulder joint's frame. stays: of BendNormal::chosen, where the own
 // normal serves.
 template <BendNormal which, class T>
 SWIVEL_INLINE constexpr SeenLimb<T> seen_limb(const PosedLimb<T>& posed, const Rotor<T>& parent_from_arm,
@@ -54,8 +54,7 @@ SWIVEL_INLINE constexpr SeenLimb<T> seen_limb(const PosedLimb<T>& posed, const R
         const Hinge<T> elbow = own_hinge(bones, normals.sine);
         return {arm, back, bones, {upper, upper * elbow}, {frame, frame * elbow}};
     } else {
-        const BoneFrames<T> model = bone_frames(
-            bones, which == BendNormal::steady ? normals.steady : select(stays, normals.own, normals.steady));
+        const BoneFrames<T> model = bone_frames(bones, select(stays, normals.own, normals.steady));
         return {arm, back, bones, model, {arm * model.upper, arm * model.fore}};
     }
 }

@@ -20,10 +20,8 @@ struct StageBody<Stage::posed> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        constexpr bool weighs = S::is(SWIVEL_WITH_WEIGHTS);
-        constexpr BendNormal which = S::is(SWIVEL_POLE_INCOMING) ? BendNormal::own
-                                     : weighs                    ? BendNormal::either
-                                                                 : BendNormal::steady;
+        constexpr BendNormal which = S::template is<SWIVEL_POLE_INCOMING>() ? BendNormal::own : BendNormal::chosen;
+        const bool weighs = s.has(SWIVEL_WITH_WEIGHTS);
         const BodyLimb& limb = *s.strip.run.limb;
         const Rotor<T> wrist = s.body_rotor(limb.wrist + kTurnRow);
         const PosedLimb<T> posed{s.body_rotor(limb.parent + kTurnRow), s.body_rotor(limb.shoulder + kTurnRow),
@@ -32,7 +30,7 @@ struct StageBody<Stage::posed> {
         s.require(is_posed(s));
         if (s.has(SWIVEL_WITH_FIT)) s.require(FitWish<S>(s).is_valid());
         Mask<T> stays = T(0) == T(1);
-        if constexpr (which == BendNormal::either) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
+        if (which == BendNormal::chosen && weighs) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),
                                                   vector(T(limb.hinge[0]), T(limb.hinge[1]), T(limb.hinge[2])), stays);
         s.set_rotor(kIncomingRow, seen.model.upper);
@@ -90,7 +88,7 @@ private:
             s.set_vector(kPoleRow,
                          per_scale * seen.back(pole_is_point(s) ? pole - s.body_vector(kRootRow) - shoulder : pole));
         }
-        if constexpr (S::is(SWIVEL_WITH_HAND)) {
+        if (s.has(SWIVEL_WITH_HAND)) {
             const Rotor<T> hand = is_sent ? s.body_rotor(goal + kGoalHandRow) : s.io.load_rotor(SWIVEL_HAND);
             s.require(is_orientation(hand));
             s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~seen.arm * hand);
@@ -158,7 +156,7 @@ struct StageBody<Stage::correct> {
         store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body_rotor(kUpperFromArmRow),
               b.shoulder_rest);
         store(limb.elbow, s.body_rotor(limb.elbow_parent_row()) * elbow * ~s.body_rotor(kForeFromArmRow), b.elbow_rest);
-        if constexpr (S::is(SWIVEL_WITH_HAND))
+        if (s.has(SWIVEL_WITH_HAND))
             store(limb.wrist,
                   s.body_rotor(limb.wrist_parent_row()) * s.get_rotor(kTwistRow) * broadcast<T>(bind.hand_from_arm),
                   b.wrist_rest);

@@ -187,8 +187,8 @@ struct StageBody<Stage::place> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         LimbUse use;
-        use.wish = S::is(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
-        use.angle = S::is(SWIVEL_WITH_ANGLE);
+        use.wish = S::template is<SWIVEL_POLE_NORMAL>() ? Wish::normal : Wish::pole;
+        use.angle = S::template is<SWIVEL_WITH_ANGLE>();
         wish_for_normal(s, use, lay_reaching_bones(s, use));
     }
 };

@@ -121,13 +121,13 @@ struct StageBody<Stage::see> {
         s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
         // The arm frame goes with the parent.
         Rotor<T> rotation = parent.rotation;
-        if constexpr (S::is(SWIVEL_JOINTS)) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+        if constexpr (S::template is<SWIVEL_JOINTS>()) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
         const SeenGoal<T> seen =
             seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
         const T shrink = T(1) / seen.size;
         s.set_vector(kWristRow, shrink * seen.wrist);
         s.set_vector(kPoleRow, shrink * seen.pole);
-        if constexpr (S::is(SWIVEL_WITH_HAND)) {
+        if constexpr (S::template is<SWIVEL_WITH_HAND>()) {
             const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
             s.require(is_orientation(hand));
             s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
@@ -217,7 +217,7 @@ private:
         using T = typename S::T;
         const Rotor<T> local = s.io.load_rotor(field);
         Rotor<T> of_arm = local;
-        if constexpr (S::is(SWIVEL_JOINTS)) of_arm = ~broadcast<T>(from) * local * broadcast<T>(to);
+        if constexpr (S::template is<SWIVEL_JOINTS>()) of_arm = ~broadcast<T>(from) * local * broadcast<T>(to);
         of_arm = scaled(of_arm);
         s.require(is_orientation(local) & is_orientation(of_arm));
         s.set_rotor(row, of_arm);
@@ -230,14 +230,13 @@ struct StageBody<Stage::goal> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        constexpr bool hands = S::is(SWIVEL_WITH_HAND), weighs = S::is(SWIVEL_WITH_WEIGHTS);
         const Binding& bind = s.strip.bind;
         const LimbUse use = use_of(s);
         const bool seen = s.has(SWIVEL_WORLD);
         LimbGoal<T> goal;
         goal.arm.wrist = s.goal_vector(seen, kWristRow, SWIVEL_TARGET);
         Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
-        if constexpr (hands) {
+        if (use.hand) {
             goal.hand = seen ? s.get_rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
             if (!seen) valid = valid & is_orientation(goal.hand);
             if (is_bound(s)) {
@@ -251,17 +250,17 @@ struct StageBody<Stage::goal> {
             goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
             valid = valid & (len2(goal.effector) <= T(kHuge2));
         }
-        if constexpr (weighs) {
+        if (use.weights) {
             goal.arm.upper = length(s, 0);
             goal.arm.fore = length(s, 1);
             goal.incoming = {s.get_rotor(kIncomingRow), s.get_rotor(kIncomingRow + 4),
-                             hands ? s.get_rotor(kIncomingRow + 8) : one<T>()};
+                             use.hand ? s.get_rotor(kIncomingRow + 8) : one<T>()};
             goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};
             valid = valid & is_valid(goal.weights);
         }
         const WristGoal<T> wrist = wrist_goal(use, goal);
         s.set_vector(kWristRow, wrist.place);
-        if constexpr (hands) s.set_rotor(kHandRow, wrist.hand);
+        if (use.hand) s.set_rotor(kHandRow, wrist.hand);
         s.require(valid);
     }
 };

@@ -10,21 +10,38 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
+// How far the upper arm is off the line to the wrist: about the hinge, or any rotation where a line of the hand aims.
 template <class S>
-SWIVEL_INLINE auto lift_of(const S& s)
+SWIVEL_INLINE auto hinged_lift(const S& s)
 {
-    if constexpr (S::is(SWIVEL_WITH_AIM))
-        return s.get_rotor(kLiftRow);
-    else
-        return hinge(s.get(kLiftRow), s.get(kLiftRow + 1));
+    return hinge(s.get(kLiftRow), s.get(kLiftRow + 1));
 }
+template <class S>
+SWIVEL_INLINE auto aimed_lift(const S& s)
+{
+    return s.get_rotor(kLiftRow);
+}
+template <class S, class Lift>
+SWIVEL_INLINE auto swivelling_arm(const S& s, const Lift& lift)
+{
+    using T = typename S::T;
+    return SwivellingArm<T, Lift>{s.get_vector(kLineRow), s.get_vector(kNormalRow), lift, s.get_elbow(),
+                                  s.get_rotor(kHandRow)};
+}
+
+// Of limits of the upper arm, and of those of the hand, which groups that aim do not have.
 template <class S>
 SWIVEL_INLINE auto arm_of(const S& s)
 {
-    using T = typename S::T;
-    const auto lift = lift_of(s);
-    return SwivellingArm<T, std::remove_const_t<decltype(lift)>>{s.get_vector(kLineRow), s.get_vector(kNormalRow), lift,
-                                                                 s.get_elbow(), s.get_rotor(kHandRow)};
+    if constexpr (S::template is<SWIVEL_WITH_AIM>())
+        return swivelling_arm(s, aimed_lift(s));
+    else
+        return swivelling_arm(s, hinged_lift(s));
+}
+template <class S>
+SWIVEL_INLINE auto hand_arm_of(const S& s)
+{
+    return swivelling_arm(s, hinged_lift(s));
 }
 
 template <class S>
@@ -67,7 +84,7 @@ struct StageBody<Stage::hand_cone> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         const auto cone = s.io.load_cone(SWIVEL_HAND_CONE);
-        set_limit(s, SWIVEL_WITH_HAND_CONE, cone, hand_cone_limit(arm_of(s), cone));
+        set_limit(s, SWIVEL_WITH_HAND_CONE, cone, hand_cone_limit(hand_arm_of(s), cone));
     }
 };
 template <>
@@ -76,7 +93,7 @@ struct StageBody<Stage::forearm_twist> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         const auto range = s.io.load_range(SWIVEL_FOREARM_TWIST);
-        set_limit(s, SWIVEL_WITH_FOREARM_TWIST, range, forearm_twist_limit(arm_of(s), range));
+        set_limit(s, SWIVEL_WITH_FOREARM_TWIST, range, forearm_twist_limit(hand_arm_of(s), range));
     }
 };
 template <>
@@ -85,7 +102,7 @@ struct StageBody<Stage::hand_twist> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         const Twist<typename S::T> twist{s.io.load_vector(SWIVEL_HAND_TWIST), s.io.load_range(SWIVEL_HAND_TWIST, 3)};
-        set_limit(s, SWIVEL_WITH_HAND_TWIST, twist, hand_twist_limit(arm_of(s), twist));
+        set_limit(s, SWIVEL_WITH_HAND_TWIST, twist, hand_twist_limit(hand_arm_of(s), twist));
     }
 };
 
@@ -118,7 +135,7 @@ struct StageBody<Stage::wrist_box> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         const EulerOrder& order = kEulerOrders[s.strip.run.wrist_order];
-        set_box(s, s.has(SWIVEL_WITH_SHOULDER_BOX), SWIVEL_WRIST_BOX, wrist_box_curves(arm_of(s), order));
+        set_box(s, s.has(SWIVEL_WITH_SHOULDER_BOX), SWIVEL_WRIST_BOX, wrist_box_curves(hand_arm_of(s), order));
     }
 };
 template <>

@@ -46,7 +46,7 @@ struct StageBody<Stage::store> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        constexpr bool joints = S::is(SWIVEL_JOINTS);
+        constexpr bool joints = S::template is<SWIVEL_JOINTS>();
         const Binding& bind = s.strip.bind;
         const swivel_binding& b = *s.strip.run.binding;
         const Results<S> results(s);
@@ -62,7 +62,8 @@ struct StageBody<Stage::store> {
                 flags = flags | bits_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
         }
         if (s.has(SWIVEL_STEP_WINS)) normal = last_step(continuity, normal, line, flags);
-        const Rotor<T> shoulder = lifted(line, normal, lift_of(s));
+        const bool aims = s.has(SWIVEL_WITH_AIM);
+        const Rotor<T> shoulder = aims ? lifted(line, normal, aimed_lift(s)) : lifted(line, normal, hinged_lift(s));
         const T cos_half = s.get(kFlexionRow), sin_half = s.get(kFlexionRow + 1);
         const T cos = select(results.valid, cos_half, T(1)), sin = select(results.valid, sin_half, T(0));
         const Rotor<T> safe = select(results.valid, shoulder, one<T>());
@@ -81,9 +82,9 @@ struct StageBody<Stage::store> {
             results.out.store(SWIVEL_ELBOW, 0, cos);
             results.out.store(SWIVEL_ELBOW, 1, sin);
         }
-        if constexpr (S::is(SWIVEL_WITH_HAND)) {
+        if (s.has(SWIVEL_WITH_HAND)) {
             Rotor<T> wrist = s.get_rotor(kHandRow);
-            if constexpr (!S::is(SWIVEL_WITH_AIM)) wrist = ~(shoulder * hinge(cos_half, -sin_half)) * wrist;
+            if (!aims) wrist = ~(shoulder * hinge(cos_half, -sin_half)) * wrist;
             wrist = select(results.valid, wrist, one<T>());
             s.set_rotor(kTwistRow, wrist);
             if constexpr (joints)

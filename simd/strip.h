@@ -42,12 +42,18 @@ struct StripSlice {
     float* body;        // the body's; of free limbs the strip's, which no stage reads as these
     std::uint32_t block, lane;
 
-    // Whether the group has a feature; and the same of one that the stage knows, as a constant.
+    // Whether the group has a feature; and the same as a constant, of one that the stage knows. A stage that asks for
+    // another one as a constant does not compile.
     SWIVEL_ALWAYS_INLINE bool has(swivel_features feature) const
     {
         return ((Knows & feature ? Has : strip.run.features) & feature) != 0;
     }
-    static constexpr bool is(swivel_features feature) { return (Has & feature) != 0; }
+    template <swivel_features feature>
+    static constexpr bool is()
+    {
+        static_assert((feature & Knows) == feature);
+        return (Has & feature) != 0;
+    }
 
     SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(at(rows, row)); }
     SWIVEL_ALWAYS_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(at(rows, kFlagsRow)); }
