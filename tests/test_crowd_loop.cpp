@@ -4,7 +4,13 @@
 // frames are found, or named. Places are those of Eigen's matrices, of the clip alone.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
 #include "tests/crowd_stage.h"
+#include "tests/gltf_rig.h"
 #include "tests/shared_figures.h"
 #include "tools/crowd/clip_loop.h"
 #include "tools/formats/bvh.h"
@@ -40,6 +46,34 @@ double largest_step(const Clip& clip, std::size_t from, std::size_t to)
         was = is;
     }
     return most;
+}
+
+// How far arms are turned in a frame, in degrees. They go on turning, so that the nearest frames differ least.
+double turn_of(std::size_t frame) { return 5 + 3 * static_cast<double>(frame); }
+
+// Two arms that turn, and so many seconds between their frames.
+std::string turning_bvh(std::size_t frame_count, double frame_time)
+{
+    std::string text = kTwoArms.substr(0, kTwoArms.find("Frames:")) +
+                       fmt::format("Frames: {}\nFrame Time: {}\n", frame_count, frame_time);
+    for (std::size_t frame = 0; frame < frame_count; ++frame)
+        text += fmt::format("1 2 3 0 10 0 0 {0} 0 0 -30 0 5 0 0 0 {0} 0 0 30 0 5 0 0\n", turn_of(frame));
+    return text;
+}
+
+void write_turning_glb(const fs::path& path, std::size_t frame_count, double frame_time)
+{
+    GltfRig rig;
+    const int arm = rig.add("LeftArm", -1, {0, 0, 0}), fore = rig.add("LeftForeArm", arm, {1, 0, 0.5});
+    rig.add("LeftHand", fore, {1, 0, 0});
+    std::vector<float> times, turns;
+    for (std::size_t frame = 0; frame < frame_count; ++frame) {
+        times.push_back(static_cast<float>(static_cast<double>(frame) * frame_time));
+        const Quaterniond turn(Eigen::AngleAxisd(turn_of(frame) / kDegrees, Vector3d::UnitZ()));
+        for (const double part : turn.coeffs()) turns.push_back(static_cast<float>(part));
+    }
+    rig.add_keys(rig.add_animation("turn"), arm, "rotation", times, turns);
+    rig.write(path);
 }
 
 }  // namespace
@@ -154,4 +188,39 @@ TEST_CASE("crowd file: loop")
     CHECK((again - first).norm() > 1e-3);
     CHECK((third - again).norm() == Approx((again - first).norm()).margin(1e-4));
     CHECK(first.y() == Approx(third.y()).margin(1e-4));
+}
+
+TEST_CASE("crowd file: a loop has two frames or more, however long each takes")
+{
+    const TempFolder folder;
+    spill(folder / "c.toml", "[crowd]\nlimbs = \"arms\"\nloop = \"auto\"\n");
+    const auto run = [&](Words words) {
+        words.insert(words.end(), {"--crowd", "c.toml"});
+        return run_command(folder.path, words);
+    };
+    for (const double frame_time : {0.7, 1.0, 499'999.0, 1e12, 500'001.0}) {
+        spill(folder / "clip.bvh", turning_bvh(10, frame_time));
+        write_turning_glb(folder / "clip.glb", 10, frame_time);
+        for (const std::string clip : {"clip.bvh", "clip.glb"}) {
+            INFO(clip << ", " << frame_time << " s");
+            const Outcome solved = run({"solve", clip, "--json"});
+            INFO(solved.err);
+            REQUIRE(solved.exit_code == 0);
+            const auto loop = nlohmann::json::parse(solved.out).at("loop").get<std::array<std::size_t, 2>>();
+            CHECK(loop[1] == loop[0] + 2);
+        }
+    }
+    CHECK(run({"store", "clip.bvh", "of_bvh"}).exit_code == 0);
+    CHECK(run({"store", "clip.glb", "of_glb"}).exit_code == 0);
+    // Between two frames there is one alone that could go on and on.
+    spill(folder / "clip.bvh", turning_bvh(2, 500'001));
+    write_turning_glb(folder / "clip.glb", 2, 500'001);
+    for (const std::string clip : {"clip.bvh", "clip.glb"})
+        for (const Words& words : {Words{"solve", clip, "--out", "out.csv"}, Words{"store", clip, "cache"}}) {
+            const Outcome outcome = run(words);
+            CHECK(outcome.exit_code == 1);
+            CHECK_THAT(outcome.err, Contains("c.toml:3: crowd.loop: the clip has fewer than three frames"));
+            CHECK(std::ranges::count(outcome.err, '\n') == 1);
+        }
+    CHECK(folder.file_count() == 5);
 }

@@ -76,7 +76,7 @@ FoundLoop find_loop(const Clip& clip, int body)
     const Eigen::MatrixXf looks = looks_of(clip, body).cast<float>();
     const Eigen::VectorXf size2 = looks.colwise().squaredNorm();
     const auto frames = looks.cols();
-    const double shortest = std::ceil(kShortestLoop / clip.frame_time - 1e-6);
+    const double shortest = std::max<double>(std::ceil(kShortestLoop / clip.frame_time - 1e-6), kFewestLooped);
     const auto apart = static_cast<Eigen::Index>(std::min(shortest, static_cast<double>(frames)));
     constexpr Eigen::Index kTogether = 256;  // frames that are compared with all later ones at once
     FoundLoop best{{0, clip.frame_count - 1}, std::numeric_limits<double>::infinity()};

@@ -61,13 +61,13 @@ FoundLoop loop_of(const formats::CrowdFile& file, const std::string& name, const
     };
     const char* const advice = file.clips.empty() ? "write [first, last]" : "take another";
     if (clip.frame_time == 0) refuse("has keys at uneven times; give --fps");
-    if (clip.frame_count < 2) refuse("has one frame; take this out");
+    if (clip.frame_count <= kFewestLooped) refuse("has fewer than three frames and cannot loop; take this out");
     if (asked.value) {
         const auto [first, last] = *asked.value;
         if (!file.clips.empty()) refuse("is not the only clip, and these are frames of one; write \"auto\" or false");
         if (last >= clip.frame_count)
             refuse(fmt::format("has no frame {}; it has frames 0 to {}", last, clip.frame_count - 1));
-        if (last - first < 2) refuse("needs two frames or more to loop; write [first, last]");
+        if (last - first < kFewestLooped) refuse("needs two frames or more to loop; write [first, last]");
         return {{first, last}, 0};
     }
     if (clip.frame_count > kMostSearched)
