@@ -26,6 +26,7 @@
 #define SWIVEL_INLINE_LAMBDA
 #endif
 #define SWIVEL_FLATTEN [[gnu::flatten]]
+#define SWIVEL_OUT_OF_LINE_LAMBDA __attribute__((noinline))  // long, called from many places, and seldom
 // Before a loop that the compiler must not unroll.
 #ifdef __clang__
 #define SWIVEL_KEEP_LOOP _Pragma("clang loop unroll(disable)")

@@ -99,7 +99,7 @@ template <class T, class Take>
 SWIVEL_INLINE constexpr void for_each_peak(const RegionOnCircle<T>& on, const Take& take)
 {
     const swivel_region& region = *on.region;
-    const auto of = [&](std::uint32_t n, std::uint32_t part_first) {
+    const auto of = [&](std::uint32_t n, std::uint32_t part_first) SWIVEL_OUT_OF_LINE_LAMBDA {
         const OnCircle<T> line = on.line(n);
         const T r2 = line.a * line.a + line.b * line.b;
         const Mask<T> peaks = r2 > T(kFlat2);
@@ -151,7 +151,7 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const LimitsInRegion<T, B
 {
     const Turned<T> wish{T(1), T(0)};
     MostRoom<T> found(wish, room(both, wish));
-    const auto take = [&](const Turned<T>& swivel, const Mask<T>& exists) {
+    const auto take = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_OUT_OF_LINE_LAMBDA {
         if (any(exists)) found.consider(swivel, exists, room(both, swivel));
     };
     for_each_peak(both.limits, take);
