@@ -443,25 +443,25 @@ TEST_CASE("a rest pose bent by more than 10 degrees shows where the limb bends t
 TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
 {
     Random random{9};
-    const auto refuse = [&](const char* what, auto spoil) {
+    const auto refuse_chain = [&](const char* what, auto spoil) {
         INFO(what);
         swivel_chain chain = skewed_chain(random);
-        ::refuse(
+        refuse(
             "", [&](swivel_binding* to) { return swivel_bind(&chain, to); }, [&] { spoil(chain); });
     };
     for (const float bad : {0.0f, kNan, kInf, 1e-20f, 3e38f}) {
-        refuse("a rotation", [&](swivel_chain& c) { std::ranges::fill(c.elbow_rotation, bad); });
-        refuse("an offset", [&](swivel_chain& c) { std::ranges::fill(c.wrist_offset, bad); });
+        refuse_chain("a rotation", [&](swivel_chain& c) { std::ranges::fill(c.elbow_rotation, bad); });
+        refuse_chain("an offset", [&](swivel_chain& c) { std::ranges::fill(c.wrist_offset, bad); });
     }
-    refuse("bend", [](swivel_chain& c) { c.bend[1] = kInf; });
-    refuse("one number of a rotation", [](swivel_chain& c) { c.wrist_rotation[1] = kNan; });
-    refuse("bend along the upper arm", [](swivel_chain& c) { std::ranges::copy(c.elbow_offset, c.bend); });
-    refuse("forearm along the axis that it turns about", [](swivel_chain& c) {
+    refuse_chain("bend", [](swivel_chain& c) { c.bend[1] = kInf; });
+    refuse_chain("one number of a rotation", [](swivel_chain& c) { c.wrist_rotation[1] = kNan; });
+    refuse_chain("bend along the upper arm", [](swivel_chain& c) { std::ranges::copy(c.elbow_offset, c.bend); });
+    refuse_chain("forearm along the axis that it turns about", [](swivel_chain& c) {
         const Vector3d hinge = vec(c.bend).cross(vec(c.elbow_offset));
         std::ranges::copy(floats(Vector3d(quat(c.elbow_rotation).normalized().conjugate() * hinge)), c.wrist_offset);
     });
-    refuse("of no size", [](swivel_chain& c) { c.size = 0; });
-    refuse("of a later header", [](swivel_chain& c) { c.size += 8; });
+    refuse_chain("of no size", [](swivel_chain& c) { c.size = 0; });
+    refuse_chain("of a later header", [](swivel_chain& c) { c.size += 8; });
     swivel_chain chain = skewed_chain(random);
     swivel_binding binding = swivel_default_binding();
     CHECK_REFUSED(swivel_bind(nullptr, &binding), SWIVEL_INVALID_ARGUMENT);

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+#
+# swivel_together(target size file...): compiles files together, `size` in a piece, which takes a fraction of the time. Each is in a
+# namespace of its own, so files may use the same names. Headers that any of them includes come first, outside.
+function(swivel_together target size)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})  # they may include another header
+  set(files ${ARGN})
+  set(piece 0)
+  while(files)
+    list(SUBLIST files 0 ${size} some)
+    list(REMOVE_ITEM files ${some})
+    set(headers "")
+    set(bodies "")
+    foreach(file IN LISTS some)
+      get_filename_component(path ${file} ABSOLUTE)
+      get_filename_component(folder ${path} DIRECTORY)
+      get_filename_component(name ${path} NAME_WE)
+      file(STRINGS ${path} lines REGEX "^#include ")
+      list(TRANSFORM lines REPLACE "^#include " "")
+      foreach(header IN LISTS lines)
+        string(REGEX REPLACE "^\"([^/]*)\"$" "\"${folder}/\\1\"" header "${header}")  # a neighbour
+        list(APPEND headers "#if __has_include(${header})\n#include ${header}\n#endif\n")  # some are one system's
+      endforeach()
+      string(APPEND bodies "namespace file_${name} {\n#include \"${path}\"\n}\n")
+    endforeach()
+    list(REMOVE_DUPLICATES headers)
+    list(JOIN headers "" headers)
+    set(together ${CMAKE_CURRENT_BINARY_DIR}/${target}_${piece}.cpp)
+    file(CONFIGURE OUTPUT ${together} CONTENT "${headers}${bodies}" @ONLY)
+    target_sources(${target} PRIVATE ${together})
+    math(EXPR piece "${piece} + 1")
+  endwhile()
+endfunction()
