@@ -2,9 +2,8 @@
 // The promise: what is dragged stays under the pointer, alone or everyone's, with any kind of pole, by mouse and by fingers.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { clip, drag, file, pixel, visit, write } from './harness.mjs';
+import { clip, demo, drag, file, pixel, visit, write } from './harness.mjs';
 
-const demo = write('drag.html', 'demo', '--characters', '12');
 const link = { hash: '#frame=20&character=3&limb=left_arm' };
 const state = (page) => page.evaluate(() => swivelPage.stage.digestState());
 

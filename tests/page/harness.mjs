@@ -7,16 +7,11 @@ import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after } from 'node:test';
-import { chromium } from 'playwright-core';
+import { close, forget, keep, leave, show, take } from './tabs.mjs';
 
-const { SWIVEL, CHROMIUM, WORK } = process.env;
+const { SWIVEL, WORK } = process.env;
 export const clip = ['/usr/share/assimp/models/BVH/01_01.bvh', `${process.env.SWIVEL_TEST_DATA}/bvh/cmu_01_01_forward_jump.bvh`].find((file) => existsSync(file));
-
-const browser = await chromium.launch({
-  executablePath: CHROMIUM,
-  args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-gl=angle', '--use-angle=swiftshader', '--webgl-antialiasing-mode=none'],
-});
-after(() => browser.close());
+after(close);
 
 /** Writes a file into the folder for pages. */
 export function file(name, text) {
@@ -26,49 +21,41 @@ export function file(name, text) {
 /** Writes a page by the command, and returns its place. */
 export function write(name, ...words) {
   const file = join(WORK, name);
+  forget(file);
   execFileSync(SWIVEL, [...words, words[0] === 'view' ? '--out' : '--view', file], { cwd: WORK, stdio: 'pipe' });
   return file;
 }
+/** A crowd of 12 for all tests that need no other one. */
+export const demo = write('demo.html', 'demo', '--characters', '12');
+keep(demo);
 export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding: 'utf8' });
 
-const contexts = new Map();  // by their options: a new one opens a window of its own, which takes as long as a page
-async function newPage(options = {}) {
-  const key = JSON.stringify(options);
-  if (!contexts.has(key)) contexts.set(key, await browser.newContext(options));
-  return contexts.get(key).newPage();
-}
-
-/** Opens a page, which stands still; use gets playwright's page. options: of a context, and `before`, run in the page before its script. */
-export async function visit(file, use, { before, hash = '', ...options } = {}) {
-  const page = await newPage({ viewport: { width: 800, height: 500 }, reducedMotion: 'reduce', ...options });
+/**
+ * Opens a page, which stands still; use gets playwright's page. before: run in the page before its script. isFresh: opens it, though a test
+ * has left it open. spoils: it is not for other tests. reducedMotion, colorScheme: of the system. options: of a context.
+ */
+export async function visit(file, use, { before, hash = '', isFresh = false, spoils = false, reducedMotion = 'reduce', colorScheme = 'light', ...options } = {}) {
+  const tab = await take(file, { viewport: { width: 800, height: 500 }, ...options }, before);
+  let isGood = false;
   try {
-    const faults = [];
-    page.on('console', (message) => {  // a driver's advice is about the test, which reads pixels
-      if (!message.text().includes('GL Driver Message (OpenGL, Performance')) faults.push(`console: ${message.text()}`);
-    });
-    page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
-    page.on('dialog', (dialog) => faults.push(`dialog: ${dialog.message()}`));
-    page.on('request', (request) => { if (request.url() !== `file://${encodeURI(file)}` && !/^(blob|data):/.test(request.url())) faults.push(`request: ${request.url()}`); });
-    if (before) await page.addInitScript(before);
-    await page.goto(`file://${encodeURI(file)}${hash}`);
-    await page.evaluate(() => window.swivelPage?.ready.then(() => {}));
-    await use(page);
-    assert.deepEqual(faults, []);
+    await show(tab, file, hash, { reducedMotion, colorScheme }, isFresh);
+    await use(tab.page);
+    assert.deepEqual(tab.faults, []);
+    isGood = !spoils;
   } finally {
-    await page.close();
+    await leave(tab, isGood);
   }
 }
 
 /** What a page shows in place of a crowd. before: as visit() has it. */
 export async function refusal(place, { before } = {}) {
-  const page = await newPage();
+  const tab = await take(place, { viewport: { width: 800, height: 500 } }, before);
   try {
-    if (before) await page.addInitScript(before);
-    await page.goto(`file://${encodeURI(place)}`);
-    await page.evaluate(() => document.getAnimations().forEach((each) => each.finish()));  // what comes after a second
-    return await page.innerText('.refusal', { timeout: 10_000 });
+    await tab.page.goto(tab.url);
+    await tab.page.evaluate(() => document.getAnimations().forEach((each) => each.finish()));  // what comes after a second
+    return await tab.page.innerText('.refusal', { timeout: 10_000 });
   } finally {
-    await page.close();
+    await leave(tab, false);
   }
 }
 
@@ -89,10 +76,12 @@ export const pixel = (page, part) => page.evaluate((which) => {
 /** How much of the picture differs between two moments, as a share of its pixels. */
 export async function difference(page, act) {
   const take = () => page.evaluateHandle(() => {  // its pixels stay in the page
+    window.isSeen = true;
     swivelPage.draw();
     const from = document.querySelector('canvas'), small = document.createElement('canvas'), context = small.getContext('2d');
     [small.width, small.height] = [320, 200];
     context.drawImage(from, 0, 0, 320, 200);
+    window.isSeen = false;
     return context.getImageData(0, 0, 320, 200).data;
   });
   const before = await take();

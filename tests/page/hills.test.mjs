@@ -15,13 +15,14 @@ heights = "hills.png"
 size = [900, 60, 900]
 `);
 const words = ['view', clip, '--characters', '12', '--frames', '150', '--crowd', toml];
+const hills = write('hills.html', ...words);
 const digests = (page, frames) => page.evaluate((list) => list.map((frame) => {
   swivelPage.setFrame(frame);
   return [swivelPage.stage.digest(), swivelPage.stage.digestState()];
 }), frames);
 
 test('the command\'s bits, played or scrubbed, and the shader\'s limbs and shadows on the hills', async () => {
-  await visit(write('hills.html', ...words), async (page) => {
+  await visit(hills, async (page) => {
     const all = await digests(page, [...Array(150).keys()]);
     assert.ok(all.every(([, state]) => state === 'equal'));
     const order = [149, 3, 64, 63, 130, 0, 100, 65];
@@ -67,7 +68,7 @@ test('the command\'s bits, played or scrubbed, and the shader\'s limbs and shado
 });
 
 test('a dragged foot, let go again, and as a table for the command', async () => {
-  await visit(write('foot.html', ...words), async (page) => {
+  await visit(hills, async (page) => {
     await page.evaluate(() => {
       swivelPage.setFrame(70);
       swivelPage.select({ limb: swivelPage.stage.limbs.find(({ name }) => name === 'right_leg'), character: 3 });
@@ -87,11 +88,11 @@ test('a dragged foot, let go again, and as a table for the command', async () =>
     });
     await page.evaluate(() => swivelPage.letAllGo());
     assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
-  }, { acceptDownloads: true });
+  });
 });
 
 test('dragged hips go down as far as they may, with the feet where they stand; let go, undone, and everyone\'s', async () => {
-  await visit(write('hips.html', ...words), async (page) => {
+  await visit(hills, async (page) => {
     const seen = () => page.evaluate(() => {
       const { stage } = swivelPage, legs = stage.limbs.filter(({ name }) => name.endsWith('leg'));
       return stage.characters.map((_, n) => ({ hip: stage.shoulder(legs[0], n)[1], feet: legs.map((leg) => stage.pose(leg, n).wrist), length: stage.armLength(legs[0], n) }));
@@ -166,7 +167,7 @@ size = [6, 4, 5]
 });
 
 test('dragged ground rises below the one who stands there, as far as the pointer goes, and feet stand on it', async () => {
-  await visit(write('mound.html', ...words), async (page) => {
+  await visit(hills, async (page) => {
     const seen = () => page.evaluate(() => {
       const { stage } = swivelPage, legs = stage.limbs.filter(({ name }) => name.endsWith('leg'));
       return stage.characters.map((_, n) => {

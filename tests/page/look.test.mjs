@@ -2,7 +2,7 @@
 // The promise: what the page shows is in the picture and drawn as it is solved, and what it says fits the limb.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { clip, difference, drag, file, pixel, visit, write } from './harness.mjs';
+import { clip, demo, difference, drag, file, pixel, visit, write } from './harness.mjs';
 
 const crowd = write('look.html', 'demo', '--characters', '100', '--frames', '30');
 /** Whether a character's joints are in the part of the picture that nothing covers. */
@@ -146,7 +146,7 @@ test('bad input is a dash, and its target is shown as it was given', async () =>
 });
 
 test('how fast it solves is a mean, in a unit that suits, or unsaid', async () => {
-  await visit(write('fast.html', 'demo', '--characters', '12', '--frames', '30'), async (page) => {
+  await visit(demo, async (page) => {
     const after = (seconds, frames) => page.evaluate(([each, count]) => {
       const { stage } = swivelPage;
       stage.solve = () => { stage.seconds = each; };
@@ -157,6 +157,7 @@ test('how fast it solves is a mean, in a unit that suits, or unsaid', async () =
     assert.equal(await after(2e-5, 60), '24 limbs solved in less than 0.1 ms: 1.2 million a second');
     assert.equal(await after(2e-3, 60), '24 limbs solved in 2.0 ms: 12 thousand a second');
     assert.equal(await after(1, 60), '24 limbs solved in 1000.0 ms: 24 a second');
+    await page.evaluate(() => { delete swivelPage.stage.solve; });
   });
 });
 

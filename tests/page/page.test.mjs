@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { clip, difference, file, refusal, run, signed, visit, write } from './harness.mjs';
+import { clip, demo, difference, file, refusal, run, signed, visit, write } from './harness.mjs';
 
 const state = (page, frames) => page.evaluate((list) => list.map((frame) => {
   swivelPage.setFrame(frame);
@@ -12,7 +12,6 @@ const state = (page, frames) => page.evaluate((list) => list.map((frame) => {
 }), frames);
 
 test('one classic inline script, no network, the command\'s digests, a picture that moves', async () => {
-  const demo = write('demo.html', 'demo', '--characters', '60');
   const text = readFileSync(demo, 'utf8');
   assert.equal(text.match(/<script/g).length, 1);
   assert.match(text, /<script data-digest="[0-9a-f]{16}">/);

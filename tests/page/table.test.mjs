@@ -57,7 +57,7 @@ test('goals of one and of everyone, targets and poles', async () => {
     const dragged = await digests(page);
     dragged.forEach((digest, frame) => assert.notEqual(digest, untouched[frame]));
     assert.deepEqual(await solved('saved.html', crowd, 'saved.csv'), dragged);
-  }, { acceptDownloads: true });
+  });
 });
 
 test('a crowd file\'s offsets come once, everyone\'s poles that are directions, state', async () => {
@@ -70,7 +70,7 @@ test('a crowd file\'s offsets come once, everyone\'s poles that are directions, 
     await pull(page, 'target', 25, -20);
     await save(page, 'saved_offset.csv');
     assert.deepEqual(await solved('saved_offset.html', words, 'saved_offset.csv'), await digests(page));
-  }, { acceptDownloads: true });
+  });
 });
 
 test('what a table does not hold is said, and too many rows are refused', async () => {
@@ -88,5 +88,5 @@ test('what a table does not hold is said, and too many rows are refused', async 
     await page.evaluate(() => { swivelPage.stage.frameCount = 2_000_001; });
     await button(page).click();
     assert.match(await page.textContent('.notice'), /^This table would have 2,000,001 rows, and 2,000,000 are the most/);
-  }, { acceptDownloads: true });
+  }, { spoils: true });
 });

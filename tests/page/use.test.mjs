@@ -4,9 +4,8 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { test } from 'node:test';
-import { difference, drag, pixel, until, visit, write } from './harness.mjs';
+import { demo, difference, drag, pixel, until, visit } from './harness.mjs';
 
-const demo = write('use.html', 'demo', '--characters', '12');
 /** Looks at character 3 from near; its left arm is chosen by a link. */
 const link = { hash: '#frame=20&character=3&limb=left_arm' };
 
@@ -137,7 +136,7 @@ test('overlays, colours, light and dark, drawn characters change the picture', a
   }, link);
   const background = async (colorScheme) => {
     let theme;
-    await visit(demo, async (page) => { theme = await page.evaluate(() => document.documentElement.dataset.theme); }, { colorScheme });
+    await visit(demo, async (page) => { theme = await page.evaluate(() => document.documentElement.dataset.theme); }, { colorScheme, isFresh: true });
     return theme;
   };
   assert.deepEqual([await background('light'), await background('dark')], ['light', 'dark']);
@@ -154,10 +153,12 @@ test('a limb has the legend\'s colour of its gravest flag', async () => {
     const seen = () => page.evaluate(() => {
       const { stage, view } = swivelPage, limb = stage.limbs.find(({ name }) => name === 'left_arm'), pose = stage.pose(limb, 3);
       swivelPage.select(null);
+      window.isSeen = true;
       swivelPage.draw();
       const from = document.querySelector('canvas'), copy = document.createElement('canvas'), context = copy.getContext('2d');
       [copy.width, copy.height] = [from.width, from.height];
       context.drawImage(from, 0, 0);
+      window.isSeen = false;
       const at = view.project(pose.shoulder.map((x, axis) => (x + pose.elbow[axis]) / 2)), scale = from.width / from.clientWidth;
       const light = context.getImageData(at.x * scale, at.y * scale, 1, 1).data.slice(0, 3);
       const alike = (colour) => colour.reduce((sum, c, n) => sum + c * light[n], 0) / Math.hypot(...colour);
@@ -227,7 +228,7 @@ test('the lesson leaves keys alone while it is closed, and errors that are not t
       try { swivelPage.setFrame(3); } catch (error) { return error.message; }
       return 'hidden';
     }), 'a fault');
-  }, link);
+  }, { ...link, spoils: true });
 });
 
 test('the page plays at once, unless the system asks for less motion or the link names a frame', async () => {
@@ -237,7 +238,7 @@ test('the page plays at once, unless the system asks for less motion or the link
       playing = await page.evaluate(() => [swivelPage.player.isPlaying, document.querySelector('.play').textContent]);
       if (playing[0]) await until(page, () => swivelPage.stage.frame, (frame) => frame > 0);
       else assert.equal(await page.evaluate(() => swivelPage.stage.frame), options.hash ? 20 : 0);
-    }, options);
+    }, { ...options, isFresh: true });
     return playing;
   };
   const moves = { reducedMotion: 'no-preference' };

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+//
+// Pages that stay open. An opening takes a second of a CPU or two, so a page that a test has left is made new by its own means:
+// what was changed is taken back. A page that does not become what it was at first is opened again.
+import { chromium } from 'playwright-core';
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM,
+  args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-gl=angle', '--use-angle=swiftshader', '--webgl-antialiasing-mode=none'],
+});
+export const close = () => browser.close();
+
+/** Draws on the canvas only while window.isSeen is set: SwiftShader takes 0.1 s for a picture, and 1 s for the first. */
+function drawIfSeen() {
+  const { prototype } = WebGL2RenderingContext;
+  for (const name of ['drawArrays', 'drawArraysInstanced', 'drawElements', 'drawElementsInstanced', 'drawRangeElements']) {
+    const draw = prototype[name];
+    prototype[name] = function (...words) {
+      if (window.isSeen || this.getParameter(this.FRAMEBUFFER_BINDING) !== null) draw.apply(this, words);
+    };
+  }
+}
+
+/** In the page, once it is ready: remembers how it is, and defines window.renew(). */
+function remember() {
+  const { stage, drawnCount, theme } = swivelPage;
+  const inputs = [...document.querySelectorAll('input, select')], folds = [...document.querySelectorAll('details')];
+  /** All that is seen of the page, and the camera; how fast it solves is left out. */
+  const look = () => {
+    const { camera, controls, followed } = swivelPage.view;
+    const parts = [...document.body.children].filter(({ tagName }) => tagName !== 'SCRIPT').map(({ outerHTML }) => outerHTML.replace(/<p class="speed".*?<\/p>/, ''));
+    const states = inputs.map(({ value, checked, indeterminate, disabled }) => [value, checked, indeterminate, disabled]);
+    const numbers = [...camera.position.toArray(), ...controls.target.toArray()].map((number) => number.toFixed(6));
+    return [...parts, ...states, ...numbers, stage.frame, stage.digest(), followed, swivelPage.drawnCount, swivelPage.theme].join('\n');
+  };
+  const { changes } = stage, first = look(), values = inputs.map(({ value, checked }) => ({ value, checked })), open = folds.map((fold) => fold.open);
+  const putBack = (input, { value, checked }) => {
+    if (input.value === value && input.checked === checked) return;
+    Object.assign(input, input.type === 'checkbox' ? { checked } : { value });
+    input.dispatchEvent(new Event(input.type === 'range' ? 'input' : 'change', { bubbles: true }));
+  };
+  /** Makes the page as it was; whether that went. */
+  window.renew = async () => {
+    swivelPage.player.pause();
+    swivelPage.help.close();
+    document.activeElement?.blur();
+    stage.restore(changes);
+    swivelPage.select(null);  // switches and sliders follow
+    inputs.forEach((input, n) => putBack(input, values[n]));
+    stage.restore(changes);
+    Object.assign(swivelPage.undo, { before: [], gesture: null });
+    Object.assign(swivelPage, { chosen: 0 });
+    folds.forEach((fold, n) => { fold.open = open[n]; });
+    swivelPage.setTheme(theme);
+    swivelPage.lead(null);
+    stage.setFrame(0);
+    swivelPage.drawFirst(drawnCount);
+    await new Promise(requestAnimationFrame);  // folds tell of it later
+    swivelPage.resize();
+    swivelPage.home();
+    swivelPage.follow(stage.characterCount === 1);
+    swivelPage.say('');
+    swivelPage.canvas.style.cursor = '';
+    return look() === first;
+  };
+}
+
+export const opened = { cold: 0, goto: 0, renewed: 0, failed: 0 };
+const tabs = [];  // each: its page, its context's options as a key, the file that it shows, what went wrong, whether a test has it
+const contexts = new Map();  // by their options: a new one opens a window of its own, which takes as long as a page
+
+async function newTab(key) {
+  if (!contexts.has(key)) contexts.set(key, await browser.newContext(JSON.parse(key)));
+  opened.cold++;
+  const page = await contexts.get(key).newPage(), tab = { page, key, faults: [] };
+  page.on('console', (message) => {  // a driver's advice is about the test, which reads pixels
+    if (!message.text().includes('GL Driver Message (OpenGL, Performance')) tab.faults.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => tab.faults.push(`error: ${error.message}`));
+  page.on('dialog', (dialog) => tab.faults.push(`dialog: ${dialog.message()}`));
+  page.on('request', (request) => { if (request.url() !== tab.url && !/^(blob|data):/.test(request.url())) tab.faults.push(`request: ${request.url()}`); });
+  await page.addInitScript(drawIfSeen);
+  return tab;
+}
+
+const kept = new Set();
+/** Tabs that show this file go on showing it. */
+export const keep = (file) => kept.add(file);
+
+/** A tab that shows nothing that must stay, or a new one. It must be left again. options: of a context. before: run before the page's script. */
+export async function take(file, options, before) {
+  const key = JSON.stringify(options), free = tabs.filter((tab) => !tab.isTaken && tab.key === key);
+  const tab = (before ? null : free.find((each) => each.file === file) ?? free.find((each) => !kept.has(each.file))) ?? await newTab(key);
+  if (before) await tab.page.addInitScript(before);
+  else if (!tabs.includes(tab)) tabs.push(tab);
+  return Object.assign(tab, { isTaken: true, isOwn: Boolean(before), faults: [], url: `file://${encodeURI(file)}` });
+}
+/** isGood: it may show its file to another test. */
+export async function leave(tab, isGood) {
+  tab.isTaken = false;
+  if (!isGood) tab.file = null;
+  if (tab.isOwn) await tab.page.close();
+  else if (!tab.file) await tab.page.goto('about:blank');  // a page that plays would go on
+}
+/** A page that is written again is another one. */
+export const forget = (file) => tabs.filter((tab) => tab.file === file).forEach((tab) => { tab.file = null; });
+
+/** Shows a page, which stands still, as it is when it is opened. isFresh: opens it whatever the tab shows. */
+export async function show(tab, file, hash, media, isFresh) {
+  const { page, url } = tab, medium = JSON.stringify(media);
+  await page.mouse.move(0, 0);
+  if (!isFresh && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew()).then((ok) => { opened[ok ? "renewed" : "failed"]++; return ok; })) return follow(page, hash);
+  opened.goto++;
+  await page.emulateMedia(media);
+  if (tab.file === file) await page.goto('about:blank');  // a hash alone would open nothing
+  await page.goto(url + (isFresh ? hash : ''));
+  const isCrowd = await page.evaluate(() => window.swivelPage?.ready.then(() => true));
+  Object.assign(tab, { file: isCrowd && !isFresh ? file : null, media: medium });
+  if (!tab.file) return;
+  await page.evaluate(remember);
+  await follow(page, hash);
+}
+const follow = (page, hash) => hash && page.evaluate((to) => {
+  history.replaceState(null, '', to);
+  dispatchEvent(new Event('hashchange'));
+}, hash);
