@@ -7,7 +7,7 @@ import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after } from 'node:test';
-import { close, forget, keep, leave, show, take } from './tabs.mjs';
+import { close, forget, keep, leave, open, show, take } from './tabs.mjs';
 
 const { SWIVEL, WORK } = process.env;
 export const clip = ['/usr/share/assimp/models/BVH/01_01.bvh', `${process.env.SWIVEL_TEST_DATA}/bvh/cmu_01_01_forward_jump.bvh`].find((file) => existsSync(file));
@@ -35,27 +35,27 @@ export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding:
  * has left it open. spoils: it is not for other tests. reducedMotion, colorScheme: of the system. options: of a context.
  */
 export async function visit(file, use, { before, hash = '', isFresh = false, spoils = false, reducedMotion = 'reduce', colorScheme = 'light', ...options } = {}) {
-  const tab = await take(file, { viewport: { width: 800, height: 500 }, ...options }, before);
+  const tab = await take(file, { viewport: { width: 800, height: 500 }, ...options });
   let isGood = false;
   try {
-    await show(tab, file, hash, { reducedMotion, colorScheme }, isFresh);
+    await show(tab, file, { hash, media: { reducedMotion, colorScheme }, isFresh, before });
     await use(tab.page);
     assert.deepEqual(tab.faults, []);
     isGood = !spoils;
   } finally {
-    await leave(tab, isGood);
+    leave(tab, isGood);
   }
 }
 
 /** What a page shows in place of a crowd. before: as visit() has it. */
 export async function refusal(place, { before } = {}) {
-  const tab = await take(place, { viewport: { width: 800, height: 500 } }, before);
+  const tab = await take(place, { viewport: { width: 800, height: 500 } });
   try {
-    await tab.page.goto(tab.url);
+    await open(tab, '', before);
     await tab.page.evaluate(() => document.getAnimations().forEach((each) => each.finish()));  // what comes after a second
     return await tab.page.innerText('.refusal', { timeout: 10_000 });
   } finally {
-    await leave(tab, false);
+    leave(tab, false);
   }
 }
 
@@ -93,7 +93,7 @@ export async function difference(page, act) {
     let count = 0;
     for (let n = 0; n < a.length; n += 4) {
       count += [0, 1, 2].some((c) => Math.abs(a[n + c] - b[n + c]) > 12);
-      colours.add(`${a.slice(n, n + 3)}`);
+      colours.add(a[n] << 16 | a[n + 1] << 8 | a[n + 2]);
     }
     return { share: count / (a.length / 4), colours: colours.size };
   }, [before, after]);

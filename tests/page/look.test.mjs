@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { clip, demo, difference, drag, file, pixel, visit, write } from './harness.mjs';
 
+const walk = write('walk.html', 'view', clip);
 const crowd = write('look.html', 'demo', '--characters', '100', '--frames', '30');
 /** Whether a character's joints are in the part of the picture that nothing covers. */
 const isSeen = (page, character) => page.evaluate((who) => {
@@ -15,7 +16,7 @@ const isSeen = (page, character) => page.evaluate((who) => {
 }, character);
 
 test('the camera follows a clip\'s only figure, wherever it walks', async () => {
-  await visit(write('walk.html', 'view', clip), async (page) => {
+  await visit(walk, async (page) => {
     const seen = async () => {
       const all = [];
       for (const share of [0, 0.25, 0.5, 0.99]) {
@@ -50,7 +51,7 @@ test('the camera looks at those that are drawn, and goes to a limb that N choose
 });
 
 test('at the top of a jump, the camera looks up to the figure', async () => {
-  await visit(write('jump.html', 'view', clip), async (page) => {
+  await visit(walk, async (page) => {
     const [jump, at] = await page.evaluate(() => {
       const { stage, view } = swivelPage, { figure } = view, height = (frame) => figure.at(0, frame).y;
       const top = Array.from({ length: figure.frameCount }, (_, frame) => frame).reduce((a, b) => (height(b) > height(a) ? b : a));
@@ -100,7 +101,7 @@ test('figures have shadows in the first picture', async () => {
       for (const mesh of swivelPage.view.bodies.meshes) mesh.visible = !('SHADOW' in mesh.material.defines);
     }));
     assert.ok(share > 0.01, `${share}`);
-  });
+  }, { hash: '#drawn=20' });
 });
 
 test('a leg has a leg\'s words', async () => {

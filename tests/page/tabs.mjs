@@ -23,15 +23,16 @@ function drawIfSeen() {
 
 /** In the page, once it is ready: remembers how it is, and defines window.renew(). */
 function remember() {
-  const { stage, drawnCount, theme } = swivelPage;
+  const { stage, drawnCount, theme } = swivelPage, { className } = document.body;
   const inputs = [...document.querySelectorAll('input, select')], folds = [...document.querySelectorAll('details')];
-  /** All that is seen of the page, and the camera; how fast it solves is left out. */
+  /** All of the page that is not hidden, and the camera; how fast it solves is left out. */
   const look = () => {
     const { camera, controls, followed } = swivelPage.view;
-    const parts = [...document.body.children].filter(({ tagName }) => tagName !== 'SCRIPT').map(({ outerHTML }) => outerHTML.replace(/<p class="speed".*?<\/p>/, ''));
+    const parts = [...document.body.children].filter(({ tagName }) => tagName !== 'SCRIPT').map((part) => part.cloneNode(true));
+    for (const part of parts) part.querySelectorAll('.speed, [hidden]').forEach((each) => each.remove());
     const states = inputs.map(({ value, checked, indeterminate, disabled }) => [value, checked, indeterminate, disabled]);
     const numbers = [...camera.position.toArray(), ...controls.target.toArray()].map((number) => number.toFixed(6));
-    return [...parts, ...states, ...numbers, stage.frame, stage.digest(), followed, swivelPage.drawnCount, swivelPage.theme].join('\n');
+    return [...parts.map(({ outerHTML }) => outerHTML), ...states, ...numbers, document.body.className, stage.frame, stage.digest(), followed, swivelPage.drawnCount, swivelPage.theme].join('\n');
   };
   const { changes } = stage, first = look(), values = inputs.map(({ value, checked }) => ({ value, checked })), open = folds.map((fold) => fold.open);
   const putBack = (input, { value, checked }) => {
@@ -51,6 +52,10 @@ function remember() {
     Object.assign(swivelPage.undo, { before: [], gesture: null });
     Object.assign(swivelPage, { chosen: 0 });
     folds.forEach((fold, n) => { fold.open = open[n]; });
+    const lesson = document.querySelector('.lesson'), step = parseInt(lesson.textContent, 10) || 1;
+    for (let n = 1; n < step; ++n) lesson.querySelector('button').click();
+    lesson.querySelectorAll(':scope > :not(.row)').forEach((each) => each.replaceChildren());
+    document.body.className = className;
     swivelPage.setTheme(theme);
     swivelPage.lead(null);
     stage.setFrame(0);
@@ -70,16 +75,18 @@ const tabs = [];  // each: its page, its context's options as a key, the file th
 const contexts = new Map();  // by their options: a new one opens a window of its own, which takes as long as a page
 
 async function newTab(key) {
-  if (!contexts.has(key)) contexts.set(key, await browser.newContext(JSON.parse(key)));
+  if (!contexts.has(key)) contexts.set(key, await browser.newContext({ ...JSON.parse(key), reducedMotion: 'reduce' }));
   opened.cold++;
-  const page = await contexts.get(key).newPage(), tab = { page, key, faults: [] };
+  const page = await contexts.get(key).newPage(), devtools = await page.context().newCDPSession(page), tab = { page, devtools, key, faults: [] };
   page.on('console', (message) => {  // a driver's advice is about the test, which reads pixels
     if (!message.text().includes('GL Driver Message (OpenGL, Performance')) tab.faults.push(`console: ${message.text()}`);
   });
   page.on('pageerror', (error) => tab.faults.push(`error: ${error.message}`));
   page.on('dialog', (dialog) => tab.faults.push(`dialog: ${dialog.message()}`));
   page.on('request', (request) => { if (request.url() !== tab.url && !/^(blob|data):/.test(request.url())) tab.faults.push(`request: ${request.url()}`); });
+  await devtools.send('Page.enable');
   await page.addInitScript(drawIfSeen);
+  tabs.push(tab);
   return tab;
 }
 
@@ -87,33 +94,39 @@ const kept = new Set();
 /** Tabs that show this file go on showing it. */
 export const keep = (file) => kept.add(file);
 
-/** A tab that shows nothing that must stay, or a new one. It must be left again. options: of a context. before: run before the page's script. */
-export async function take(file, options, before) {
+/** A tab that shows nothing that must stay, or a new one. It must be left again. options: of a context. */
+export async function take(file, options) {
   const key = JSON.stringify(options), free = tabs.filter((tab) => !tab.isTaken && tab.key === key);
-  const tab = (before ? null : free.find((each) => each.file === file) ?? free.find((each) => !kept.has(each.file))) ?? await newTab(key);
-  if (before) await tab.page.addInitScript(before);
-  else if (!tabs.includes(tab)) tabs.push(tab);
-  return Object.assign(tab, { isTaken: true, isOwn: Boolean(before), faults: [], url: `file://${encodeURI(file)}` });
+  const tab = free.find((each) => each.file === file) ?? free.find((each) => !kept.has(each.file)) ?? await newTab(key);
+  return Object.assign(tab, { isTaken: true, faults: [], url: `file://${encodeURI(file)}` });
 }
 /** isGood: it may show its file to another test. */
-export async function leave(tab, isGood) {
+export function leave(tab, isGood) {
   tab.isTaken = false;
   if (!isGood) tab.file = null;
-  if (tab.isOwn) await tab.page.close();
-  else if (!tab.file) await tab.page.goto('about:blank');  // a page that plays would go on
 }
 /** A page that is written again is another one. */
 export const forget = (file) => tabs.filter((tab) => tab.file === file).forEach((tab) => { tab.file = null; });
 
+/** Opens a tab's page. before: run in it before its script. */
+export async function open({ page, url, devtools }, hash = '', before = null) {
+  const script = before && await devtools.send('Page.addScriptToEvaluateOnNewDocument', { source: `(${before})()` });
+  if (page.url().split('#')[0] === url) {  // going there would change the hash alone
+    await page.evaluate((to) => history.replaceState(null, '', location.pathname + to), hash);
+    await page.reload();
+  } else {
+    await page.goto(url + hash);
+  }
+  if (script) await devtools.send('Page.removeScriptToEvaluateOnNewDocument', script);
+}
 /** Shows a page, which stands still, as it is when it is opened. isFresh: opens it whatever the tab shows. */
-export async function show(tab, file, hash, media, isFresh) {
+export async function show(tab, file, { hash, media, isFresh, before }) {
   const { page, url } = tab, medium = JSON.stringify(media);
   await page.mouse.move(0, 0);
   if (!isFresh && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew()).then((ok) => { opened[ok ? "renewed" : "failed"]++; return ok; })) return follow(page, hash);
   opened.goto++;
   await page.emulateMedia(media);
-  if (tab.file === file) await page.goto('about:blank');  // a hash alone would open nothing
-  await page.goto(url + (isFresh ? hash : ''));
+  await open(tab, isFresh ? hash : '', before);
   const isCrowd = await page.evaluate(() => window.swivelPage?.ready.then(() => true));
   Object.assign(tab, { file: isCrowd && !isFresh ? file : null, media: medium });
   if (!tab.file) return;

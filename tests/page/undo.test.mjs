@@ -55,7 +55,7 @@ test('keys with Ctrl do nothing else, and the last 64 steps are kept', async () 
     assert.equal(await page.locator('dialog').isVisible(), false);
     const from = await pixel(page, 'target');
     await drag(page, from, { x: from.x - 30, y: from.y });
-    for (let n = 0; n < 70; ++n) await page.evaluate(() => swivelPage.letAllGo());
+    await page.evaluate(() => { for (let n = 0; n < 70; ++n) swivelPage.letAllGo(); });
     assert.equal(await page.evaluate(() => swivelPage.undo.before.length), 64);
   }, link);
 });

@@ -41,6 +41,6 @@ export function readback(view, limb, count) {
     const texels = new Float32Array(8 * count);
     renderer.readRenderTargetPixels(target, 0, 0, 2 * count, 1, texels);
     renderer.setRenderTarget(null);
-    [target, material, geometry].forEach((each) => each.dispose());
+    [target, geometry].forEach((each) => each.dispose());  // the material stays, so that the next call finds its program
     return Array.from({ length: 2 * count }, (_, n) => Array.from(texels.subarray(4 * n, 4 * n + 4)));
 }
