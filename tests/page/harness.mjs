@@ -28,17 +28,19 @@ export function write(name, ...words) {
 /** A crowd of 12 for all tests that need no other one. */
 export const demo = write('demo.html', 'demo', '--characters', '12');
 keep(demo);
+/** A page as small as they come. */
+export const tiny = write('tiny.html', 'demo', '--characters', '2', '--frames', '3');
 export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding: 'utf8' });
 
 /**
  * Opens a page, which stands still; use gets playwright's page. before: run in the page before its script. isFresh: opens it, though a test
- * has left it open. spoils: it is not for other tests. reducedMotion, colorScheme: of the system. options: of a context.
+ * has left it open. isJudged: it looks whether it is whole. spoils: it is not for other tests. reducedMotion, colorScheme: of the system. options: of a context.
  */
-export async function visit(file, use, { before, hash = '', isFresh = false, spoils = false, reducedMotion = 'reduce', colorScheme = 'light', ...options } = {}) {
-  const tab = await take(file, { viewport: { width: 800, height: 500 }, ...options });
+export async function visit(file, use, { before, hash = '', isFresh = false, isJudged = false, spoils = false, reducedMotion = 'reduce', colorScheme = 'light', ...options } = {}) {
+  const tab = await take(file, { viewport: { width: 800, height: 500 }, ...options }, isFresh);
   let isGood = false;
   try {
-    await show(tab, file, { hash, media: { reducedMotion, colorScheme }, isFresh, before });
+    await show(tab, file, { hash, media: { reducedMotion, colorScheme }, isFresh, isJudged, before });
     await use(tab.page);
     assert.deepEqual(tab.faults, []);
     isGood = !spoils;

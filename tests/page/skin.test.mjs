@@ -92,6 +92,7 @@ test('textures, and meshes that hang on joints, ask nothing of a network', async
     });
     assert.deepEqual([meshes, bones], [2, 1]);
     [0.8, 1.6, 0].forEach((part, axis) => assert.ok(Math.abs(at[axis] - part) < 1e-6, `${at}`));
+    assert.equal((await difference(page, () => {})).share, 0, 'it is drawn, and nothing is said on the console');
   });
 });
 

@@ -10,7 +10,7 @@ const browser = await chromium.launch({
 });
 export const close = () => browser.close();
 
-/** Draws on the canvas only while window.isSeen is set: SwiftShader takes 0.1 s for a picture, and 1 s for the first. */
+/** Draws on the canvas only while window.isSeen is set: SwiftShader takes 0.1 s for a picture, and 1 s for the first. Readbacks draw elsewhere. */
 function drawIfSeen() {
   const { prototype } = WebGL2RenderingContext;
   for (const name of ['drawArrays', 'drawArraysInstanced', 'drawElements', 'drawElementsInstanced', 'drawRangeElements']) {
@@ -23,11 +23,11 @@ function drawIfSeen() {
 
 /** In the page, once it is ready: remembers how it is, and defines window.renew(). */
 function remember() {
-  const { stage, drawnCount, theme } = swivelPage, { className } = document.body;
+  const { stage, view, drawnCount, theme } = swivelPage, { size, covered } = view, { className } = document.body;
   const inputs = [...document.querySelectorAll('input, select')], folds = [...document.querySelectorAll('details')];
   /** All of the page that is not hidden, and the camera; how fast it solves is left out. */
   const look = () => {
-    const { camera, controls, followed } = swivelPage.view;
+    const { camera, controls, followed } = view;
     const parts = [...document.body.children].filter(({ tagName }) => tagName !== 'SCRIPT').map((part) => part.cloneNode(true));
     for (const part of parts) part.querySelectorAll('.speed, [hidden]').forEach((each) => each.remove());
     const states = inputs.map(({ value, checked, indeterminate, disabled }) => [value, checked, indeterminate, disabled]);
@@ -35,6 +35,7 @@ function remember() {
     return [...parts.map(({ outerHTML }) => outerHTML), ...states, ...numbers, document.body.className, stage.frame, stage.digest(), followed, swivelPage.drawnCount, swivelPage.theme].join('\n');
   };
   const { changes } = stage, first = look(), values = inputs.map(({ value, checked }) => ({ value, checked })), open = folds.map((fold) => fold.open);
+  const putChangesBack = () => stage.restore({ ...changes, pins: new Map(changes.pins) });
   const putBack = (input, { value, checked }) => {
     if (input.value === value && input.checked === checked) return;
     Object.assign(input, input.type === 'checkbox' ? { checked } : { value });
@@ -45,10 +46,10 @@ function remember() {
     swivelPage.player.pause();
     swivelPage.help.close();
     document.activeElement?.blur();
-    stage.restore(changes);
+    putChangesBack();
     swivelPage.select(null);  // switches and sliders follow
     inputs.forEach((input, n) => putBack(input, values[n]));
-    stage.restore(changes);
+    putChangesBack();
     Object.assign(swivelPage.undo, { before: [], gesture: null });
     Object.assign(swivelPage, { chosen: 0 });
     folds.forEach((fold, n) => { fold.open = open[n]; });
@@ -61,7 +62,7 @@ function remember() {
     stage.setFrame(0);
     swivelPage.drawFirst(drawnCount);
     await new Promise(requestAnimationFrame);  // folds tell of it later
-    swivelPage.resize();
+    view.resize(size.width, size.height, covered.right, covered.top, covered.bottom);  // how fast it solves takes a line or two
     swivelPage.home();
     swivelPage.follow(stage.characterCount === 1);
     swivelPage.say('');
@@ -70,13 +71,11 @@ function remember() {
   };
 }
 
-export const opened = { cold: 0, goto: 0, renewed: 0, failed: 0 };
 const tabs = [];  // each: its page, its context's options as a key, the file that it shows, what went wrong, whether a test has it
 const contexts = new Map();  // by their options: a new one opens a window of its own, which takes as long as a page
 
 async function newTab(key) {
   if (!contexts.has(key)) contexts.set(key, await browser.newContext({ ...JSON.parse(key), reducedMotion: 'reduce' }));
-  opened.cold++;
   const page = await contexts.get(key).newPage(), devtools = await page.context().newCDPSession(page), tab = { page, devtools, key, faults: [] };
   page.on('console', (message) => {  // a driver's advice is about the test, which reads pixels
     if (!message.text().includes('GL Driver Message (OpenGL, Performance')) tab.faults.push(`console: ${message.text()}`);
@@ -94,10 +93,10 @@ const kept = new Set();
 /** Tabs that show this file go on showing it. */
 export const keep = (file) => kept.add(file);
 
-/** A tab that shows nothing that must stay, or a new one. It must be left again. options: of a context. */
-export async function take(file, options) {
+/** A tab that shows nothing that must stay, or a new one. It must be left again. options: of a context. isFresh: not one that shows the file. */
+export async function take(file, options, isFresh = false) {
   const key = JSON.stringify(options), free = tabs.filter((tab) => !tab.isTaken && tab.key === key);
-  const tab = free.find((each) => each.file === file) ?? free.find((each) => !kept.has(each.file)) ?? await newTab(key);
+  const tab = free.find((each) => !isFresh && each.file === file) ?? free.find((each) => !kept.has(each.file)) ?? await newTab(key);
   return Object.assign(tab, { isTaken: true, faults: [], url: `file://${encodeURI(file)}` });
 }
 /** isGood: it may show its file to another test. */
@@ -107,6 +106,11 @@ export function leave(tab, isGood) {
 }
 /** A page that is written again is another one. */
 export const forget = (file) => tabs.filter((tab) => tab.file === file).forEach((tab) => { tab.file = null; });
+
+/** A page that does not find its script does not judge it, which takes a fifth of an opening. */
+function hideScript() {
+  Object.defineProperty(Document.prototype, 'currentScript', { value: null });
+}
 
 /** Opens a tab's page. before: run in it before its script. */
 export async function open({ page, url, devtools }, hash = '', before = null) {
@@ -119,14 +123,13 @@ export async function open({ page, url, devtools }, hash = '', before = null) {
   }
   if (script) await devtools.send('Page.removeScriptToEvaluateOnNewDocument', script);
 }
-/** Shows a page, which stands still, as it is when it is opened. isFresh: opens it whatever the tab shows. */
-export async function show(tab, file, { hash, media, isFresh, before }) {
+/** Shows a page, which stands still, as it is when it is opened. isFresh: opens it whatever the tab shows. isJudged: it looks whether it is whole. */
+export async function show(tab, file, { hash, media, isFresh, isJudged, before }) {
   const { page, url } = tab, medium = JSON.stringify(media);
   await page.mouse.move(0, 0);
-  if (!isFresh && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew()).then((ok) => { opened[ok ? "renewed" : "failed"]++; return ok; })) return follow(page, hash);
-  opened.goto++;
+  if (!isFresh && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew())) return follow(page, hash);
   await page.emulateMedia(media);
-  await open(tab, isFresh ? hash : '', before);
+  await open(tab, isFresh ? hash : '', isJudged ? before : `() => { (${hideScript})(); (${before ?? (() => {})})(); }`);
   const isCrowd = await page.evaluate(() => window.swivelPage?.ready.then(() => true));
   Object.assign(tab, { file: isCrowd && !isFresh ? file : null, media: medium });
   if (!tab.file) return;
