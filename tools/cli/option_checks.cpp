@@ -42,26 +42,10 @@ OptionValue number(double least, double most)
     return {"NUMBER", check};
 }
 
-std::vector<double> numbers_of(const std::string& text)
-{
-    std::vector<double> values;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || !std::isfinite(value)) return {};
-        values.push_back(value);
-        if (next == end) return values;
-        if (*next != ',') return {};
-        at = next + 1;
-    }
-}
-
 OptionValue numbers(std::size_t count, double least)
 {
     const auto check = [count, least](const std::string& text) -> std::string {
-        const std::vector<double> values = numbers_of(text);
+        const std::vector<double> values = formats::numbers_of(text);
         const bool fits = std::ranges::all_of(values, [&](double value) { return value > least; });
         if (values.size() == count && fits) return {};
         return fmt::format("'{}' is not {} numbers with commas between{}", formats::printable(text), count,
@@ -92,7 +76,7 @@ OptionValue one_of(const std::vector<std::string>& words)
         if (std::find(words.begin(), words.end(), text) != words.end()) return {};
         return fmt::format("there is no '{}'; {}", formats::printable(text), formats::suggestion(text, words));
     };
-    return {fmt::format("{}", fmt::join(words, "|")), check};
+    return {formats::joined(words, "|"), check};
 }
 
 }  // namespace swivel::tools

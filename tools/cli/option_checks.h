@@ -25,10 +25,8 @@ CLI::Option* takes(CLI::Option* option, const OptionValue& value);
 OptionValue whole_number(std::uint64_t least, std::uint64_t most);
 // A finite number, least to most.
 OptionValue number(double least, double most);
-// As many such numbers, above `least`, with commas between; numbers_of() gives them.
+// As many such numbers, above `least`, with commas between; formats::numbers_of() gives them.
 OptionValue numbers(std::size_t count, double least);
-// Numbers with commas between; empty if any of them is none.
-std::vector<double> numbers_of(const std::string& text);
 // Anything but nothing.
 OptionValue file_name();
 // The same. advice: what to do instead of giving nothing.

@@ -178,4 +178,20 @@ std::optional<double> parse_number(std::string_view text)
 
 std::optional<std::int64_t> parse_integer(std::string_view text) { return parse_whole<std::int64_t>(text); }
 
+std::vector<double> numbers_of(const std::string& text)
+{
+    std::vector<double> values;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || !std::isfinite(value)) return {};
+        values.push_back(value);
+        if (next == end) return values;
+        if (*next != ',') return {};
+        at = next + 1;
+    }
+}
+
 }  // namespace swivel::formats

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "tools/cli/command_error.h"
-#include "tools/cli/option_checks.h"
 #include "tools/cli/progress.h"
 #include "tools/feet/turn_legs.h"
 #include "tools/formats/error.h"
@@ -73,7 +72,7 @@ std::vector<std::string> outputs_of(const FeetOptions& options)
 std::optional<Ground> read_ground(const FeetOptions& options)
 {
     if (options.ground.empty()) return std::nullopt;
-    const std::vector<double> size = numbers_of(options.ground_size);
+    const std::vector<double> size = formats::numbers_of(options.ground_size);
     formats::HeightPicture picture = formats::read_height_picture(options.ground);
     return Ground{{{size[0], size[1], size[2]}, {0, 0, 0}, picture.columns, picture.rows}, std::move(picture.heights)};
 }

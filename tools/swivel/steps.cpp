@@ -12,8 +12,8 @@
 
 #include "swivel/lecture.h"
 #include "tools/cli/command_error.h"
-#include "tools/cli/option_checks.h"
 #include "tools/cli/streams.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
 
@@ -51,7 +51,7 @@ StepsArm given_arm(const StepsOptions& options)
 {
     constexpr double kShortest = 1e-15, kLongest = 1e15;  // as lecture.h has them
     const auto require_all = [](const char* option, const std::string& text, auto fits, const char* range) {
-        if (!std::ranges::all_of(numbers_of(text), fits))
+        if (!std::ranges::all_of(formats::numbers_of(text), fits))
             throw CommandError(2, fmt::format("{} {}: each number must be {}", option, text, range));
     };
     const auto is_length = [](double x) { return x >= kShortest && x <= kLongest; };
@@ -60,10 +60,10 @@ StepsArm given_arm(const StepsOptions& options)
     require_all("--target", options.target, is_place, "a coordinate, -1e15 to 1e15");
     require_all("--pole", options.pole, is_place, "a coordinate, -1e15 to 1e15");
     const auto vector = [](const std::string& text) {
-        const std::vector<double> v = numbers_of(text);
+        const std::vector<double> v = formats::numbers_of(text);
         return std::array{v[0], v[1], v[2]};
     };
-    const std::vector<double> lengths = numbers_of(options.lengths);
+    const std::vector<double> lengths = formats::numbers_of(options.lengths);
     return {vector(options.target), vector(options.pole), lengths[0], lengths[1]};
 }
 
