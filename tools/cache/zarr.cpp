@@ -2,7 +2,6 @@
 #include "tools/cache/zarr.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
@@ -50,7 +49,9 @@ std::string chunk_name(const ZarrArray& array, const ChunkPlace& place)
 {
     ChunkPlace whole = place;
     whole.resize(array.shape.size());
-    return fmt::format("{}/{}", array.name, fmt::join(whole, "."));
+    std::string name = array.name + "/";
+    for (std::size_t n = 0; n < whole.size(); ++n) name += (n > 0 ? "." : "") + std::to_string(whole[n]);
+    return name;
 }
 
 Json description_of(const ZarrArray& array)

@@ -126,9 +126,7 @@ void take_frame(Plan& plan, std::size_t frame)
 void write_value(OutputFile& out, double value)
 {
     const double shown = std::abs(value) < 5e-10 ? 0.0 : value;  // no "-0.000000000"
-    fmt::memory_buffer digits;
-    fmt::format_to(std::back_inserter(digits), "{:.9f}", shown);
-    out.write({digits.data(), digits.size()});
+    out.write(fmt::format("{:.9f}", shown));
 }
 
 // Writes the text from `done` through the last new value of the frame at `begin`; what lies between is copied.

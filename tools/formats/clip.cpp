@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/formats/clip.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
@@ -168,7 +167,8 @@ std::string joint_path(const Clip& clip, int joint)
 {
     std::vector<std::string_view> names;
     for (; joint >= 0; joint = joint_at(clip, joint).parent) names.push_back(joint_at(clip, joint).name);
-    return fmt::format("{}", fmt::join(names.rbegin(), names.rend(), "/"));
+    std::ranges::reverse(names);
+    return joined(names, "/");
 }
 
 }  // namespace swivel::formats

@@ -44,7 +44,7 @@ std::vector<ContactRow> read_contacts_csv(const std::filesystem::path& path)
     for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
         if (has_columns)
             rows.push_back(parse_contact(path, line, cells));
-        else if (fmt::format("{}", fmt::join(cells, ",")) != kContactColumns)
+        else if (joined(cells, ",") != kContactColumns)
             throw InputError(path, line,
                              fmt::format("is no table of contacts; its first line must be {}", kContactColumns));
         has_columns = true;

@@ -17,17 +17,15 @@ constexpr std::string_view kHeader =
     "elbow_x,elbow_y,elbow_z,elbow_w,wrist_x,wrist_y,wrist_z,wrist_w,flags,"
     "place_x,place_y,place_z,size,start";
 
-using Line = fmt::memory_buffer;  // in the making
-
-// The fewest digits that give the same number back.
+// The fewest digits that give the same number back. line: a row in the making.
 template <class Number>
-void put(Line& line, Number number)
+void put(std::string& line, Number number)
 {
     char digits[32];
-    line.append(std::string_view(digits, std::to_chars(digits, std::end(digits), number).ptr));
+    line.append(digits, std::to_chars(digits, std::end(digits), number).ptr);
 }
 
-void put_cells(Line& line, bool filled, const std::array<float, 4>& rotation)
+void put_cells(std::string& line, bool filled, const std::array<float, 4>& rotation)
 {
     for (const float component : rotation) {
         line.push_back(',');
@@ -35,19 +33,19 @@ void put_cells(Line& line, bool filled, const std::array<float, 4>& rotation)
     }
 }
 
-void put_row(Line& line, std::uint32_t frame, const PoseRow& row)
+void put_row(std::string& line, std::uint32_t frame, const PoseRow& row)
 {
-    fmt::format_to(std::back_inserter(line), "{},{},{}", frame, row.character, limb_word(row.limb));
+    line += fmt::format("{},{},{}", frame, row.character, limb_word(row.limb));
     for (const auto* rotation : {&row.shoulder, &row.elbow, &row.wrist}) put_cells(line, true, *rotation);
-    fmt::format_to(std::back_inserter(line), ",{}", row.flags);
+    line += fmt::format(",{}", row.flags);
     for (const double number : {row.place[0], row.place[1], row.place[2], row.size}) {
         line.push_back(',');
         put(line, number);
     }
-    fmt::format_to(std::back_inserter(line), ",{}", row.start);
+    line += fmt::format(",{}", row.start);
 }
 
-void put_extra(Line& line, const PoseColumns& columns, const PoseExtra& extra)
+void put_extra(std::string& line, const PoseColumns& columns, const PoseExtra& extra)
 {
     if (columns.stretch) {
         line.push_back(',');
@@ -72,13 +70,13 @@ PosesCsv::PosesCsv(const std::filesystem::path& path, const PoseColumns& columns
 
 void PosesCsv::append(std::uint32_t frame, std::span<const PoseRow> rows, std::span<const PoseExtra> extras)
 {
-    Line line;
+    std::string line;
     for (std::size_t n = 0; n < rows.size(); ++n) {
         line.clear();
         put_row(line, frame, rows[n]);
         if (!extras.empty()) put_extra(line, columns_, extras[n]);
         line.push_back('\n');
-        out_.write({line.data(), line.size()});
+        out_.write(line);
     }
 }
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "tools/formats/text.h"
+
 namespace swivel::formats {
 namespace {
 
@@ -42,7 +44,7 @@ std::optional<std::string> nearest_word(std::string_view wrong, std::span<const 
 std::string suggestion(std::string_view wrong, std::span<const std::string> words)
 {
     if (const auto nearest = nearest_word(wrong, words)) return fmt::format("did you mean {}?", *nearest);
-    return fmt::format("known are {}", fmt::join(words, ", "));
+    return "known are " + joined(words, ", ");
 }
 
 }  // namespace swivel::formats

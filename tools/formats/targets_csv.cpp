@@ -147,7 +147,7 @@ std::vector<unsigned> columns_of(const fs::path& path, std::size_t line, const s
     if (missing.empty()) return columns;
     throw InputError(path, line,
                      fmt::format("column{} {} {} missing; the first line must name {}", missing.size() == 1 ? "" : "s",
-                                 fmt::join(missing, ","), missing.size() == 1 ? "is" : "are", kColumnList));
+                                 joined(missing, ","), missing.size() == 1 ? "is" : "are", kColumnList));
 }
 
 auto place_of(const Target& target) { return std::tuple(target.frame, target.character, target.limb); }
@@ -201,21 +201,20 @@ TargetsCsv::TargetsCsv(const std::filesystem::path& path) : out_(path)
 
 void TargetsCsv::append(std::span<const Target> targets)
 {
-    fmt::memory_buffer line;
+    std::string line;
     const auto put = [&](bool is_there, const auto& numbers) {
         for (const double number : numbers) {
             line.push_back(',');
-            if (is_there) fmt::format_to(std::back_inserter(line), "{}", number);
+            if (is_there) line += fmt::format("{}", number);
         }
     };
     for (const Target& target : targets) {
-        line.clear();
-        fmt::format_to(std::back_inserter(line), "{},{},{}", target.frame, target.character, limb_word(target.limb));
+        line = fmt::format("{},{},{}", target.frame, target.character, limb_word(target.limb));
         put(true, target.position);
         put(target.has_pole, target.pole);
         put(target.has_orientation, target.orientation.coeffs());
         line.push_back('\n');
-        out_.write({line.data(), line.size()});
+        out_.write(line);
     }
 }
 

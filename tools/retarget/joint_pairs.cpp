@@ -11,6 +11,7 @@
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/printable.h"
+#include "tools/formats/text.h"
 #include "tools/rig/name_search.h"
 
 namespace swivel::tools {
@@ -109,7 +110,7 @@ JointPairs read_joint_map(const std::filesystem::path& path, const Clip& source,
         if (!cells[0].empty() && std::ranges::find(words, cells[0]) == words.end())
             throw InputError(path, line,
                              fmt::format("'{}' is no part of a body; take one of {}, or leave it empty",
-                                         formats::printable(cells[0]), fmt::join(words, ", ")));
+                                         formats::printable(cells[0]), formats::joined(words, ", ")));
         PairedPart& part = cells[0].empty() ? pairs.emplace_back() : part_called(pairs, std::string(cells[0]));
         for (const int joint : joint_of(path, line, source, cells[1], in_source)) part.source.push_back(joint);
         for (const int joint : joint_of(path, line, target, cells[2], in_target)) part.target.push_back(joint);

@@ -7,6 +7,7 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
+#include "tools/formats/text.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/name_table.h"
 
@@ -58,8 +59,7 @@ struct NameReader {
     }
     LimbJoints joints() const
     {
-        const std::string text =
-            formats::printable(fmt::format("{}", fmt::join(from.joints, ",")), formats::kMostQuoted);
+        const std::string text = formats::printable(formats::joined(from.joints, ","), formats::kMostQuoted);
         if (from.joints.size() != 3)
             refuse(fmt::format("'{}' does not name three joints", text), fmt::format("; write {}", words.joints));
         const LimbJoints named{joint(from.joints[0]), joint(from.joints[1]), joint(from.joints[2])};
