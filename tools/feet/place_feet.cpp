@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
 #include <array>
 
 #include "tools/formats/error.h"
@@ -173,9 +173,17 @@ private:
     // How far the hills lift the body.
     Vector3d lift_w(std::size_t frame) const { return floor_.hill(motion_.carrier_w[frame]) * motion_.up_w; }
 
+    // From up to the ground's normal, which is less than a right angle from it. Eigen's FromTwoVectors() gives the
+    // same, and takes a third of this folder's time to compile: for opposite vectors it has a singular value
+    // decomposition.
     Quaterniond turn_w(const Vector3d& toe_w) const
     {
-        return Quaterniond::FromTwoVectors(motion_.up_w, floor_.normal_w(toe_w));
+        const Vector3d up = motion_.up_w.normalized(), normal = floor_.normal_w(toe_w).normalized();
+        const double twice_half = std::sqrt((1 + normal.dot(up)) * 2);
+        Quaterniond turn;
+        turn.vec() = up.cross(normal) * (1 / twice_half);
+        turn.w() = twice_half * 0.5;
+        return turn;
     }
     Vector3d foot_w(const LegPath& path, std::size_t frame) const { return path.ankle_w[frame] - path.toe_w[frame]; }
 
