@@ -48,7 +48,7 @@ CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, con
                      const Vector3d& up_w, const Vector3d& faces_w)
 {
     std::vector<Limb> arms = arms_of(limbs);
-    std::ranges::sort(arms, {}, [](const Limb& arm) { return arm.name; });  // the left one first
+    if (arms[1].name < arms[0].name) std::swap(arms[0], arms[1]);  // the left one first
     const std::vector<formats::JointPose> rest = rest_pose(clip);
     const auto at = [&](int joint) { return rest[static_cast<std::size_t>(joint)]; };
     double length = 0;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/parallel.h"
+
+#include <utility>
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#endif
+
+namespace swivel::tools {
+
+namespace {
+
+thread_local unsigned thread_limit = 0;  // what the ThreadLimit on this thread allows; 0: all that the machine has
+
+}  // namespace
+
+#ifdef SWIVEL_WITH_TBB
+using Control = oneapi::tbb::global_control;
+
+struct ThreadControl {
+    Control control;
+};
+
+unsigned thread_count()
+{
+    if (thread_limit == 1) return 1;
+    const auto most = static_cast<unsigned>(Control::active_value(Control::max_allowed_parallelism));
+    const auto has = static_cast<unsigned>(oneapi::tbb::info::default_concurrency());
+    return most < has ? most : has;
+}
+
+void for_ranges(std::uint32_t count, RangeWork work)
+{
+    using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+    constexpr std::uint32_t piece = 256;
+    const auto on_range = [&](const Range& range) { work(range.begin(), range.end()); };
+    if (count > piece && !is_one_thread())
+        oneapi::tbb::parallel_for(Range(0, count, piece), on_range);
+    else if (count > 0)
+        work(0, count);
+}
+#else
+struct ThreadControl {};
+
+unsigned thread_count() { return 1; }
+
+void for_ranges(std::uint32_t count, RangeWork work)
+{
+    if (count > 0) work(0, count);
+}
+#endif
+
+ThreadLimit::ThreadLimit(unsigned most) : before_(std::exchange(thread_limit, most > 0 ? most : thread_limit))
+{
+#ifdef SWIVEL_WITH_TBB
+    if (most > 1) control_.reset(new ThreadControl{Control(Control::max_allowed_parallelism, most)});
+#endif
+}
+
+ThreadLimit::~ThreadLimit() { thread_limit = before_; }
+
+}  // namespace swivel::tools
