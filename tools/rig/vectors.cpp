@@ -21,6 +21,8 @@ double quantile(std::vector<double> values, double share)
     return *at;
 }
 
+Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }
+
 std::string vector_text(const Eigen::Vector3d& v)
 {
     const Eigen::Vector3d shown = to_three_decimals(v);

@@ -34,7 +34,7 @@ Eigen::Vector3d nearest_axis(const Eigen::Vector3d& direction);
 double quantile(std::vector<double> values, double share);
 
 // For people to read, without a -0.
-inline Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }
+Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v);
 
 // "(0.000 1.000 0.000)", without the sign of a 0; and as a crowd file has it, "[0.000, 1.000, 0.000]".
 std::string vector_text(const Eigen::Vector3d& v);

@@ -37,8 +37,10 @@ std::string list(const Clip& clip, const std::vector<int>& joints)
 std::string toml_name(const Clip& clip, int joint)
 {
     const std::string& name = joint_at(clip, joint).name;
-    const std::string quoted = nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    const bool can_be_written = name == printable(name, name.size()) && nlohmann::json::parse(quoted) == name;
+    using Errors = nlohmann::ordered_json::error_handler_t;
+    const auto dumped = [&](Errors errors) { return nlohmann::ordered_json(name).dump(-1, ' ', false, errors); };
+    const std::string quoted = dumped(Errors::replace);  // the same if they are left out: there are none
+    const bool can_be_written = name == printable(name, name.size()) && quoted == dumped(Errors::ignore);
     if (can_be_written && formats::find_joints(clip, name).size() == 1) return quoted;
     return fmt::format("\"#{}\"", joint_at(clip, joint).number);
 }
