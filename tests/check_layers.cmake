@@ -90,7 +90,7 @@ may_include(include "" "${standard}|\"swivel[.]h\"|<(std(def|int)|string)[.]h>")
 
 # ---- core: formulas and the standard library; the oracle shares nothing with the formulas. arm.h takes the bits of flags from swivel.h
 may_include(core "core/(isa|bit_cast|num|algebra|conformal|pack|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
-            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|pack|arm|reach|frame_rotor|solve_arm|space)[.]h\"|${public}")
+            "<(bit|cmath|cstddef|cstdint|type_traits|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|pack|arm|reach|frame_rotor|solve_arm|space)[.]h\"|${public}")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
