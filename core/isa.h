@@ -4,12 +4,12 @@
 // different names. This file also has the attributes that keep calls out of kernel loops. Formulas are many small
 // functions, and compilers do not inline all of them on their own.
 //
-// Two kinds of functions. SWIVEL_ALWAYS_INLINE is for the bottom alone: numbers, lanes, multivectors, rows, and the
-// copies of their types, each an operation or a few. SWIVEL_INLINE is for the formulas and stages above. The kernels'
-// entries are SWIVEL_FLATTEN, which inlines all that they call. So a formula is optimised once before that, as an
-// ordinary function. Were it always inlined, g++ would optimise each of its calls again on every level of calls, and
-// would inline no ordinary function into it on the way. That made kernels four times as slow to compile. An operation
-// that were ordinary would stay a call, with its operands in memory, until the whole stage is one function.
+// SWIVEL_ALWAYS_INLINE is for the bottom alone: numbers, lanes, multivectors, rows, and copies of their types. Each is
+// one operation or a few. SWIVEL_INLINE is for formulas and stages. A kernel's entry is SWIVEL_FLATTEN, which inlines
+// all that it calls. So g++ optimises a formula once, as an ordinary function, before flatten collects it. It would
+// optimise an always inlined formula again at every level of calls. And it would leave an ordinary operation as a call,
+// with its operands in memory, until flatten runs. Both mistakes together made g++ 12 take 57 s of CPU for
+// limb_kernels.cpp with AVX2, in place of 11 s.
 #pragma once
 
 #ifndef SWIVEL_ISA

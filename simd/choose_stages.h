@@ -247,7 +247,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
     });
     if constexpr (is_long)
         if (for_end.count > 0) search_end<T, Boxes, InRegion>(strip, list, for_end, for_least);
-    // Seldom, so limbs without boxes do with the code of those that have them.
+    // This search is rare, so limbs without boxes share the code of those with boxes.
     if (for_least.count > 0) search_least<T, kMostBoxes, InRegion>(strip, list, for_least);
 }
 

@@ -2,12 +2,12 @@
 //
 // Lanes: a few registers of floats, worked on side by side. They have core/num.h's list of operations, so every formula
 // runs on them unchanged. This is the only file that names xsimd, which says what an instruction set's registers are.
-// What is done with them is done by the compilers' own operators of vectors, and by single instructions: xsimd's
-// operators are ordinary functions, which compilers take four times as long to inline (core/isa.h), and some have other
-// bits on other CPUs.
+// The operations are the compilers' own operators on vectors, or single instructions. xsimd's operators are ordinary
+// functions, which g++ inlines late (core/isa.h), and some of them give other bits on other CPUs.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -56,18 +56,18 @@ template <class T>
 requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE bool lanes_where(std::uint32_t bits) { return bits & 1; }
 
 // The number type of a kernel built for Arch: lanes, or plain float for the scalar build.
-template <class Arch, int Registers>
+template <class Arch, int Count>
 struct KernelNumber;
-template <int Registers>
-struct KernelNumber<float, Registers> {
+template <int Count>
+struct KernelNumber<float, Count> {
     using type = float;
 };
 
 #ifndef XSIMD_NO_SUPPORTED_ARCHITECTURE  // other CPUs have the scalar build alone
 
-// An instruction set's registers of floats, and what can be asked of them. Words are the same registers as integers. A
-// mask is words too, with all bits of a lane set where a comparison holds. What is here says nothing of an instruction
-// set; Registers<Arch> adds what has to.
+// An instruction set's registers of floats and their operations. Words are the same registers as integers. A mask is
+// words, too, with all bits of a lane set where a comparison holds. This holds what all instruction sets share;
+// Registers<Arch> adds the rest.
 template <class Arch>
 struct VectorRegisters {
     using Float = typename xsimd::batch<float, Arch>::register_type;

@@ -29,7 +29,7 @@ SWIVEL_INLINE auto swivelling_arm(const S& s, const Lift& lift)
                                   s.get_rotor(kHandRow)};
 }
 
-// Of limits of the upper arm, and of those of the hand, which groups that aim do not have.
+// The arm, for limits of the upper arm.
 template <class S>
 SWIVEL_INLINE auto arm_of(const S& s)
 {
@@ -38,6 +38,7 @@ SWIVEL_INLINE auto arm_of(const S& s)
     else
         return swivelling_arm(s, hinged_lift(s));
 }
+// The arm, for limits of the hand. Groups that aim have none of these (fields.h), so its lift is about the hinge.
 template <class S>
 SWIVEL_INLINE auto hand_arm_of(const S& s)
 {

@@ -25,7 +25,10 @@ SWIVEL_ALWAYS_INLINE constexpr swivel_features features_of(const SolveRun& run)
 }
 
 // Where the lanes of a slice lie in blocks of so many rows.
-constexpr LaneBlocks blocks_of(std::uint32_t row_count) { return {kLanes, std::size_t{row_count} * kLanes}; }
+SWIVEL_ALWAYS_INLINE constexpr LaneBlocks blocks_of(std::uint32_t row_count)
+{
+    return {kLanes, std::size_t{row_count} * kLanes};
+}
 
 // The rows of one slice of T's lanes: the places of its first lane in the first input row and in the first result row.
 // A slice covers whole blocks or lies in one. So every other place is a constant away. A slice whose features are told

@@ -46,7 +46,7 @@ struct StripSlice {
     // another one as a constant does not compile.
     SWIVEL_ALWAYS_INLINE bool has(swivel_features feature) const
     {
-        return ((Knows & feature ? Has : strip.run.features) & feature) != 0;
+        return (((Knows & feature) == feature ? Has : strip.run.features) & feature) != 0;
     }
     template <swivel_features feature>
     static constexpr bool is()

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
 # swivel_together(target size file...): compiles files together, `size` in a piece, which takes a fraction of the time. Each is in a
-# namespace of its own, so files may use the same names. Headers that any of them includes come first, outside.
+# namespace of its own, so files may use the same names. The headers that any of them includes come first, outside. Files with compile
+# options of their own are not for this.
 function(swivel_together target size)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})  # they may include another header
   set(files ${ARGN})
@@ -15,11 +16,20 @@ function(swivel_together target size)
       get_filename_component(path ${file} ABSOLUTE)
       get_filename_component(folder ${path} DIRECTORY)
       get_filename_component(name ${path} NAME_WE)
-      file(STRINGS ${path} lines REGEX "^#include ")
-      list(TRANSFORM lines REPLACE "^#include " "")
-      foreach(header IN LISTS lines)
-        string(REGEX REPLACE "^\"([^/]*)\"$" "\"${folder}/\\1\"" header "${header}")  # a neighbour
-        list(APPEND headers "#if __has_include(${header})\n#include ${header}\n#endif\n")  # some are one system's
+      file(STRINGS ${path} lines REGEX "^#(include|if|endif)")
+      set(condition "")  # an include that one system needs stays under its condition
+      foreach(line IN LISTS lines)
+        if(line MATCHES "^#if")
+          set(condition "${line}\n")
+        elseif(line MATCHES "^#endif")
+          set(condition "")
+        else()
+          string(REGEX REPLACE "\"([^/]*)\"$" "\"${folder}/\\1\"" line "${line}")  # a neighbour
+          if(condition)
+            set(line "${condition}${line}\n#endif")
+          endif()
+          list(APPEND headers "${line}\n")
+        endif()
       endforeach()
       string(APPEND bodies "namespace file_${name} {\n#include \"${path}\"\n}\n")
     endforeach()

@@ -127,11 +127,11 @@ export async function open({ page, url, devtools }, hash = '', before = null) {
 export async function show(tab, file, { hash, media, isFresh, isJudged, before }) {
   const { page, url } = tab, medium = JSON.stringify(media);
   await page.mouse.move(0, 0);
-  if (!isFresh && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew())) return follow(page, hash);
+  if (!isFresh && !isJudged && !before && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew())) return follow(page, hash);
   await page.emulateMedia(media);
   await open(tab, isFresh ? hash : '', isJudged ? before : `() => { (${hideScript})(); (${before ?? (() => {})})(); }`);
   const isCrowd = await page.evaluate(() => window.swivelPage?.ready.then(() => true));
-  Object.assign(tab, { file: isCrowd && !isFresh ? file : null, media: medium });
+  Object.assign(tab, { file: isCrowd && !isFresh && !before ? file : null, media: medium });
   if (!tab.file) return;
   await page.evaluate(remember);
   await follow(page, hash);

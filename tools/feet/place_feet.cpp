@@ -174,8 +174,7 @@ private:
     Vector3d lift_w(std::size_t frame) const { return floor_.hill(motion_.carrier_w[frame]) * motion_.up_w; }
 
     // From up to the ground's normal, which is less than a right angle from it. Eigen's FromTwoVectors() gives the
-    // same, and takes a third of this folder's time to compile: for opposite vectors it has a singular value
-    // decomposition.
+    // same, but takes long to compile: for opposite vectors it has a singular value decomposition.
     Quaterniond turn_w(const Vector3d& toe_w) const
     {
         const Vector3d up = motion_.up_w.normalized(), normal = floor_.normal_w(toe_w).normalized();

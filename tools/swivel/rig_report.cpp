@@ -39,7 +39,8 @@ std::string toml_name(const Clip& clip, int joint)
     const std::string& name = joint_at(clip, joint).name;
     using Errors = nlohmann::ordered_json::error_handler_t;
     const auto dumped = [&](Errors errors) { return nlohmann::ordered_json(name).dump(-1, ' ', false, errors); };
-    const std::string quoted = dumped(Errors::replace);  // the same if they are left out: there are none
+    // One text has replacements for bytes that are no UTF-8, the other drops them. So equal texts had none.
+    const std::string quoted = dumped(Errors::replace);
     const bool can_be_written = name == printable(name, name.size()) && quoted == dumped(Errors::ignore);
     if (can_be_written && formats::find_joints(clip, name).size() == 1) return quoted;
     return fmt::format("\"#{}\"", joint_at(clip, joint).number);

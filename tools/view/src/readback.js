@@ -23,6 +23,8 @@ flat in vec4 vJoint;
 out vec4 colour;
 void main() { colour = vJoint; }`;
 
+let former = null;  // the last call's material, which keeps the program for the next one
+
 /** Elbow and wrist in turns: three numbers each, and what the limb misses by, or its slide. count: at most some thousand. */
 export function readback(view, limb, count) {
     const { bodies, renderer, camera } = view, { uniforms } = bodies.limbs[limb.index];
@@ -41,6 +43,7 @@ export function readback(view, limb, count) {
     const texels = new Float32Array(8 * count);
     renderer.readRenderTargetPixels(target, 0, 0, 2 * count, 1, texels);
     renderer.setRenderTarget(null);
-    [target, geometry].forEach((each) => each.dispose());  // the material stays, so that the next call finds its program
+    [target, geometry, former].forEach((each) => each?.dispose());
+    former = material;
     return Array.from({ length: 2 * count }, (_, n) => Array.from(texels.subarray(4 * n, 4 * n + 4)));
 }
