@@ -18,20 +18,11 @@ namespace {
 
 constexpr double kSeen = 0.05;  // degrees: a smaller angle would read 0.0
 
-double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 double degrees_between(const Rotor<double>& a, const Rotor<double>& b)
 {
     const Rotor<double> turn = ~a * b;
     const double x = turn.at<kI>(), y = turn.at<kJ>(), z = turn.at<kK>();
     return in_degrees(2 * std::atan2(std::sqrt(x * x + y * y + z * z), std::fabs(turn.at<kScalar>())));
-}
-Vector<double> vector_of(const LimbValue& value, std::uint32_t first = 0)
-{
-    return vector(value[first], value[first + 1], value[first + 2]);
-}
-Rotor<double> rotor_of(const LimbValue& value, std::uint32_t first = 0)
-{
-    return rotor(value[first], value[first + 1], value[first + 2], value[first + 3]);
 }
 
 struct GroundedFoot {

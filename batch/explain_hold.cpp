@@ -19,13 +19,9 @@ std::uint32_t flags_of(const Group& group, std::uint32_t limb)
 {
     return bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
 }
-Vector<double> vector_of(const LimbValue& value, std::uint32_t first = 0)
+Rotor<double> unit_rotor_of(const LimbValue& value, std::uint32_t first = 0)
 {
-    return vector(value[first], value[first + 1], value[first + 2]);
-}
-Rotor<double> rotor_of(const LimbValue& value, std::uint32_t first = 0)
-{
-    return normalise(rotor(value[first], value[first + 1], value[first + 2], value[first + 3]));
+    return normalise(rotor_of(value, first));
 }
 // Whether a value is given that NaN leaves out.
 bool is_given(const LimbValue& value, std::uint32_t count) { return !std::isnan(value.length(0, count)); }
@@ -56,7 +52,7 @@ struct Holder {
     HeldFrame<double> held() const
     {
         const LimbValue grip(group, limb, SWIVEL_GRIP);
-        return held_by(animated(), {rotor_of(grip, 3), vector_of(grip)});
+        return held_by(animated(), {unit_rotor_of(grip, 3), vector_of(grip)});
     }
 
 private:
@@ -68,14 +64,14 @@ private:
         const auto bone = [&](const Rotor<double>& frame, std::uint32_t n) {
             return sandwich(frame, vector(0.0, 0.0, scale * record[kRecordLengths + n]));
         };
-        const Rotor<double> upper = rotor_of(record, kRecordArm) * rotor_of(record, kRecordIncoming),
-                            fore = upper * rotor_of(record, kRecordIncoming + 4);
-        Rotor<double> rotation = fore * rotor_of(record, kRecordIncoming + 8) * hand_from_arm(group);
+        const Rotor<double> upper = unit_rotor_of(record, kRecordArm) * unit_rotor_of(record, kRecordIncoming),
+                            fore = upper * unit_rotor_of(record, kRecordIncoming + 4);
+        Rotor<double> rotation = fore * unit_rotor_of(record, kRecordIncoming + 8) * hand_from_arm(group);
         Vector<double> point = vector_of(record, kRecordShoulder) + bone(upper, 0) + bone(fore, 1);
         if (group.features & SWIVEL_WITH_EFFECTOR)
             point = point + scale * sandwich(rotation, vector_of(LimbValue(group, limb, SWIVEL_EFFECTOR)));
         if (is_given(target, 3)) point = vector_of(target);
-        if (is_given(hand, 4)) rotation = rotor_of(hand);
+        if (is_given(hand, 4)) rotation = unit_rotor_of(hand);
         return {rotation, point};
     }
 };

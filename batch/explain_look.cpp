@@ -17,8 +17,6 @@ namespace swivel {
 
 namespace {
 
-double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
-
 struct LookOfBody {
     const swivel_crowd& crowd;
     const Group& group;

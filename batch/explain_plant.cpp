@@ -69,13 +69,13 @@ bool is_of_whole_bodies(const Group& group, swivel_field field)
 }
 
 // The state that a planted limb carries: the numbers of SWIVEL_PLANT.
-struct Planted {
+struct CarriedPlant {
     enum Bit : unsigned { locked = 1, armed = 2, released = 4, begun = 8 };
     double offset, left;  // in the targets' unit; s
     bool is_moving;       // its target, while the point is locked
     unsigned bits;
 
-    Planted(const Group& group, std::uint32_t limb)
+    CarriedPlant(const Group& group, std::uint32_t limb)
     {
         const LimbValue plant(group, limb, SWIVEL_PLANT);
         offset = plant.length(3, 3);
@@ -95,7 +95,7 @@ struct PlantedLimb {
     const Group& group;
     std::uint32_t limb;
     const PlantRules& rules = group.limb.rules;
-    Planted state{group, limb};
+    CarriedPlant state{group, limb};
 
     bool is_by_motion() const { return group.features & SWIVEL_PLANT_BY_MOTION; }
     float label() const { return LimbValue(group, limb, SWIVEL_CONTACT).number(0); }
@@ -154,7 +154,7 @@ struct PlantedLimb {
                 double{rules.speed_on}, double{rules.height_on});
         else if (!is_in_contact())
             text.add(" It is not in contact: its label is %.3g, not above 0.5.", double{label()});
-        else if (!state.is(Planted::armed))
+        else if (!state.is(CarriedPlant::armed))
             explain_waiting(text);
         else if (!is_long)
             text.add(" It is in contact by now: the next solve locks it.");
@@ -188,10 +188,10 @@ bool is_bad_in_body(const Group& group, std::uint32_t limb)
 void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text)
 {
     const PlantedLimb planted{group, limb};
-    if (!planted.state.is(Planted::begun)) return text.add("It was reset, so its planted point starts anew. ");
-    if (planted.state.is(Planted::locked)) {
+    if (!planted.state.is(CarriedPlant::begun)) return text.add("It was reset, so its planted point starts anew. ");
+    if (planted.state.is(CarriedPlant::locked)) {
         planted.explain_locked(text);
-    } else if (planted.state.is(Planted::released)) {
+    } else if (planted.state.is(CarriedPlant::released)) {
         planted.explain_released(flags & SWIVEL_BROKE_AWAY, text);
     } else {
         planted.explain_fading(text);

@@ -7,9 +7,12 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
+#include <numbers>
 #include <span>
 
 namespace swivel {
+
+inline double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 class Text {
 public:

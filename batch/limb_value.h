@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "batch/crowd.h"
+#include "core/conformal.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -30,5 +31,15 @@ struct LimbValue {
         return std::sqrt(sum);
     }
 };
+
+inline Vector<double> vector_of(const LimbValue& value, std::uint32_t first = 0)
+{
+    return vector(value[first], value[first + 1], value[first + 2]);
+}
+// The quaternion as it stands there, of any length.
+inline Rotor<double> rotor_of(const LimbValue& value, std::uint32_t first = 0)
+{
+    return rotor(value[first], value[first + 1], value[first + 2], value[first + 3]);
+}
 
 }  // namespace swivel

@@ -17,10 +17,10 @@ struct Part {
     char name[24];
     std::uint32_t joint;
 };
-constexpr std::uint32_t kShoulder = 0, kElbow = 1, kWrist = 2, kTwistBones = 3;
+constexpr std::uint32_t kShoulder = 0, kElbow = 1, kWrist = 2, kFirstTwistBone = 3;
 
 struct Parts {
-    Part part[kTwistBones + SWIVEL_MOST_TWIST_BONES];
+    Part part[kFirstTwistBone + SWIVEL_MOST_TWIST_BONES];
     std::uint32_t count = 0;
 
     void add(const Part& each) { part[count++] = each; }
@@ -184,8 +184,8 @@ swivel_status check_order(const Parts& parts, const RestLimb& limb)
             return fail(SWIVEL_INVALID_ARGUMENT,
                         "swivel_bind_joints: %s, joint %u, is nearer to the elbow than %s, joint %u; list them from "
                         "elbow to wrist",
-                        parts.part[kTwistBones + n].name, parts.part[kTwistBones + n].joint,
-                        parts.part[kTwistBones + n - 1].name, parts.part[kTwistBones + n - 1].joint);
+                        parts.part[kFirstTwistBone + n].name, parts.part[kFirstTwistBone + n].joint,
+                        parts.part[kFirstTwistBone + n - 1].name, parts.part[kFirstTwistBone + n - 1].joint);
     }
     return SWIVEL_OK;
 }
@@ -209,7 +209,7 @@ swivel_status rest_limb(const swivel_skeleton& skeleton, const swivel_limb_joint
     if (status == SWIVEL_OK) status = rest_below(skeleton, *elbow, *shoulder, {}, limb.elbow);
     for (std::uint32_t n = kWrist; n < parts.count && status == SWIVEL_OK; ++n)
         status = rest_below(skeleton, parts.part[n], *elbow, parts.from(kWrist),
-                            n == kWrist ? limb.wrist : limb.twist_bones[n - kTwistBones]);
+                            n == kWrist ? limb.wrist : limb.twist_bones[n - kFirstTwistBone]);
     return status == SWIVEL_OK ? check_order(parts, limb) : status;
 }
 
