@@ -138,7 +138,10 @@ constexpr Blade nth_blade(BladeSet set, std::size_t n)
     for (; n > 0; --n) set &= set - 1;
     return static_cast<Blade>(std::countr_zero(set));
 }
-constexpr std::size_t index_of(BladeSet set, Blade b) { return std::popcount(set & ((BladeSet{1} << b) - 1u)); }
+constexpr std::size_t index_of(BladeSet set, Blade b)
+{
+    return static_cast<std::size_t>(std::popcount(set & ((BladeSet{1} << b) - 1u)));
+}
 
 template <BladeSet S>
 using Components = std::make_index_sequence<std::popcount(S)>;
