@@ -3,7 +3,7 @@
 // Lanes: a few registers of floats, worked on side by side. They have core/num.h's list of operations, so every formula
 // runs on them unchanged. This is the only file that names xsimd, which says what an instruction set's registers are.
 // The operations are the compilers' own operators on vectors, or single instructions. xsimd's operators are ordinary
-// functions, which g++ inlines late (core/isa.h), and some of them give other bits on other CPUs.
+// functions, which g++ inlines late (core/isa.h). Some of them give other bits on other CPUs.
 #pragma once
 
 #include <cstddef>

@@ -28,10 +28,10 @@ struct FoundLoop {
 };
 
 // Among all pairs of frames that are kShortestLoop and kFewestLooped or more apart, the two whose pose and motion
-// differ least: by how joints are turned, and how they go on turning in 1/30 s. Which way the body is turned about y
-// does not count. Without two such frames the whole clip is the loop, and the gap infinite. body: a joint that all
-// others move with, such as the hips. The clip has frame_time > 0 and 2 frames or more. Takes time in the square of the
-// frames.
+// differ least. Pose is how joints are turned, motion how they go on turning in 1/30 s. Which way the body is turned
+// about y does not count. Without two such frames the whole clip is the loop, and the gap infinite. body: a joint that
+// all others move with, such as the hips. The clip has frame_time > 0 and 2 frames or more. Takes time in the square of
+// the frames.
 FoundLoop find_loop(const formats::Clip& clip, int body);
 
 // The clip as it goes on for so many frames from `first` on. Every time round, what lies in the world goes on from
