@@ -37,9 +37,15 @@ struct LookStage {
 
     explicit LookStage(const LookingBodies& bodies) : of(bodies), solved(bodies) {}
 
+    // By how much a joint's place may be off: each rotation above it is rounded, which moves it by its distance from there.
     double off(const LinkedBody& body, std::uint32_t joint) const
     {
-        return 3e-7 * way_to(of.skeleton, body.was, joint) + 1e-7 * vec(of.bodies[body.n].root_position).norm();
+        const Vector3d place = body.was[joint].place;
+        double levers = place.norm();
+        for (std::int32_t at = of.skeleton.parents[joint]; at >= 0;
+             at = of.skeleton.parents[static_cast<std::size_t>(at)])
+            levers += (place - body.was[static_cast<std::size_t>(at)].place).norm();
+        return 2e-7 * levers + 1e-7 * vec(of.bodies[body.n].root_position).norm();
     }
     void check_look(const LinkedBody& body, std::uint32_t group, LookCounts& counts) const
     {
