@@ -184,7 +184,7 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
     for_each_free_limb(crowd->groups[group], limb, 1, [&](const Group& of, std::uint32_t at, std::uint32_t) {
-        *arc_count = allowed_arcs(find_isa("scalar")->kernels, of, at, arcs, capacity);
+        *arc_count = allowed_arcs(of, at, arcs, capacity);
     });
     return SWIVEL_OK;
 }

@@ -122,11 +122,11 @@ void spread(float* rows, std::uint32_t row_count, std::uint32_t block_count)
 void rest(Group& group)
 {
     const bool keeps = std::exchange(group.keeps, false);
-    const Kernels& scalar = find_isa("scalar")->kernels;
+    const Kernels& kernels = single_limb_kernels();
     if (group.features & kLimbFeatures)
-        solve_block(scalar, group);
+        solve_block(kernels, group);
     else
-        solve_group(scalar, group, {0, 1}, {});
+        solve_group(kernels, group, {0, 1}, {});
     group.keeps = keeps;
     group.results[std::size_t{group.first_row[index_of(SWIVEL_FLAGS)]} * SWIVEL_LANES] = 0;
     spread(group.results, group.result_row_count, group.block_count);

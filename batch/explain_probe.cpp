@@ -28,7 +28,7 @@ void Probe::take()
 std::uint32_t Probe::solve()
 {
     alignas(64) float strip[kStripBlockFloats];
-    solve_group(find_isa("scalar")->kernels, group(), {0, 1}, {strip, 1});
+    solve_group(single_limb_kernels(), group(), {0, 1}, {strip, 1});
     return flags();
 }
 

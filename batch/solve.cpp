@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "batch/lane_mask.h"
+#include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -92,13 +93,12 @@ bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count)
     return block_count * crowd.block_bytes > kCachedBytes;
 }
 
-std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint32_t limb, swivel_arc* arcs,
-                           std::uint32_t capacity)
+std::uint32_t allowed_arcs(const Group& group, std::uint32_t limb, swivel_arc* arcs, std::uint32_t capacity)
 {
     alignas(64) float strip[kStripBlockFloats];
     const SolveRun run = run_of(group, {0, group.block_count}, {strip, 1}, false, nullptr);
     ArcEnds ends[kMostArcs];
-    const std::uint32_t count = scalar.limbs.allowed_arcs(run, limb, ends);
+    const std::uint32_t count = single_limb_kernels().limbs.allowed_arcs(run, limb, ends);
     for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
         arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
     return count;

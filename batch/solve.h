@@ -28,10 +28,8 @@ void prepare_group(const Kernels& kernels, const Group& group, Pass pass, GroupB
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
                         StripMemory strip, bool from_memory = false);
 
-// The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs). scalar: the scalar
-// build's kernels.
-std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint32_t limb, swivel_arc* arcs,
-                           std::uint32_t capacity);
+// The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs).
+std::uint32_t allowed_arcs(const Group& group, std::uint32_t limb, swivel_arc* arcs, std::uint32_t capacity);
 
 // A swivel_job, checked.
 struct Work {

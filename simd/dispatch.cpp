@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace swivel {
 
@@ -59,7 +60,9 @@ const Isa isas[] = {
 #ifdef SWIVEL_HAS_neon64
     {"neon64", always, {neon64::arm_kernels, neon64::limb_kernels, neon64::body_kernels}},
 #endif
+#ifdef SWIVEL_HAS_scalar
     {"scalar", always, {scalar::arm_kernels, scalar::limb_kernels, scalar::body_kernels}},
+#endif
 };
 
 std::atomic<const Isa*> chosen{nullptr};
@@ -72,12 +75,14 @@ const Isa* choose()
     }
     for (const Isa& isa : isas)
         if (isa.can_run()) return &isa;
-    return nullptr;  // not reached: scalar always runs
+    return nullptr;  // not reached: the last always runs
 }
 
 }  // namespace
 
-const Isa* isa_at(std::uint32_t index) { return index < sizeof isas / sizeof isas[0] ? &isas[index] : nullptr; }
+const Isa* isa_at(std::uint32_t index) { return index < std::size(isas) ? &isas[index] : nullptr; }
+
+const Kernels& single_limb_kernels() { return std::end(isas)[-1].kernels; }
 
 const Isa* find_isa(const char* name)
 {

@@ -74,39 +74,37 @@ void solve(const SolveRun& run)
     }
 }
 
-// This takes one limb at a time, so one build of it is enough.
-std::uint32_t store_arcs([[maybe_unused]] const SolveRun& run, [[maybe_unused]] std::size_t limb,
-                         [[maybe_unused]] ArcEnds (&arcs)[kMostArcs])
+#ifdef SWIVEL_SINGLE_LIMBS  // of one instruction set (dispatch.h)
+std::uint32_t store_arcs(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs])
 {
-    if constexpr (std::is_same_v<SWIVEL_ARCH, float>) {
-        const Binding bind = binding_of<kTold>(run);
-        Strip strip{run, bind, run.strip.rows};
-        add_block(strip, static_cast<std::uint32_t>(limb / kLanes), 1u << limb % kLanes);
-        for (std::uint32_t n = 0; run.stages->function[n] < first_function(Stage::choose); ++n)
-            kFunctions[run.stages->function[n]](strip);
-        static_assert(kMostAllowedArcs == kMostArcs);
-        std::uint32_t count = 0;
-        const auto store = [&](const AllowedArcs<float>& allowed) {
-            count = static_cast<std::uint32_t>(allowed.count);
-            for (std::uint32_t n = 0; n < count; ++n) {
-                const Arc<float>& arc = allowed.arc[n];
-                arcs[n] = {{arc.from.cos, arc.from.sin}, {arc.to.cos, arc.to.sin}};
-            }
-        };
-        const LimitList list(run.features);
-        for_each_slice<float, 0, 0>(strip, [&](const auto& s) {
-            if (s.good() == 0) return;
-            const Limits<float> limits = load_limits<kMostBoxes>(s, list.line_count, list);
-            if (run.region)
-                store(allowed_arcs(LimitsInRegion<float, kMostBoxes>{limits, load_region(s)}));
-            else
-                store(allowed_arcs(limits));
-        });
-        return count;
-    } else {
-        return 0;
-    }
+    const Binding bind = binding_of<kTold>(run);
+    Strip strip{run, bind, run.strip.rows};
+    add_block(strip, static_cast<std::uint32_t>(limb / kLanes), 1u << limb % kLanes);
+    for (std::uint32_t n = 0; run.stages->function[n] < first_function(Stage::choose); ++n)
+        kFunctions[run.stages->function[n]](strip);
+    static_assert(kMostAllowedArcs == kMostArcs);
+    std::uint32_t count = 0;
+    const auto store = [&](const AllowedArcs<float>& allowed) {
+        count = static_cast<std::uint32_t>(allowed.count);
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const Arc<float>& arc = allowed.arc[n];
+            arcs[n] = {{arc.from.cos, arc.from.sin}, {arc.to.cos, arc.to.sin}};
+        }
+    };
+    const LimitList list(run.features);
+    for_each_slice<float, 0, 0>(strip, [&](const auto& s) {
+        if (s.good() == 0) return;
+        const Limits<float> limits = load_limits<kMostBoxes>(s, list.line_count, list);
+        if (run.region)
+            store(allowed_arcs(LimitsInRegion<float, kMostBoxes>{limits, load_region(s)}));
+        else
+            store(allowed_arcs(limits));
+    });
+    return count;
 }
+#else
+constexpr decltype(LimbKernels::allowed_arcs) store_arcs = nullptr;
+#endif
 
 }  // namespace
 

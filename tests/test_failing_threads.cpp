@@ -30,7 +30,7 @@ using namespace swivel::test;
 
 namespace {
 
-constexpr std::uint32_t kLimbs = 20000;  // many chunks
+constexpr std::uint32_t kLimbs = 6000;  // some chunks
 constexpr int kThreads = 4;              // on any machine
 
 enum class Kind { plain, step_limited, pose_in_place };

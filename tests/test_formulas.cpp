@@ -199,7 +199,7 @@ TEST_CASE("lengths times a power of two give the same arm")
         const ArmPose<float> pose = solve<float>(arm);
         for (const double size : sizes) {
             const ArmPose<float> other =
-                solve<float>({size * arm.wrist, size * arm.pole, size * arm.upper, size * arm.fore});
+                solve<float>(Arm{size * arm.wrist, size * arm.pole, size * arm.upper, size * arm.fore});
             RC_ASSERT(std::memcmp(pose.shoulder.c, other.shoulder.c, sizeof pose.shoulder.c) == 0);
             RC_ASSERT(pose.cos_half == other.cos_half);
             RC_ASSERT(pose.sin_half == other.sin_half);

@@ -44,10 +44,12 @@ struct Painted {
     painted.used = static_cast<std::size_t>(frame - deepest);
 }
 
-// Runs a call on a thread with that much stack, and returns how many bytes of it were used.
-std::size_t stack_of(const std::function<void()>& call, std::size_t size = 192 * 1024)
+// Runs a call on a thread with that much stack, and returns how many bytes of it were used. All threads have the same memory.
+constexpr std::size_t kMostStack = 192 * 1024;
+std::size_t stack_of(const std::function<void()>& call, std::size_t size = kMostStack)
 {
-    void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    static void* const memory =
+        mmap(nullptr, kMostStack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
     REQUIRE(memory != MAP_FAILED);
     Painted painted{call, static_cast<unsigned char*>(memory)};
     pthread_attr_t attributes;
@@ -61,7 +63,6 @@ std::size_t stack_of(const std::function<void()>& call, std::size_t size = 192 *
     REQUIRE(pthread_create(&thread, &attributes, start, &painted) == 0);
     pthread_join(thread, nullptr);
     pthread_attr_destroy(&attributes);
-    munmap(memory, size);
     return painted.used;
 }
 

@@ -94,13 +94,4 @@ export class Swivel {
 
     /** The instruction set in use: "sse2" is WebAssembly's SIMD. */
     get isaName(): string { return this.memory.text(this.memory.calls.swivel_isa_name() >>> 0); }
-    /** Takes "sse2" or "scalar" from the next solve on. The bits stay the same. */
-    useIsa(name: string): void {
-        this.memory.borrow((borrowed) => {
-            const bytes = new TextEncoder().encode(`${name}\0`);
-            const at = borrowed.bytes(bytes.length);
-            this.memory.bytes(at, bytes.length).set(bytes);
-            this.memory.check(this.memory.calls.swivel_use_isa(at));
-        });
-    }
 }
