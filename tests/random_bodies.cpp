@@ -96,7 +96,7 @@ Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& w
                        fore = at[limb.wrist].place - at[limb.elbow].place, axis = random.across(upper);
         // What turns the forearm to where it is bent by just that angle.
         const Vector3d wanted = Eigen::AngleAxisd(random.spread(1e-2, wish.most_bend), axis) * upper;
-        const Quaterniond turn = Quaterniond::FromTwoVectors(fore, wanted);
+        const Quaterniond turn = turn_between(fore, wanted);
         const auto parent = skeleton.parents[limb.elbow];
         const Quaterniond above = at[static_cast<std::size_t>(parent)].rotation;
         body.rotations[limb.elbow] =

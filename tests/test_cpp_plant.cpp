@@ -120,7 +120,7 @@ public:
 private:
     template <class Make>
     Walkers(const Float3& up, const Make& make)
-        : turn_(Quaterniond::FromTwoVectors(Vector3d::UnitY(), vec(up))),
+        : turn_(turn_between(Vector3d::UnitY(), vec(up))),
           skeleton_{{-1, 0, 1, 2}, std::vector<Float4>(4, {0, 0, 0, 1}), places(), {{1, 2, kFoot, ahead(), {}}}},
           bodies_(kBodies, {skeleton_.rotations, skeleton_.translations, std::vector<Float3>(4, {1, 1, 1})}),
           poses_({.roots = true, .gap = 8}, bodies_),
