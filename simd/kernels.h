@@ -89,7 +89,8 @@ struct ArcEnds {
 // Of whole limbs: simd/limb_kernels.cpp.
 struct LimbKernels {
     void (*solve)(const SolveRun& run);
-    // For one limb of a run: stores its arcs and returns how many there are. Null but in the build for single limbs (dispatch.h).
+    // For one limb of a run: stores its arcs and returns how many there are. Null but in the build for single limbs
+    // (dispatch.h).
     std::uint32_t (*allowed_arcs)(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs]);
 };
 

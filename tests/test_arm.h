@@ -37,7 +37,8 @@ inline Float4 floats(const Quaterniond& q)
     return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
 }
 
-// From one direction to another that is not its opposite. Eigen's own instantiates a singular value decomposition, in 8 s.
+// From one direction to another that is not its opposite. Eigen's own instantiates a singular value decomposition, in 8
+// s.
 inline Quaterniond turn_between(const Vector3d& from, const Vector3d& to)
 {
     Quaterniond twice;

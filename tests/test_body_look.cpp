@@ -37,7 +37,8 @@ struct LookStage {
 
     explicit LookStage(const LookingBodies& bodies) : of(bodies), solved(bodies) {}
 
-    // By how much a joint's place may be off: each rotation above it is rounded, which moves it by its distance from there.
+    // By how much a joint's place may be off: each rotation above it is rounded, which moves it by its distance from
+    // there.
     double off(const LinkedBody& body, std::uint32_t joint) const
     {
         const Vector3d place = body.was[joint].place;

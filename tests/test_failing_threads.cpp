@@ -31,7 +31,7 @@ using namespace swivel::test;
 namespace {
 
 constexpr std::uint32_t kLimbs = 6000;  // some chunks
-constexpr int kThreads = 4;              // on any machine
+constexpr int kThreads = 4;             // on any machine
 
 enum class Kind { plain, step_limited, pose_in_place };
 constexpr std::pair<Kind, const char*> kKinds[] = {

@@ -44,7 +44,8 @@ struct Painted {
     painted.used = static_cast<std::size_t>(frame - deepest);
 }
 
-// Runs a call on a thread with that much stack, and returns how many bytes of it were used. All threads have the same memory.
+// Runs a call on a thread with that much stack, and returns how many bytes of it were used. All threads have the same
+// memory.
 constexpr std::size_t kMostStack = 192 * 1024;
 std::size_t stack_of(const std::function<void()>& call, std::size_t size = kMostStack)
 {

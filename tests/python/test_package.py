@@ -63,8 +63,8 @@ def main():
     run("cmake", "--install", BUILD, "--prefix", FOLDER / "installed")
     run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", FOLDER / "env")
     python = FOLDER / "env" / "bin" / "python"
-    said = run(python, "-m", "pip", "install", "--verbose", "--no-build-isolation", archive,
-               CMAKE_PREFIX_PATH=str(FOLDER / "installed"))
+    said = run(python, "-m", "pip", "install", "--verbose", "--no-build-isolation", archive, CMAKE_PREFIX_PATH=str(FOLDER / "installed"),
+               CMAKE_ARGS="-DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1")  # most of the time here is the compiler's
     if f": installed, {FOLDER / 'installed'}" not in said:
         sys.exit(f"{said}\nthe installed swivel was not linked")
     run(python, "-c", USE)
