@@ -83,8 +83,9 @@ std::string difference_of(const Clip& clip, const Clip& other)
             return fmt::format("joint {} is {}, not {}", n, formats::joint_path(other, static_cast<int>(n)),
                                formats::joint_path(clip, static_cast<int>(n)));
         const bool has_offset = a.parent >= 0 && (a.track < 0 || b.track < 0);
-        if ((has_offset && (a.offset - b.offset).norm() > kSame * longest) ||
-            !a.rest_scale.isApprox(b.rest_scale, kSame) || a.rest_rotation.angularDistance(b.rest_rotation) > kSame)
+        const formats::UnkeyedPose rest_a = pose_without_keys(a), rest_b = pose_without_keys(b);
+        if ((has_offset && (rest_a.offset - rest_b.offset).norm() > kSame * longest) ||
+            !rest_a.scale.isApprox(rest_b.scale, kSame) || rest_a.rotation.angularDistance(rest_b.rotation) > kSame)
             return fmt::format("joint {} has another rest pose", printable_name(b));
     }
     return {};

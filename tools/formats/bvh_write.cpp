@@ -162,8 +162,9 @@ std::string rest_line(const BvhFile& file)
     std::string line;
     for (std::size_t n = 0; n < file.joints.size(); ++n)
         for (const Channel channel : file.joints[n].channels)
-            line += fmt::format("{}{}", line.empty() ? "" : " ",
-                                is_position(channel) ? file.clip.joints[n].offset[axis_of(channel)] : 0.0);
+            line += fmt::format(
+                "{}{}", line.empty() ? "" : " ",
+                is_position(channel) ? pose_without_keys(file.clip.joints[n]).offset[axis_of(channel)] : 0.0);
     return line + '\n';
 }
 

@@ -7,12 +7,20 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace swivel::formats {
+
+// What a file has a joint without keys at.
+struct UnkeyedPose {
+    Eigen::Vector3d offset;
+    Eigen::Quaterniond rotation;
+    Eigen::Vector3d scale;
+};
 
 struct Joint {
     std::string name;  // need not be unique, may hold blanks
@@ -21,11 +29,12 @@ struct Joint {
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     Eigen::Quaterniond rest_rotation = Eigen::Quaterniond::Identity();  // unit
     Eigen::Vector3d rest_scale = Eigen::Vector3d::Ones();               // may be negative: a mirror
-    bool is_sheared = false;  // the file's matrix is more than these three say
-    int track = -1;           // column in Clip::translation; -1: the joint never leaves its offset
-    int scale_track = -1;     // column in Clip::scale; -1: always rest_scale
-    int number = -1;          // what the file calls it besides its name, "#12": its place in the file's own list
-    bool is_bone = true;      // false: the file says which nodes are joints of a skin, and this is none
+    std::optional<UnkeyedPose> unkeyed{};  // where the rest pose above is not the file's but was taken from a frame
+    bool is_sheared = false;               // the file's matrix is more than these three say
+    int track = -1;                        // column in Clip::translation; -1: the joint never leaves its offset
+    int scale_track = -1;                  // column in Clip::scale; -1: always rest_scale
+    int number = -1;      // what the file calls it besides its name, "#12": its place in the file's own list
+    bool is_bone = true;  // false: the file says which nodes are joints of a skin, and this is none
 };
 
 struct Clip {
@@ -43,6 +52,12 @@ struct Clip {
 
 // joint: 0 to joints.size()-1, as parents and find_joints() count; the caller answers for it.
 inline const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
+
+// Where a joint is in the file if it has no keys.
+inline UnkeyedPose pose_without_keys(const Joint& joint)
+{
+    return joint.unkeyed ? *joint.unkeyed : UnkeyedPose{joint.offset, joint.rest_rotation, joint.rest_scale};
+}
 
 // A joint's name for a message: one line, not too long.
 std::string printable_name(const Joint& joint);

@@ -24,8 +24,9 @@ const Joint& joint_at(const GltfFile& file, int joint) { return file.clip.joints
 GltfChanges::Track track_of(const GltfFile& file, const JointKeys& keys)
 {
     const Joint& joint = joint_at(file, keys.joint);
-    GltfChanges::Track track{joint.number, {}, {}, false, joint.offset, joint.rest_scale, joint.rest_rotation};
-    Quaterniond before = joint.rest_rotation;
+    const UnkeyedPose rest = pose_without_keys(joint);
+    GltfChanges::Track track{joint.number, {}, {}, false, rest.offset, rest.scale, rest.rotation};
+    Quaterniond before = rest.rotation;
     for (const Quaterniond& rotation : keys.rotation) {
         Quaterniond key = rotation.normalized();
         if (key.dot(before) < 0) key.coeffs() = -key.coeffs();

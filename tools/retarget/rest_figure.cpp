@@ -34,6 +34,8 @@ RestFigure rest_figure(const formats::Clip& clip, const std::vector<BodyPart>& p
     figure.pose_w = formats::rest_pose(clip);
     figure.limbs = limbs_of(parts);
     figure.axes = axes_of(facing_of(clip, figure.limbs));
+    if (const std::vector<int> hips = joints_of(parts, "hips"); !hips.empty())
+        figure.mirrored = figure.pose_w[static_cast<std::size_t>(hips[0])].mirrored;
     int count = 0;
     for (std::size_t side = 0; side < 2; ++side) {
         const std::vector<int> toes = joints_of(parts, side == 0 ? "leftToes" : "rightToes");

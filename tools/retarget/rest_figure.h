@@ -13,14 +13,25 @@ namespace swivel::tools {
 struct RestFigure {
     std::vector<formats::JointPose> pose_w;                    // of each joint, in the world
     Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();  // columns: the figure's left, up and forwards
+    bool mirrored = false;  // as a whole: its left side is on the right of where it faces
     KnownLimbs limbs;
     std::array<int, 2> toes{-1, -1};  // left and right; -1: it has none
     double leg = 0;                   // thigh and shin together, mean of the sides that are known; 0: none is
 
     const Eigen::Vector3d& place_w(int joint) const { return pose_w[static_cast<std::size_t>(joint)].position; }
     Eigen::Vector3d up_w() const { return axes * Eigen::Vector3d::UnitY(); }
-    // A direction of the world as the figure has it: left, up, forwards.
-    Eigen::Vector3d own(const Eigen::Vector3d& direction_w) const { return axes.conjugate() * direction_w; }
+    // A direction of the world as the figure has it: left, up, forwards. Left is where its left limbs are.
+    Eigen::Vector3d own(const Eigen::Vector3d& direction_w) const { return in_mirror(axes.conjugate() * direction_w); }
+    Eigen::Vector3d world(const Eigen::Vector3d& own_direction) const { return axes * in_mirror(own_direction); }
+    // The same of a turn.
+    Eigen::Quaterniond own(const Eigen::Quaterniond& turn_w) const
+    {
+        return in_mirror(axes.conjugate() * turn_w * axes);
+    }
+    Eigen::Quaterniond world(const Eigen::Quaterniond& own_turn) const
+    {
+        return axes * in_mirror(own_turn) * axes.conjugate();
+    }
     // A limb's two bones together at rest; of one that is known.
     double length(std::size_t limb) const
     {
@@ -29,6 +40,13 @@ struct RestFigure {
     }
     // From one joint to another at rest, as the figure has it.
     Eigen::Vector3d own_way(int from, int to) const { return own(place_w(to) - place_w(from)); }
+
+private:
+    template <class Geometry>
+    Geometry in_mirror(const Geometry& of) const
+    {
+        return mirrored ? formats::mirrored(of) : of;
+    }
 };
 
 // Up is the axis of the world nearest to the way up that facing_of() tells. Forwards is at right angles to it: the axis

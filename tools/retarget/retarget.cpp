@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
+#include "tools/retarget/eased.h"
 #include "tools/rig/limb_chain.h"
 
 namespace swivel::tools {
@@ -19,6 +21,7 @@ using formats::LimbKind;
 using Poses = std::vector<JointPose>;
 
 constexpr double kMostWay = 0.1;  // leg lengths that hips move for knees: legs in a split would ask for any
+constexpr double kMostExtra = 2 * std::numbers::pi;  // radians a second, 3 degrees a frame at 120 frames a second
 constexpr double kWayWeight = 5;  // of the hips' way in leg lengths, beside the knees' angles in radians
 
 const JointPose& at(const Poses& pose_w, int joint) { return pose_w[static_cast<std::size_t>(joint)]; }
@@ -43,11 +46,20 @@ bool has_all_toes(const RestFigure& figure)
     return (!figure.limbs[2] || figure.toes[0] >= 0) && (!figure.limbs[3] || figure.toes[1] >= 0);
 }
 
-// The two bones of a leg.
+// The two bones of a leg, or of an arm.
 struct Bones {
     double thigh, shin;
 
     double length() const { return thigh + shin; }
+    // How far a knee is bent when hip and ankle are this far apart, 0 for a straight one; and back.
+    double flexion(double apart) const
+    {
+        return std::acos(std::clamp((apart * apart - thigh * thigh - shin * shin) / (2 * thigh * shin), -1.0, 1.0));
+    }
+    double apart(double flexion) const
+    {
+        return std::sqrt(std::max(0.0, thigh * thigh + shin * shin + 2 * thigh * shin * std::cos(flexion)));
+    }
 };
 Bones bones_of(const RestFigure& figure, std::size_t limb)
 {
@@ -97,6 +109,7 @@ public:
             place_hips(frame, source_w);
             add_goals(frame, source_w);
         }
+        ease_goals();
         return std::move(out_);
     }
 
@@ -143,8 +156,7 @@ private:
     Quaterniond source_turn(const Poses& source_w, int joint) const
     {
         if (joint < 0) return Quaterniond::Identity();
-        const Quaterniond turn_w = at(source_w, joint).rotation * at(source_.pose_w, joint).rotation.conjugate();
-        return source_.axes.conjugate() * turn_w * source_.axes;
+        return source_.own(at(source_w, joint).rotation * at(source_.pose_w, joint).rotation.conjugate());
     }
     Quaterniond turn_of(const Poses& source_w, const Transfer& transfer) const
     {
@@ -161,7 +173,7 @@ private:
             const formats::Joint& joint = clip.joints[n];
             const JointPose parent_w = joint.parent < 0 ? JointPose() : at(pose_w, joint.parent);
             if (transfers_[n]) {
-                const Quaterniond turn_w = target_.axes * turn_of(source_w, *transfers_[n]) * target_.axes.conjugate();
+                const Quaterniond turn_w = target_.world(turn_of(source_w, *transfers_[n]));
                 const Quaterniond local = parent_w.rotation.conjugate() * turn_w * target_.pose_w[n].rotation;
                 // What scales below zero add to the joint's rotation is no key of it.
                 const Quaterniond by_scale = joint.rest_rotation.conjugate() * formats::local_rest_pose(joint).rotation;
@@ -175,7 +187,7 @@ private:
     // A place of the source's world in the target's.
     Vector3d mapped(const Vector3d& place_w) const
     {
-        return target_.axes * (out_.leg_ratio * source_.own(place_w)) + lift_ * target_.up_w();
+        return target_.world(out_.leg_ratio * source_.own(place_w)) + lift_ * target_.up_w();
     }
 
     void place_hips(std::size_t frame, const Poses& source_w)
@@ -183,7 +195,7 @@ private:
         Clip& clip = out_.clip;
         const Poses pose_w = formats::world_pose(clip, frame);
         const Vector3d goal_w = mapped(middle(source_w, source_.limbs, legs_)) +
-                                target_.axes * (source_turn(source_w, source_hips_) * foot_difference_);
+                                target_.world(source_turn(source_w, source_hips_) * foot_difference_);
         const Vector3d shift_w = goal_w - middle(pose_w, target_.limbs, legs_);
         const Vector3d place_w = at(pose_w, out_.hips).position + shift_w + shift_for_knees(source_w, pose_w, shift_w);
         const int parent = joint_at(clip, out_.hips).parent;
@@ -239,7 +251,7 @@ private:
         const Vector3d from_middle = source_.own(shoulder_w - middle(source_w, source_.limbs, arms_));
         const Vector3d to_middle =
             target_.own(at(pose_w, (*target_.limbs[arm])[0]).position - middle(pose_w, target_.limbs, arms_));
-        return target_.axes * (ratio * source_.own(way_w) + bent * (ratio * from_middle - to_middle));
+        return target_.world(ratio * source_.own(way_w) + bent * (ratio * from_middle - to_middle));
     }
 
     void add_goals(std::size_t frame, const Poses& source_w)
@@ -257,10 +269,39 @@ private:
             goal.has_pole = true;
             goal.pole = start_w + aim(way_w, place_w - start_w) * (at(pose_w, joints[1]).position - start_w);
             out_.goals.push_back(goal);
+            const LimbJoints& from = *source_.limbs[limb];
+            const double apart = (at(source_w, from[2]).position - at(source_w, from[0]).position).norm();
+            bends_.push_back({start_w, bones_of(source_, limb).flexion(apart)});
         };
         for (const std::size_t arm : arms_)
             add(arm, at(pose_w, (*target_.limbs[arm])[0]).position + wrist_way(arm, source_w, pose_w));
         for (const std::size_t leg : legs_) add(leg, ankle_goal(leg, source_w, pose_w));
+    }
+
+    // Knees and elbows turn faster than the source's by no more than its own fastest turn, or kMostExtra: near its full
+    // reach a limb would snap straight, or bend, for a goal that moves a little.
+    void ease_goals()
+    {
+        out_.eased = out_.goals;
+        const std::size_t count = out_.limbs.size();
+        for (std::size_t n = 0; n < count; ++n) {
+            const Bones bones = bones_of(target_, n < arms_.size() ? arms_[n] : legs_[n - arms_.size()]);
+            std::vector<double> extra;
+            double fastest = kMostExtra * source_clip_.frame_time;
+            for (std::size_t at = n; at < bends_.size(); at += count) {
+                extra.push_back(bones.flexion((out_.goals[at].position - bends_[at].start_w).norm()) -
+                                bends_[at].source);
+                if (at >= count) fastest = std::max(fastest, std::abs(bends_[at].source - bends_[at - count].source));
+            }
+            const std::vector<double> slower = eased(extra, fastest);
+            for (std::size_t frame = 0; frame < extra.size(); ++frame) {
+                if (slower[frame] == extra[frame]) continue;
+                const Bend& bend = bends_[frame * count + n];
+                Vector3d& place_w = out_.eased[frame * count + n].position;
+                const double apart = bones.apart(std::clamp(bend.source + slower[frame], 0.0, std::numbers::pi));
+                place_w = bend.start_w + apart * (place_w - bend.start_w).normalized();
+            }
+        }
     }
 
     const Clip& source_clip_;
@@ -271,6 +312,11 @@ private:
     int source_hips_ = -1;
     Vector3d foot_difference_ = Vector3d::Zero();
     double lift_ = 0;
+    struct Bend {
+        Vector3d start_w;  // the target's shoulder or hip
+        double source;     // flexion of the source's elbow or knee
+    };
+    std::vector<Bend> bends_;  // beside out_.goals
     Retargeted out_;
 };
 

@@ -18,6 +18,7 @@ struct Retargeted {
     // Wrists and ankles, of the limbs that both have: their places in the target's world, and where elbow and knee
     // lean. [frame * limbs.size() + limb]
     std::vector<formats::Target> goals;
+    std::vector<formats::Target> eased;  // those that are solved for: near the goals where knees and elbows would pop
     std::vector<formats::LimbName> limbs;
 };
 
@@ -33,6 +34,8 @@ struct Retargeted {
 // Wrists have the source's place from the shoulder, times the ratio of arm lengths. An arm that is bent, its wrist
 // nearer than 0.7 of its length, has it from the middle of the shoulders. So hands that meet still meet. From 0.7 to
 // 0.95 the one fades into the other.
+// Goals are eased in this: no knee or elbow turns faster than the source's by more than 360 degrees a second, or than
+// that one's fastest turn.
 //
 // target: its frames tell its stance alone. Both need hips and a leg: throws std::invalid_argument without. Bones of
 // limbs that both have need a length. Scales of the target's joints rest, too. Memory: the clip's, and the goals'.

@@ -47,7 +47,7 @@ std::vector<Target> unmet(const Retargeted& motion, std::size_t frame, const std
     std::vector<Target> goals;
     const auto pose_w = formats::world_pose(motion.clip, frame);
     for (std::size_t n = 0; n < motion.limbs.size(); ++n) {
-        const Target& goal = motion.goals[frame * motion.limbs.size() + n];
+        const Target& goal = motion.eased[frame * motion.limbs.size() + n];
         const auto limb = std::ranges::find(limbs, goal.limb, &Limb::name);
         if (limb == limbs.end() || (place_w(pose_w, limb->end()) - goal.position).norm() <= kMet * length_of(*limb))
             continue;

@@ -54,7 +54,8 @@ Stance stance_of(const Clip& clip, const RestFigure& figure, bool has_toes)
     const Feet feet{figure, has_toes};
     const auto has_slope = [&](std::size_t side) { return has_toes && figure.limbs[2 + side]; };
     Stance stance;
-    if (std::abs(feet.height(figure.pose_w)) < kNearGround * figure.leg) {
+    const bool is_files_own = !clip.joints.front().unkeyed;  // a frame in mid-step tells nothing of flat feet
+    if (is_files_own && std::abs(feet.height(figure.pose_w)) < kNearGround * figure.leg) {
         stance.height = feet.height(figure.pose_w);
         for (std::size_t side = 0; side < 2; ++side)
             if (has_slope(side)) stance.slope[side] = feet.slope(figure.pose_w, side);

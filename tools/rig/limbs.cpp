@@ -186,11 +186,16 @@ std::vector<int> joints_of(const FigureJoints& figure)
     return joints;
 }
 
-LimbSearch bind_limbs(const Clip& clip, const FigureJoints& joints, const LimbChoice& choice)
+KnownLimbs known_limbs(const FigureJoints& figure)
 {
     KnownLimbs known;
-    std::transform(joints.begin(), joints.end(), known.begin(),
-                   [](const LimbFound& limb) { return limb.joints.joints; });
+    std::ranges::transform(figure, known.begin(), [](const LimbFound& limb) { return limb.joints.joints; });
+    return known;
+}
+
+LimbSearch bind_limbs(const Clip& clip, const FigureJoints& joints, const LimbChoice& choice)
+{
+    const KnownLimbs known = known_limbs(joints);
     LimbSearch search{facing_of(clip, known), body_parts(clip, known), {}};
     for (const LimbFound& limb : joints)
         if (limb.is_chosen) search.findings.push_back(finding_of(clip, choice, search.facing, limb));

@@ -35,6 +35,9 @@ FigureJoints choose_joints(const formats::Clip& clip, const std::filesystem::pat
 // The joints of the limbs that are to be solved, as far as they are known.
 std::vector<int> joints_of(const FigureJoints& figure);
 
+// All that are known, chosen or not.
+KnownLimbs known_limbs(const FigureJoints& figure);
+
 // What became of one limb: bound, or why not.
 struct LimbFinding {
     formats::LimbName name;

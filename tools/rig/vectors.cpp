@@ -14,6 +14,13 @@ Eigen::Vector3d nearest_axis(const Eigen::Vector3d& direction)
     return std::copysign(1.0, direction[axis]) * Eigen::Vector3d::Unit(axis);
 }
 
+std::string axis_name(const Eigen::Vector3d& axis)
+{
+    Eigen::Index at = 0;
+    axis.cwiseAbs().maxCoeff(&at);
+    return fmt::format("{}{}", axis[at] < 0 ? "-" : "", "xyz"[at]);
+}
+
 double quantile(std::vector<double> values, double share)
 {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

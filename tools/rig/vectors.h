@@ -30,6 +30,9 @@ void put(const auto& from, auto& to)
 // The axis of the world that is nearest to a direction, with its sign.
 Eigen::Vector3d nearest_axis(const Eigen::Vector3d& direction);
 
+// "x" to "z", with a minus in front where it points the other way.
+std::string axis_name(const Eigen::Vector3d& axis);
+
 // The value that this share of all is not above. values: one at least. share: 0 to 1.
 double quantile(std::vector<double> values, double share);
 

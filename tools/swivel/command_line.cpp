@@ -170,6 +170,9 @@ void add_retarget(CLI::App& app)
     takes(command->add_option("--export-map", options->export_map,
                               "Write that table as it was found, to edit and to give back by --map"),
           file_name());
+    command->add_flag("--force", options->force,
+                      "Write a motion that is judged to be garbage, too. Without it such a motion is not written, and "
+                      "the command fails");
     add_quiet(*command, options->quiet, "Print errors and nothing else");
     command->callback([options] { run_retarget(*options); });
 }

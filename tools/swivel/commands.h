@@ -9,12 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "tools/rig/standing_rest.h"
+
 namespace swivel::tools {
 
-// Which of a file's animations, and how densely.
+// Which of a file's animations, how densely, and which rest pose.
 struct MotionChoice {
     std::string clip;  // name or index of an animation; empty: the first
     double rate = 0;   // frames a second; 0: as the file has them
+    RestChoice rest{};
 };
 
 struct DemoOptions {
@@ -53,6 +56,7 @@ struct RetargetOptions {
     std::string source, target, out;
     std::string map, export_map;  // tables of pairs
     MotionChoice motion;          // of source
+    bool force = false;           // garbage is written, too
     bool quiet = false;
 };
 void run_retarget(const RetargetOptions& options);

@@ -125,7 +125,7 @@ formats::Clip further_clip(const SolveOptions& options, const formats::FurtherCl
             throw fault(name + ": is a BVH file, which has one motion at its own rate; take clip and --fps out");
         }
     };
-    MotionFile file = reading([&] { return MotionFile(path, {from.animation, options.motion.rate}); });
+    MotionFile file = reading([&] { return MotionFile(path, {from.animation, options.motion.rate, {}}); });
     if (const std::string difference = difference_of(first, file.clip()); !difference.empty())
         throw fault(fmt::format("{}: {}; put it on this skeleton by swivel retarget", name, difference));
     reading([&] { file.sample(joints); });
@@ -261,6 +261,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     const formats::Clip& clip = file.clip();
     const FigureJoints joints = choose_joints(clip, options.file, choice);
     file.sample(joints_of(joints));
+    file.stand(known_limbs(joints));
     LimbSearch search = bind_limbs(clip, joints, choice);
     job.limbs = require_limbs(search, options.file);
     const Eigen::Vector3d up_w = nearest_axis(search.facing.up_w), &forwards_w = search.facing.forwards_w;

@@ -86,6 +86,7 @@ void bind_legs(const FeetOptions& options, MotionFile& file, FeetRun& run)
     const LimbChoice choice = choice_of(legs);
     const FigureJoints figure = choose_joints(file.clip(), run.file, choice);
     file.sample(joints_of(figure));
+    file.stand(known_limbs(figure));
     const formats::Clip& clip = file.clip();
     if (clip.frame_time == 0 && clip.frame_count > 1)
         throw InputError(run.file, "its keys lie at uneven times, and feet are judged by even frames; give --fps");

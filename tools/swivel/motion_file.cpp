@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "tools/cli/command_error.h"
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
@@ -63,13 +66,24 @@ const char* format_of(const Motion& motion) { return std::holds_alternative<BvhF
 }  // namespace
 
 MotionFile::MotionFile(const std::filesystem::path& path, const MotionChoice& choice)
-    : file_(read(path, choice)), format_(format_of(file_))
+    : file_(read(path, choice)), format_(format_of(file_)), path_(path), rest_(choice.rest)
 {
 }
 
 void MotionFile::sample(std::span<const int> limb_joints)
 {
     if (GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::sample(*gltf, limb_joints);
+}
+
+void MotionFile::stand(const KnownLimbs& limbs, bool is_replaced)
+{
+    formats::Clip& clip = std::visit([](auto& file) -> formats::Clip& { return file.clip; }, file_);
+    try {
+        if (!is_replaced) rest_notes_[0] = size_at_rest(clip, limbs);
+        rest_notes_[1] = stand_at_rest(clip, limbs, rest_);
+    } catch (const CannotBind& fault) {
+        throw formats::InputError(path_, fmt::format("{}; {}", fault.what(), fault.advice));
+    }
 }
 
 void MotionFile::cut(std::size_t frame_count)
@@ -112,12 +126,16 @@ std::string MotionFile::describe() const
 
 std::vector<std::string> MotionFile::notes() const
 {
+    std::vector<std::string> notes;
+    std::ranges::copy_if(rest_notes_, std::back_inserter(notes), [](const auto& note) { return !note.empty(); });
     const BvhFile* bvh = std::get_if<BvhFile>(&file_);
-    if (!bvh || bvh->surplus_count == 0) return {};
+    if (!bvh || bvh->surplus_count == 0) return notes;
     const std::size_t count = bvh->frame_begin.size();
-    return {fmt::format("the file has {} rows of values, and Frames: in line {} says {}; the last {} {} left out",
-                        count + bvh->surplus_count, bvh->frames_line, count, bvh->surplus_count,
-                        bvh->surplus_count == 1 ? "is" : "are")};
+    notes.push_back(
+        fmt::format("the file has {} rows of values, and Frames: in line {} says {}; the last {} {} left out",
+                    count + bvh->surplus_count, bvh->frames_line, count, bvh->surplus_count,
+                    bvh->surplus_count == 1 ? "is" : "are"));
+    return notes;
 }
 
 void MotionFile::require_can_write(const std::filesystem::path& out, std::string_view what,

@@ -3,6 +3,7 @@
 // A file with a skeleton and its motion, whatever its format: the one place of the command that tells formats apart.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 
 #include "tools/formats/bvh.h"
 #include "tools/formats/gltf.h"
+#include "tools/rig/standing_rest.h"
 #include "tools/swivel/commands.h"
 
 namespace swivel::tools {
@@ -27,6 +29,10 @@ public:
     // Makes the clip's frames, for limbs of these joints; throws InputError as formats::sample() does. A BVH file has
     // its frames already.
     void sample(std::span<const int> limb_joints);
+
+    // Sees to a rest pose that stands, by stand_at_rest() and the choice that this was made with. It gets the clip's
+    // size, by size_at_rest(), unless its motion is to be replaced. Throws InputError.
+    void stand(const KnownLimbs& limbs, bool is_replaced = false);
 
     // Keeps the first frames alone, for a motion that will not be written. frame_count: at most the clip's.
     void cut(std::size_t frame_count);
@@ -58,6 +64,9 @@ public:
 private:
     std::variant<formats::BvhFile, formats::GltfFile> file_;
     std::string format_;  // of the file that was read: "BVH" or "glTF"
+    std::filesystem::path path_;
+    RestChoice rest_;
+    std::array<std::string, 2> rest_notes_;  // empty: there is nothing to say
 };
 
 // Whether a file that is written under this suffix, in lower case, holds one character's motion, and of which format.

@@ -14,6 +14,8 @@
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/retarget/retarget_limbs.h"
+#include "tools/retarget/verdict.h"
+#include "tools/rig/clip_doubts.h"
 #include "tools/rig/limb_words.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
@@ -63,6 +65,16 @@ void require_bones(const std::string& file, const Clip& clip, const LimbJoints& 
                             printable_name(joint_at(clip, joints[n])), printable_name(joint_at(clip, joints[n + 1]))));
 }
 
+// A limb that is not below the hips would stay where it is while they walk off.
+void require_below(const std::string& file, const Clip& clip, int hips, int joint)
+{
+    if (is_above(clip, hips, joint)) return;
+    throw formats::InputError(
+        file, fmt::format("'{}' does not hang below the hips, '{}', and would stay behind; give other joints by --map "
+                          "FILE, or leave its limb out there",
+                          printable_name(joint_at(clip, joint)), printable_name(joint_at(clip, hips))));
+}
+
 // Both bodies need hips and a leg that the other has, too. Limbs that both have need bones.
 void require_bodies(const RetargetOptions& options, const JointPairs& pairs, const Clip& source_clip,
                     const Clip& target_clip)
@@ -82,35 +94,35 @@ void require_bodies(const RetargetOptions& options, const JointPairs& pairs, con
         if (!from[n] || !to[n]) continue;
         require_bones(options.source, source_clip, *from[n]);
         require_bones(options.target, target_clip, *to[n]);
+        require_below(options.target, target_clip, joints_of(target, "hips").front(), (*to[n])[0]);
     }
 }
 
-// The joints that ever leave their rest, with the hips' way.
+// The joints that ever leave what the file has them at, with the hips' way.
 class MovedJoints {
 public:
-    MovedJoints(const Retargeted& motion, const JointPairs& pairs)
+    explicit MovedJoints(const Retargeted& motion)
     {
         const Clip& clip = motion.clip;
-        for (const PairedPart& part : pairs)
-            for (const int joint : part.is_paired() ? part.target : std::vector<int>()) {
-                const formats::Joint& at = joint_at(clip, joint);
-                std::vector<Eigen::Quaterniond>& rotations = rotations_.emplace_back();
-                for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
-                    rotations.push_back(clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(joint)]);
-                const bool is_at_rest = std::ranges::all_of(
-                    rotations, [&](const auto& turn) { return turn.angularDistance(at.rest_rotation) < 1e-9; });
-                if (is_at_rest) rotations.clear();
-                if (joint == motion.hips || !is_at_rest) joints_.push_back({joint, rotations_.size() - 1});
-            }
-        for (const auto& [joint, at] : joints_)
-            keys_.push_back({joint, rotations_[at],
+        for (std::size_t joint = 0; joint < clip.joints.size(); ++joint) {
+            const formats::UnkeyedPose rest = pose_without_keys(clip.joints[joint]);
+            std::vector<Eigen::Quaterniond> rotations;
+            for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+                rotations.push_back(clip.rotation[frame * clip.joints.size() + joint]);
+            const bool rests = std::ranges::all_of(
+                rotations, [&](const auto& turn) { return turn.angularDistance(rest.rotation) < 1e-9; });
+            if (rests) rotations.clear();
+            if (!rests || static_cast<int>(joint) == motion.hips)
+                tracks_.push_back({static_cast<int>(joint), std::move(rotations)});
+        }
+        for (const auto& [joint, rotations] : tracks_)
+            keys_.push_back({joint, rotations,
                              joint == motion.hips ? std::span(clip.translation) : std::span<const Eigen::Vector3d>()});
     }
     std::span<const formats::JointKeys> keys() const { return keys_; }
 
 private:
-    std::vector<std::vector<Eigen::Quaterniond>> rotations_;
-    std::vector<std::pair<int, std::size_t>> joints_;
+    std::vector<std::pair<int, std::vector<Eigen::Quaterniond>>> tracks_;
     std::vector<formats::JointKeys> keys_;
 };
 
@@ -137,6 +149,28 @@ void print_motion(std::FILE* to, const Retargeted& motion, const std::vector<Goa
     }
 }
 
+void print_clips(std::FILE* to, const RetargetOptions& options, const MotionFile& source, const MotionFile& target)
+{
+    say(to, "source    {}: {}, {} frames\n", shown_file(options.source), source.describe(), source.clip().frame_count);
+    for (const std::string& note : source.notes()) say(to, "note      {}\n", note);
+    say(to, "target    {}: {}\n", shown_file(options.target), target.describe());
+    for (const std::string& note : target.notes()) say(to, "note      {}\n", note);
+}
+
+void print_verdict(std::FILE* to, const Verdict& verdict)
+{
+    for (const std::string& doubt : verdict.doubts) say(to, "look      {}\n", doubt);
+    for (const std::string& fault : verdict.faults) say(to, "garbage   {}\n", fault);
+    if (verdict.is_good()) say(to, "good      no bone, goal or knee stands out\n");
+}
+
+void print_written(std::FILE* to, std::initializer_list<std::string> outputs)
+{
+    for (const std::string& name : outputs)
+        if (!name.empty())
+            say(to, "written   {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
+}
+
 }  // namespace
 
 void run_retarget(const RetargetOptions& options)
@@ -160,24 +194,34 @@ void run_retarget(const RetargetOptions& options)
         options.map.empty() ? pair_joints(source, target) : read_joint_map(options.map, source, target);
     if (!options.export_map.empty()) write_joint_map(options.export_map, pairs, source, target);
     if (source.frame_time == 0) throw formats::InputError(options.source, "its keys lie at uneven times; give --fps");
+    source_file.stand(limbs_of(parts_of(pairs, BodySide::source)));
+    target_file.stand(limbs_of(parts_of(pairs, BodySide::target)), true);
     require_bodies(options, pairs, source, target);
     Retargeted motion = retarget(source, target, pairs);
     const std::vector<GoalMiss> misses =
         solve_limbs(motion, parts_of(pairs, BodySide::target), options.map.empty() ? options.target : options.map);
-    if (!options.out.empty())
-        target_file.write(options.out, MovedJoints(motion, pairs).keys(),
+    Verdict verdict = verdict_of(source, motion, pairs);
+    for (const std::string& doubt : doubts_of(source, parts_of(pairs, BodySide::source)))
+        verdict.doubts.push_back("SOURCE: " + doubt);
+    const bool is_written = !options.out.empty() && (verdict.faults.empty() || options.force);
+    if (is_written)
+        target_file.write(options.out, MovedJoints(motion).keys(),
                           formats::NewFrames{source.frame_count, source.frame_time,
                                              std::filesystem::path(title_of(options.source)).stem().string()});
-    if (options.quiet) return;
-    std::FILE* const to = report_stream(outputs);
-    say(to, "source    {}: {}, {} frames\n", shown_file(options.source), source_file.describe(), source.frame_count);
-    for (const std::string& note : source_file.notes()) say(to, "note      {}\n", note);
-    say(to, "target    {}: {}\n", shown_file(options.target), target_file.describe());
-    print_pairs(to, source, target, pairs);
-    print_motion(to, motion, misses);
-    for (const std::string& name : outputs)
-        if (!name.empty())
-            say(to, "written   {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
+    if (!options.quiet) {
+        std::FILE* const to = report_stream(outputs);
+        print_clips(to, options, source_file, target_file);
+        print_pairs(to, source, target, pairs);
+        print_motion(to, motion, misses);
+        print_verdict(to, verdict);
+        print_written(to, {options.export_map, is_written ? options.out : ""});
+    }
+    if (!verdict.faults.empty() && !options.force)
+        throw CommandError(
+            1, fmt::format(
+                   "{}: {}{}; nothing is written; see swivel rig of both, or give --force",
+                   options.out.empty() ? options.target : options.out, verdict.faults.front(),
+                   verdict.faults.size() == 1 ? "" : fmt::format(", and {} faults more", verdict.faults.size() - 1)));
 }
 
 }  // namespace swivel::tools

@@ -26,6 +26,7 @@ void run_rig(const RigOptions& options)
     MotionFile motion(file, options.clip.motion);
     const FigureJoints joints = choose_joints(motion.clip(), file, choice);
     motion.sample(joints_of(joints));
+    motion.stand(known_limbs(joints));
     const LimbSearch search = bind_limbs(motion.clip(), joints, choice);
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)

@@ -3,6 +3,16 @@
 
 namespace swivel::tools {
 
+namespace {
+
+// "x" to "z", with or without a minus in front.
+Eigen::Vector3d axis_of(const std::string& name)
+{
+    return (name[0] == '-' ? -1 : 1) * Eigen::Vector3d::Unit(name.back() - 'x');
+}
+
+}  // namespace
+
 CLI::Option* add_threads(CLI::App& command, unsigned& threads, const char* meaning)
 {
     return takes(command.add_option("--threads", threads, meaning)->capture_default_str(), whole_number(0, 1024));
@@ -41,6 +51,15 @@ void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
                              "Even frames a second of a glTF animation, 0.001 to 10000. Without it the limbs' own keys "
                              "(docs/motion_files.md)"),
           number(0.001, 10'000));
+    takes(command.add_option("--rest", motion.rest.frame,
+                             "The frame that is taken as FILE's rest pose, counted from 0. Without it the file's own, "
+                             "or the most upright frame where that cannot stand"),
+          whole_number(0, UINT32_MAX));
+    const std::vector<std::string> axes{"x", "y", "z", "-x", "-y", "-z"};
+    takes(command.add_option_function<std::string>(
+              "--up", [&motion](const std::string& axis) { motion.rest.up_w = axis_of(axis); },
+              "The axis that is up in FILE. Its rest pose is then a frame that stands along it"),
+          one_of(axes));
 }
 
 CLI::Option* add_named_legs(CLI::App& command, std::vector<std::string>& legs, const std::string& meaning)

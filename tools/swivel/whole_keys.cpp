@@ -18,15 +18,16 @@ using formats::Clip;
 
 bool turns(const Clip& clip, std::size_t joint)
 {
+    const Quaterniond rest = pose_without_keys(clip.joints[joint]).rotation;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
-        if (clip.rotation[frame * clip.joints.size() + joint].coeffs() != clip.joints[joint].rest_rotation.coeffs())
-            return true;
+        if (clip.rotation[frame * clip.joints.size() + joint].coeffs() != rest.coeffs()) return true;
     return false;
 }
 bool moves(const Clip& clip, std::size_t joint)
 {
+    const Vector3d rest = pose_without_keys(clip.joints[joint]).offset;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
-        if (formats::local_translation(clip, frame, joint) != clip.joints[joint].offset) return true;
+        if (formats::local_translation(clip, frame, joint) != rest) return true;
     return false;
 }
 bool scales(const Clip& clip)
@@ -35,7 +36,7 @@ bool scales(const Clip& clip)
         for (std::size_t n = 0; n < clip.joints.size(); ++n)
             if (const int track = clip.joints[n].scale_track; track >= 0) {
                 const Vector3d& scale = clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(track)];
-                if (!scale.isApprox(clip.joints[n].rest_scale, 1e-5)) return true;
+                if (!scale.isApprox(pose_without_keys(clip.joints[n]).scale, 1e-5)) return true;
             }
     return false;
 }

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include "tools/rig/clip_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tools/rig/facing.h"
+#include "tools/rig/vectors.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using formats::Clip;
+
+constexpr double kOtherLength = 1.1;              // a bone beside the other side's, or beside its own at rest
+constexpr double kMostly = 0.25;                  // of the frames
+constexpr double kBent_deg = 20;                  // a knee or an elbow that shows which way it bends
+constexpr double kBackwards = 0.3;                // the sine of 17 degrees, against the front
+constexpr double kBehind = 0.75;                  // the sine of 49 degrees, the same of an upper arm
+constexpr double kPop_deg = 10;                   // out of the middle of the frames beside it,
+constexpr double kPopRatio = 4;                   // and this much further than in the frames around
+constexpr double kSunk = 0.03, kElsewhere = 0.5;  // leg lengths below height 0; a body that is about another height
+
+const char* bone_name(std::size_t limb, std::size_t bone)
+{
+    if (formats::kLimbNames[limb].kind == formats::LimbKind::arm) return bone == 0 ? "upper arm" : "forearm";
+    return bone == 0 ? "thigh" : "shin";
+}
+
+// In which frames something is so.
+struct Frames {
+    std::size_t count = 0, first = 0;
+
+    void add(std::size_t frame)
+    {
+        if (count++ == 0) first = frame;
+    }
+    std::string words(std::size_t all) const
+    {
+        return fmt::format("in {} of {} frames, from frame {}", count, all, first);
+    }
+};
+
+// What is asked of a pose: where the joints of limbs, toes and hips are.
+struct BodyMoment {
+    std::vector<Vector3d> place_w;
+};
+
+class ClipJudge {
+public:
+    ClipJudge(const Clip& clip, const std::vector<BodyPart>& parts)
+        : clip_(clip), parts_(parts), limbs_(limbs_of(parts)), up_w_(nearest_axis(facing_of(clip, limbs_).up_w))
+    {
+        for (std::size_t side = 0; side < 2; ++side)
+            if (const std::vector<int> toes = joints_of(parts, side == 0 ? "leftToes" : "rightToes"); !toes.empty())
+                toes_[side] = toes.front();
+        if (const std::vector<int> hips = joints_of(parts, "hips"); !hips.empty()) hips_ = hips.front();
+        slots_.resize(clip.joints.size());
+        for (const auto& limb : limbs_)
+            for (std::size_t n = 0; limb && n < 3; ++n) see((*limb)[n]);
+        for (const int joint : {toes_[0], toes_[1], hips_}) see(joint);
+        rest_w_ = moment_of(formats::rest_pose(clip));
+        for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+            poses_w_.push_back(moment_of(formats::world_pose(clip, frame)));
+    }
+
+    std::vector<std::string> judge()
+    {
+        judge_sides();
+        judge_lengths();
+        judge_exchange();
+        judge_bends();
+        judge_shoulders();
+        judge_elbows();
+        judge_pops();
+        judge_height();
+        judge_up();
+        return std::move(doubts_);
+    }
+
+private:
+    template <class... Words>
+    void doubt(fmt::format_string<Words...> text, Words&&... words)
+    {
+        doubts_.push_back(fmt::format(text, std::forward<Words>(words)...));
+    }
+    void see(int joint)
+    {
+        if (joint < 0) return;
+        slots_[static_cast<std::size_t>(joint)] = seen_.size();
+        seen_.push_back(static_cast<std::size_t>(joint));
+    }
+    BodyMoment moment_of(const std::vector<formats::JointPose>& pose_w) const
+    {
+        BodyMoment moment;
+        for (const std::size_t joint : seen_) moment.place_w.push_back(pose_w[joint].position);
+        return moment;
+    }
+    std::size_t count() const { return clip_.frame_count; }
+    bool has(std::size_t pair) const { return limbs_[pair] && limbs_[pair + 1]; }
+    bool has_toes(std::size_t side) const { return limbs_[2 + side] && toes_[side] >= 0; }
+    const Vector3d& place(const BodyMoment& pose_w, int joint) const
+    {
+        return pose_w.place_w[slots_[static_cast<std::size_t>(joint)]];
+    }
+    Vector3d bone_w(const BodyMoment& pose_w, std::size_t limb, std::size_t bone) const
+    {
+        return place(pose_w, (*limbs_[limb])[bone + 1]) - place(pose_w, (*limbs_[limb])[bone]);
+    }
+    Vector3d to_left_w(const BodyMoment& pose_w, std::size_t pair) const
+    {
+        return place(pose_w, (*limbs_[pair])[0]) - place(pose_w, (*limbs_[pair + 1])[0]);
+    }
+    Vector3d toe_way_w(const BodyMoment& pose_w, std::size_t side) const
+    {
+        return place(pose_w, toes_[side]) - place(pose_w, (*limbs_[2 + side])[2]);
+    }
+    Vector3d level(const Vector3d& way_w) const { return way_w - way_w.dot(up_w_) * up_w_; }
+    double leg_length() const
+    {
+        const std::size_t leg = limbs_[2] ? 2 : 3;
+        return bone_w(rest_w_, leg, 0).norm() + bone_w(rest_w_, leg, 1).norm();
+    }
+
+    void judge_sides()
+    {
+        for (const std::size_t pair : {0u, 2u})
+            for (std::size_t bone = 0; has(pair) && bone < 2; ++bone) {
+                const double ratio = bone_w(rest_w_, pair, bone).norm() / bone_w(rest_w_, pair + 1, bone).norm();
+                if (std::max(ratio, 1 / ratio) > kOtherLength)
+                    doubt("the left {} is {:.2f} times as long as the right one", bone_name(pair, bone), ratio);
+            }
+    }
+    void judge_lengths()
+    {
+        for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
+            for (std::size_t bone = 0; limbs_[limb] && bone < 2; ++bone) {
+                Frames frames;
+                for (std::size_t frame = 0; frame < count(); ++frame) {
+                    const double ratio =
+                        bone_w(poses_w_[frame], limb, bone).norm() / bone_w(rest_w_, limb, bone).norm();
+                    if (std::max(ratio, 1 / ratio) > kOtherLength) frames.add(frame);
+                }
+                if (frames.count > 0)
+                    doubt("the {} {} is not as long as at rest {}", side_name(formats::kLimbNames[limb].side),
+                          bone_name(limb, bone), frames.words(count()));
+            }
+    }
+    // Where hips or shoulders face.
+    Vector3d front_w(const BodyMoment& pose_w, std::size_t pair) const { return to_left_w(pose_w, pair).cross(up_w_); }
+    bool is_mostly(std::size_t some, std::size_t all) const
+    {
+        return some > 0 && static_cast<double>(some) > kMostly * static_cast<double>(all);
+    }
+
+    void judge_exchange()
+    {
+        if (!has(2)) return;
+        std::array<Frames, 2> feet;
+        Frames arms;
+        for (std::size_t frame = 0; frame < count(); ++frame) {
+            const BodyMoment& pose_w = poses_w_[frame];
+            for (std::size_t side = 0; side < 2; ++side)
+                if (has_toes(side) && level(toe_way_w(pose_w, side)).dot(front_w(pose_w, 2)) < 0) feet[side].add(frame);
+            if (has(0) && to_left_w(pose_w, 0).dot(to_left_w(pose_w, 2)) < 0) arms.add(frame);
+        }
+        const auto half = [&](const Frames& frames) { return 2 * frames.count > count(); };
+        const bool is_left = half(feet[0]), is_right = half(feet[1]);
+        if (is_left && is_right)
+            doubt("the left leg is on the right of where the toes point {}", feet[0].words(count()));
+        else if (is_left || is_right)
+            doubt("the {} foot points backwards {}", is_left ? "left" : "right", feet[is_left ? 0 : 1].words(count()));
+        if (half(arms)) doubt("the left arm is on the side of the right leg {}", arms.words(count()));
+    }
+    // Which way a limb bends, its lower bone's part across the upper one; zero where it is too straight to tell.
+    Vector3d bend_w(const BodyMoment& pose_w, std::size_t limb) const
+    {
+        const Vector3d upper_w = bone_w(pose_w, limb, 0).normalized(), lower_w = bone_w(pose_w, limb, 1).normalized();
+        if (degrees_between(upper_w, lower_w) < kBent_deg) return Vector3d::Zero();
+        return (lower_w - lower_w.dot(upper_w) * upper_w).normalized();
+    }
+    void judge_bends()
+    {
+        for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
+            const bool is_arm = limb < 2;
+            const std::size_t pair = is_arm ? 0 : 2;
+            if (!has(pair)) continue;
+            Frames wrong;
+            for (std::size_t frame = 0; frame < count(); ++frame) {
+                const Vector3d bends_w = bend_w(poses_w_[frame], limb);
+                const double ahead = bends_w.dot(front_w(poses_w_[frame], pair).normalized());
+                if ((is_arm ? ahead : -ahead) < -kBackwards) wrong.add(frame);
+            }
+            if (is_mostly(wrong.count, count()))
+                doubt("the {} {} bends {} {}", side_name(formats::kLimbNames[limb].side), is_arm ? "elbow" : "knee",
+                      is_arm ? "backwards" : "forwards", wrong.words(count()));
+        }
+    }
+    void judge_shoulders()
+    {
+        for (std::size_t arm = 0; has(0) && arm < 2; ++arm) {
+            Frames behind;
+            for (std::size_t frame = 0; frame < count(); ++frame)
+                if (bone_w(poses_w_[frame], arm, 0).normalized().dot(front_w(poses_w_[frame], 0).normalized()) <
+                    -kBehind)
+                    behind.add(frame);
+            if (is_mostly(behind.count, count()))
+                doubt("the {} upper arm points backwards {}", arm == 0 ? "left" : "right", behind.words(count()));
+        }
+    }
+    void judge_elbows()
+    {
+        if (!has(0) || hips_ < 0) return;
+        for (std::size_t arm = 0; arm < 2; ++arm) {
+            Frames inside;
+            for (std::size_t frame = 0; frame < count(); ++frame) {
+                const BodyMoment& pose_w = poses_w_[frame];
+                const Vector3d base_w = place(pose_w, hips_);
+                const Vector3d neck_w = (place(pose_w, (*limbs_[0])[0]) + place(pose_w, (*limbs_[1])[0])) / 2;
+                const Vector3d back_w = neck_w - base_w, way_w = place(pose_w, (*limbs_[arm])[1]) - base_w;
+                const double share = way_w.dot(back_w) / back_w.squaredNorm();
+                const double width = to_left_w(pose_w, 0).norm() / 2;
+                if (share > 0 && share < 1 && (way_w - share * back_w).norm() < 0.5 * width) inside.add(frame);
+            }
+            if (is_mostly(inside.count, count()))
+                doubt("the {} elbow is inside the trunk {}", arm == 0 ? "left" : "right", inside.words(count()));
+        }
+    }
+    // How far a joint's own rotation in a frame is out of the middle of those before and after, in degrees.
+    double out_of_middle_deg(std::size_t joint, std::size_t frame) const
+    {
+        if (frame == 0 || frame + 1 >= count()) return 0;
+        const auto rotation = [&](std::size_t at) { return clip_.rotation[at * clip_.joints.size() + joint]; };
+        const Quaterniond middle = rotation(frame - 1).slerp(0.5, rotation(frame + 1));
+        return middle.angularDistance(rotation(frame)) * (180 / std::numbers::pi);
+    }
+    void judge_pops()
+    {
+        double most = 0;
+        std::size_t worst_frame = 0;
+        int worst = -1;
+        for (const BodyPart& part : parts_)
+            for (const int joint : part.joints)
+                for (std::size_t frame = 1; frame + 1 < count(); ++frame) {
+                    const auto at = static_cast<std::size_t>(joint);
+                    const double out = out_of_middle_deg(at, frame);
+                    if (out < kPop_deg || out <= most) continue;
+                    const double before = frame >= 2 ? out_of_middle_deg(at, frame - 2) : 0;
+                    if (out < kPopRatio * std::max(before, out_of_middle_deg(at, frame + 2))) continue;
+                    most = out;
+                    worst = joint;
+                    worst_frame = frame;
+                }
+        if (worst >= 0)
+            doubt("'{}' turns there and back, by {:.0f} degrees in frame {}", printable_name(joint_at(clip_, worst)),
+                  most, worst_frame);
+    }
+    void judge_height()
+    {
+        if (!limbs_[2] && !limbs_[3]) return;
+        std::vector<double> heights;
+        for (const BodyMoment& pose_w : poses_w_) {
+            double lowest = HUGE_VAL;
+            for (std::size_t side = 0; side < 2; ++side)
+                if (limbs_[2 + side])
+                    lowest = std::min(lowest,
+                                      place(pose_w, has_toes(side) ? toes_[side] : (*limbs_[2 + side])[2]).dot(up_w_));
+            heights.push_back(lowest);
+        }
+        if (heights.empty()) return;
+        const double ground = quantile(heights, 0.05) / leg_length();
+        if (ground < -kSunk && ground > -kElsewhere)
+            doubt("its feet stand at a height of {:.2f} leg lengths, below 0", ground);
+    }
+    void judge_up()
+    {
+        if (!has(0) || !has(2)) return;
+        Vector3d sum_w = Vector3d::Zero();
+        for (const BodyMoment& pose_w : poses_w_) {
+            Vector3d height_w = Vector3d::Zero();
+            for (std::size_t side = 0; side < 2; ++side)
+                height_w += place(pose_w, (*limbs_[side])[0]) - place(pose_w, (*limbs_[2 + side])[2]);
+            sum_w += height_w.normalized();
+        }
+        const Vector3d mean_w = sum_w / static_cast<double>(count());
+        const Vector3d axis_w = nearest_axis(mean_w);
+        if (axis_w != up_w_ && mean_w.dot(axis_w) > 0.8)
+            doubt(
+                "heads are above feet along {} in its frames and along {} in its rest pose; give --up {} if that is up",
+                axis_name(axis_w), axis_name(up_w_), axis_name(axis_w));
+    }
+
+    const Clip& clip_;
+    const std::vector<BodyPart>& parts_;
+    const KnownLimbs limbs_;
+    std::array<int, 2> toes_{-1, -1};
+    const Vector3d up_w_;
+    int hips_ = -1;
+    std::vector<std::size_t> seen_, slots_;  // joints, and where each is among them
+    BodyMoment rest_w_;
+    std::vector<BodyMoment> poses_w_;
+    std::vector<std::string> doubts_;
+};
+
+}  // namespace
+
+std::vector<std::string> doubts_of(const Clip& clip, const std::vector<BodyPart>& parts)
+{
+    if (clip.frame_count == 0) return {};
+    return ClipJudge(clip, parts).judge();
+}
+
+}  // namespace swivel::tools
