@@ -51,8 +51,9 @@ void view_cache(const SolveOptions& options, const std::string& about_clip);
 
 struct RetargetOptions {
     std::string source, target, out;
-    std::string map, export_map;  // tables of pairs
-    MotionChoice motion;          // of source
+    std::string map, export_map;                 // tables of pairs
+    std::vector<std::string> arms, legs, heads;  // "source:left:SHOULDER,ELBOW,WRIST", "target:HEAD"
+    MotionChoice motion;                         // of source
     bool quiet = false;
 };
 void run_retarget(const RetargetOptions& options);
