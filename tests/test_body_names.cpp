@@ -32,10 +32,10 @@ struct Convention {
     std::string left, right;
 };
 
-// From the tools' own manuals and files: NVIDIA's SOMA BVH files; iPi Soft's BVH export; Reallusion's manual of
-// Character Creator (AccuRig has the same); Auto-Rig Pro's manual; Advanced Skeleton's; the skeleton of Second Life at
-// avastar.online; wiki.facepunch.com/gmod/ValveBiped_Bones; Blender's Rigify; XNALara's models; SMPL's and AMASS's
-// lists of joints; Kinect for Windows' JointType.
+// As public pages and files have them: avastar.online/knowledge/the-sl-skeleton;
+// wiki.facepunch.com/gmod/ValveBiped_Bones; docs.blender.org on Rigify, where the last joint of a spine is the head;
+// the lists of joints of SOMA, SMPL, AMASS and Kinect (JointType); BVH files of iPi; figures of the others. AccuRig
+// names joints as Character Creator does.
 const std::vector<Convention> kConventions = {
     {"SOMA",
      {"Hips", "Spine1", "Spine2", "Chest"},

@@ -53,9 +53,6 @@ struct LimbSearch {
     std::vector<LimbFinding> findings;  // of the limbs that were chosen, arms first
 };
 
-// The same joints, without where they come from.
-KnownLimbs known_limbs(const FigureJoints& figure);
-
 // The parts of the figure's body, with the head that the user names, if any. Throws InputError as choose_joints() does,
 // and for a head that is another part.
 std::vector<BodyPart> body_of(const formats::Clip& clip, const std::filesystem::path& file, const FigureJoints& figure,
