@@ -308,6 +308,16 @@ TEST_CASE("body names: fingers pair, whoever names them")
         }
 }
 
+TEST_CASE("body names: a hand's only finger stands for all, and pairs with its own name alone")
+{
+    Clip cmu;
+    add_chain(cmu, -1, {"LeftHand", "LeftHandIndex1"});
+    const Clip unreal = hands(kFingers[0]), mixamo = hands(kFingers[2]);
+    CHECK(tools::pair_joints({cmu, {}}, {unreal, {}}).empty());
+    CHECK(tools::pair_joints({unreal, {}}, {cmu, {}}).empty());
+    CHECK(tools::pair_joints({cmu, {}}, {mixamo, {}}).size() == 1);
+}
+
 TEST_CASE("body names: no finger is what only sounds like one")
 {
     CHECK(tools::finger_bone(tools::plain("LeftHandIndex1")) == "left index 1");

@@ -42,24 +42,38 @@ std::set<int> joints_in(const JointPairs& pairs, BodySide side, bool paired_alon
     return joints;
 }
 
+using NamedBones = std::map<std::string, int>;
+
 // The bones of a clip by their names. Each is one bone's alone; the empty one is none's.
-std::map<std::string, int> bones_by(const Clip& clip, std::string (*name_of)(std::string_view))
+NamedBones bones_by(const Clip& clip, std::string (*name_of)(std::string_view))
 {
     std::map<std::string, std::vector<int>> bearers;
     for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
         if (joint_at(clip, joint).is_bone) bearers[name_of(joint_at(clip, joint).name)].push_back(joint);
-    std::map<std::string, int> bones;
+    NamedBones bones;
     for (const auto& [name, joints] : bearers)
         if (!name.empty() && joints.size() == 1) bones[name] = joints.front();
     return bones;
 }
 
+std::string finger_of(std::string_view joint_name) { return finger_bone(plain(joint_name)); }
+
+// The bones of fingers. A hand's only finger is none of them: it stands for all five, as CMU's LeftHandIndex1 does.
+NamedBones finger_bones(const Clip& clip)
+{
+    NamedBones bones = bones_by(clip, finger_of);
+    std::map<std::string, std::set<std::string>> fingers;  // of each side
+    const auto side_of_bone = [](const std::string& name) { return name.substr(0, name.find(' ')); };
+    for (const auto& [name, joint] : bones) fingers[side_of_bone(name)].insert(name.substr(0, name.rfind(' ')));
+    std::erase_if(bones, [&](const auto& each) { return fingers[side_of_bone(each.first)].size() < 2; });
+    return bones;
+}
+
 // Pairs the bones of equal names that are no part, and in no pair yet.
-void pair_by_name(const Clip& source, const Clip& target, std::string (*name_of)(std::string_view), JointPairs& pairs)
+void pair_by_name(const NamedBones& sources, const NamedBones& targets, JointPairs& pairs)
 {
     const std::set<int> of_source = joints_in(pairs, BodySide::source, false);
     const std::set<int> of_target = joints_in(pairs, BodySide::target, false);
-    const std::map<std::string, int> sources = bones_by(source, name_of), targets = bones_by(target, name_of);
     JointPairs found;
     for (const auto& [name, to] : targets)
         if (const auto from = sources.find(name);
@@ -68,8 +82,6 @@ void pair_by_name(const Clip& source, const Clip& target, std::string (*name_of)
     std::ranges::sort(found, {}, &PairedPart::target);  // in the target's order
     pairs.insert(pairs.end(), found.begin(), found.end());
 }
-
-std::string finger_of(std::string_view joint_name) { return finger_bone(plain(joint_name)); }
 
 // The joint of a cell: none for an empty one.
 std::vector<int> joint_of(const std::filesystem::path& path, std::size_t line, const Clip& clip, std::string_view cell,
@@ -103,8 +115,8 @@ JointPairs pair_joints(const PartedBody& source, const PartedBody& target)
     JointPairs pairs;
     for (const BodyPart& part : source.parts) pairs.push_back({part.name, part.joints, {}});
     for (const BodyPart& part : target.parts) part_called(pairs, part.name).target = part.joints;
-    pair_by_name(source.clip, target.clip, plain, pairs);
-    pair_by_name(source.clip, target.clip, finger_of, pairs);
+    pair_by_name(bones_by(source.clip, plain), bones_by(target.clip, plain), pairs);
+    pair_by_name(finger_bones(source.clip), finger_bones(target.clip), pairs);
     return pairs;
 }
 

@@ -28,7 +28,8 @@ struct PartedBody {
 };
 
 // The parts of both, and then joints that are no part of either but are called the same, or are the same bone of a
-// finger. Names are compared as plain() has them; bones alone count, and names that one joint alone bears on each side.
+// finger, on hands of two fingers or more. Names are compared as plain() has them; bones alone count, and names that
+// one joint alone bears on each side.
 JointPairs pair_joints(const PartedBody& source, const PartedBody& target);
 
 // The same from a table with columns part, source and target. Rows of one part list its joints from the hips outwards;
