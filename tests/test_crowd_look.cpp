@@ -143,6 +143,22 @@ TEST_CASE("heads look in a clip that goes on and on, on ground, and where no arm
     CHECK(whole.lines.size() == stage.clip.lines.size());
 }
 
+TEST_CASE("a head that its name does not tell is named, and is then as any")
+{
+    const CrowdStage stage{100, 2};
+    const Vector3d target = aside(stage.clip, 60);
+    const PlainMotion known = stage.motion(look_at(target), kFew);
+    spill(stage.folder / "clip.bvh", edited(slurp(stage.folder / "clip.bvh"), "JOINT Head", "JOINT Kopf"));
+    CHECK_THAT(run_command(stage.folder.path, {"rig", "clip.bvh"}).out, Contains("head: missing: no joint above"));
+    stage.require_refused(look_at(target),
+                          "c.toml:1: look: no head of the clip is known that can turn; name one by "
+                          "look.head, or take this out");
+    CHECK(stage.motion(look_at(target, "head = \"Kopf\"\n"), kFew).lines == known.lines);
+    stage.require_refused(look_at(target, "head = \"Head\"\n"), "c.toml:3: look.head: no joint is called 'Head'");
+    stage.require_refused(look_at(target, "head = \"LeftArm\"\n"),
+                          "c.toml:3: look.head: 'LeftArm' is the figure's leftUpperArm");
+}
+
 TEST_CASE("looks that cannot be are refused with file, line and key")
 {
     const CrowdStage stage;

@@ -177,6 +177,25 @@ TEST_CASE("feet: a clip that skates tells its own contacts, and all else of its 
     }
 }
 
+TEST_CASE("feet: toes stand, whatever they are called")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    std::string text = carried(plain_motion_of(path), {.legs = 0.9});
+    spill(folder / "named.bvh", text);
+    for (const std::string side : {"Left", "Right"})  // as SMPL has them
+        for (const auto& [name, other] :
+             {std::pair("UpLeg", "Hip"), {"Leg", "Knee"}, {"Foot", "Ankle"}, {"ToeBase", "Foot"}})
+            text = edited(text, "JOINT " + side + name, "JOINT " + side + other);
+    spill(folder / "smpl.bvh", text);
+    feet_done(folder, {"named.bvh", "--out", "named_out.bvh"});
+    const json report = feet_report(folder, {"smpl.bvh", "--out", "smpl_out.bvh"}).at(0);
+    CHECK(report.at("legs").at(0).at("stands_on") == "LeftFoot");
+    CHECK(report.at("legs").at(1).at("has_toe") == true);
+    CHECK(plain_motion_of(folder / "smpl_out.bvh").lines == plain_motion_of(folder / "named_out.bvh").lines);
+}
+
 TEST_CASE("feet: who stands still on one leg has the other in the air")
 {
     const PlainMotion jump = plain_motion_of(must_find_jump());

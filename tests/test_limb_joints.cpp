@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/named_skeleton.h"
 #include "tools/rig/joint_names.h"
 #include "tools/rig/limb_joints.h"
 #include "tools/rig/limbs.h"
@@ -15,24 +16,16 @@
 using namespace swivel;
 using formats::Clip;
 using formats::Side;
+using test::Names;
 
 namespace {
-
-using Names = std::vector<std::string>;
 
 // A root, and chains of joints on it.
 Clip skeleton(const std::vector<Names>& chains)
 {
     Clip clip;
-    clip.joints.push_back({"Root", -1, {0, 0, 0}});
-    for (const Names& chain : chains) {
-        int parent = 0;
-        for (const std::string& name : chain) {
-            clip.joints.push_back({name, parent, {1, 0, 0}});
-            parent = static_cast<int>(clip.joints.size()) - 1;
-            clip.joints.back().number = parent;
-        }
-    }
+    test::add_chain(clip, -1, {"Root"});
+    for (const Names& chain : chains) test::add_chain(clip, 0, chain);
     return clip;
 }
 
@@ -108,6 +101,7 @@ TEST_CASE("limb joints: legs by the names in use")
     legs({"足.*", "ひざ.*", "足首.*"}, "L", "R");
     legs({"bip_hip_*", "bip_knee_*", "bip_foot_*"}, "L", "R");
     legs({"UpLeg.*", "Leg.*", "Foot.*"}, "L", "R");
+    legs({"*Leg", "*Shin", "*Foot"}, "Left", "Right");
 }
 
 TEST_CASE("limb joints: arms by the names in use")
@@ -139,6 +133,7 @@ TEST_CASE("limb joints: arms by the names in use")
     arms({"*Arm_09_21", "*ForeArm_010_22", "*Hand_011_23"}, "Left", "Right");
     arms({"*_Shoulder_JNT", "*_Elbow_JNT", "*_Wrist_JNT"}, "L", "R");
     arms({"armFBXASC046*", "forearmFBXASC046*", "handFBXASC046*"}, "L", "R");
+    arms({"*Clavicle", "*Shoulder", "*Forearm", "*Hand"}, "L", "R");
     for (const std::string prefix : {"jnt_", "joint_", "QuickRigCharacter_", "Bip01 ", "Bip001 "})
         arms({prefix + "*Arm", prefix + "*ForeArm", prefix + "*Hand"}, "Left", "Right");
 }
@@ -156,7 +151,18 @@ TEST_CASE("limb joints: what lies between may have any name but that of another 
           Names{"LeftArm", "LeftElbow", "LeftWrist"});
     CHECK(left_arm({{"LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist"}}) ==
           Names{"LeftShoulder", "LeftElbow", "LeftWrist"});
-    CHECK(left_arm({{"LeftArm", "LeftShoulder", "LeftForeArm", "LeftHand"}}).empty());
+    CHECK(left_arm({{"LeftArm", "LeftCollar", "LeftForeArm", "LeftHand"}}).empty());
+}
+
+TEST_CASE("limb joints: a name that is a thigh to some and a shin to others is what those around it make of it")
+{
+    const Names mixamo = {"LeftUpLeg", "LeftLeg", "LeftFoot"}, soma = {"LeftLeg", "LeftShin", "LeftFoot"};
+    CHECK(left_leg({mixamo}) == mixamo);
+    CHECK(left_leg({soma}) == soma);
+    CHECK(left_leg({{"LeftUpLeg", "LeftLeg", "LeftShin", "LeftFoot"}}) == soma);  // a shin has no thigh below it
+    const Names arm = {"LeftArm", "LeftForeArm", "LeftHand"}, ipi = {"LeftShoulder", "LeftForeArm", "LeftHand"};
+    CHECK(left_arm({{"LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand"}}) == arm);
+    CHECK(left_arm({{"LeftClavicle", "LeftShoulder", "LeftForeArm", "LeftHand"}}) == ipi);
 }
 
 TEST_CASE("limb joints: none where joints are no chain, or a joint is missing")

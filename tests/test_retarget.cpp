@@ -344,7 +344,54 @@ TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
                    Contains(", rightFoot, rightToes, or leave it empty"));
     CHECK_THAT(complaint("part,source,target\nhips,Hips\n"), Contains("map.csv:2: 2 values; a row has 3"));
     CHECK_THAT(complaint("part,source,target\nhips,Hips,Hips\n"),
-               Contains("source.bvh: no leg of it can be told by the names of its joints; write the pairs with"));
+               Contains("source.bvh: no leg of it can be told by the names of its joints; swivel rig says why; name "
+                        "them by --leg source:left:HIP,KNEE,ANKLE"));
+}
+
+TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, of either body")
+{
+    const MadeBody body;
+    const Made known(body, body, random_rows(body, 5));
+    const TempFolder folder;
+    // Every name says another thing, or nothing; a number says the same.
+    const auto unnamed = [](std::string text) {
+        for (const auto& [name, other] :
+             {std::pair("LeftUpLeg", "a"), {"LeftLeg", "b"}, {"LeftFoot", "c"}, {"RightForeArm", "d"}, {"Head", "e"}})
+            text = edited(text, fmt::format("JOINT {}\n", name), fmt::format("JOINT {}\n", other));
+        return text;
+    };
+    spill(folder / "plain.bvh", slurp(known.folder / "source.bvh"));
+    spill(folder / "unnamed.bvh", unnamed(slurp(known.folder / "source.bvh")));
+    const auto lines = [&](const std::string& from, const std::string& to, const Words& more) {
+        Words words = {"retarget", from, to, "--out", "out.bvh"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run_command(folder.path, words);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        CHECK_THAT(outcome.out, Contains("at rest   of TARGET: none\nunused    of SOURCE: none\n"));
+        return plain_motion_of(folder / "out.bvh").lines;
+    };
+    const auto by_hand = [](const std::string& whose) {
+        return Words{"--leg", whose + "left:a,b,c", "--arm", whose + "RightArm,d,RightHand", "--head", whose + "e"};
+    };
+    const auto wanted = lines("plain.bvh", "plain.bvh", {});
+    CHECK(lines("unnamed.bvh", "plain.bvh", by_hand("source:")) == wanted);
+    CHECK(lines("plain.bvh", "unnamed.bvh", by_hand("target:")) == wanted);
+    const auto complaint = [&](const Words& more, int exit_code) {
+        Words words = {"retarget", "unnamed.bvh", "plain.bvh"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run_command(folder.path, words);
+        CHECK(outcome.exit_code == exit_code);
+        return outcome.err;
+    };
+    CHECK(complaint({"--leg", "left:a,b,c"}, 2) ==
+          "swivel: --leg left:a,b,c: does not say whose; write source: or target: in front\n");
+    CHECK_THAT(complaint({"--head", "source:e", "--map", "map.csv"}, 2), Contains("--head: --map says already"));
+    CHECK_THAT(complaint({"--head", "source:e", "--head", "source:Neck"}, 2), Contains("--head: a body has one head"));
+    CHECK_THAT(complaint({"--head", "source:Kopf"}, 1),
+               Contains("unnamed.bvh: no joint is called 'Kopf' (--head); swivel rig --joints lists them"));
+    CHECK_THAT(complaint({"--head", "target:LeftHand"}, 1),
+               Contains("plain.bvh: 'LeftHand' is the figure's leftHand (--head); name its head"));
 }
 
 TEST_CASE("retarget: what cannot be is refused in one line, and nothing is lost")

@@ -178,7 +178,7 @@ std::vector<Row> joint_rows()
         {"in which frame", between("Bob", kZ, -20), without("frame 1")},
         {"by 0.9 thousandths", between("Bob", kZ, 0.9e-3 * 2 / kDegree), anatomy("toes")},
         {"by 1.1 thousandths", between("Bob", kZ, 1.1e-3 * 2 / kDegree), without("Bob")},
-        {"a joint of the table", between("LeftShoulder", kX, 0), with(anatomy("toes"), 0, kMissing)},
+        {"a joint of the table", between("LeftCollar", kX, 0), with(anatomy("toes"), 0, kMissing)},
         {"uneven by 4e-5", uneven(4e-5), anatomy("clip"), 4e-5},
         {"uneven by 9e-4", uneven(9e-4), anatomy("clip"), 9e-4},
         {"uneven by 1.1e-3", uneven(1.1e-3), refused},

@@ -34,8 +34,7 @@ struct LegMotion {
 // The largest second difference of places from frame to frame: how much a velocity jumps, times the frame's time.
 double largest_jump(std::span<const Eigen::Vector3d> places_w);
 
-// The joint that a foot stands on: right below the ankle and called toe or ball, or VRM's toes. Without one it is the
-// ankle.
+// The joint that a foot stands on: the first of toes_of(). Without one it is the ankle.
 int toe_of(const formats::Clip& clip, const Limb& leg);
 
 // The lowest joint above all limbs that are known, with all that lies between. Where no keys say its place, it is

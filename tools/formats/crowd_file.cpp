@@ -271,10 +271,11 @@ void read_look(TomlTable table, CrowdFile& to)
 {
     const Maybe<Eigen::Vector3d> target = table.vector("target");
     const Maybe<double> most_deg = table.number("most_deg", 0, 180);
+    Maybe<std::string> head = table.text("head");
     table.finish();
     if (!table.is_there()) return;
     if (!target) table.fail("target", "is missing; write what heads look at: [x, y, z]");
-    to.look = {table.line(), target->value, most_deg ? most_deg->value : LookSettings().most_deg};
+    to.look = {table.line(), target->value, most_deg ? most_deg->value : LookSettings().most_deg, std::move(head)};
 }
 
 void read_carry(TomlTable table, CrowdFile& to)

@@ -101,8 +101,9 @@ struct GroundSettings {
 // The table [look].
 struct LookSettings {
     std::size_t line = 0;
-    Eigen::Vector3d target;  // world axes
-    double most_deg = 45;    // that each joint turns at most, 0 to 180
+    Eigen::Vector3d target;   // world axes
+    double most_deg = 45;     // that each joint turns at most, 0 to 180
+    Maybe<std::string> head;  // a joint by name, path or number
 };
 
 // The table [carry]: a box in both hands.

@@ -12,7 +12,8 @@
 #include "tools/formats/output_file.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
-#include "tools/rig/name_search.h"
+#include "tools/rig/finger_names.h"
+#include "tools/rig/joint_names.h"
 
 namespace swivel::tools {
 
@@ -24,13 +25,6 @@ using formats::InputError;
 const std::vector<int>& list_of(const PairedPart& part, BodySide side)
 {
     return side == BodySide::source ? part.source : part.target;
-}
-
-std::vector<BodyPart> found_parts(const Clip& clip)
-{
-    KnownLimbs limbs;
-    std::ranges::transform(joints_by_file(clip), limbs.begin(), &FoundJoints::joints);
-    return body_parts(clip, limbs);
 }
 
 // The part of that name, made where there is none.
@@ -46,6 +40,47 @@ std::set<int> joints_in(const JointPairs& pairs, BodySide side, bool paired_alon
     for (const PairedPart& part : pairs)
         if (!paired_alone || part.is_paired()) joints.insert(list_of(part, side).begin(), list_of(part, side).end());
     return joints;
+}
+
+using NamedBones = std::map<std::string, int>;
+
+// The bones of a clip by their names. Each is one bone's alone; the empty one is none's.
+NamedBones bones_by(const Clip& clip, std::string (*name_of)(std::string_view))
+{
+    std::map<std::string, std::vector<int>> bearers;
+    for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
+        if (joint_at(clip, joint).is_bone) bearers[name_of(joint_at(clip, joint).name)].push_back(joint);
+    NamedBones bones;
+    for (const auto& [name, joints] : bearers)
+        if (!name.empty() && joints.size() == 1) bones[name] = joints.front();
+    return bones;
+}
+
+std::string finger_of(std::string_view joint_name) { return finger_bone(plain(joint_name)); }
+
+// The bones of fingers. A hand's only finger is none of them: it stands for all five, as CMU's LeftHandIndex1 does.
+NamedBones finger_bones(const Clip& clip)
+{
+    NamedBones bones = bones_by(clip, finger_of);
+    std::map<std::string, std::set<std::string>> fingers;  // of each side
+    const auto side_of_bone = [](const std::string& name) { return name.substr(0, name.find(' ')); };
+    for (const auto& [name, joint] : bones) fingers[side_of_bone(name)].insert(name.substr(0, name.rfind(' ')));
+    std::erase_if(bones, [&](const auto& each) { return fingers[side_of_bone(each.first)].size() < 2; });
+    return bones;
+}
+
+// Pairs the bones of equal names that are no part, and in no pair yet.
+void pair_by_name(const NamedBones& sources, const NamedBones& targets, JointPairs& pairs)
+{
+    const std::set<int> of_source = joints_in(pairs, BodySide::source, false);
+    const std::set<int> of_target = joints_in(pairs, BodySide::target, false);
+    JointPairs found;
+    for (const auto& [name, to] : targets)
+        if (const auto from = sources.find(name);
+            from != sources.end() && !of_source.contains(from->second) && !of_target.contains(to))
+            found.push_back({{}, {from->second}, {to}});
+    std::ranges::sort(found, {}, &PairedPart::target);  // in the target's order
+    pairs.insert(pairs.end(), found.begin(), found.end());
 }
 
 // The joint of a cell: none for an empty one.
@@ -75,21 +110,13 @@ std::string cell_of(const Clip& clip, int joint)
 
 }  // namespace
 
-JointPairs pair_joints(const Clip& source, const Clip& target)
+JointPairs pair_joints(const PartedBody& source, const PartedBody& target)
 {
     JointPairs pairs;
-    for (BodyPart& part : found_parts(source)) pairs.push_back({part.name, std::move(part.joints), {}});
-    for (BodyPart& part : found_parts(target)) part_called(pairs, part.name).target = std::move(part.joints);
-    const std::set<int> of_source = joints_in(pairs, BodySide::source, false);
-    const std::set<int> of_target = joints_in(pairs, BodySide::target, false);
-    const NamedJoints source_names(source), target_names(target);
-    for (int joint = 0; joint < static_cast<int>(target.joints.size()); ++joint) {
-        const std::string& name = target_names.name(joint);
-        const std::vector<int> to = target_names.named(name), from = source_names.named(name);
-        if (to != std::vector<int>{joint} || from.size() != 1 || of_target.contains(joint)) continue;
-        if (!target_names.is_bone(joint) || !source_names.is_bone(from[0]) || of_source.contains(from[0])) continue;
-        pairs.push_back({{}, from, to});
-    }
+    for (const BodyPart& part : source.parts) pairs.push_back({part.name, part.joints, {}});
+    for (const BodyPart& part : target.parts) part_called(pairs, part.name).target = part.joints;
+    pair_by_name(bones_by(source.clip, plain), bones_by(target.clip, plain), pairs);
+    pair_by_name(finger_bones(source.clip), finger_bones(target.clip), pairs);
     return pairs;
 }
 

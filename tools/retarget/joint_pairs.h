@@ -21,9 +21,16 @@ struct PairedPart {
 };
 using JointPairs = std::vector<PairedPart>;
 
-// The parts of both, as body_parts() finds them, and then joints that are no part of either but are called the same.
-// Names are compared as plain() has them; bones alone count, and names that one joint alone bears on each side.
-JointPairs pair_joints(const formats::Clip& source, const formats::Clip& target);
+// A body and its parts, as body_parts() has them.
+struct PartedBody {
+    const formats::Clip& clip;
+    std::vector<BodyPart> parts;
+};
+
+// The parts of both, and then joints that are no part of either but are called the same, or are the same bone of a
+// finger, on hands of two fingers or more. Names are compared as plain() has them; bones alone count, and names that
+// one joint alone bears on each side.
+JointPairs pair_joints(const PartedBody& source, const PartedBody& target);
 
 // The same from a table with columns part, source and target. Rows of one part list its joints from the hips outwards;
 // its lists may differ in length, and cells may be empty. A row without a part pairs its two joints. Joints are given

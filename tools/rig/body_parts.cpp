@@ -31,6 +31,10 @@ std::vector<int> between(const Clip& clip, int top, int joint)
     return joints;
 }
 
+// What heads are called; the last two by Second Life and XNALara.
+constexpr std::array<std::string_view, 4> kHeads = {"head", "頭", "mhead", "headneckupper"};
+constexpr std::string_view kRigifyHead = "spine006";  // another rig may have a seventh joint in its spine
+
 struct Body {
     const Clip& clip;
     const KnownLimbs& limbs;
@@ -45,25 +49,39 @@ struct Body {
     {
         return limbs[left] && limbs[left + 1] ? fork_of(clip, (*limbs[left])[0], (*limbs[left + 1])[0]) : -1;
     }
-    int first_called(std::initializer_list<std::string_view> names, int below) const
+    int first_called(std::initializer_list<std::string_view> names) const
     {
-        for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint) {
-            const std::string name = plain(joint_at(clip, joint).name);
-            const bool is_called = std::ranges::find(names, name) != names.end();
-            if (is_called && (below < 0 || is_above(clip, below, joint))) return joint;
-        }
+        for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
+            if (std::ranges::find(names, plain(joint_at(clip, joint).name)) != names.end()) return joint;
         return -1;
     }
     int hips() const
     {
         if (const int joint = said("hips"); joint >= 0) return joint;
         const int joint = fork(2);
-        return joint >= 0 ? joint : first_called({"hips", "pelvis"}, -1);
+        return joint >= 0 ? joint : first_called({"hips", "pelvis"});
+    }
+    // How doubtful it is that this is the head; nothing if it is not.
+    std::optional<int> doubt_of_head(int joint) const
+    {
+        const formats::Joint& at = joint_at(clip, joint);
+        const std::string name = plain(at.name);
+        const bool is_called_so = std::ranges::find(kHeads, name) != kHeads.end();
+        if (!is_called_so && last_word(at.name) != "head" && name != kRigifyHead) return std::nullopt;
+        return (at.is_bone ? 0 : 2) + (is_called_so ? 0 : 1);
     }
     int head(int chest) const
     {
-        const int joint = said("head");
-        return joint >= 0 ? joint : first_called({"head", "頭"}, chest);
+        if (const int joint = said("head"); joint >= 0) return joint;
+        std::optional<int> least;
+        int head = -1;
+        for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint) {
+            const std::optional<int> doubt = doubt_of_head(joint);
+            if (!doubt || (least && *least <= *doubt) || (chest >= 0 && !is_above(clip, chest, joint))) continue;
+            least = doubt;
+            head = joint;
+        }
+        return head;
     }
     int toe(std::size_t leg) const
     {
@@ -74,7 +92,7 @@ struct Body {
 
 }  // namespace
 
-std::vector<BodyPart> body_parts(const Clip& clip, const KnownLimbs& limbs)
+std::vector<BodyPart> body_parts(const Clip& clip, const KnownLimbs& limbs, std::optional<int> given_head)
 {
     const Body body{clip, limbs};
     std::vector<BodyPart> parts;
@@ -91,7 +109,7 @@ std::vector<BodyPart> body_parts(const Clip& clip, const KnownLimbs& limbs)
     } else if (chest != hips) {
         chest = -1;  // no trunk that could be told
     }
-    if (const int head = body.head(chest); head >= 0) {
+    if (const int head = given_head ? *given_head : body.head(chest); head >= 0) {
         if (chest >= 0 && is_above(clip, chest, head)) add("neck", between(clip, chest, head));
         add("head", {head});
     }

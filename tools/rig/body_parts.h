@@ -5,6 +5,7 @@
 // Knows clips alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,11 +21,13 @@ struct BodyPart {
 };
 
 // The parts that the skeleton has, in the order above, right after left. Hips, head and toes are those that the file
-// names so (VRM). Otherwise the hips are where both legs meet, or are called hips or pelvis. The head is the first
-// joint above the chest that is called head. Toes are as toes_of() has them. All else follows from these and the limbs.
-// The spine leads from the hips to where both arms meet, a clavicle from there to its arm, the neck from there to the
-// head.
-std::vector<BodyPart> body_parts(const formats::Clip& clip, const KnownLimbs& limbs);
+// names so (VRM). Otherwise the hips are where both legs meet, or are called hips or pelvis. The head is a joint above
+// the chest: a bone before other nodes, one that is called head before one of which that is the last word or that
+// Rigify means, and the first of equals. Toes are as toes_of() has them. All else follows from these and the limbs. The
+// spine leads from the hips to where both arms meet, a clavicle from there to its arm, the neck from there to the head.
+// given_head: the joint that is the head, if the caller knows it.
+std::vector<BodyPart> body_parts(const formats::Clip& clip, const KnownLimbs& limbs,
+                                 std::optional<int> given_head = {});
 
 // The joints of the part of that name; empty if there is none.
 std::vector<int> joints_of(const std::vector<BodyPart>& parts, std::string_view name);

@@ -19,10 +19,10 @@ struct Facing {
     std::string up_source = "the file's +Y";
 };
 
-// Up leads from the hips to the shoulders, else it is +Y. Forwards is where the toes point: the joints that the file
-// says are toes, or those right below the feet that are called toe or ball. Without toes it is at right angles to up
-// and to the line from right to left, of the shoulders or else of the hips. A mirror above exchanges left and right.
-// Else it is +Z, as in glTF. Toes and lines within 30 degrees of up tell nothing.
+// Up leads from the hips to the shoulders, else it is +Y. Forwards is where the toes point, as toes_of() has them.
+// Without toes it is at right angles to up and to the line from right to left, of the shoulders or else of the hips. A
+// mirror above exchanges left and right. Else it is +Z, as in glTF. Toes and lines within 30 degrees of up tell
+// nothing.
 Facing facing_of(const formats::Clip& clip, const KnownLimbs& joints);
 
 }  // namespace swivel::tools

@@ -68,6 +68,18 @@ void drop_endings(std::vector<std::string>& words, const std::vector<char>& sepa
         return words[n] == "jnt" || words[n] == "joint" || (separators[n - 1] == '_' && is_number(words[n]));
     };
     while (words.size() > 1 && is_ending(words.size() - 1)) words.pop_back();
+    if (words.size() > 1 && (words.back() == "m" || words.back() == "x")) words.pop_back();  // of neither side
+}
+
+// The words of a name without its name space and endings.
+std::vector<std::string> own_words(std::string_view joint_name)
+{
+    if (const std::size_t space = joint_name.find_last_of(":|"); space != std::string_view::npos)
+        joint_name.remove_prefix(space + 1);
+    std::vector<char> separators;
+    std::vector<std::string> words = words_in(decoded(joint_name), separators);
+    drop_endings(words, separators);
+    return words;
 }
 
 void drop_before_side(std::vector<std::string>& words)
@@ -91,16 +103,19 @@ void drop_prefixes(std::string& name)
 
 std::string plain(std::string_view joint_name)
 {
-    if (const std::size_t space = joint_name.find_last_of(":|"); space != std::string_view::npos)
-        joint_name.remove_prefix(space + 1);
-    std::vector<char> separators;
-    std::vector<std::string> words = words_in(decoded(joint_name), separators);
-    drop_endings(words, separators);
+    std::vector<std::string> words = own_words(joint_name);
     drop_before_side(words);
     std::string name;
     for (const std::string& word : words) name += word;
     drop_prefixes(name);
     return name;
+}
+
+std::string last_word(std::string_view joint_name)
+{
+    std::string word = own_words(joint_name).back();
+    word.erase(word.find_last_not_of("0123456789") + 1);
+    return word;
 }
 
 std::optional<Side> side_word(std::string_view joint_name)

@@ -23,6 +23,12 @@ struct Source {
     bool is_file() const { return line > 0; }
 };
 
+// A joint named by the user.
+struct NamedJoint {
+    std::string joint;  // by name, path or number
+    Source source;
+};
+
 // A limb named by the user.
 struct NamedLimb {
     std::vector<std::string> joints;    // shoulder, elbow and wrist, or hip, knee and ankle, by name, path or number

@@ -69,12 +69,15 @@ std::vector<int> toes_of(const Clip& clip, formats::Side side, int foot)
 {
     const auto said = clip.human_bones.find(std::string(side_name(side)) + "Toes");
     if (said != clip.human_bones.end()) return {said->second};
-    std::vector<int> toes = formats::child_joints(clip, foot);
-    std::erase_if(toes, [&](int joint) {
-        const std::string name = plain(joint_at(clip, joint).name);
-        return name.find("toe") == std::string::npos && name.find("ball") == std::string::npos;
-    });
-    return toes;
+    const auto is_called = [&](int joint, std::string_view word) {
+        return plain(joint_at(clip, joint).name).find(word) != std::string::npos;
+    };
+    std::vector<int> toes, feet;
+    for (const int joint : formats::child_joints(clip, foot)) {
+        if (is_called(joint, "toe") || is_called(joint, "ball")) toes.push_back(joint);
+        if (is_called(joint, "foot") && !is_called(foot, "foot")) feet.push_back(joint);
+    }
+    return toes.empty() ? feet : toes;
 }
 
 int shared_joint(std::span<const int> a, std::span<const int> b)

@@ -57,6 +57,7 @@ bool is_chain(const formats::Clip& clip, const LimbJoints& joints);
 int fork_of(const formats::Clip& clip, int a, int b);
 
 // The toes of a foot: the joint that the file says is (VRM), or those right below the foot that are called toe or ball.
+// Without any, those called foot: they are below a joint that ends the leg and is itself called ankle, say.
 std::vector<int> toes_of(const formats::Clip& clip, formats::Side side, int foot);
 
 // The first joint of `a` that is in `b`, too; -1 if there is none.

@@ -34,6 +34,20 @@ constexpr std::size_t kShownName = 80;  // characters of a joint's name in a mes
     throw InputError(clip, fmt::format("{} ({}){}", cause, source.key, advice));
 }
 
+int named_joint(const Clip& clip, const std::filesystem::path& file, const NamedJoint& named)
+{
+    const std::vector<int> found = formats::find_joints(clip, named.joint);
+    const std::string shown = formats::printable(named.joint, kShownName);
+    if (found.empty())
+        refuse(named.source, file, fmt::format("no joint is called '{}'", shown), "; swivel rig --joints lists them");
+    if (found.size() > 1)
+        refuse(named.source, file, fmt::format("{} joints are called '{}'", found.size(), shown),
+               fmt::format("; name one by its path or number, such as {} or #{}",
+                           formats::printable(formats::joint_path(clip, found[0]), formats::kMostQuoted),
+                           formats::joint_at(clip, found[0]).number));
+    return found[0];
+}
+
 // Reads one limb that the user named.
 struct NameReader {
     const Clip& clip;
@@ -45,24 +59,13 @@ struct NameReader {
     {
         tools::refuse(from.source, file, cause, advice);
     }
-    int joint(const std::string& name) const
-    {
-        const std::vector<int> found = formats::find_joints(clip, name);
-        const std::string shown = formats::printable(name, kShownName);
-        if (found.empty()) refuse(fmt::format("no joint is called '{}'", shown), "; swivel rig --joints lists them");
-        if (found.size() > 1)
-            refuse(fmt::format("{} joints are called '{}'", found.size(), shown),
-                   fmt::format("; name one by its path or number, such as {} or #{}",
-                               formats::printable(formats::joint_path(clip, found[0]), formats::kMostQuoted),
-                               formats::joint_at(clip, found[0]).number));
-        return found[0];
-    }
+    int joint(std::size_t n) const { return named_joint(clip, file, {from.joints[n], from.source}); }
     LimbJoints joints() const
     {
         const std::string text = formats::printable(formats::joined(from.joints, ","), formats::kMostQuoted);
         if (from.joints.size() != 3)
             refuse(fmt::format("'{}' does not name three joints", text), fmt::format("; write {}", words.joints));
-        const LimbJoints named{joint(from.joints[0]), joint(from.joints[1]), joint(from.joints[2])};
+        const LimbJoints named{joint(0), joint(1), joint(2)};
         if (!is_chain(clip, named))
             refuse(fmt::format("'{}' does not name a joint, one below it and one below that", text),
                    fmt::format("; write {}, from the body outwards", words.joints));
@@ -157,6 +160,13 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Facing&
     return finding;
 }
 
+KnownLimbs known_limbs(const FigureJoints& figure)
+{
+    KnownLimbs known;
+    std::ranges::transform(figure, known.begin(), [](const LimbFound& limb) { return limb.joints.joints; });
+    return known;
+}
+
 }  // namespace
 
 std::string problem_text(const LimbFinding& finding)
@@ -186,11 +196,19 @@ std::vector<int> joints_of(const FigureJoints& figure)
     return joints;
 }
 
-KnownLimbs known_limbs(const FigureJoints& figure)
+std::vector<BodyPart> body_of(const Clip& clip, const std::filesystem::path& file, const FigureJoints& figure,
+                              const std::optional<NamedJoint>& head)
 {
-    KnownLimbs known;
-    std::ranges::transform(figure, known.begin(), [](const LimbFound& limb) { return limb.joints.joints; });
-    return known;
+    const KnownLimbs known = known_limbs(figure);
+    if (!head) return body_parts(clip, known);
+    const int joint = named_joint(clip, file, *head);
+    std::vector<BodyPart> body = body_parts(clip, known, joint);
+    for (const BodyPart& part : body)
+        if (part.name != "head" && std::ranges::count(part.joints, joint) > 0)
+            refuse(head->source, file,
+                   fmt::format("'{}' is the figure's {}", printable_name(joint_at(clip, joint)), part.name),
+                   "; name its head");
+    return body;
 }
 
 LimbSearch bind_limbs(const Clip& clip, const FigureJoints& joints, const LimbChoice& choice)

@@ -56,6 +56,11 @@ struct LimbSearch {
     std::vector<LimbFinding> findings;  // of the limbs that were chosen, arms first
 };
 
+// The parts of the figure's body, with the head that the user names, if any. Throws InputError as choose_joints() does,
+// and for a head that is another part.
+std::vector<BodyPart> body_of(const formats::Clip& clip, const std::filesystem::path& file, const FigureJoints& figure,
+                              const std::optional<NamedJoint>& head);
+
 // The limbs bound, each or with its reason.
 LimbSearch bind_limbs(const formats::Clip& clip, const FigureJoints& joints, const LimbChoice& choice);
 

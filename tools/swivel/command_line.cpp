@@ -163,6 +163,13 @@ void add_retarget(CLI::App& app)
                               "replaces that of a BVH file and the first animation of a glTF file, and all else is "
                               "kept. Without it there is the report alone"),
           file_name());
+    add_named_limbs(*command, options->arms, options->legs,
+                    "Before that, source: or target: says whose it is, as in source:left:#16,#17,#18");
+    command
+        ->add_option("--head", options->heads,
+                     "Joint that is the head, where its name does not tell, with source: or target: in front")
+        ->type_name("JOINT")
+        ->allow_extra_args(false);
     takes(command->add_option("--map", options->map,
                               "Table of the joints that stand for one another, with the columns part,source,target. "
                               "Without it they are found by their names. - is standard input"),

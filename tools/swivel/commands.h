@@ -54,9 +54,10 @@ void view_cache(const SolveOptions& options, const std::string& about_clip);
 
 struct RetargetOptions {
     std::string source, target, out;
-    std::string map, export_map;  // tables of pairs
-    MotionChoice motion;          // of source
-    bool force = false;           // garbage is written, too
+    std::string map, export_map;                 // tables of pairs
+    std::vector<std::string> arms, legs, heads;  // "source:left:SHOULDER,ELBOW,WRIST", "target:HEAD"
+    MotionChoice motion;                         // of source
+    bool force = false;                          // garbage is written, too
     bool quiet = false;
 };
 void run_retarget(const RetargetOptions& options);

@@ -87,7 +87,7 @@ LookPlan look_of(const formats::CrowdFile& file, const formats::Clip& clip, cons
     if (clip.frame_time == 0 && clip.frame_count > 1) refuse("the clip's keys lie at uneven times; give --fps");
     if (job.plan.budget_blocks > 0) refuse("heads that look are solved in every frame; take this or [budget] out");
     std::vector<int> joints = look_joints(clip, job.body, job.limbs);
-    if (joints.empty()) refuse("no head of the clip is known that can turn; see swivel rig FILE, or take this out");
+    if (joints.empty()) refuse("no head of the clip is known that can turn; name one by look.head, or take this out");
     return plan_look(clip, std::move(joints), job.faces_w, file.look->target, kRadians * file.look->most_deg);
 }
 
@@ -135,6 +135,14 @@ formats::Clip further_clip(const SolveOptions& options, const formats::FurtherCl
         throw fault(name + ": its frames come at another rate than the clip's; give --fps");
     job.further.push_back({path, fmt::format("{}: {}", formats::printable(title_of(path.string())), file.describe())});
     return file.clip();
+}
+
+// The head that the crowd file names.
+std::optional<NamedJoint> named_head(const CrowdJob& job)
+{
+    if (!job.crowd || !job.crowd->look || !job.crowd->look->head) return std::nullopt;
+    const formats::Given<std::string>& head = *job.crowd->look->head;
+    return NamedJoint{head.value, {head.key, job.crowd->path, head.line}};
 }
 
 constexpr std::size_t kBuilds = 8;  // figures of which each character is one, where proportions differ
@@ -265,7 +273,8 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     LimbSearch search = bind_limbs(clip, joints, choice);
     job.limbs = require_limbs(search, options.file);
     const Eigen::Vector3d up_w = nearest_axis(search.facing.up_w), &forwards_w = search.facing.forwards_w;
-    job.body = search.body, job.faces_w = (forwards_w - forwards_w.dot(up_w) * up_w).normalized();
+    job.body = body_of(clip, options.file, joints, named_head(job));
+    job.faces_w = (forwards_w - forwards_w.dot(up_w) * up_w).normalized();
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) job.missing.push_back(std::move(finding));
     job.frame_count = job.clip_frames = clip.frame_count;

@@ -20,6 +20,7 @@
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_file.h"
+#include "tools/swivel/retarget_bodies.h"
 #include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"
 
@@ -79,17 +80,20 @@ void require_below(const std::string& file, const Clip& clip, int hips, int join
 void require_bodies(const RetargetOptions& options, const JointPairs& pairs, const Clip& source_clip,
                     const Clip& target_clip)
 {
-    const auto refuse = [](const std::string& file, const char* what) {
-        throw formats::InputError(
-            file, fmt::format("no {} of it can be told by the names of its joints; write the pairs with --export-map "
-                              "FILE, add what is missing, and give them by --map FILE",
-                              what));
+    const auto refuse = [&](BodySide side, const char* what) {
+        const bool is_source = side == BodySide::source;
+        throw formats::InputError(is_source ? options.source : options.target,
+                                  fmt::format("no {} of it can be told by the names of its joints; swivel rig says "
+                                              "why; name them by --leg {}:left:HIP,KNEE,ANKLE and the same of the "
+                                              "right, or give all pairs by --map FILE",
+                                              what, is_source ? "source" : "target"));
     };
     const std::vector<BodyPart> source = parts_of(pairs, BodySide::source), target = parts_of(pairs, BodySide::target);
-    if (joints_of(source, "hips").empty()) refuse(options.source, "hips");
-    if (joints_of(target, "hips").empty()) refuse(options.target, "hips");
+    if (joints_of(source, "hips").empty()) refuse(BodySide::source, "hips");
+    if (joints_of(target, "hips").empty()) refuse(BodySide::target, "hips");
     const KnownLimbs from = limbs_of(source), to = limbs_of(target);
-    if (!(from[2] && to[2]) && !(from[3] && to[3])) refuse(from[2] || from[3] ? options.target : options.source, "leg");
+    if (!(from[2] && to[2]) && !(from[3] && to[3]))
+        refuse(from[2] || from[3] ? BodySide::target : BodySide::source, "leg");
     for (std::size_t n = 0; n < from.size(); ++n) {
         if (!from[n] || !to[n]) continue;
         require_bones(options.source, source_clip, *from[n]);
@@ -179,6 +183,8 @@ void run_retarget(const RetargetOptions& options)
     const auto inputs = {options.source, options.target, options.map};
     if (std::ranges::count_if(inputs, [](const std::string& name) { return formats::is_standard_stream(name); }) > 1)
         throw CommandError(2, "more than one of SOURCE, TARGET and --map is -, standard input; name the others");
+    const BodyChoice of_source = body_choice(options, BodySide::source),
+                     of_target = body_choice(options, BodySide::target);
     MotionFile source_file(options.source, options.motion), target_file(options.target, {});
     if (!options.out.empty()) target_file.require_can_write(options.out, "TARGET", "");
     const std::string outputs[] = {options.out, options.export_map};
@@ -190,8 +196,9 @@ void run_retarget(const RetargetOptions& options)
     const Clip &source = source_file.clip(), &target = target_file.clip();
     source_file.sample(all_bones(source));
     target_file.sample(all_bones(target));
-    const JointPairs pairs =
-        options.map.empty() ? pair_joints(source, target) : read_joint_map(options.map, source, target);
+    const JointPairs pairs = options.map.empty() ? pair_joints(parted_body(source, options.source, of_source),
+                                                               parted_body(target, options.target, of_target))
+                                                 : read_joint_map(options.map, source, target);
     if (!options.export_map.empty()) write_joint_map(options.export_map, pairs, source, target);
     if (source.frame_time == 0) throw formats::InputError(options.source, "its keys lie at uneven times; give --fps");
     source_file.stand(limbs_of(parts_of(pairs, BodySide::source)));

@@ -112,6 +112,11 @@ void print_body(const Clip& clip, const std::vector<BodyPart>& body)
         say(stdout, "{:<10} {}: {}\n", heading, part.name, formats::printable(names, formats::kMostQuoted));
         heading = "";
     }
+    if (!joints_of(body, "spine").empty() && joints_of(body, "head").empty())
+        say(stdout,
+            "{:<10} head: missing: no joint above the chest has a name in use for one; look.head of a crowd file or "
+            "--head of swivel retarget names it\n",
+            "");
 }
 
 void print_joints(const Clip& clip)
