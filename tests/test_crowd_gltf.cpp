@@ -126,6 +126,8 @@ TEST_CASE("a glTF file of a crowd is read again: its first character is solved a
     crowd.must_solve("[crowd]\nlimbs = \"all\"\n", "once.csv");
     crowd.source = crowd.folder / "crowd.glb";
     crowd.must_solve("[crowd]\nlimbs = \"all\"\n", "again.csv");
+    CHECK_THAT(crowd.solve("[crowd]\n", "out.csv").out,
+               Contains("note     the file has 3 figures alike; the first of"));
     const std::vector<PoseLine> once = pose_lines(slurp(crowd.folder / "once.csv")),
                                 again = pose_lines(slurp(crowd.folder / "again.csv"));
     REQUIRE(once.size() == again.size());
