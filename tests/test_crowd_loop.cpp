@@ -12,7 +12,7 @@
 #include "tests/crowd_stage.h"
 #include "tests/gltf_rig.h"
 #include "tests/shared_figures.h"
-#include "tools/crowd/clip_loop.h"
+#include "tools/crowd/find_loop.h"
 #include "tools/formats/bvh.h"
 
 using namespace swivel;
@@ -76,6 +76,41 @@ void write_turning_glb(const fs::path& path, std::size_t frame_count, double fra
     rig.write(path);
 }
 
+// A root, and two joints that are turned so far about x, in radians.
+Clip nodding_clip(std::size_t frame_count, double frame_time, const auto& angles_of)
+{
+    Clip clip;
+    clip.joints.resize(3);
+    clip.joints[1].parent = clip.joints[2].parent = 0;
+    clip.frame_time = frame_time, clip.frame_count = frame_count;
+    for (std::size_t frame = 0; frame < frame_count; ++frame) {
+        const std::array<double, 2> angles = angles_of(static_cast<double>(frame) * frame_time);
+        clip.rotation.push_back(Quaterniond::Identity());
+        for (const double angle : angles)
+            clip.rotation.push_back(Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitX())));
+    }
+    return clip;
+}
+
+// The gap of two frames, of a clip whose root has no turn.
+double plain_gap(const Clip& clip, std::size_t a, std::size_t b)
+{
+    const std::size_t joints = clip.joints.size();
+    const auto motion = [&](std::size_t frame, std::size_t n) {
+        const std::size_t before = std::max<std::size_t>(frame, 1) - 1,
+                          after = std::min(frame + 1, clip.frame_count - 1);
+        const Eigen::AngleAxisd turn(clip.rotation[after * joints + n] *
+                                     clip.rotation[before * joints + n].conjugate());
+        return Vector3d(turn.angle() / (static_cast<double>(after - before) * clip.frame_time) / 30 * turn.axis());
+    };
+    double sum2 = 0;
+    for (std::size_t n = 0; n < joints; ++n) {
+        const double sine = std::sin(clip.rotation[a * joints + n].angularDistance(clip.rotation[b * joints + n]) / 2);
+        sum2 += 4 * sine * sine + (motion(a, n) - motion(b, n)).squaredNorm();
+    }
+    return std::sqrt(sum2 / static_cast<double>(joints));
+}
+
 }  // namespace
 
 TEST_CASE("the loop of a walk is one step of both legs, and no joint jumps where recorded clips go on")
@@ -93,7 +128,11 @@ TEST_CASE("the loop of a walk is one step of both legs, and no joint jumps where
             CHECK(std::abs(static_cast<int>(loop.first) - 136) <= 2);
             CHECK(std::abs(static_cast<int>(loop.last) - 268) <= 2);
         }
-        CHECK(static_cast<double>(length) * clip.frame_time >= tools::kShortestLoop - 1e-6);
+        CHECK(static_cast<double>(length) * clip.frame_time >= tools::kLongEnough - 1e-6);
+        if (name == "cmu_05_06_dance.bvh") {  // it stands from frame 760 on, and once did so in a loop
+            CHECK(static_cast<double>(length) * clip.frame_time > 2);
+            CHECK(loop.last < 760);
+        }
         CHECK(largest_step(on, 0, count - 1) <= 1.2 * largest_step(clip, loop.first, loop.last));
         // Where the second round begins, it is as in the last frame, and then as in the first round, some way on.
         const auto seam = matrices(on, length), last = matrices(clip, loop.last);
@@ -136,11 +175,69 @@ TEST_CASE("a clip that turns on the spot and about its height loops as it does")
         const Eigen::AngleAxisd turn(0.7 * 0.02 * static_cast<double>(found.loop.first + frame), Vector3d::UnitY());
         REQUIRE((matrices(on, frame)[0].translation() - turn * Vector3d(3, 1, 0)).norm() < 1e-9);
     }
-    // Too short to loop otherwise.
+    // Too short to loop.
     clip.frame_count = 20;
     clip.translation.resize(20), clip.rotation.resize(40);
     const ClipLoop whole = tools::find_loop(clip, 0).loop;
     CHECK((whole.first == 0 && whole.last == 19));
+}
+
+TEST_CASE("a clip that moves has no loop in which it rests, however well it rests")
+{
+    // It rests, nods a little more each second, and rests again: a minute in all.
+    const Clip clip = nodding_clip(3000, 0.02, [](double t) {
+        const double moves = t < 28 || t > 34 ? 0.001 : 0.5 + 0.002 * t;
+        return std::array{moves * std::sin(2 * std::numbers::pi * t), moves * std::cos(5 * t)};
+    });
+    const tools::FoundLoop found = tools::find_loop(clip, 0);
+    CHECK(found.loop.first >= 1350);
+    CHECK(found.loop.last <= 1750);
+    CHECK(found.loop.length() >= 50);
+    // One that does nothing but breathe has its loop there.
+    const Clip breath = nodding_clip(1000, 0.02, [](double t) { return std::array{0.01 * std::sin(t), 0.0}; });
+    CHECK(tools::find_loop(breath, 0).loop.length() >= 50);
+}
+
+TEST_CASE("a stride of less than a second is a loop where the clip has no two seconds")
+{
+    const auto run = [](double t) {
+        return std::array{std::sin(2 * std::numbers::pi * t / 0.7), std::cos(2 * std::numbers::pi * t / 0.7)};
+    };
+    CHECK(tools::find_loop(nodding_clip(61, 0.02, run), 0).loop.length() == 35);
+    CHECK(tools::find_loop(nodding_clip(201, 0.02, run), 0).loop.length() == 70);  // two of them
+}
+
+TEST_CASE("the loop that is found is the best one, as a comparison of all frames has it")
+{
+    for (const double pitch : {1.37, 0.71, 3.3}) {
+        const Clip clip = nodding_clip(700, 1.0 / 60, [pitch](double t) {
+            return std::array{0.7 * std::sin(pitch * t) + 0.3 * std::sin(4.1 * t), 0.5 * std::cos(1.9 * t * pitch)};
+        });
+        double least = 1e9;
+        for (std::size_t a = 0; a < clip.frame_count; ++a)
+            for (std::size_t b = a + 60; b < clip.frame_count; ++b) least = std::min(least, plain_gap(clip, a, b));
+        const tools::FoundLoop found = tools::find_loop(clip, 0);
+        CHECK(found.gap == Approx(plain_gap(clip, found.loop.first, found.loop.last)).margin(1e-5));
+        CHECK(found.gap <= least + 1e-5);
+    }
+}
+
+TEST_CASE("crowd file: a clip that does not come back to a pose is said to have no good loop")
+{
+    const TempFolder folder;
+    spill(folder / "c.toml", "[crowd]\nlimbs = \"arms\"\nloop = \"auto\"\n");
+    const std::string said = "the clip never comes back to a pose while it moves: at the loop's seam its joints are ";
+    const auto notes = [&](double frame_time) {
+        spill(folder / "clip.bvh", turning_bvh(61, frame_time));
+        const Outcome plain = run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml"}),
+                      json = run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml", "--json"});
+        REQUIRE(plain.exit_code + json.exit_code == 0);
+        const std::string of = nlohmann::json::parse(json.out).value("notes", nlohmann::json()).dump();
+        CHECK((plain.out.find("note     " + said) != plain.out.npos) == (of.find(said) != of.npos));
+        return of;
+    };
+    CHECK_THAT(notes(1.0 / 30), Contains(said));  // 90 degrees a second
+    CHECK_THAT(notes(1.0), !Contains(said));      // 3 degrees
 }
 
 TEST_CASE("crowd file: loop")

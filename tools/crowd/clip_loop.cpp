@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace swivel::tools {
 
@@ -34,34 +33,6 @@ GroundMotion stand_of(const Clip& clip, std::size_t frame, int body)
             {body_w.position.x(), 0, body_w.position.z()}};
 }
 
-// Of each frame, how its joints are turned, and how far they turn in kStep. The distance of two such columns is that of
-// the poses: the root of the sum of squared angles, in radians, where they are small. What lies in the world is turned
-// with the body.
-Eigen::MatrixXd looks_of(const Clip& clip, int body)
-{
-    constexpr double kStep = 1.0 / 30;  // seconds
-    const std::size_t joints = clip.joints.size();
-    std::vector<Quaterniond> rotations = clip.rotation;
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const Quaterniond heading = stand_of(clip, frame, body).turn.conjugate();
-        for (std::size_t n = 0; n < joints; ++n)
-            if (clip.joints[n].parent < 0) rotations[frame * joints + n] = heading * rotations[frame * joints + n];
-    }
-    Eigen::MatrixXd looks(12 * joints, clip.frame_count);
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const std::size_t before = frame > 0 ? frame - 1 : 0, after = std::min(frame + 1, clip.frame_count - 1);
-        const double per = kStep / (static_cast<double>(after - before) * clip.frame_time);
-        for (std::size_t n = 0; n < joints; ++n) {
-            const auto rotation = [&](std::size_t at) { return rotations[at * joints + n]; };
-            const auto row = static_cast<Eigen::Index>(12 * n), column = static_cast<Eigen::Index>(frame);
-            looks.block<9, 1>(row, column) = std::sqrt(0.5) * rotation(frame).toRotationMatrix().reshaped();
-            const Eigen::AngleAxisd turn(rotation(after) * rotation(before).conjugate());
-            looks.block<3, 1>(row + 9, column) = per * turn.angle() * turn.axis();
-        }
-    }
-    return looks;
-}
-
 // 1 to 0 in kSeam, without a kink at either end.
 double faded(double seconds)
 {
@@ -71,29 +42,7 @@ double faded(double seconds)
 
 }  // namespace
 
-FoundLoop find_loop(const Clip& clip, int body)
-{
-    const Eigen::MatrixXf looks = looks_of(clip, body).cast<float>();
-    const Eigen::VectorXf size2 = looks.colwise().squaredNorm();
-    const auto frames = looks.cols();
-    const double shortest = std::max<double>(std::ceil(kShortestLoop / clip.frame_time - 1e-6), kFewestLooped);
-    const auto apart = static_cast<Eigen::Index>(std::min(shortest, static_cast<double>(frames)));
-    constexpr Eigen::Index kTogether = 256;  // frames that are compared with all later ones at once
-    FoundLoop best{{0, clip.frame_count - 1}, std::numeric_limits<double>::infinity()};
-    for (Eigen::Index from = 0; from + apart < frames; from += kTogether) {
-        const Eigen::Index count = std::min(kTogether, frames - apart - from), later = from + apart;
-        Eigen::MatrixXf gap2 = -2.0f * looks.rightCols(frames - later).transpose() * looks.middleCols(from, count);
-        gap2.colwise() += size2.tail(frames - later);
-        for (Eigen::Index n = 0; n < count; ++n) {
-            Eigen::Index at;
-            const float least = gap2.col(n).tail(frames - later - n).minCoeff(&at) + size2[from + n];
-            if (least < best.gap)
-                best = {{static_cast<std::size_t>(from + n), static_cast<std::size_t>(later + n + at)}, least};
-        }
-    }
-    best.gap = std::sqrt(std::max(best.gap, 0.0) / static_cast<double>(clip.joints.size()));
-    return best;
-}
+Quaterniond heading_of(const Clip& clip, std::size_t frame, int body) { return stand_of(clip, frame, body).turn; }
 
 Clip looped(const Clip& clip, int body, const ClipLoop& loop, std::size_t frame_count)
 {

@@ -106,15 +106,16 @@ std::string figure_glb(const GltfFile& file);
 
 // One of a crowd that a file shows.
 struct GltfCharacter {
-    std::string name;                  // of its node and of its animation
+    std::string name;                  // of its node
     Eigen::Vector3d place;             // of the file's origin
     double size = 1;                   // of all of it, above 0
     std::vector<JointKeys> keys = {};  // at the new frames
 };
 
-// Writes so many of the figure that `file` shows, each below a node of its own and with an animation of its own in
-// place of those that there were. Each has its nodes and skins; meshes, materials and images are there once. Otherwise
-// as write_gltf(). There is one character or more.
+// Writes so many of the figure that `file` shows, each below a node of its own, and one animation of all of them in
+// place of those that there were: most viewers play the first alone. Nodes rest in the first frame. Each figure has its
+// nodes and skins; meshes, materials and images are there once. Otherwise as write_gltf(). There is one character or
+// more.
 void write_gltf_crowd(const std::filesystem::path& path, const GltfFile& file,
                       std::span<const GltfCharacter> characters, const NewFrames& frames);
 

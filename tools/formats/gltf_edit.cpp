@@ -106,6 +106,14 @@ std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::siz
     return asset.list("accessors").size() - 1;
 }
 
+// A new channel of the node's rotation or translation. Its sampler.
+Json& add_channel(Json& animation, int node, const char* path)
+{
+    Json& samplers = animation["samplers"];
+    animation["channels"].push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+    return samplers.emplace_back(Json::object());
+}
+
 // The sampler of the node's rotation or translation, unless other channels use it, too; else a new one.
 Json& sampler_for(Json& animation, int node, const char* path)
 {
@@ -114,15 +122,11 @@ Json& sampler_for(Json& animation, int node, const char* path)
         const Json& target = channel.at("target");
         return target.at("path") == path && target.value("node", -1) == node;
     };
-    auto channel = std::find_if(channels.begin(), channels.end(), is_its);
-    if (channel == channels.end()) {
-        channels.push_back({{"target", {{"node", node}, {"path", path}}}});
-        channel = channels.end() - 1;
-    } else {
-        const Json& old = channel->at("sampler");
-        const auto uses_it = [&](const Json& each) { return each.at("sampler") == old; };
-        if (std::count_if(channels.begin(), channels.end(), uses_it) == 1) return samplers[old.get<std::size_t>()];
-    }
+    const auto channel = std::find_if(channels.begin(), channels.end(), is_its);
+    if (channel == channels.end()) return add_channel(animation, node, path);
+    const Json& old = channel->at("sampler");
+    const auto uses_it = [&](const Json& each) { return each.at("sampler") == old; };
+    if (std::count_if(channels.begin(), channels.end(), uses_it) == 1) return samplers[old.get<std::size_t>()];
     (*channel)["sampler"] = samplers.size();
     return samplers.emplace_back(Json::object());
 }
@@ -140,16 +144,28 @@ Json& animation_for(GltfAsset& asset, const GltfChanges& changes)
     return animation;
 }
 
-// Adds keys of nodes, counted from the first node of a figure.
+// A node rests as its first keys have it.
+void rest_at_first_keys(Json& node, const GltfChanges::Track& track)
+{
+    const auto rest = [&](const char* name, std::span<const float> keys, std::size_t width) {
+        if (!keys.empty())
+            node[name] = std::vector<float>(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(width));
+    };
+    rest("rotation", track.xyzw, 4);
+    rest("translation", track.xyz, 3);
+}
+
+// Adds keys of nodes, counted from the first node of a figure. sampler_of: sampler_for(), or add_channel() where the
+// animation has none of these nodes, which takes no search.
 void add_tracks(GltfAsset& asset, std::size_t times, std::span<const GltfChanges::Track> tracks, Json& animation,
-                std::size_t first_node)
+                std::size_t first_node, Json& (*sampler_of)(Json&, int, const char*))
 {
     for (const GltfChanges::Track& track : tracks) {
         const std::size_t node = first_node + static_cast<std::size_t>(track.node);
         take_matrix_apart(asset.list("nodes")[node], track);
         const auto add = [&](const char* path, std::span<const float> keys, std::size_t width, const char* type) {
             if (keys.empty()) return;
-            Json& sampler = sampler_for(animation, static_cast<int>(node), path);
+            Json& sampler = sampler_of(animation, static_cast<int>(node), path);
             sampler["input"] = times;
             sampler["output"] = add_floats(asset, keys, width, type);
             sampler["interpolation"] = track.is_stepped ? "STEP" : "LINEAR";
@@ -200,28 +216,29 @@ void copy_nodes(GltfAsset& asset, std::size_t node_count, std::size_t skin_count
     }
 }
 
-void add_figures(GltfAsset& asset, std::size_t times, std::span<const GltfChanges::Figure> figures)
+void add_figures(GltfAsset& asset, std::size_t times, const GltfChanges& changes)
 {
     const std::size_t node_count = asset.list("nodes").size(), skin_count = asset.list("skins").size();
-    for (std::size_t n = 1; n < figures.size(); ++n) copy_nodes(asset, node_count, skin_count);
+    for (std::size_t n = 1; n < changes.figures.size(); ++n) copy_nodes(asset, node_count, skin_count);
     const std::vector<std::size_t> roots = root_nodes(asset.list("nodes"));  // so many of each figure
-    Json shown = Json::array(), animations = Json::array();
-    for (std::size_t n = 0; n < figures.size(); ++n) {
-        const GltfChanges::Figure& figure = figures[n];
-        const auto first = roots.begin() + static_cast<std::ptrdiff_t>(n * roots.size() / figures.size()),
-                   end = roots.begin() + static_cast<std::ptrdiff_t>((n + 1) * roots.size() / figures.size());
+    Json shown = Json::array();
+    Json animation{{"name", changes.name.value_or("")}, {"channels", Json::array()}, {"samplers", Json::array()}};
+    for (std::size_t n = 0; n < changes.figures.size(); ++n) {
+        const GltfChanges::Figure& figure = changes.figures[n];
+        const auto first = roots.begin() + static_cast<std::ptrdiff_t>(n * roots.size() / changes.figures.size()),
+                   end = roots.begin() + static_cast<std::ptrdiff_t>((n + 1) * roots.size() / changes.figures.size());
         shown.push_back(asset.list("nodes").size());
         asset.list("nodes").push_back({{"name", figure.name},
                                        {"translation", {figure.place.x(), figure.place.y(), figure.place.z()}},
                                        {"scale", {figure.size, figure.size, figure.size}},
                                        {"children", std::vector<std::size_t>(first, end)}});
-        Json animation{{"name", figure.name}, {"channels", Json::array()}, {"samplers", Json::array()}};
-        add_tracks(asset, times, figure.tracks, animation, n * node_count);
-        animations.push_back(std::move(animation));
+        add_tracks(asset, times, figure.tracks, animation, n * node_count, add_channel);
+        for (const GltfChanges::Track& track : figure.tracks)
+            rest_at_first_keys(asset.list("nodes")[n * node_count + static_cast<std::size_t>(track.node)], track);
     }
     asset.document["scenes"] = {{{"nodes", std::move(shown)}}};
     asset.document["scene"] = 0;
-    asset.document["animations"] = std::move(animations);
+    asset.document["animations"] = Json::array({std::move(animation)});
     if (skin_count == 0) asset.document.erase("skins");
 }
 
@@ -233,9 +250,9 @@ void add_keys(GltfAsset& asset, const GltfChanges& changes)
     asset.list("accessors")[times]["min"] = {changes.times.front()};
     asset.list("accessors")[times]["max"] = {changes.times.back()};
     if (changes.figures.empty())
-        add_tracks(asset, times, changes.tracks, animation_for(asset, changes), 0);
+        add_tracks(asset, times, changes.tracks, animation_for(asset, changes), 0, sampler_for);
     else
-        add_figures(asset, times, changes.figures);
+        add_figures(asset, times, changes);
 }
 
 }  // namespace

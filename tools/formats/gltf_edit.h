@@ -37,8 +37,9 @@ struct GltfChanges {
     std::vector<Track> tracks;
     int animation = -1;               // -1: a new one
     std::optional<std::string> name;  // in place of the animation and all its channels comes one of this name
-    // In place of all scenes, animations and tracks: one scene of so many figures, with an animation each. Nodes and
-    // skins are copied; meshes, materials and all that they are made of are shared.
+    // In place of all scenes, animations and tracks: one scene of so many figures, and one animation of `name` that
+    // moves all of them. Nodes rest as their first keys have them. Nodes and skins are copied; meshes, materials and
+    // all that they are made of are shared.
     std::vector<Figure> figures;
     bool drops_animations = false;  // and adds none
 };

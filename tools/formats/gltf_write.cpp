@@ -134,7 +134,7 @@ std::string figure_glb(const GltfFile& file)
 void write_gltf_crowd(const std::filesystem::path& path, const GltfFile& file,
                       std::span<const GltfCharacter> characters, const NewFrames& frames)
 {
-    GltfChanges changes{even_times(frames), {}, file.animation, {}, {}};
+    GltfChanges changes{even_times(frames), {}, file.animation, frames.name, {}};
     for (const GltfCharacter& each : characters) {
         require_keys(file.clip, each.keys, frames.count);
         changes.figures.push_back({each.name, each.place, each.size, tracks_of(file, each.keys)});

@@ -44,7 +44,8 @@ struct CannotBind : std::runtime_error {
 // above one another, bones before other nodes, one of them a bone. The first row that fits counts. Further limbs of
 // that row, and limbs of other rows that share no joint with it, are candidates, too; more than one candidate is a
 // problem that lists them. No joint between the three may have a name that the table knows for the upper or lower joint
-// of such a limb, because it would be that joint. Takes memory and time in proportion to the joints.
+// of such a limb, because it would be that joint. Where figures repeat each other, the first is searched. Takes memory
+// and time in proportion to the joints.
 std::array<FoundJoints, 4> joints_by_file(const formats::Clip& clip);
 
 // True if `top` is above the other joint.

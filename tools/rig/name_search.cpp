@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include "tools/formats/printable.h"
 #include "tools/rig/joint_names.h"
@@ -170,11 +172,28 @@ struct NameSearch {
 
 }  // namespace
 
+std::vector<bool> repeated_joints(const Clip& clip)
+{
+    std::vector<std::size_t> roots;            // of each joint
+    std::map<std::size_t, std::string> below;  // all names of bones below a root
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        const int parent = clip.joints[n].parent;
+        roots.push_back(parent < 0 ? n : roots[static_cast<std::size_t>(parent)]);
+        if (parent >= 0 && clip.joints[n].is_bone) below[roots[n]] += clip.joints[n].name + '\n';
+    }
+    std::set<std::string> seen;
+    std::vector<bool> is_repeated(clip.joints.size());
+    for (const auto& [root, names] : below) is_repeated[root] = !seen.insert(names).second;
+    for (std::size_t n = 0; n < roots.size(); ++n) is_repeated[n] = is_repeated[roots[n]];
+    return is_repeated;
+}
+
 NamedJoints::NamedJoints(const Clip& of) : clip(of)
 {
+    const std::vector<bool> is_repeated = repeated_joints(clip);
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
         names.push_back(plain(clip.joints[n].name));
-        bearers[names.back()].push_back(static_cast<int>(n));
+        if (!is_repeated[n]) bearers[names.back()].push_back(static_cast<int>(n));
     }
 }
 

@@ -11,7 +11,11 @@
 
 namespace swivel::tools {
 
-// A skeleton's joints by their plain names.
+// Which joints are of a figure that repeats an earlier one, as all but the first of a crowd do: below a root of its
+// own, with the same names in the same order.
+std::vector<bool> repeated_joints(const formats::Clip& clip);
+
+// A skeleton's joints by their plain names. Nobody bears a name for a figure that repeats an earlier one.
 struct NamedJoints {
     const formats::Clip& clip;
     std::vector<std::string> names;  // of each joint

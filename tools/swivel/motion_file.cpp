@@ -10,6 +10,7 @@
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
+#include "tools/rig/name_search.h"
 
 namespace swivel::tools {
 
@@ -113,11 +114,17 @@ std::string MotionFile::figure_glb() const
     return gltf ? formats::figure_glb(*gltf) : std::string();
 }
 
+bool MotionFile::has_motion() const
+{
+    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
+    return !gltf || gltf->animation >= 0;
+}
+
 std::string MotionFile::describe() const
 {
     const GltfFile* gltf = std::get_if<GltfFile>(&file_);
     if (!gltf) return format_;
-    if (gltf->animation < 0) return format_ + " without animation: its rest pose";
+    if (!has_motion()) return format_ + " without animation: its rest pose";
     const std::string& name = gltf->animation_names[static_cast<std::size_t>(gltf->animation)];
     return fmt::format("{}, animation {}{} of {}", format_, gltf->animation,
                        name.empty() ? "" : fmt::format(" '{}'", formats::printable(name)),
@@ -129,12 +136,17 @@ std::vector<std::string> MotionFile::notes() const
     std::vector<std::string> notes;
     std::ranges::copy_if(rest_notes_, std::back_inserter(notes), [](const auto& note) { return !note.empty(); });
     const BvhFile* bvh = std::get_if<BvhFile>(&file_);
-    if (!bvh || bvh->surplus_count == 0) return notes;
-    const std::size_t count = bvh->frame_begin.size();
-    notes.push_back(
-        fmt::format("the file has {} rows of values, and Frames: in line {} says {}; the last {} {} left out",
-                    count + bvh->surplus_count, bvh->frames_line, count, bvh->surplus_count,
-                    bvh->surplus_count == 1 ? "is" : "are"));
+    if (bvh && bvh->surplus_count > 0) {
+        const std::size_t count = bvh->frame_begin.size();
+        notes.push_back(
+            fmt::format("the file has {} rows of values, and Frames: in line {} says {}; the last {} {} left out",
+                        count + bvh->surplus_count, bvh->frames_line, count, bvh->surplus_count,
+                        bvh->surplus_count == 1 ? "is" : "are"));
+    }
+    const std::vector<bool> is_repeated = repeated_joints(clip());
+    std::size_t figures = 1;
+    for (std::size_t n = 0; n < is_repeated.size(); ++n) figures += is_repeated[n] && clip().joints[n].parent < 0;
+    if (figures > 1) notes.push_back(fmt::format("the file has {} figures alike; the first of them counts", figures));
     return notes;
 }
 

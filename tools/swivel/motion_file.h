@@ -46,6 +46,8 @@ public:
     std::string figure_glb() const;
     // What the clip is, for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
+    // False for a glTF file without an animation: the clip is its rest pose.
+    bool has_motion() const;
     // What the user should know of how it was read, a line each; mostly nothing.
     std::vector<std::string> notes() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion. what: the file's own name in the

@@ -16,6 +16,42 @@
 
 namespace swivel::tools {
 
+namespace {
+
+// What the user should know of the motion, a line each; mostly nothing.
+std::vector<std::string> motion_notes(const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
+{
+    std::vector<std::string> notes = file.notes();
+    if (!file.has_motion() && job.plan.characters > 1)
+        notes.push_back(
+            fmt::format("{0} has no motion: all {1} characters stand in its rest pose, but for limbs with "
+                        "targets; swivel retarget puts a motion on it",
+                        shown_file(options.file), job.plan.characters));
+    return notes;
+}
+
+std::string number_of_clip(const CrowdJob& job, std::size_t n)
+{
+    return job.loops.size() > 1 ? fmt::format(" {}", n + 1) : "";
+}
+
+// The same of loops.
+std::vector<std::string> loop_notes(const CrowdJob& job)
+{
+    std::vector<std::string> notes;
+    for (std::size_t n = 0; n < job.loops.size(); ++n)
+        if (job.loops[n].gap > kWideGap)
+            notes.push_back(
+                fmt::format("the clip{} never comes back to a pose while it moves: at the loop's seam its "
+                            "joints are {:.0f} degrees apart, and this shows; {}take a clip that repeats "
+                            "itself",
+                            number_of_clip(job, n), job.loops[n].gap * 180 / std::numbers::pi,
+                            job.further.empty() ? "name [first, last], or " : ""));
+    return notes;
+}
+
+}  // namespace
+
 std::string shown_file(const std::string& name) { return formats::printable(name, std::string::npos); }
 
 void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
@@ -26,7 +62,7 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(options.file), file.describe(),
         clip.joints.size(), job.frame_count, job.frame_count == 1 ? "" : "s",
         clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
-    for (const std::string& note : file.notes()) say(to, "note     {}\n", note);
+    for (const std::string& note : motion_notes(options, file, job)) say(to, "note     {}\n", note);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
         say(to, "{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
@@ -41,12 +77,12 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     for (std::size_t n = 0; n < job.loops.size(); ++n) {
         const FoundLoop& found = job.loops[n];
         say(to, "loop     frames {} to {} of the clip{}, {:.2f} s{}\n", found.loop.first, found.loop.last,
-            job.loops.size() > 1 ? fmt::format(" {}", n + 1) : "",
-            static_cast<double>(found.loop.length()) * clip.frame_time,
+            number_of_clip(job, n), static_cast<double>(found.loop.length()) * clip.frame_time,
             found.gap > 0 ? fmt::format("; a joint's pose and motion differ by {:.1f} degrees",
                                         found.gap * 180 / std::numbers::pi)
                           : "");
     }
+    for (const std::string& note : loop_notes(job)) say(to, "note     {}\n", note);
     if (const std::size_t count = job.given->left_out(); count > 0)
         say(to, "note     {}: {} row{} left out, of limbs that are not solved\n", shown_file(job.targets), count,
             count == 1 ? " is" : "s are");
@@ -114,7 +150,9 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
             of["legs"] = build.legs, of["arms"] = build.arms, of["spine"] = build.spine, of["speed"] = part.pace;
     }
     if (!job.loops.empty()) out["loop"] = {job.loops[0].loop.first, job.loops[0].loop.last};
-    if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;
+    std::vector<std::string> notes = motion_notes(options, file, job);
+    std::ranges::copy(loop_notes(job), std::back_inserter(notes));
+    if (!notes.empty()) out["notes"] = notes;
     for (const Limb& limb : job.limbs) {
         const LimbWords& words = words_of(limb.name.kind);
         out[fmt::format("{}_bound", words.limbs)].push_back(

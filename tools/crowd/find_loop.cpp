@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/find_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXf;
+using Eigen::Quaterniond;
+using formats::Clip;
+
+// Of each frame, how its joints are turned, and below that how far they turn in kStep. The distance of two such columns
+// is that of the poses: the root of the sum of squared angles, in radians, where they are small. What lies in the world
+// is turned with the body.
+MatrixXf looks_of(const Clip& clip, int body)
+{
+    constexpr double kStep = 1.0 / 30;  // seconds
+    const std::size_t joints = clip.joints.size();
+    std::vector<Quaterniond> rotations = clip.rotation;
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const Quaterniond heading = heading_of(clip, frame, body).conjugate();
+        for (std::size_t n = 0; n < joints; ++n)
+            if (clip.joints[n].parent < 0) rotations[frame * joints + n] = heading * rotations[frame * joints + n];
+    }
+    MatrixXf looks(12 * joints, clip.frame_count);
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const std::size_t before = frame > 0 ? frame - 1 : 0, after = std::min(frame + 1, clip.frame_count - 1);
+        const double per = kStep / (static_cast<double>(after - before) * clip.frame_time);
+        for (std::size_t n = 0; n < joints; ++n) {
+            const auto rotation = [&](std::size_t at) { return rotations[at * joints + n]; };
+            const auto pose = static_cast<Index>(9 * n), motion = static_cast<Index>(9 * joints + 3 * n),
+                       column = static_cast<Index>(frame);
+            const Eigen::Matrix3d turned = std::sqrt(0.5) * rotation(frame).toRotationMatrix();
+            const Eigen::AngleAxisd turn(rotation(after) * rotation(before).conjugate());
+            looks.block<9, 1>(pose, column) = turned.reshaped().cast<float>();
+            looks.block<3, 1>(motion, column) = (per * turn.angle() * turn.axis()).cast<float>();
+        }
+    }
+    return looks;
+}
+
+float gap2_of(const MatrixXf& looks, const ClipLoop& loop)
+{
+    return (looks.col(static_cast<Index>(loop.last)) - looks.col(static_cast<Index>(loop.first))).squaredNorm();
+}
+
+// How fast the joints of a clip turn, all of them together.
+class Pace {
+public:
+    Pace(const MatrixXf& looks, std::size_t frames_a_second)
+    {
+        const Eigen::VectorXf speeds = looks.bottomRows(looks.rows() / 4).colwise().norm();
+        for (const float speed : speeds) sums_.push_back(sums_.back() + double{speed});
+        const std::size_t frames = sums_.size() - 1, span = std::min(frames_a_second, frames);
+        double sum2 = 0;
+        for (std::size_t n = 0; n + span <= frames; ++n) sum2 += std::pow(mean({n, n + span}), 2);
+        least_ = kLeastPace * std::sqrt(sum2 / static_cast<double>(frames - span + 1));
+    }
+    bool is_kept(const ClipLoop& loop) const { return mean(loop) >= least_; }
+
+private:
+    double mean(const ClipLoop& of) const
+    {
+        return (sums_[of.last] - sums_[of.first]) / static_cast<double>(of.length());
+    }
+
+    std::vector<double> sums_ = {0};  // of the speeds of all frames before each one
+    double least_;
+};
+
+constexpr Index kDirections = 8;
+using Coarse = Eigen::Matrix<float, kDirections, Eigen::Dynamic>;
+
+// Each frame along the directions in which poses differ most, nearly. Two frames are no nearer to each other than they
+// are here.
+Coarse coarse_of(const MatrixXf& looks)
+{
+    constexpr Index kSampled = 400, kRounds = 4;
+    const Index every = (looks.cols() + kSampled - 1) / kSampled, count = (looks.cols() + every - 1) / every;
+    MatrixXf some(looks.rows(), count), axes(looks.rows(), kDirections);
+    for (Index n = 0; n < count; ++n) some.col(n) = looks.col(n * every);
+    some.colwise() -= some.rowwise().mean().eval();
+    for (Index n = 0; n < kDirections; ++n) axes.col(n) = some.col(n * count / kDirections);
+    for (Index round = 0; round < kRounds; ++round) {  // towards the largest eigenvectors of the covariance
+        const Eigen::HouseholderQR<MatrixXf> qr(some * (some.transpose() * axes));
+        axes = qr.householderQ() * MatrixXf::Identity(axes.rows(), kDirections);
+    }
+    return axes.transpose() * looks;
+}
+
+// The best loop of so many frames or more. Frames are sorted along the first of the coarse directions. Each is compared
+// with those behind it, until they are farther away there than the best two frames are from each other; in full only
+// where all the coarse directions allow it, and kInFull times. (Real clips need 40. Where frames are noise, and all are
+// as far apart, more would find nothing better.)
+FoundLoop nearest(const MatrixXf& looks, const Pace& pace, std::size_t apart, float no_gap2)
+{
+    constexpr int kInFull = 200;
+    const Coarse unsorted = coarse_of(looks);
+    std::vector<std::uint32_t> order(static_cast<std::size_t>(looks.cols()));
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [&](std::uint32_t n) { return unsorted(0, n); });
+    Coarse coarse(kDirections, looks.cols());
+    for (Index n = 0; n < looks.cols(); ++n) coarse.col(n) = unsorted.col(order[static_cast<std::size_t>(n)]);
+
+    FoundLoop best{{0, order.size() - 1}, std::numeric_limits<double>::infinity()};
+    float best2 = std::numeric_limits<float>::infinity();
+    for (Index at = 0; at < looks.cols(); ++at)
+        for (Index to = at + 1, left = kInFull; to < looks.cols() && left > 0; ++to) {
+            const float ahead = coarse(0, to) - coarse(0, at);
+            if (ahead * ahead > best2) break;
+            if ((coarse.col(to) - coarse.col(at)).squaredNorm() > best2) continue;
+            const auto [first, last] =
+                std::minmax({order[static_cast<std::size_t>(at)], order[static_cast<std::size_t>(to)]});
+            const ClipLoop loop{first, last};
+            const bool is_shorter = loop.length() < best.loop.length();
+            if (loop.length() < apart || (best2 <= no_gap2 && !is_shorter) || !pace.is_kept(loop)) continue;
+            --left;
+            const float gap2 = std::max(gap2_of(looks, loop), no_gap2);
+            if (gap2 < best2 || (gap2 <= no_gap2 && is_shorter)) best = {loop, 0}, best2 = gap2;
+        }
+    if (std::isfinite(best2)) best.gap = std::sqrt(double{gap2_of(looks, best.loop)});
+    return best;
+}
+
+}  // namespace
+
+FoundLoop find_loop(const Clip& clip, int body)
+{
+    constexpr double kNoGap = 1e-3;  // radians: nobody sees them
+    const auto frames_in = [&](double seconds) {
+        const double frames = std::ceil(seconds / clip.frame_time - 1e-6);
+        return static_cast<std::size_t>(std::clamp(frames, 1.0, static_cast<double>(clip.frame_count)));
+    };
+    const double half = static_cast<double>(clip.frame_count - 1) * clip.frame_time / 2;
+    const std::size_t apart = std::max(frames_in(std::clamp(half, kShortestLoop, kLongEnough)), kFewestLooped);
+    if (apart >= clip.frame_count) return {{0, clip.frame_count - 1}, std::numeric_limits<double>::infinity()};
+    const MatrixXf looks = looks_of(clip, body);
+    const auto joints = static_cast<double>(clip.joints.size());
+    FoundLoop best = nearest(looks, Pace(looks, frames_in(1)), apart, static_cast<float>(kNoGap * kNoGap * joints));
+    best.gap /= std::sqrt(joints);
+    return best;
+}
+
+}  // namespace swivel::tools
