@@ -160,13 +160,6 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Facing&
     return finding;
 }
 
-KnownLimbs known_limbs(const FigureJoints& figure)
-{
-    KnownLimbs known;
-    std::ranges::transform(figure, known.begin(), [](const LimbFound& limb) { return limb.joints.joints; });
-    return known;
-}
-
 }  // namespace
 
 std::string problem_text(const LimbFinding& finding)
@@ -194,6 +187,13 @@ std::vector<int> joints_of(const FigureJoints& figure)
         if (limb.is_chosen && limb.joints.joints)
             joints.insert(joints.end(), limb.joints.joints->begin(), limb.joints.joints->end());
     return joints;
+}
+
+KnownLimbs known_limbs(const FigureJoints& figure)
+{
+    KnownLimbs known;
+    std::ranges::transform(figure, known.begin(), [](const LimbFound& limb) { return limb.joints.joints; });
+    return known;
 }
 
 std::vector<BodyPart> body_of(const Clip& clip, const std::filesystem::path& file, const FigureJoints& figure,
