@@ -113,7 +113,7 @@ TEST_CASE("help: a slip in a command or an option is told")
     CHECK(said({"solve", "x", "--limbs", "arm"}) == "swivel: --limbs: there is no 'arm'; did you mean arms?\n");
     for (const auto& [command, options] : options_of_commands())
         for (const std::string& option : options) {
-            if (option.size() < 5) continue;  // too short to be told from others
+            if (option.size() < 6) continue;  // with a letter less, too short to be told from others
             for (std::size_t n = 2; n < option.size(); ++n) {
                 std::string slip = option;
                 slip.erase(n, 1);
