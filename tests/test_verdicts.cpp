@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+//
+// What is wrong in a clip, or in what came of it, is named: a clean clip is damaged in ways that files have, one at a
+// time.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/demo_figure.h"
+#include "tools/crowd/demo_clip.h"
+#include "tools/formats/limb_name.h"
+#include "tools/retarget/eased.h"
+#include "tools/retarget/verdict.h"
+#include "tools/rig/clip_doubts.h"
+
+using namespace swivel;
+using Catch::Matchers::Contains;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using formats::Clip;
+
+namespace {
+
+constexpr std::size_t kFrames = 120;
+
+std::size_t joint_of(const Clip& clip, const char* name)
+{
+    return static_cast<std::size_t>(formats::find_joints(clip, name).at(0));
+}
+Quaterniond& rotation_of(Clip& clip, const char* name, std::size_t frame)
+{
+    return clip.rotation[frame * clip.joints.size() + joint_of(clip, name)];
+}
+std::string doubts(const Clip& clip)
+{
+    std::string all;
+    for (const std::string& each : tools::doubts_of(clip, test::parts_of_demo(clip))) all += each + "\n";
+    return all;
+}
+
+struct Damage {
+    const char* name;
+    std::string said;
+    void (*make)(Clip& clip);
+};
+const Damage kDamages[] = {
+    {"a longer bone", "the left thigh is 1.20 times as long as the right one",
+     [](Clip& clip) { clip.joints[joint_of(clip, "LeftLeg")].offset *= 1.2; }},
+    {"left and right exchanged", "the left leg is on the right of where the toes point",
+     [](Clip& clip) {
+         for (formats::Joint& joint : clip.joints)
+             if (joint.name.starts_with("Left"))
+                 joint.name.replace(0, 4, "Right");
+             else if (joint.name.starts_with("Right"))
+                 joint.name.replace(0, 5, "Left");
+     }},
+    {"a pop", "'RightForeArm' turns there and back, by 20 degrees in frame 50",
+     [](Clip& clip) {
+         rotation_of(clip, "RightForeArm", 50) *= Quaterniond(Eigen::AngleAxisd(0.349, Vector3d::UnitX()));
+     }},
+    {"a knee the wrong way", "the left knee bends forwards",
+     [](Clip& clip) {
+         for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+             for (const char* joint : {"LeftUpLeg", "LeftLeg", "LeftFoot"})
+                 rotation_of(clip, joint, frame) = rotation_of(clip, joint, frame).conjugate();
+     }},
+    {"an elbow the wrong way", "the right elbow bends backwards",
+     [](Clip& clip) {
+         for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+             rotation_of(clip, "RightForeArm", frame) = rotation_of(clip, "RightForeArm", frame).conjugate();
+     }},
+    {"sunk", "its feet stand at a height of -0.1",
+     [](Clip& clip) {
+         for (Vector3d& place : clip.translation) place.y() -= 0.1;
+     }},
+    {"a rest that lies", "heads are above feet along y in its frames and along",
+     [](Clip& clip) { clip.joints[0].rest_rotation = Quaterniond(Eigen::AngleAxisd(1.5708, Vector3d::UnitX())); }},
+};
+
+}  // namespace
+
+TEST_CASE("doubts: a clean clip has none, and each damage is named")
+{
+    const Clip clean = tools::demo_clip(kFrames);
+    CHECK(doubts(clean).empty());
+    for (const Damage& damage : kDamages) {
+        INFO(damage.name);
+        Clip clip = clean;
+        damage.make(clip);
+        CHECK_THAT(doubts(clip), Contains(damage.said));
+    }
+}
+
+TEST_CASE("verdicts: a motion that is the source's is good, limbs elsewhere are garbage, some frames are doubts")
+{
+    const Clip source = tools::demo_clip(kFrames);
+    const tools::JointPairs pairs = test::demo_pairs(source, source);
+    const tools::Retargeted motion = tools::retarget(source, source, pairs);
+    CHECK(tools::verdict_of(source, motion, pairs).is_good());
+    const auto raised = [&](std::size_t frames) {
+        tools::Retargeted wrong = motion;
+        for (std::size_t frame = 0; frame < frames; ++frame)
+            rotation_of(wrong.clip, "LeftUpLeg", frame) = Quaterniond(Eigen::AngleAxisd(-1.5, Vector3d::UnitX()));
+        return tools::verdict_of(source, wrong, pairs);
+    };
+    REQUIRE(!raised(kFrames / 2).faults.empty());
+    CHECK_THAT(raised(kFrames / 2).faults.front(),
+               Contains("the left thigh points") && Contains("in 60 of 120 frames"));
+    CHECK(raised(3).faults.empty());
+    REQUIRE(!raised(3).doubts.empty());
+    CHECK_THAT(raised(3).doubts.front(), Contains("in 3 of 120 frames"));
+}
+
+TEST_CASE("eased: no step is above the most, slow courses stay, and none leaves what the values span")
+{
+    std::mt19937 random(1);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<double> values(50);
+        for (double& value : values) value = std::uniform_real_distribution(-1.0, 1.0)(random);
+        const double most_step = std::uniform_real_distribution(0.01, 3.0)(random);
+        const std::vector<double> course = tools::eased(values, most_step);
+        for (std::size_t n = 1; n < course.size(); ++n)
+            CHECK(std::abs(course[n] - course[n - 1]) <= most_step * (1 + 1e-12));
+        const auto [least, most] = std::ranges::minmax(values);
+        for (const double value : course) CHECK((value >= least && value <= most));
+        CHECK(tools::eased(course, most_step * (1 + 1e-9)) == course);
+    }
+    std::vector<double> jump(100, 0);
+    jump[50] = 1;
+    const std::vector<double> course = tools::eased(jump, 0.1);
+    CHECK(course[50] == Approx(0.55));  // between 1 and a step above 0
+    CHECK(course[39] == 0);             // more than ten steps away
+}
