@@ -34,6 +34,9 @@ const char* bone_name(std::size_t limb, std::size_t bone)
     return bone == 0 ? "thigh" : "shin";
 }
 
+// A bone of no length tells nothing.
+bool is_other_length(double a, double b) { return a > 0 && b > 0 && std::max(a, b) > kOtherLength * std::min(a, b); }
+
 // In which frames something is so.
 struct Frames {
     std::size_t count = 0, first = 0;
@@ -77,8 +80,7 @@ public:
         judge_lengths();
         judge_exchange();
         judge_bends();
-        judge_shoulders();
-        judge_elbows();
+        judge_arms();
         judge_pops();
         judge_height();
         judge_up();
@@ -129,54 +131,67 @@ private:
         return bone_w(rest_w_, leg, 0).norm() + bone_w(rest_w_, leg, 1).norm();
     }
 
+    // The frames of which this is so.
+    template <class IsSo>
+    Frames frames_where(const IsSo& is_so) const
+    {
+        Frames frames;
+        for (std::size_t frame = 0; frame < count(); ++frame)
+            if (is_so(poses_w_[frame])) frames.add(frame);
+        return frames;
+    }
+    bool is_mostly(const Frames& frames) const
+    {
+        return static_cast<double>(frames.count) > kMostly * static_cast<double>(count());
+    }
+    static const char* side_of_limb(std::size_t limb) { return limb % 2 == 0 ? "left" : "right"; }
+
     void judge_sides()
     {
         for (const std::size_t pair : {0u, 2u})
             for (std::size_t bone = 0; has(pair) && bone < 2; ++bone) {
-                const double ratio = bone_w(rest_w_, pair, bone).norm() / bone_w(rest_w_, pair + 1, bone).norm();
-                if (std::max(ratio, 1 / ratio) > kOtherLength)
-                    doubt("the left {} is {:.2f} times as long as the right one", bone_name(pair, bone), ratio);
+                const double left = bone_w(rest_w_, pair, bone).norm(), right = bone_w(rest_w_, pair + 1, bone).norm();
+                if (is_other_length(left, right))
+                    doubt("the left {} is {:.2f} times as long as the right one", bone_name(pair, bone), left / right);
             }
     }
     void judge_lengths()
     {
         for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
             for (std::size_t bone = 0; limbs_[limb] && bone < 2; ++bone) {
-                Frames frames;
-                for (std::size_t frame = 0; frame < count(); ++frame) {
-                    const double ratio =
-                        bone_w(poses_w_[frame], limb, bone).norm() / bone_w(rest_w_, limb, bone).norm();
-                    if (std::max(ratio, 1 / ratio) > kOtherLength) frames.add(frame);
-                }
+                const double at_rest = bone_w(rest_w_, limb, bone).norm();
+                const Frames frames = frames_where([&](const BodyMoment& pose_w) {
+                    return is_other_length(bone_w(pose_w, limb, bone).norm(), at_rest);
+                });
                 if (frames.count > 0)
-                    doubt("the {} {} is not as long as at rest {}", side_name(formats::kLimbNames[limb].side),
-                          bone_name(limb, bone), frames.words(count()));
+                    doubt("the {} {} is not as long as at rest {}", side_of_limb(limb), bone_name(limb, bone),
+                          frames.words(count()));
             }
     }
     // Where hips or shoulders face.
-    Vector3d front_w(const BodyMoment& pose_w, std::size_t pair) const { return to_left_w(pose_w, pair).cross(up_w_); }
-    bool is_mostly(std::size_t some, std::size_t all) const
+    Vector3d front_w(const BodyMoment& pose_w, std::size_t pair) const
     {
-        return some > 0 && static_cast<double>(some) > kMostly * static_cast<double>(all);
+        return to_left_w(pose_w, pair).cross(up_w_).normalized();
     }
-
     void judge_exchange()
     {
         if (!has(2)) return;
         std::array<Frames, 2> feet;
-        Frames arms;
-        for (std::size_t frame = 0; frame < count(); ++frame) {
-            const BodyMoment& pose_w = poses_w_[frame];
-            for (std::size_t side = 0; side < 2; ++side)
-                if (has_toes(side) && level(toe_way_w(pose_w, side)).dot(front_w(pose_w, 2)) < 0) feet[side].add(frame);
-            if (has(0) && to_left_w(pose_w, 0).dot(to_left_w(pose_w, 2)) < 0) arms.add(frame);
-        }
+        for (std::size_t side = 0; side < 2; ++side)
+            if (has_toes(side))
+                feet[side] = frames_where([&](const BodyMoment& pose_w) {
+                    return level(toe_way_w(pose_w, side)).dot(front_w(pose_w, 2)) < 0;
+                });
+        // A runner's foot points back in up to a third of the frames.
         const auto half = [&](const Frames& frames) { return 2 * frames.count > count(); };
         const bool is_left = half(feet[0]), is_right = half(feet[1]);
         if (is_left && is_right)
             doubt("the left leg is on the right of where the toes point {}", feet[0].words(count()));
         else if (is_left || is_right)
             doubt("the {} foot points backwards {}", is_left ? "left" : "right", feet[is_left ? 0 : 1].words(count()));
+        if (!has(0)) return;
+        const Frames arms =
+            frames_where([&](const BodyMoment& pose_w) { return to_left_w(pose_w, 0).dot(to_left_w(pose_w, 2)) < 0; });
         if (half(arms)) doubt("the left arm is on the side of the right leg {}", arms.words(count()));
     }
     // Which way a limb bends, its lower bone's part across the upper one; zero where it is too straight to tell.
@@ -192,46 +207,36 @@ private:
             const bool is_arm = limb < 2;
             const std::size_t pair = is_arm ? 0 : 2;
             if (!has(pair)) continue;
-            Frames wrong;
-            for (std::size_t frame = 0; frame < count(); ++frame) {
-                const Vector3d bends_w = bend_w(poses_w_[frame], limb);
-                const double ahead = bends_w.dot(front_w(poses_w_[frame], pair).normalized());
-                if ((is_arm ? ahead : -ahead) < -kBackwards) wrong.add(frame);
-            }
-            if (is_mostly(wrong.count, count()))
-                doubt("the {} {} bends {} {}", side_name(formats::kLimbNames[limb].side), is_arm ? "elbow" : "knee",
+            const Frames wrong = frames_where([&](const BodyMoment& pose_w) {
+                const double ahead = bend_w(pose_w, limb).dot(front_w(pose_w, pair));
+                return (is_arm ? ahead : -ahead) < -kBackwards;
+            });
+            if (is_mostly(wrong))
+                doubt("the {} {} bends {} {}", side_of_limb(limb), is_arm ? "elbow" : "knee",
                       is_arm ? "backwards" : "forwards", wrong.words(count()));
         }
     }
-    void judge_shoulders()
+    void judge_arms()
     {
         for (std::size_t arm = 0; has(0) && arm < 2; ++arm) {
-            Frames behind;
-            for (std::size_t frame = 0; frame < count(); ++frame)
-                if (bone_w(poses_w_[frame], arm, 0).normalized().dot(front_w(poses_w_[frame], 0).normalized()) <
-                    -kBehind)
-                    behind.add(frame);
-            if (is_mostly(behind.count, count()))
-                doubt("the {} upper arm points backwards {}", arm == 0 ? "left" : "right", behind.words(count()));
+            const Frames behind = frames_where([&](const BodyMoment& pose_w) {
+                return bone_w(pose_w, arm, 0).normalized().dot(front_w(pose_w, 0)) < -kBehind;
+            });
+            if (is_mostly(behind))
+                doubt("the {} upper arm points backwards {}", side_of_limb(arm), behind.words(count()));
+            if (hips_ < 0) continue;
+            const Frames inside = frames_where([&](const BodyMoment& pose_w) { return is_inside(pose_w, arm); });
+            if (is_mostly(inside))
+                doubt("the {} elbow is inside the trunk {}", side_of_limb(arm), inside.words(count()));
         }
     }
-    void judge_elbows()
+    // Whether the elbow is nearer to the line from hips to shoulders than half of the way to a shoulder.
+    bool is_inside(const BodyMoment& pose_w, std::size_t arm) const
     {
-        if (!has(0) || hips_ < 0) return;
-        for (std::size_t arm = 0; arm < 2; ++arm) {
-            Frames inside;
-            for (std::size_t frame = 0; frame < count(); ++frame) {
-                const BodyMoment& pose_w = poses_w_[frame];
-                const Vector3d base_w = place(pose_w, hips_);
-                const Vector3d neck_w = (place(pose_w, (*limbs_[0])[0]) + place(pose_w, (*limbs_[1])[0])) / 2;
-                const Vector3d back_w = neck_w - base_w, way_w = place(pose_w, (*limbs_[arm])[1]) - base_w;
-                const double share = way_w.dot(back_w) / back_w.squaredNorm();
-                const double width = to_left_w(pose_w, 0).norm() / 2;
-                if (share > 0 && share < 1 && (way_w - share * back_w).norm() < 0.5 * width) inside.add(frame);
-            }
-            if (is_mostly(inside.count, count()))
-                doubt("the {} elbow is inside the trunk {}", arm == 0 ? "left" : "right", inside.words(count()));
-        }
+        const Vector3d base_w = place(pose_w, hips_), way_w = place(pose_w, (*limbs_[arm])[1]) - base_w;
+        const Vector3d back_w = (place(pose_w, (*limbs_[0])[0]) + place(pose_w, (*limbs_[1])[0])) / 2 - base_w;
+        const double share = way_w.dot(back_w) / back_w.squaredNorm();
+        return share > 0 && share < 1 && (way_w - share * back_w).norm() < to_left_w(pose_w, 0).norm() / 4;
     }
     // How far a joint's own rotation in a frame is out of the middle of those before and after, in degrees.
     double out_of_middle_deg(std::size_t joint, std::size_t frame) const
