@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 // Weights at 60 frames a second, of squares of lengths. Those of second differences go with the cube of the rate, and
 // others against it. So the sums over frames stand for the same integrals at any rate.
 constexpr double kSmooth = 20, kTogether = 0.005, kHome = 0.02, kAsBent = 1, kReach = 1000, kJump = 1000, kGround = 1e4,
-                 kClear = 100;
+                 kClear = 30;
 constexpr double kStraightest = 0.995;  // share of both bones: a knee bent by 11 degrees
 constexpr double kJumpShare = 0.995;    // of the clip's largest jump: a weight leaves a little of what it forbids
 constexpr int kMostRounds = 30;
@@ -111,6 +111,7 @@ public:
     Problem(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor)
         : motion_(motion),
           floor_(floor),
+
           is_down_(contacts),
           lift_(lift_of(motion, contacts, floor)),
           pace_(60 * motion.frame_time)
@@ -121,7 +122,7 @@ public:
             body_at_.back().known = motion.carrier_w[frame] + lift_w(frame);
         }
         for (std::size_t leg = 0; leg < motion.legs.size(); ++leg) {
-            add_leg(motion.legs[leg], lift_.legs[leg].height, contacts[leg], bars);
+            add_leg(motion.legs[leg], lift_.legs[leg].move_w, contacts[leg], bars);
             toes_jump_ = std::max(toes_jump_, largest_jump(motion.legs[leg].toe_w));
         }
     }
@@ -156,12 +157,12 @@ private:
         return sum;
     }
 
-    void add_leg(const LegPath& path, const std::vector<double>& lift, const std::vector<bool>& contact,
+    void add_leg(const LegPath& path, const std::vector<Vector3d>& move_w, const std::vector<bool>& contact,
                  const ContactBars& bars)
     {
         LegSums leg;
         for (std::size_t frame = 0; frame < contact.size(); ++frame)
-            leg.on_ground_w.push_back(path.toe_w[frame] + lift[frame] * motion_.up_w);
+            leg.on_ground_w.push_back(path.toe_w[frame] + move_w[frame]);
         for (std::size_t frame = 0; frame < contact.size(); ++frame) {
             const bool goes_on = contact[frame] && frame > 0 && contact[frame - 1];
             // A contact's unknown is the change in its first frame.
@@ -243,16 +244,16 @@ private:
         for (int axis = 0; axis < 3; ++axis) squares.want(stand.toe, Vector3d::Unit(axis), point_w[axis], kGround);
     }
 
-    // A toe in the air is no lower over the ground than it is in the clip.
+    // A toe in the air is no deeper in the ground than it is in the clip.
     void add_clearing(std::size_t n, const VectorXd& values, Squares& squares) const
     {
         for (std::size_t frame = 0; frame < body_.size(); ++frame) {
-            const Sum& toe = legs_[n].toe[frame];
+            const Vector3d now_w = legs_[n].toe[frame].at(values);
             const double own = motion_.legs[n].toe_w[frame].dot(motion_.up_w) - floor_.level;
-            const Vector3d now_w = toe.at(values);
-            const double lacks = own - floor_.over(now_w);
-            if (!is_down_[n][frame] && lacks > 0)
-                squares.want(toe, motion_.up_w, now_w.dot(motion_.up_w) + lacks, kClear * pace_);
+            const double lacks = std::min(own, 0.0) - floor_.over(now_w);
+            if (is_down_[n][frame] || lacks <= 0) continue;
+            const Vector3d normal_w = floor_.normal_w(now_w), point_w = now_w + lacks * motion_.up_w;
+            squares.want(legs_[n].toe[frame], normal_w, normal_w.dot(point_w), kClear * pace_);
         }
     }
 

@@ -15,7 +15,6 @@
 // - No leg is longer than 0.995 of its bones. A knee that goes straight snaps.
 // - Velocities of toes and of the body jump no more from frame to frame than they do in the clip.
 // - Feet in contact are on the ground, on one side of an edge that is steeper than 45 degrees.
-// - On hills a toe in the air is no lower over the ground than it is in the clip.
 //
 // Lengths of legs and heights are not linear, so it is solved some times, each time from where the last one ended.
 #pragma once

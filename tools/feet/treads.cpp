@@ -34,7 +34,7 @@ bool can_stand(const Vector3d& toe_w, const Vector3d& part_w, const Floor& floor
 // A frame in which the ground below a foot counts: one of a contact, or of the air.
 struct Anchor {
     std::size_t first, end;
-    double height;
+    Vector3d move_w;
     Vector3d normal_w;
 };
 
@@ -42,7 +42,8 @@ Anchor anchor_at(const LegMotion& motion, const LegPath& path, const Contact& fr
 {
     const std::size_t middle = middle_of(frames);
     const Vector3d place_w = tread_near(motion, path, middle, path.toe_w[middle], floor);
-    return {frames.first, frames.end, floor.hill(place_w), floor.normal_w(place_w)};
+    return {frames.first, frames.end, place_w - path.toe_w[middle] + floor.hill(place_w) * floor.up_w,
+            floor.normal_w(place_w)};
 }
 
 std::vector<Anchor> anchors_of(const LegMotion& motion, std::size_t leg, const std::vector<bool>& contact,
@@ -63,19 +64,37 @@ std::vector<Anchor> anchors_of(const LegMotion& motion, std::size_t leg, const s
     return anchors;
 }
 
+// In the air between two anchors: evenly from one to the other. And over what lies between, by an arc that is as high
+// as the toe needs so as not to be deeper in the ground than in the clip.
+void add_swing(const LegMotion& motion, const LegPath& path, const Anchor& from, const Anchor& next, const Floor& floor,
+               LegLift& lift)
+{
+    const auto time_at = [&](std::size_t frame) {
+        return static_cast<double>(frame - from.end + 1) / static_cast<double>(next.first - from.end + 1);
+    };
+    const auto arc_at = [&](std::size_t frame) { return 4 * time_at(frame) * (1 - time_at(frame)); };
+    double arc = 0;
+    for (std::size_t frame = from.end; frame < next.first; ++frame) {
+        const double time = time_at(frame), share = time * time * (3 - 2 * time);
+        lift.move_w.push_back(from.move_w + share * (next.move_w - from.move_w));
+        lift.normal_w.push_back((from.normal_w + share * (next.normal_w - from.normal_w)).normalized());
+        const Vector3d toe_w = path.toe_w[frame] + lift.move_w.back();
+        const double own = path.toe_w[frame].dot(motion.up_w) - floor.level;
+        const double lacks = std::min(own, 0.0) - floor.over(toe_w);
+        arc = std::max(arc, lacks / arc_at(frame));
+    }
+    for (std::size_t frame = from.end; frame < next.first; ++frame)
+        lift.move_w[frame] += arc * arc_at(frame) * floor.up_w;
+}
+
 LegLift lift_of_leg(const LegMotion& motion, std::size_t leg, const std::vector<bool>& contact, const Floor& floor)
 {
     const std::vector<Anchor> anchors = anchors_of(motion, leg, contact, floor);
     LegLift lift;
-    for (std::size_t n = 0, frame = 0; frame < contact.size(); ++frame) {
-        while (n + 1 < anchors.size() && frame >= anchors[n + 1].first) ++n;
-        const Anchor &from = anchors[n], &next = anchors[std::min(n + 1, anchors.size() - 1)];
-        double share = 0;  // of the way to the next one
-        if (frame >= from.end)
-            share = static_cast<double>(frame - from.end + 1) / static_cast<double>(next.first - from.end + 1);
-        share *= share * (3 - 2 * share);
-        lift.height.push_back(from.height + share * (next.height - from.height));
-        lift.normal_w.push_back((from.normal_w + share * (next.normal_w - from.normal_w)).normalized());
+    for (std::size_t n = 0; n < anchors.size(); ++n) {
+        if (n > 0) add_swing(motion, motion.legs[leg], anchors[n - 1], anchors[n], floor, lift);
+        lift.move_w.resize(anchors[n].end, anchors[n].move_w);
+        lift.normal_w.resize(anchors[n].end, anchors[n].normal_w);
     }
     return lift;
 }
@@ -91,7 +110,7 @@ Vector3d tread_near(const LegMotion& motion, const LegPath& path, std::size_t fr
     if (part_w.norm() < least) part_w = least * floor.up_w.unitOrthogonal();
     const Vector3d side_w = part_w.cross(floor.up_w);
     if (can_stand(toe_w, part_w, floor)) return toe_w;
-    for (int ring = 1; ring * part_w.norm() < path.length / 2; ++ring)
+    for (int ring = 1; ring <= kBefore + kParts + kBehind; ++ring)
         for (int n = 0; n < kDirections; ++n) {
             const double angle = 2 * std::numbers::pi * n / kDirections;
             const Vector3d place_w = toe_w + ring * (std::cos(angle) * part_w + std::sin(angle) * side_w);
@@ -106,7 +125,7 @@ Lift lift_of(const LegMotion& motion, const Contacts& contacts, const Floor& flo
     for (std::size_t leg = 0; leg < motion.legs.size(); ++leg) {
         lift.legs.push_back(lift_of_leg(motion, leg, contacts[leg], floor));
         for (std::size_t frame = 0; frame < motion.frame_count(); ++frame)
-            lift.body[frame] += lift.legs[leg].height[frame] / static_cast<double>(motion.legs.size());
+            lift.body[frame] += lift.legs[leg].move_w[frame].dot(motion.up_w) / static_cast<double>(motion.legs.size());
     }
     return lift;
 }
