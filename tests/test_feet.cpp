@@ -252,6 +252,118 @@ TEST_CASE("feet: on hills they stand on the ground as it lies")
     }
 }
 
+namespace {
+
+// Ground that changes along z alone. height: in units of the clip.
+Hills terraces(double most, double (*height)(double z))
+{
+    Hills ground{2, 512, {}, {160, most, 160}};
+    for (std::size_t row = 0; row < ground.rows; ++row) {
+        const double z = 160 * (static_cast<double>(row) / 511 - 0.5);
+        ground.samples.insert(ground.samples.end(), 2, static_cast<std::uint16_t>(65535 * height(z) / most));
+    }
+    return ground;
+}
+
+double largest_step(const std::vector<Vector3d>& places)
+{
+    double most = 0;
+    for (std::size_t n = 1; n < places.size(); ++n) most = std::max(most, (places[n] - places[n - 1]).norm());
+    return most;
+}
+
+// Of the body, and of both toes.
+std::array<double, 2> largest_steps(const PlainLegs& legs)
+{
+    return {largest_step(legs.body), std::max(largest_step(legs.legs[0].toe), largest_step(legs.legs[1].toe))};
+}
+
+}  // namespace
+
+TEST_CASE("feet: edges of the ground are stepped over, and feet stand on one side of them")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    spill(folder / "walk.bvh", carried(plain_motion_of(path), {}));
+    const PlainLegs flat = legs_in(folder / "walk.bvh");
+    const PlainContacts contacts = plain_contacts(flat);
+    const Hills grounds[] = {
+        terraces(2.7, [](double z) { return z > 0.8 ? 2.7 : 0; }),                // a curb of 15 cm
+        terraces(2.7, [](double z) { return z > -9 ? 0 : 2.7; }),                 // down from it
+        terraces(57, [](double z) { return 1.8 * std::floor((z + 80) / 5.2); }),  // stairs of 10 cm
+        terraces(6, [](double z) { return z > -0.3 && z < 1.8 ? 0 : 6.0; }),      // a gap of 34 cm
+    };
+    for (const Hills& ground : grounds) {
+        write_png(folder / "g.png", ground, 16);
+        const std::string size = "160," + std::to_string(ground.size.y()) + ",160";
+        const json report =
+            feet_report(folder, {"walk.bvh", "--ground", "g.png", "--ground-size", size, "--out", "out.bvh"}).at(0);
+        INFO(size << ' ' << report.value("look", json()).dump());
+        const PlainLegs stands = legs_in(folder / "out.bvh");
+        const auto over = [&](const Vector3d& toe) {
+            return kMetre * (toe.y() - report.at("floor").get<double>() - ground.height(toe.x(), toe.z()));
+        };
+        double off = 0, lowest = 0, slope = 0;
+        for (std::size_t side = 0; side < 2; ++side)
+            for (std::size_t n = 0; n < stands.frame_count(); ++n) {
+                const Vector3d& toe = stands.legs[side].toe[n];
+                lowest = std::min(lowest, over(toe));
+                if (!contacts[side][n]) continue;
+                off = std::max(off, std::abs(over(toe)));
+                slope = std::max(
+                    slope,
+                    std::abs(ground.height(toe.x(), toe.z() + 0.1) - ground.height(toe.x(), toe.z() - 0.1)) / 0.2);
+            }
+        const auto own = largest_steps(flat), now = largest_steps(stands);
+        CHECK(off < 0.01);
+        CHECK(lowest > -0.01);
+        CHECK(slope < 1);
+        CHECK(now[0] < 2 * own[0]);
+        CHECK(now[1] < 2 * own[1]);
+        const PlainSkating before = plain_skating(flat, contacts), after = plain_skating(stands, contacts);
+        CHECK(after.jump < 1.5 * before.jump);
+        CHECK(after.body_jump < 1.5 * before.body_jump);
+    }
+}
+
+TEST_CASE("feet: ground that legs cannot follow is told, with frames and place")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    spill(folder / "walk.bvh", carried(plain_motion_of(path), {}));
+    const Hills cliff = terraces(60, [](double z) { return z > 0.8 ? 60.0 : 0; });
+    write_png(folder / "g.png", cliff, 16);
+    const Words words = {"walk.bvh", "--ground", "g.png", "--ground-size", "160,60,160"};
+    Words written = words;
+    written.insert(written.end(), {"--out", "out.bvh"});
+    const json report = feet_report(folder, written).at(0), look = report.at("look");
+    const auto of_feet = [](const json& each) { return each.at("measure") == "off_ground_most"; };
+    const auto found = std::ranges::find_if(look, of_feet);
+    REQUIRE(found != look.end());
+    const json off = *found;
+    // What it says of the foot is so.
+    const PlainLegs legs = legs_in(folder / "out.bvh");
+    const auto& toes = legs.legs[off.at("limb") == "left_leg" ? 0 : 1].toe;
+    double most = 0, nearest = 1e9;
+    for (std::size_t n = off.at("first_frame"); n <= off.at("last_frame").get<std::size_t>(); ++n) {
+        most = std::max(
+            most, std::abs(toes[n].y() - report.at("floor").get<double>() - cliff.height(toes[n].x(), toes[n].z())));
+        const json& place = off.at("near");
+        nearest = std::min(nearest, (toes[n] - Vector3d(place.at(0), place.at(1), place.at(2))).norm());
+    }
+    const double leg = (legs.leg_length(0) + legs.leg_length(1)) / 2;
+    CHECK(off.at("value") > 0.012);
+    CHECK(off.at("value").get<double>() * leg == Approx(most).epsilon(1e-2));
+    CHECK(nearest < 1e-3);
+    CHECK_THAT(off.at("text").get<std::string>(), Contains(" leg, frames ") && Contains(" off the ground, near ("));
+    Words said = words;
+    said.insert(said.begin(), "feet");
+    CHECK_THAT(run_command(folder.path, said).out, Contains("look     " + off.at("text").get<std::string>() + "\n"));
+    CHECK(!feet_report(folder, {"walk.bvh"}).at(0).contains("look"));  // level ground
+}
+
 TEST_CASE("feet: a glTF's feet stand, and a foot without a toe joint stands on its ankle")
 {
     const fs::path path = find_or_warn("m2m_human_ymca.glb");

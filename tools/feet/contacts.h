@@ -28,6 +28,7 @@ Contacts find_contacts(const LegMotion& motion, const ContactBars& bars);
 struct Contact {
     std::size_t first, end;
 };
+inline std::size_t middle_of(const Contact& contact) { return (contact.first + contact.end) / 2; }
 // A leg's contacts, in order.
 std::vector<Contact> contacts_of(const std::vector<bool>& frames);
 

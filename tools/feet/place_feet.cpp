@@ -6,6 +6,7 @@
 #include <Eigen/SparseCholesky>
 #include <array>
 
+#include "tools/feet/treads.h"
 #include "tools/formats/error.h"
 
 namespace swivel::tools {
@@ -18,7 +19,8 @@ using Eigen::VectorXd;
 
 // Weights at 60 frames a second, of squares of lengths. Those of second differences go with the cube of the rate, and
 // others against it. So the sums over frames stand for the same integrals at any rate.
-constexpr double kSmooth = 20, kTogether = 0.005, kHome = 0.02, kAsBent = 1, kReach = 1000, kJump = 1000, kGround = 1e4;
+constexpr double kSmooth = 20, kTogether = 0.005, kHome = 0.02, kAsBent = 1, kReach = 1000, kJump = 1000, kGround = 1e4,
+                 kClear = 30;
 constexpr double kStraightest = 0.995;  // share of both bones: a knee bent by 11 degrees
 constexpr double kJumpShare = 0.995;    // of the clip's largest jump: a weight leaves a little of what it forbids
 constexpr int kMostRounds = 30;
@@ -89,14 +91,17 @@ struct Squares {
     }
 };
 
-// A contact's toe: its unknown, and how far over the ground it stands.
+// A contact's toe: its unknown, how far over the ground it stands, and where an edge keeps it.
 struct Stand {
     Sum toe;
     double height;
+    Vector3d tread_w;
+    bool is_at_edge;  // so it goes to this tread
+    Contact frames;
 };
 
 struct LegSums {
-    std::vector<Vector3d> on_ground_w;  // the clip's toe, lifted by the hills
+    std::vector<Vector3d> on_ground_w;  // the clip's toe, lifted with its ground
     std::vector<Sum> change, toe;       // from there; and where it is then
     std::vector<Stand> stands;
 };
@@ -104,7 +109,12 @@ struct LegSums {
 class Problem {
 public:
     Problem(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor)
-        : motion_(motion), floor_(floor), pace_(60 * motion.frame_time)
+        : motion_(motion),
+          floor_(floor),
+
+          is_down_(contacts),
+          lift_(lift_of(motion, contacts, floor)),
+          pace_(60 * motion.frame_time)
     {
         for (std::size_t frame = 0; frame < motion.frame_count(); ++frame) {
             body_.push_back(new_unknown());
@@ -112,12 +122,12 @@ public:
             body_at_.back().known = motion.carrier_w[frame] + lift_w(frame);
         }
         for (std::size_t leg = 0; leg < motion.legs.size(); ++leg) {
-            add_leg(motion.legs[leg], contacts[leg], bars);
+            add_leg(motion.legs[leg], lift_.legs[leg].move_w, contacts[leg], bars);
             toes_jump_ = std::max(toes_jump_, largest_jump(motion.legs[leg].toe_w));
         }
     }
 
-    PlacedFeet solve(const std::filesystem::path& file) const
+    PlacedFeet solve(const std::filesystem::path& file)
     {
         const Squares lasting = linear_part();
         const Eigen::SparseMatrix<double> matrix = lasting.matrix();
@@ -147,10 +157,12 @@ private:
         return sum;
     }
 
-    void add_leg(const LegPath& path, const std::vector<bool>& contact, const ContactBars& bars)
+    void add_leg(const LegPath& path, const std::vector<Vector3d>& move_w, const std::vector<bool>& contact,
+                 const ContactBars& bars)
     {
         LegSums leg;
-        for (const Vector3d& toe_w : path.toe_w) leg.on_ground_w.push_back(toe_w + floor_.hill(toe_w) * motion_.up_w);
+        for (std::size_t frame = 0; frame < contact.size(); ++frame)
+            leg.on_ground_w.push_back(path.toe_w[frame] + move_w[frame]);
         for (std::size_t frame = 0; frame < contact.size(); ++frame) {
             const bool goes_on = contact[frame] && frame > 0 && contact[frame - 1];
             // A contact's unknown is the change in its first frame.
@@ -161,23 +173,22 @@ private:
             leg.change.back().known -= leg.on_ground_w[frame];
         }
         for (const Contact& each : contacts_of(contact)) {
-            double height = 0;
-            for (std::size_t frame = each.first; frame < each.end; ++frame)
-                height += path.toe_w[frame].dot(motion_.up_w) - floor_.level;
-            height /= static_cast<double>(each.end - each.first);
-            leg.stands.push_back({leg.toe[each.first], std::abs(height) > bars.height * path.length ? height : 0});
+            const std::size_t middle = middle_of(each);
+            const Vector3d toe_w = path.toe_w[middle], tread_w = tread_near(motion_, path, middle, toe_w, floor_);
+            leg.stands.push_back({leg.toe[each.first], stand_height(motion_, path, each, bars, floor_), tread_w,
+                                  tread_w != toe_w, each});
         }
         legs_.push_back(std::move(leg));
     }
 
     // How far the hills lift the body.
-    Vector3d lift_w(std::size_t frame) const { return floor_.hill(motion_.carrier_w[frame]) * motion_.up_w; }
+    Vector3d lift_w(std::size_t frame) const { return lift_.body[frame] * motion_.up_w; }
 
     // From up to the ground's normal, which is less than a right angle from it. Eigen's FromTwoVectors() gives the
     // same, but takes long to compile: for opposite vectors it has a singular value decomposition.
-    Quaterniond turn_w(const Vector3d& toe_w) const
+    Quaterniond turn_w(std::size_t leg, std::size_t frame) const
     {
-        const Vector3d up = motion_.up_w.normalized(), normal = floor_.normal_w(toe_w).normalized();
+        const Vector3d up = motion_.up_w.normalized(), normal = lift_.legs[leg].normal_w[frame];
         const double twice_half = std::sqrt((1 + normal.dot(up)) * 2);
         Quaterniond turn;
         turn.vec() = up.cross(normal) * (1 / twice_half);
@@ -204,29 +215,53 @@ private:
     }
 
     // The rest, as it is near these values.
-    Squares part_about(const VectorXd& values) const
+    Squares part_about(const VectorXd& values)
     {
         Squares squares(unknown_count_);
         add_jumps(body_at_, largest_jump(motion_.carrier_w), values, squares);
         for (std::size_t n = 0; n < legs_.size(); ++n) {
-            const LegSums& leg = legs_[n];
+            LegSums& leg = legs_[n];
             for (std::size_t frame = 0; frame < body_.size(); ++frame) add_reach(n, frame, values, squares);
             add_jumps(leg.toe, toes_jump_, values, squares);
-            for (const Stand& stand : leg.stands) {
-                const Vector3d toe_w = stand.toe.at(values), normal_w = floor_.normal_w(toe_w);
-                // The plane through the point of the ground below.
-                const Vector3d point_w = toe_w + (stand.height - floor_.over(toe_w)) * motion_.up_w;
-                squares.want(stand.toe, normal_w, normal_w.dot(point_w), kGround);
-            }
+            for (Stand& stand : leg.stands) add_stand(n, stand, values, squares);
+            if (floor_.hills) add_clearing(n, values, squares);
         }
         return squares;
+    }
+
+    void add_stand(std::size_t n, Stand& stand, const VectorXd& values, Squares& squares) const
+    {
+        const Vector3d toe_w = stand.toe.at(values);
+        const std::size_t middle = middle_of(stand.frames);
+        // For good: else it would go to and fro from round to round.
+        if (tread_near(motion_, motion_.legs[n], middle, toe_w, floor_) != toe_w) stand.is_at_edge = true;
+        const Vector3d ground_w = stand.is_at_edge ? stand.tread_w : toe_w;
+        const Vector3d normal_w = floor_.normal_w(ground_w);
+        // The plane through the point of the ground below.
+        const Vector3d point_w = ground_w + (stand.height - floor_.over(ground_w)) * motion_.up_w;
+        squares.want(stand.toe, normal_w, normal_w.dot(point_w), kGround);
+        if (!stand.is_at_edge) return;
+        for (int axis = 0; axis < 3; ++axis) squares.want(stand.toe, Vector3d::Unit(axis), point_w[axis], kGround);
+    }
+
+    // A toe in the air is no deeper in the ground than it is in the clip.
+    void add_clearing(std::size_t n, const VectorXd& values, Squares& squares) const
+    {
+        for (std::size_t frame = 0; frame < body_.size(); ++frame) {
+            const Vector3d now_w = legs_[n].toe[frame].at(values);
+            const double own = motion_.legs[n].toe_w[frame].dot(motion_.up_w) - floor_.level;
+            const double lacks = std::min(own, 0.0) - floor_.over(now_w);
+            if (is_down_[n][frame] || lacks <= 0) continue;
+            const Vector3d normal_w = floor_.normal_w(now_w), point_w = now_w + lacks * motion_.up_w;
+            squares.want(legs_[n].toe[frame], normal_w, normal_w.dot(point_w), kClear * pace_);
+        }
     }
 
     void add_reach(std::size_t n, std::size_t frame, const VectorXd& values, Squares& squares) const
     {
         const LegPath& path = motion_.legs[n];
         Sum leg = Sum(legs_[n].toe[frame]).add(body_[frame], -1);  // from hip to ankle
-        leg.known += turn_w(legs_[n].toe[frame].at(values)) * foot_w(path, frame) - path.hip_w[frame] - lift_w(frame);
+        leg.known += turn_w(n, frame) * foot_w(path, frame) - path.hip_w[frame] - lift_w(frame);
         const Vector3d now = leg.at(values);
         const double bones = (path.knee_w[frame] - path.hip_w[frame]).norm() +
                              (path.ankle_w[frame] - path.knee_w[frame]).norm(),
@@ -255,7 +290,7 @@ private:
             for (std::size_t n = 0; n < legs_.size(); ++n) {
                 PlacedLeg& leg = placed.legs[n];
                 leg.toe_w.push_back(legs_[n].toe[frame].at(values));
-                leg.turn_w.push_back(turn_w(leg.toe_w.back()));
+                leg.turn_w.push_back(turn_w(n, frame));
                 leg.ankle_w.push_back(leg.toe_w.back() + leg.turn_w.back() * foot_w(motion_.legs[n], frame));
             }
         }
@@ -264,6 +299,8 @@ private:
 
     const LegMotion& motion_;
     const Floor& floor_;
+    const Contacts& is_down_;
+    Lift lift_;
     double pace_;  // seconds a frame, in sixtieths
     int unknown_count_ = 0;
     std::vector<Sum> body_, body_at_;  // its change, beside the hills' lift; and where it is then
@@ -272,6 +309,16 @@ private:
 };
 
 }  // namespace
+
+double stand_height(const LegMotion& motion, const LegPath& path, const Contact& contact, const ContactBars& bars,
+                    const Floor& floor)
+{
+    double height = 0;
+    for (std::size_t frame = contact.first; frame < contact.end; ++frame)
+        height += path.toe_w[frame].dot(motion.up_w) - floor.level;
+    height /= static_cast<double>(contact.end - contact.first);
+    return std::abs(height) > bars.height * path.length ? height : 0;
+}
 
 PlacedFeet place_feet(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor,
                       const std::filesystem::path& file)

@@ -14,7 +14,7 @@
 // What is to hold, by large weights where it does not hold by itself:
 // - No leg is longer than 0.995 of its bones. A knee that goes straight snaps.
 // - Velocities of toes and of the body jump no more from frame to frame than they do in the clip.
-// - Feet in contact are on the ground.
+// - Feet in contact are on the ground, on one side of an edge that is steeper than 45 degrees.
 //
 // Lengths of legs and heights are not linear, so it is solved some times, each time from where the last one ended.
 #pragma once
@@ -32,6 +32,10 @@ struct PlacedFeet {
     std::vector<Eigen::Vector3d> shift_w;  // of the body: what its carrier moves by
     std::vector<PlacedLeg> legs;
 };
+
+// How high over its ground a contact of the clip stands: 0, but for those on stairs of the clip's own.
+double stand_height(const LegMotion& motion, const LegPath& path, const Contact& contact, const ContactBars& bars,
+                    const Floor& floor);
 
 // bars: a contact whose toe is farther from the floor than their height, in the mean, keeps that height over the
 // ground: it stands on a stair. Time and memory grow with the frames: some 5 s and 100 MB for 10,000. Throws

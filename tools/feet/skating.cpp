@@ -8,16 +8,12 @@
 
 namespace swivel::tools {
 
-namespace {
-
 using Eigen::Vector3d;
 
 double bend_deg(const LegPath& leg, std::size_t frame)
 {
     return degrees_between(leg.knee_w[frame] - leg.hip_w[frame], leg.ankle_w[frame] - leg.knee_w[frame]);
 }
-
-}  // namespace
 
 Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor)
 {

@@ -17,6 +17,9 @@ struct Skating {
     double body_jump = 0;   // and of the body's
 };
 
+// How far the knee is bent, in degrees.
+double bend_deg(const LegPath& leg, std::size_t frame);
+
 Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor);
 
 }  // namespace swivel::tools

@@ -9,6 +9,7 @@
 #include "tools/cli/streams.h"
 #include "tools/formats/text.h"
 #include "tools/rig/limb_words.h"
+#include "tools/rig/vectors.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_report.h"
 
@@ -48,6 +49,35 @@ struct BodyMove {
         }
     }
 };
+
+std::string doubt_text(const FeetRun& run, const FeetDoubt& doubt)
+{
+    const std::string who = doubt.leg < run.legs.size() ? plain_name(run.legs[doubt.leg].name) : "the body";
+    if (doubt.kind == FeetDoubt::off_ground)
+        return fmt::format(
+            "{}, frames {} to {}: its toe is up to {:.3g} off the ground, near {}; it cannot follow there", who,
+            doubt.first, doubt.last, doubt.value * run.motion.leg_length(), vector_text(doubt.place_w));
+    const bool is_knee = doubt.kind == FeetDoubt::knee;
+    return fmt::format("{}, frame {}: {} by {:.3g} {}, in the clip by {:.3g} at most; near {}", who, doubt.first,
+                       is_knee                             ? "its knee turns"
+                       : doubt.kind == FeetDoubt::toe_jump ? "its toe's velocity jumps"
+                                                           : "its velocity jumps",
+                       doubt.value, is_knee ? "degrees" : "leg lengths/s", doubt.before, vector_text(doubt.place_w));
+}
+nlohmann::ordered_json doubt_json(const FeetRun& run, const FeetDoubt& doubt)
+{
+    constexpr const char* kKeys[] = {"off_ground_most", "knee_degrees_a_frame_most", "velocity_jump_most",
+                                     "body_velocity_jump_most"};
+    const Vector3d& place_w = doubt.place_w;
+    nlohmann::ordered_json out = {{"measure", kKeys[doubt.kind]},
+                                  {"first_frame", doubt.first},
+                                  {"last_frame", doubt.last},
+                                  {"value", doubt.value},
+                                  {"near", {place_w.x(), place_w.y(), place_w.z()}},
+                                  {"text", doubt_text(run, doubt)}};
+    if (doubt.leg < run.legs.size()) out["limb"] = limb_word(run.legs[doubt.leg].name);
+    return out;
+}
 
 double share_on(const std::vector<bool>& contact)
 {
@@ -93,6 +123,7 @@ void print_feet(const FeetRun& run, std::FILE* to)
         say(to, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value, each.unit);
     const BodyMove body(run);
     say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.most, body.down);
+    for (const FeetDoubt& doubt : run.doubts) say(to, "look     {}\n", doubt_text(run, doubt));
     for (const std::string& name : {run.out, run.export_contacts})
         if (!name.empty())
             say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
@@ -134,6 +165,7 @@ nlohmann::ordered_json json_of(const FeetRun& run)
     const BodyMove body(run);
     out["after"]["body_moved_most"] = body.most;
     out["after"]["body_moved_down_most"] = body.down;
+    for (const FeetDoubt& doubt : run.doubts) out["look"].push_back(doubt_json(run, doubt));
     if (!run.out.empty()) out["out"] = run.out;
     if (!run.export_contacts.empty()) out["export_contacts"] = run.export_contacts;
     return out;

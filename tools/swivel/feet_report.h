@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/feet/place_feet.h"
-#include "tools/feet/skating.h"
+#include "tools/feet/judge_feet.h"
 #include "tools/swivel/motion_file.h"
 
 namespace swivel::tools {
@@ -27,6 +26,7 @@ struct FeetRun {
     Floor floor;
     PlacedFeet placed;
     Skating before, after;
+    std::vector<FeetDoubt> doubts;
 };
 
 void print_feet(const FeetRun& run, std::FILE* to);

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "tools/feet/treads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// A sole reaches from half of the way between toe joint and ankle before the toe joint to a quarter of it behind the
+// ankle. Its ground is looked at a sixteenth of that way apart, and so are the places that it may go to.
+constexpr int kParts = 16, kBefore = 8, kBehind = 4, kDirections = 16;
+constexpr double kShortest = 0.1;  // leg lengths: of that way, where the ankle stands or a toe hangs down
+constexpr double kLongest = 1;     // second of a swing: a longer one follows the ground in parts
+
+bool can_stand(const Vector3d& toe_w, const Vector3d& part_w, const Floor& floor)
+{
+    const double steep = std::cos(std::numbers::pi / 4);
+    double last = 0;
+    for (int n = -kBefore; n <= kParts + kBehind; ++n) {
+        const Vector3d place_w = toe_w + n * part_w;
+        const double height = floor.hill(place_w);
+        if (n > -kBefore && std::abs(height - last) > part_w.norm()) return false;
+        if (floor.normal_w(place_w).dot(floor.up_w) < steep) return false;
+        last = height;
+    }
+    return true;
+}
+
+// A frame in which the ground below a foot counts: one of a contact, or of the air.
+struct Anchor {
+    std::size_t first, end;
+    Vector3d move_w;
+    Vector3d normal_w;
+};
+
+Anchor anchor_at(const LegMotion& motion, const LegPath& path, const Contact& frames, const Floor& floor)
+{
+    const std::size_t middle = middle_of(frames);
+    const Vector3d place_w = tread_near(motion, path, middle, path.toe_w[middle], floor);
+    return {frames.first, frames.end, place_w - path.toe_w[middle] + floor.hill(place_w) * floor.up_w,
+            floor.normal_w(place_w)};
+}
+
+std::vector<Anchor> anchors_of(const LegMotion& motion, std::size_t leg, const std::vector<bool>& contact,
+                               const Floor& floor)
+{
+    std::vector<Contact> stands = contacts_of(contact);
+    stands.push_back({contact.size() - 1, contact.size()});
+    std::vector<Anchor> anchors{anchor_at(motion, motion.legs[leg], {0, 1}, floor)};
+    for (const Contact& next : stands) {
+        const std::size_t from = anchors.back().end, way = next.first > from ? next.first - from : 0;
+        const auto parts = 1 + static_cast<std::size_t>(static_cast<double>(way) * motion.frame_time / kLongest);
+        for (std::size_t part = 1; part < parts; ++part) {
+            const std::size_t frame = from + way * part / parts;
+            anchors.push_back(anchor_at(motion, motion.legs[leg], {frame, frame + 1}, floor));
+        }
+        if (next.end > from) anchors.push_back(anchor_at(motion, motion.legs[leg], next, floor));
+    }
+    return anchors;
+}
+
+// In the air between two anchors: evenly from one to the other. And over what lies between, by an arc that is as high
+// as the toe needs so as not to be deeper in the ground than in the clip.
+void add_swing(const LegMotion& motion, const LegPath& path, const Anchor& from, const Anchor& next, const Floor& floor,
+               LegLift& lift)
+{
+    const auto time_at = [&](std::size_t frame) {
+        return static_cast<double>(frame - from.end + 1) / static_cast<double>(next.first - from.end + 1);
+    };
+    const auto arc_at = [&](std::size_t frame) { return 4 * time_at(frame) * (1 - time_at(frame)); };
+    double arc = 0;
+    for (std::size_t frame = from.end; frame < next.first; ++frame) {
+        const double time = time_at(frame), share = time * time * (3 - 2 * time);
+        lift.move_w.push_back(from.move_w + share * (next.move_w - from.move_w));
+        lift.normal_w.push_back((from.normal_w + share * (next.normal_w - from.normal_w)).normalized());
+        const Vector3d toe_w = path.toe_w[frame] + lift.move_w.back();
+        const double own = path.toe_w[frame].dot(motion.up_w) - floor.level;
+        const double lacks = std::min(own, 0.0) - floor.over(toe_w);
+        arc = std::max(arc, lacks / arc_at(frame));
+    }
+    for (std::size_t frame = from.end; frame < next.first; ++frame)
+        lift.move_w[frame] += arc * arc_at(frame) * floor.up_w;
+}
+
+LegLift lift_of_leg(const LegMotion& motion, std::size_t leg, const std::vector<bool>& contact, const Floor& floor)
+{
+    const std::vector<Anchor> anchors = anchors_of(motion, leg, contact, floor);
+    LegLift lift;
+    for (std::size_t n = 0; n < anchors.size(); ++n) {
+        if (n > 0) add_swing(motion, motion.legs[leg], anchors[n - 1], anchors[n], floor, lift);
+        lift.move_w.resize(anchors[n].end, anchors[n].move_w);
+        lift.normal_w.resize(anchors[n].end, anchors[n].normal_w);
+    }
+    return lift;
+}
+
+}  // namespace
+
+Vector3d tread_near(const LegMotion& motion, const LegPath& path, std::size_t frame, const Vector3d& toe_w,
+                    const Floor& floor)
+{
+    if (!floor.hills) return toe_w;
+    Vector3d part_w = motion.level(path.ankle_w[frame] - path.toe_w[frame]) / kParts;
+    const double least = kShortest * path.length / kParts;
+    if (part_w.norm() < least) part_w = least * floor.up_w.unitOrthogonal();
+    const Vector3d side_w = part_w.cross(floor.up_w);
+    if (can_stand(toe_w, part_w, floor)) return toe_w;
+    for (int ring = 1; ring <= kBefore + kParts + kBehind; ++ring)
+        for (int n = 0; n < kDirections; ++n) {
+            const double angle = 2 * std::numbers::pi * n / kDirections;
+            const Vector3d place_w = toe_w + ring * (std::cos(angle) * part_w + std::sin(angle) * side_w);
+            if (can_stand(place_w, part_w, floor)) return place_w;
+        }
+    return toe_w;
+}
+
+Lift lift_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor)
+{
+    Lift lift{std::vector<double>(motion.frame_count()), {}};
+    for (std::size_t leg = 0; leg < motion.legs.size(); ++leg) {
+        lift.legs.push_back(lift_of_leg(motion, leg, contacts[leg], floor));
+        for (std::size_t frame = 0; frame < motion.frame_count(); ++frame)
+            lift.body[frame] += lift.legs[leg].move_w[frame].dot(motion.up_w) / static_cast<double>(motion.legs.size());
+    }
+    return lift;
+}
+
+}  // namespace swivel::tools
