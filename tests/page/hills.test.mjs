@@ -44,6 +44,21 @@ test('the command\'s bits, played or scrubbed, and the shader\'s limbs and shado
     });
     assert.ok(joints > 0 && joints < 1e-5, `${joints} of a limb`);
     assert.ok(feet < 0.3, `an ankle is ${feet} heights from the ground`);
+    const apart = await page.evaluate(() => {  // "Off by" and how far the end of a limb is seen from its ball
+      const { stage } = swivelPage;
+      return [20, 100].flatMap((frame) => {
+        swivelPage.setFrame(frame);
+        return stage.limbs.flatMap((limb) => stage.characters.map(({ size }, n) => {
+          const goal = stage.goal(limb, n, 'target'), { position } = swivelPage.picker.handles.target, end = position.clone().fromArray(stage.pose(limb, n).wrist);
+          if (stage.has(limb, 'EFFECTOR')) {
+            const [x, y, z, w] = stage.crowd.hands({ group: limb.index, first: n, count: 1 });
+            end.addScaledVector(position.clone().fromArray(stage.read(limb, n, 'EFFECTOR')).applyQuaternion({ x, y, z, w }), size);
+          }
+          return Math.abs(end.distanceTo(position.clone().fromArray(goal)) / stage.armLength(limb, n) - stage.residual(limb, n));
+        }));
+      });
+    });
+    assert.ok(Math.max(...apart) < 1e-4, `${Math.max(...apart)} of a limb`);
     const { share, colours } = await difference(page, () => page.evaluate(() => swivelPage.setFrame(20)));
     assert.ok(colours > 100 && share > 0.01, `${colours} colours, ${share} changed`);
     const slides = await page.evaluate(() => {  // as drawn, and how fast the offset of a planted point fades
@@ -79,6 +94,8 @@ test('a dragged foot, let go again, and as a table for the command', async () =>
     });
     const from = await pixel(page, 'target');
     await drag(page, from, { x: from.x + 25, y: from.y - 30 });
+    const seen = await pixel(page, 'target');  // let go, it sinks to the ground
+    assert.ok(Math.abs(seen.x - from.x - 25) < 2 && seen.y > from.y - 29, `${seen.x - from.x} ${seen.y - from.y}`);
     const [[, changed]] = await digests(page, [70]), [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save as table' }).click()]);
     assert.equal(changed, 'changed');
     await download.saveAs(join(process.env.WORK, 'foot.csv'));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Hips that the user has moved up or down. Where feet stand on ground, a body wishes for a shift, and comes as near to it as its legs reach.
-import { ROOT_SHIFT, SIZE, WISH } from "./bytes.js";
+import { SIZE, WISH } from "./bytes.js";
+import { shiftOf } from "./goals.js";
 
 export const legsOf = (stage) => stage.limbs.filter((limb) => stage.has(limb, "PLANT"));
 export const hasHips = (stage) => legsOf(stage).length > 0;
@@ -18,7 +19,7 @@ export function putHips(stage, hips) {
 }
 /** Moves hips to the height of a place in the world, and everyone's by as much of their size, if asked. */
 export function dragHips(stage, character, [, height], everyone) {
-    const [shift] = stage.memory.floats(stage.rootsAt + character * SIZE.root + ROOT_SHIFT, 1), { characters } = stage;
+    const shift = shiftOf(stage, character), { characters } = stage;
     const wished = height - (hipsOf(stage, character)[1] - shift), by = (wished - characters[character].wish) / characters[character].size;
     putHips(stage, everyone ? new Map(characters.map(({ wish, size }, n) => [n, wish + size * by])) : new Map(stage.hips).set(character, wished));
 }

@@ -19,7 +19,8 @@ const TURNED = 0.1;  // degrees from the pole's own elbow that are worth a word
 /** Where the wrist goes, relative to the shoulder: the target less the effector, as the hand's goal turns it. */
 function wristGoal(stage, { limb, character }, { target }) {
     if (!stage.has(limb, "EFFECTOR")) return target;
-    const hand = new Quaternion().fromArray(stage.input(limb, character, "hand")).normalize(), { size } = stage.characters[character];
+    const { size } = stage.characters[character], turn = stage.has(limb, "GOAL") ? stage.read(limb, character, "GOAL").subarray(3) : stage.input(limb, character, "hand");
+    const hand = new Quaternion().fromArray(turn).normalize();
     return target.clone().addScaledVector(new Vector3().fromArray(stage.read(limb, character, "EFFECTOR")).applyQuaternion(hand), -size);
 }
 /** A straight arm's wrist is at the end of its reach, whatever rounding makes of the target's distance. */

@@ -28,10 +28,10 @@ const MOST_TRAIL = 240;  // frames
 export function geometryOf(stage, { limb, character }) {
     const { shoulder, axes: armAxes, ...arm } = stage.arm(limb, character), { elbows, wrists } = stage.joints(limb, character, 1);
     const place = (numbers) => new Vector3().fromArray(numbers).sub(shoulder), placeOf = (world) => place(stage.fromRoot(character, world));
-    const pole = stage.input(limb, character, "pole"), isPoint = stage.hasPole(limb) && stage.poleIsPoint(limb), wrist = place(wrists);
+    const isPoint = stage.hasPole(limb) && stage.poleIsPoint(limb), wrist = place(wrists);
     return {
-        ...arm, armAxes, elbow: place(elbows), wrist, target: placeOf(stage.input(limb, character, "target")),
-        pole: isPoint ? placeOf(pole) : new Vector3().fromArray(pole),
+        ...arm, armAxes, elbow: place(elbows), wrist, target: placeOf(stage.goal(limb, character, "target")),
+        pole: isPoint ? placeOf(stage.goal(limb, character, "pole")) : new Vector3().fromArray(stage.input(limb, character, "pole")),
         along: wrist.lengthSq() > 0 ? wrist.clone().normalize() : new Vector3(0, 0, 1),
     };
 }

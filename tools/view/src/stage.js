@@ -7,9 +7,10 @@ import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, charactersOf, floatsOf, givenOf, gridOf, INPUT, PLAN, ROOT_SHIFT, SIZE, Sources } from "./bytes.js";
-import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT, unit } from "./drags.js";
+import { bytesOf, charactersOf, floatsOf, givenOf, gridOf, INPUT, PLAN, SIZE, Sources } from "./bytes.js";
+import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
+import { askedFor, seenGoal, shiftOf } from "./goals.js";
 import { dragHips, dropHips, legsOf, putHips } from "./hips.js";
 import { dragMound, putMounds } from "./mounds.js";
 
@@ -180,8 +181,8 @@ export class Stage {
         if (!this.ground) return;
         this.rises ??= new Float32Array(4 * this.characterCount);
         for (let n = 0; n < this.characterCount; ++n) {
-            const lift = this.lift(n), [shift] = this.memory.floats(this.rootsAt + n * SIZE.root + ROOT_SHIFT, 1);
-            this.rises.set([lift + shift, lift], 4 * n);
+            const lift = this.lift(n);
+            this.rises.set([lift + shiftOf(this, n), lift], 4 * n);
         }
     }
     /** How much higher the ground has a character's root than the clip and its place. */
@@ -257,22 +258,19 @@ export class Stage {
         if ((this.featuresOf(limb) & (Feature.POLE_INCOMING | Feature.POLE_HAND)) !== 0n) return false;
         return !this.has(limb, "WEIGHTS") || this.input(limb, character, "weights")[2] > 0;
     }
-    /** The goal that a place in the world stands for, and the way back. */
+    /** The goal that a place in the world stands for. */
     toGoal(limb, character, part, world) {
         const origin = this.origin(limb, character);
         return this.isPoint(limb, part) ? world : world.map((coordinate, axis) => coordinate - origin[axis]);
     }
-    goal(limb, character, part) {
-        if (limb.held >= 0 && part === "target") return this.toWorld(character, this.read(limb, character, "GOAL").subarray(0, 3));  // the grip
-        const asked = this.input(limb, character, part), origin = this.origin(limb, character), length = this.armLength(limb, character);
-        return this.isPoint(limb, part) ? Array.from(asked) : unit(asked).map((coordinate, axis) => length * coordinate + origin[axis]);
-    }
+    /** Where a goal is seen. */
+    goal(limb, character, part) { return seenGoal(this, limb, character, part); }
 
     /** Moves a goal or the hips to a place in the world, of this limb alone or by the same offset of everyone's; or the ground. Solves the crowd. */
     drag(limb, character, part, world, everyone) {
         if (part === "ground") dragMound(this, character, world);
         else if (part === "hips") dragHips(this, character, world, everyone);
-        else (everyone ? dragEveryone : dragOne)(this, limb, character, part, world);
+        else (everyone ? dragEveryone : dragOne)(this, limb, character, part, askedFor(this, limb, character, part, world));
         this.changed = this.isHeld = true;
         this.solveAgain();
     }
