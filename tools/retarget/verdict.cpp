@@ -79,16 +79,15 @@ struct LimbCourse {
 void judge(const LimbCourse& limb, formats::LimbName name, std::size_t frames, double frame_time, Verdict& verdict)
 {
     const LimbWords& words = words_of(name.kind);
-    const bool is_arm = name.kind == formats::LimbKind::arm;
     const auto where = [&](const Excess& excess) {
         return fmt::format("in {} of {} frames, most in frame {}", excess.count, frames, excess.most_frame);
     };
     for (std::size_t n = 0; n < 2; ++n) {
         if (limb.away[n].count == 0) continue;
-        const char* bone = is_arm ? (n == 0 ? "upper arm" : "forearm") : (n == 0 ? "thigh" : "shin");
         (limb.away[n].is_mostly(frames) ? verdict.faults : verdict.doubts)
             .push_back(fmt::format("the {} {} points up to {:.0f} degrees away from the source's: over {:g} {}",
-                                   side_name(name.side), bone, limb.away[n].most, kAway_deg, where(limb.away[n])));
+                                   side_name(name.side), n == 0 ? words.upper : words.lower, limb.away[n].most,
+                                   kAway_deg, where(limb.away[n])));
     }
     const bool is_lost = limb.lost.is_mostly(frames);
     const Excess& missed = is_lost ? limb.lost : limb.missed;
@@ -100,8 +99,8 @@ void judge(const LimbCourse& limb, formats::LimbName name, std::size_t frames, d
         verdict.doubts.push_back(
             fmt::format("the {} {} turns by {:.1f} degrees from frame {} to {}, the source's by at "
                         "most {:.1f}",
-                        side_name(name.side), is_arm ? "elbow" : "knee", limb.turn_deg, limb.turn_frame - 1,
-                        limb.turn_frame, limb.source_turn_deg));
+                        side_name(name.side), words.lower_joint, limb.turn_deg, limb.turn_frame - 1, limb.turn_frame,
+                        limb.source_turn_deg));
 }
 
 }  // namespace

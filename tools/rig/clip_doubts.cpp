@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "tools/rig/facing.h"
+#include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 
 namespace swivel::tools {
@@ -28,10 +29,10 @@ constexpr double kPop_deg = 10;                   // out of the middle of the fr
 constexpr double kPopRatio = 4;                   // and this much further than in the frames around
 constexpr double kSunk = 0.03, kElsewhere = 0.5;  // leg lengths below height 0; a body that is about another height
 
-const char* bone_name(std::size_t limb, std::size_t bone)
+std::string_view bone_name(std::size_t limb, std::size_t bone)
 {
-    if (formats::kLimbNames[limb].kind == formats::LimbKind::arm) return bone == 0 ? "upper arm" : "forearm";
-    return bone == 0 ? "thigh" : "shin";
+    const LimbWords& words = words_of(formats::kLimbNames[limb].kind);
+    return bone == 0 ? words.upper : words.lower;
 }
 
 // A bone of no length tells nothing.
@@ -51,10 +52,8 @@ struct Frames {
     }
 };
 
-// What is asked of a pose: where the joints of limbs, toes and hips are.
-struct BodyMoment {
-    std::vector<Vector3d> place_w;
-};
+// What is asked of a pose: where the joints of limbs, toes and hips are, in ClipJudge::seen_'s order.
+using BodyMoment = std::vector<Vector3d>;
 
 class ClipJudge {
 public:
@@ -102,7 +101,7 @@ private:
     BodyMoment moment_of(const std::vector<formats::JointPose>& pose_w) const
     {
         BodyMoment moment;
-        for (const std::size_t joint : seen_) moment.place_w.push_back(pose_w[joint].position);
+        for (const std::size_t joint : seen_) moment.push_back(pose_w[joint].position);
         return moment;
     }
     std::size_t count() const { return clip_.frame_count; }
@@ -110,7 +109,7 @@ private:
     bool has_toes(std::size_t side) const { return limbs_[2 + side] && toes_[side] >= 0; }
     const Vector3d& place(const BodyMoment& pose_w, int joint) const
     {
-        return pose_w.place_w[slots_[static_cast<std::size_t>(joint)]];
+        return pose_w[slots_[static_cast<std::size_t>(joint)]];
     }
     Vector3d bone_w(const BodyMoment& pose_w, std::size_t limb, std::size_t bone) const
     {
@@ -212,7 +211,7 @@ private:
                 return (is_arm ? ahead : -ahead) < -kBackwards;
             });
             if (is_mostly(wrong))
-                doubt("the {} {} bends {} {}", side_of_limb(limb), is_arm ? "elbow" : "knee",
+                doubt("the {} {} bends {} {}", side_of_limb(limb), words_of(formats::kLimbNames[limb].kind).lower_joint,
                       is_arm ? "backwards" : "forwards", wrong.words(count()));
         }
     }
