@@ -28,4 +28,22 @@ inline tools::JointPairs demo_pairs(const formats::Clip& source, const formats::
     return tools::pair_joints({source, parts_of_demo(source)}, {target, parts_of_demo(target)});
 }
 
+// The motion below a joint that mirrors x.
+inline formats::Clip in_mirror(const formats::Clip& clip)
+{
+    formats::Clip mirrored = clip;
+    formats::Joint armature;
+    armature.name = "Armature";
+    armature.rest_scale = {-1, 1, 1};
+    for (formats::Joint& joint : mirrored.joints) ++joint.parent;
+    mirrored.joints.insert(mirrored.joints.begin(), armature);
+    mirrored.rotation.clear();
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        mirrored.rotation.push_back(Eigen::Quaterniond::Identity());
+        for (std::size_t n = 0; n < clip.joints.size(); ++n)
+            mirrored.rotation.push_back(clip.rotation[frame * clip.joints.size() + n]);
+    }
+    return mirrored;
+}
+
 }  // namespace swivel::test

@@ -394,6 +394,64 @@ TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, o
                Contains("plain.bvh: 'LeftHand' is the figure's leftHand (--head); name its head"));
 }
 
+TEST_CASE("retarget: garbage is said, and written only if it is asked for")
+{
+    const TempFolder folder;
+    const MadeBody body;
+    spill(folder / "a.bvh", body.text(random_rows(body, 1)));
+    spill(folder / "b.bvh", body.text());
+    // A table that takes the arms for the legs.
+    REQUIRE(run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
+    std::string map = slurp(folder / "map.csv");
+    for (const std::string part : {"UpLeg,", "Leg,", "Foot,"}) {
+        const std::string source = "Left" + part, other = part == "UpLeg," ? "LeftArm,"
+                                                          : part == "Leg," ? "LeftForeArm,"
+                                                                           : "LeftHand,";
+        const std::size_t leg = map.find("," + source);
+        map.replace(leg + 1, source.size(), "(");
+        map.replace(map.find("," + other) + 1, other.size(), source);
+        map.replace(map.find("("), 1, other);
+    }
+    spill(folder / "wrong.csv", map);
+    const Words words = {"retarget", "a.bvh", "b.bvh", "--map", "wrong.csv", "--out", "c.bvh"};
+    const Outcome garbage = run_command(folder.path, words);
+    CHECK(garbage.exit_code == 1);
+    CHECK_THAT(garbage.out, Contains("garbage   the left "));
+    CHECK_THAT(garbage.err, Contains("; the motion is not written; ") && Contains("or give --force"));
+    CHECK(!fs::exists(folder / "c.bvh"));
+    Words forced = words;
+    forced.push_back("--force");
+    CHECK(run_command(folder.path, forced).exit_code == 0);
+    CHECK(fs::exists(folder / "c.bvh"));
+}
+
+TEST_CASE("retarget: rest poses and up are chosen for either body")
+{
+    const TempFolder folder;
+    const MadeBody body;
+    const auto rows = random_rows(body, 3);
+    spill(folder / "a.bvh", body.text(rows));
+    spill(folder / "b.bvh", body.text(rows));
+    const auto report = [&](const Words& options) {
+        Words words = {"retarget", "a.bvh", "b.bvh"};
+        words.insert(words.end(), options.begin(), options.end());
+        const Outcome outcome = run_command(folder.path, words);
+        return outcome.out.substr(0, outcome.out.find("paired")) + outcome.err;
+    };
+    const std::string note = "note      frame 1 is taken as the rest pose, and y is up\n";
+    CHECK_THAT(report({"--rest", "source:1"}), Contains(note + "target"));
+    CHECK_THAT(report({"--rest", "target:1"}), Contains("target") && !Contains(note + "target") && Contains(note));
+    CHECK_THAT(report({"--up", "source:x"}), Contains("a.bvh: no frame stands along x; say which way is up by --up"));
+    CHECK_THAT(report({"--up", "target:x"}), Contains("b.bvh: no frame stands along x; say which way is up by --up"));
+    for (const auto& [words, said] : std::vector<std::pair<Words, std::string>>{
+             {{"--rest", "1"}, "--rest 1: does not say whose; write source: or target: in front"},
+             {{"--rest", "source:y"}, "--rest: y is not a frame"},
+             {{"--rest", "source:99999"}, "--rest 99999: it has"},
+             {{"--up", "source:up"}, "--up: up is not an axis; give x, y, z, -x, -y or -z"},
+             {{"--up", "source:y", "--up", "source:z"}, "--up: it is given twice for one body"}})
+        CHECK_THAT(report(words), Contains(said));
+}
+
 TEST_CASE("retarget: what cannot be is refused in one line, and nothing is lost")
 {
     const TempFolder folder;

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <numbers>
 
 #include "tests/demo_figure.h"
 #include "tools/crowd/demo_clip.h"
@@ -45,24 +46,6 @@ Clip with_bones_along(const Vector3d& along, Clip clip)
         }
     }
     return clip;
-}
-
-// The motion below a joint that mirrors x.
-Clip in_mirror(const Clip& clip)
-{
-    Clip mirrored = clip;
-    formats::Joint armature;
-    armature.name = "Armature";
-    armature.rest_scale = {-1, 1, 1};
-    for (formats::Joint& joint : mirrored.joints) ++joint.parent;
-    mirrored.joints.insert(mirrored.joints.begin(), armature);
-    mirrored.rotation.clear();
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        mirrored.rotation.push_back(Quaterniond::Identity());
-        for (std::size_t n = 0; n < clip.joints.size(); ++n)
-            mirrored.rotation.push_back(clip.rotation[frame * clip.joints.size() + n]);
-    }
-    return mirrored;
 }
 
 // The largest distance between the joints of two clips of one skeleton, in all frames.
@@ -122,6 +105,53 @@ TEST_CASE("standing rest: of bones along one axis, a frame says what is up and h
     }
 }
 
+TEST_CASE("standing rest: the frame is turned to the front, feet too, whichever way it faces and whatever is up")
+{
+    const Quaterniond z_up(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX()));
+    for (const bool is_z_up : {false, true})
+        for (const bool is_mirrored : {false, true})
+            for (const double yaw : {0.0, 1.0, std::numbers::pi, -2.0}) {
+                INFO(is_z_up << is_mirrored << yaw);
+                Clip clip = with_bones_along(Vector3d::UnitX(), tools::demo_clip(kFrames));
+                const Quaterniond turned =
+                    (is_z_up ? z_up : Quaterniond::Identity()) * Eigen::AngleAxisd(yaw, Vector3d::UnitY());
+                for (std::size_t frame = 0; frame < kFrames; ++frame) {
+                    Quaterniond& root = clip.rotation[frame * clip.joints.size()];
+                    root = turned * root;
+                    // A toe that is turned out far.
+                    Quaterniond& foot = clip.rotation[frame * clip.joints.size() +
+                                                      static_cast<std::size_t>((*limbs_of_demo(clip)[2])[2])];
+                    foot = Eigen::AngleAxisd(0.6, Vector3d::UnitX()) * foot;
+                }
+                if (is_mirrored) clip = test::in_mirror(clip);
+                const KnownLimbs limbs = limbs_of_demo(clip);
+                CHECK_THAT(stand_at_rest(clip, limbs, {}), Contains(is_z_up ? "and z is up" : "and y is up"));
+                const tools::Facing facing = facing_of(clip, limbs);
+                const Vector3d front_w = is_z_up ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
+                CHECK(tools::degrees_between(facing.forwards_w, front_w) < 0.5);
+                CHECK(tools::degrees_between(facing.up_w, is_z_up ? Vector3d::UnitZ() : Vector3d::UnitY()) < 2);
+                const auto rest_w = formats::rest_pose(clip);
+                const Vector3d to_left_w = position_of(rest_w, (*limbs[2])[0]) - position_of(rest_w, (*limbs[3])[0]);
+                CHECK(tools::degrees_between((is_mirrored ? -1 : 1) * to_left_w, facing.up_w.cross(front_w)) < 2);
+            }
+}
+
+TEST_CASE("standing rest: a rest pose in mid-step, or along an axis that no frame has, is replaced")
+{
+    const Clip plain = tools::demo_clip(kFrames);
+    Clip stepping = plain;
+    stepping.joints[static_cast<std::size_t>((*limbs_of_demo(plain)[2])[0])].rest_rotation =
+        Eigen::AngleAxisd(-0.5, Vector3d::UnitX());
+    CHECK_THAT(stand_at_rest(stepping, limbs_of_demo(stepping), {}), Contains("its legs differ by 29 degrees"));
+    Clip lying = plain;
+    lying.joints[0].rest_rotation = Eigen::AngleAxisd(-std::numbers::pi / 2, Vector3d::UnitX());
+    CHECK_THAT(stand_at_rest(lying, limbs_of_demo(lying), {}),
+               Contains("its trunk points along -z") && Contains("and y is up"));
+    lying.joints[0].rest_rotation = Eigen::AngleAxisd(-std::numbers::pi / 2, Vector3d::UnitX());
+    keep_frames(lying, 0);  // there is nothing better
+    CHECK(stand_at_rest(lying, limbs_of_demo(lying), {}).empty());
+}
+
 TEST_CASE("standing rest: up is asked for, or the frame, and what cannot be is said")
 {
     Clip clip = with_bones_along(Vector3d::UnitX(), tools::demo_clip(kFrames));
@@ -151,9 +181,23 @@ TEST_CASE("standing rest: bones that have their length in keys alone have it at 
     CHECK(apart(made.clip, on_demo(plain)) < 1e-9);
 }
 
+TEST_CASE("standing rest: a bone of no length, or a figure of none in the first frame, leaves the size as it is")
+{
+    const Clip plain = tools::demo_clip(kFrames);
+    Clip clip = plain;
+    clip.joints[static_cast<std::size_t>((*limbs_of_demo(clip)[2])[1])].offset.setZero();
+    CHECK(size_at_rest(clip, limbs_of_demo(clip)).empty());
+    clip = plain;
+    clip.scale_track_count = 1;
+    clip.scale.assign(kFrames, Vector3d::Ones());
+    clip.scale[0].setZero();
+    clip.joints[0].scale_track = 0;
+    CHECK(size_at_rest(clip, limbs_of_demo(clip)).empty());
+}
+
 TEST_CASE("retarget: of a figure that is mirrored as a whole comes its mirror image")
 {
-    const Clip plain = tools::demo_clip(kFrames), mirrored = in_mirror(plain);
+    const Clip plain = tools::demo_clip(kFrames), mirrored = test::in_mirror(plain);
     const auto left_w = [](const Clip& clip) {
         const auto pose_w = world_pose(clip, 0);
         return pose_w[static_cast<std::size_t>(formats::find_joints(clip, "LeftHand").at(0))].position;

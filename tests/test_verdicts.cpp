@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 
 #include "tests/demo_figure.h"
@@ -35,7 +36,7 @@ Quaterniond& rotation_of(Clip& clip, const char* name, std::size_t frame)
 std::string doubts(const Clip& clip)
 {
     std::string all;
-    for (const std::string& each : tools::doubts_of(clip, test::parts_of_demo(clip))) all += each + "\n";
+    for (const std::string& each : tools::clip_doubts(clip, test::parts_of_demo(clip))) all += each + "\n";
     return all;
 }
 
@@ -70,6 +71,40 @@ const Damage kDamages[] = {
          for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
              rotation_of(clip, "RightForeArm", frame) = rotation_of(clip, "RightForeArm", frame).conjugate();
      }},
+    {"a bone that grows", "the right shin is not as long as at rest in 20 of 120 frames, from frame 100",
+     [](Clip& clip) {
+         const std::size_t foot = joint_of(clip, "RightFoot");
+         clip.joints[foot].track = static_cast<int>(clip.track_count);
+         std::vector<Vector3d> translation;
+         for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+             for (std::size_t n = 0; n < clip.track_count; ++n)
+                 translation.push_back(clip.translation[frame * clip.track_count + n]);
+             translation.push_back(clip.joints[foot].offset * (frame < 100 ? 1 : 1.2));
+         }
+         clip.translation = translation;
+         ++clip.track_count;
+     }},
+    {"an arm behind", "the left upper arm points backwards",
+     [](Clip& clip) {
+         for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+             rotation_of(clip, "LeftArm", frame) = Quaterniond(Eigen::AngleAxisd(1.5708, Vector3d::UnitY()));
+     }},
+    {"a leg that never moves", "the left leg never moves, the other turns by up to",
+     [](Clip& clip) {
+         for (std::size_t frame = 1; frame < clip.frame_count; ++frame)
+             for (const char* joint : {"LeftUpLeg", "LeftLeg", "LeftFoot"})
+                 rotation_of(clip, joint, frame) = rotation_of(clip, joint, 0);
+     }},
+    {"a first frame apart", "frame 0 is a pose of its own",
+     [](Clip& clip) {
+         for (std::size_t n = 0; n < clip.joints.size(); ++n) clip.rotation[n] = Quaterniond::Identity();
+         rotation_of(clip, "LeftArm", 0) = Quaterniond(Eigen::AngleAxisd(1.5, Vector3d::UnitZ()));
+     }},
+    {"a body that jumps", "the body jumps by 0.3",
+     [](Clip& clip) {
+         for (std::size_t frame = 60; frame < clip.frame_count; ++frame)
+             clip.translation[frame * clip.track_count].x() += 0.28;
+     }},
     {"sunk", "its feet stand at a height of -0.1",
      [](Clip& clip) {
          for (Vector3d& place : clip.translation) place.y() -= 0.1;
@@ -90,6 +125,35 @@ TEST_CASE("doubts: a clean clip has none, and each damage is named")
         damage.make(clip);
         CHECK_THAT(doubts(clip), Contains(damage.said));
     }
+}
+
+TEST_CASE("doubts: none of how a body is built, however it lies, and none of a mirrored figure")
+{
+    const Clip clean = tools::demo_clip(kFrames);
+    CHECK(doubts(test::in_mirror(clean)).empty());
+    for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 0, 1)})
+        for (const double angle : {1.5708, 3.1416}) {
+            Clip clip = clean;
+            for (std::size_t frame = 0; frame < kFrames; ++frame)
+                clip.rotation[frame * clip.joints.size()] =
+                    Eigen::AngleAxisd(angle, axis) * clip.rotation[frame * clip.joints.size()];
+            CHECK_THAT(doubts(clip), !Contains("bends"));
+        }
+}
+
+TEST_CASE("verdicts: a body that is turned over is garbage, whatever its limbs do")
+{
+    const Clip source = tools::demo_clip(kFrames);
+    const tools::JointPairs pairs = test::demo_pairs(source, source);
+    tools::Retargeted motion = tools::retarget(source, source, pairs);
+    // The spine turns over, and with it what hangs on it; limbs are turned back.
+    for (std::size_t frame = 0; frame < kFrames; ++frame)
+        for (const char* joint : {"Spine", "LeftArm", "RightArm"})
+            rotation_of(motion.clip, joint, frame) =
+                Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()) * rotation_of(motion.clip, joint, frame);
+    const std::vector<std::string> faults = tools::verdict_of(source, motion, pairs).faults;
+    REQUIRE(!faults.empty());
+    CHECK_THAT(faults.front(), Contains("the trunk points up to 180 degrees away from the source's"));
 }
 
 TEST_CASE("verdicts: a motion that is the source's is good, limbs elsewhere are garbage, some frames are doubts")

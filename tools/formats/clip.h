@@ -74,6 +74,12 @@ struct JointPose {
     double unevenness = 0;
 };
 
+// Where a joint of a pose is. joint: 0 to pose.size()-1; the caller answers for it.
+inline const Eigen::Vector3d& position_of(std::span<const JointPose> pose, int joint)
+{
+    return pose[static_cast<std::size_t>(joint)].position;
+}
+
 // v with its x turned over, and the same turn seen in that mirror.
 Eigen::Vector3d mirrored(const Eigen::Vector3d& v);
 Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q);

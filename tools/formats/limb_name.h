@@ -26,6 +26,12 @@ constexpr std::array<LimbName, 4> kLimbNames = {{{LimbKind::arm, Side::left},
                                                  {LimbKind::leg, Side::left},
                                                  {LimbKind::leg, Side::right}}};
 
+// Where a limb is in kLimbNames.
+constexpr std::size_t index_of(LimbName name)
+{
+    return 2 * static_cast<std::size_t>(name.kind) + static_cast<std::size_t>(name.side);
+}
+
 // "arm" or "leg".
 constexpr std::string_view kind_name(LimbKind kind) { return kind == LimbKind::arm ? "arm" : "leg"; }
 // "left" or "right".

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
+#include <utility>
 
 #include "tools/crowd/clip_crowd.h"
 #include "tools/rig/limbs.h"
@@ -35,12 +34,6 @@ LimbChoice choice_of(const Clip& clip, const KnownLimbs& limbs, const std::vecto
 
 double length_of(const Limb& limb) { return double{limb.bound.lengths[0]} + double{limb.bound.lengths[1]}; }
 
-// A joint's place in the world.
-Eigen::Vector3d place_w(const std::vector<formats::JointPose>& pose_w, int joint)
-{
-    return pose_w[static_cast<std::size_t>(joint)].position;
-}
-
 // The goals of a frame that are not met, of these limbs.
 std::vector<Target> unmet(const Retargeted& motion, std::size_t frame, const std::vector<Limb>& limbs)
 {
@@ -49,83 +42,53 @@ std::vector<Target> unmet(const Retargeted& motion, std::size_t frame, const std
     for (std::size_t n = 0; n < motion.limbs.size(); ++n) {
         const Target& goal = motion.eased[frame * motion.limbs.size() + n];
         const auto limb = std::ranges::find(limbs, goal.limb, &Limb::name);
-        if (limb == limbs.end() || (place_w(pose_w, limb->end()) - goal.position).norm() <= kMet * length_of(*limb))
+        if (limb == limbs.end() ||
+            (formats::position_of(pose_w, limb->end()) - goal.position).norm() <= kMet * length_of(*limb))
             continue;
         goals.push_back(goal);
     }
     return goals;
 }
 
-// Which joints take which rotations, in Clip::rotation.
-using NewRotations = std::map<std::size_t, Eigen::Quaterniond>;
-
-void put(const Clip& clip, std::size_t frame, const Limb& limb, const std::array<Eigen::Quaterniond, 3>& turns,
-         NewRotations& rotations)
+void solve(Retargeted& motion, const std::vector<Limb>& limbs)
 {
-    for (std::size_t n = 0; n < 3; ++n)
-        rotations[frame * clip.joints.size() + static_cast<std::size_t>(limb.joints[n])] = turns[n];
-}
-
-NewRotations new_rotations(const Retargeted& motion, const std::vector<Limb>& limbs)
-{
-    const CrowdPlan plan = plan_crowd(nullptr, motion.clip, limbs);
-    ClipCrowd crowd(motion.clip, limbs, plan);
+    Clip& clip = motion.clip;
+    const CrowdPlan plan = plan_crowd(nullptr, clip, limbs);
+    ClipCrowd crowd(clip, limbs, plan);
     Statistics statistics;
-    NewRotations rotations;
-    for (std::size_t frame = 0; frame < motion.clip.frame_count; ++frame) {
+    std::vector<Eigen::Quaterniond> rotations = clip.rotation;  // the crowd reads the clip's own
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const std::vector<Target> goals = unmet(motion, frame, limbs);
         crowd.set_frame(frame, goals);
         crowd.solve(statistics);
         for (const Target& goal : goals) {
-            const auto at = std::ranges::find(limbs, goal.limb, &Limb::name);
-            const formats::PoseRow row = crowd.pose(static_cast<std::size_t>(at - limbs.begin()), 0);
-            put(motion.clip, frame, *at, {quaternion(row.shoulder), quaternion(row.elbow), quaternion(row.wrist)},
-                rotations);
+            const auto limb = std::ranges::find(limbs, goal.limb, &Limb::name);
+            const formats::PoseRow row = crowd.pose(static_cast<std::size_t>(limb - limbs.begin()), 0);
+            const Eigen::Quaterniond turns[] = {quaternion(row.shoulder), quaternion(row.elbow), quaternion(row.wrist)};
+            for (std::size_t n = 0; n < 3; ++n)
+                rotations[frame * clip.joints.size() + static_cast<std::size_t>(limb->joints[n])] = turns[n];
         }
     }
-    return rotations;
-}
-
-void measure(const Retargeted& motion, const KnownLimbs& joints, std::vector<GoalMiss>& misses)
-{
-    for (std::size_t frame = 0; frame < motion.clip.frame_count; ++frame) {
-        const auto pose_w = formats::world_pose(motion.clip, frame);
-        for (std::size_t n = 0; n < misses.size(); ++n) {
-            const Target& goal = motion.goals[frame * misses.size() + n];
-            const LimbJoints& at = *joints[static_cast<std::size_t>(std::ranges::find(formats::kLimbNames, goal.limb) -
-                                                                    formats::kLimbNames.begin())];
-            const double length = (place_w(pose_w, at[0]) - place_w(pose_w, at[1])).norm() +
-                                  (place_w(pose_w, at[1]) - place_w(pose_w, at[2])).norm();
-            const double miss = (place_w(pose_w, at[2]) - goal.position).norm() / length;
-            misses[n].mean += miss / static_cast<double>(motion.clip.frame_count);
-            if (miss > misses[n].most) {
-                misses[n].most = miss;
-                misses[n].most_frame = frame;
-            }
-        }
-    }
+    clip.rotation = std::move(rotations);
 }
 
 }  // namespace
 
-std::vector<GoalMiss> solve_limbs(Retargeted& motion, const std::vector<BodyPart>& parts,
-                                  const std::filesystem::path& file)
+std::vector<std::string> solve_limbs(Retargeted& motion, const std::vector<BodyPart>& parts,
+                                     const std::filesystem::path& file)
 {
-    const KnownLimbs joints = limbs_of(parts);
-    const LimbChoice choice = choice_of(motion.clip, joints, motion.limbs);
+    const LimbChoice choice = choice_of(motion.clip, limbs_of(parts), motion.limbs);
     const LimbSearch search = bind_limbs(motion.clip, choose_joints(motion.clip, file, choice), choice);
     std::vector<Limb> limbs;
-    std::vector<GoalMiss> misses;
-    for (const LimbName name : motion.limbs) misses.push_back({name, 0, 0, 0, {}});
+    std::vector<std::string> problems(motion.limbs.size());
     for (const LimbFinding& finding : search.findings) {
         if (finding.limb) limbs.push_back(*finding.limb);
-        const auto miss = std::ranges::find(misses, finding.name, &GoalMiss::limb);
-        if (!finding.limb && miss != misses.end()) miss->problem = problem_text(finding);
+        const auto at = std::ranges::find(motion.limbs, finding.name);
+        if (!finding.limb && at != motion.limbs.end())
+            problems[static_cast<std::size_t>(at - motion.limbs.begin())] = problem_text(finding);
     }
-    if (!limbs.empty())
-        for (const auto& [joint, turn] : new_rotations(motion, limbs)) motion.clip.rotation[joint] = turn;
-    measure(motion, joints, misses);
-    return misses;
+    if (!limbs.empty()) solve(motion, limbs);
+    return problems;
 }
 
 }  // namespace swivel::tools

@@ -11,19 +11,13 @@
 
 namespace swivel::tools {
 
-// How far a limb's end is from its goal in the clip, in lengths of the limb.
-struct GoalMiss {
-    formats::LimbName limb;
-    double mean = 0, most = 0;
-    std::size_t most_frame = 0;
-    std::string problem;  // why the limb was not solved and only turns as the source's; empty: it was
-};
-
 // Turns each limb's three joints so that its end is at its goal. The solver says where elbow or knee then are: they
 // lean as the goal says. The joints get there by the least turns; hand and foot keep their orientation in the world. A
 // frame in which the end is within 1e-6 limb lengths of the goal is left as it is. parts: of the target. file: for
 // messages. Throws as choose_joints() does.
-std::vector<GoalMiss> solve_limbs(Retargeted& motion, const std::vector<BodyPart>& parts,
-                                  const std::filesystem::path& file);
+//
+// Returns for each of motion.limbs why it was not solved and only turns as the source's; empty: it was.
+std::vector<std::string> solve_limbs(Retargeted& motion, const std::vector<BodyPart>& parts,
+                                     const std::filesystem::path& file);
 
 }  // namespace swivel::tools

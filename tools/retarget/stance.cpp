@@ -24,10 +24,7 @@ struct Feet {
 
     int ankle(std::size_t side) const { return (*figure.limbs[2 + side])[2]; }
     int ground_joint(std::size_t side) const { return has_toes ? figure.toes[side] : ankle(side); }
-    Vector3d own_place(const Poses& pose_w, int joint) const
-    {
-        return figure.own(pose_w[static_cast<std::size_t>(joint)].position);
-    }
+    Vector3d own_place(const Poses& pose_w, int joint) const { return figure.own(formats::position_of(pose_w, joint)); }
     double height(const Poses& pose_w) const
     {
         double lowest = HUGE_VAL;
@@ -54,7 +51,9 @@ Stance stance_of(const Clip& clip, const RestFigure& figure, bool has_toes)
     const Feet feet{figure, has_toes};
     const auto has_slope = [&](std::size_t side) { return has_toes && figure.limbs[2 + side]; };
     Stance stance;
-    const bool is_files_own = !clip.joints.front().unkeyed;  // a frame in mid-step tells nothing of flat feet
+    const bool is_files_own = std::ranges::all_of(clip.joints, [](const formats::Joint& joint) {
+        return pose_without_keys(joint).rotation.coeffs() == joint.rest_rotation.coeffs();
+    });  // a frame in mid-step tells nothing of flat feet
     if (is_files_own && std::abs(feet.height(figure.pose_w)) < kNearGround * figure.leg) {
         stance.height = feet.height(figure.pose_w);
         for (std::size_t side = 0; side < 2; ++side)
@@ -62,23 +61,25 @@ Stance stance_of(const Clip& clip, const RestFigure& figure, bool has_toes)
         return stance;
     }
     if (clip.frame_count < 2) return stance;
-    std::vector<double> heights;
-    std::array<std::vector<double>, 2> slopes;
+    std::vector<double> heights;        // of the lower foot in each frame
+    std::vector<double> still, slopes;  // heights and slopes of both feet: in some clips one of them hardly stands
     Poses before_w;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const Poses pose_w = formats::world_pose(clip, frame);
         heights.push_back(feet.height(pose_w));
+        const double max_step = kStill * figure.leg * clip.frame_time;
         for (std::size_t side = 0; side < 2 && frame > 0; ++side) {
-            const double most = kStill * figure.leg * clip.frame_time;
-            if (has_slope(side) && feet.step(before_w, pose_w, feet.ankle(side)) < most &&
-                feet.step(before_w, pose_w, figure.toes[side]) < most)
-                slopes[side].push_back(feet.slope(pose_w, side));
+            if (!figure.limbs[2 + side] || feet.step(before_w, pose_w, feet.ankle(side)) >= max_step ||
+                feet.step(before_w, pose_w, feet.ground_joint(side)) >= max_step)
+                continue;
+            still.push_back(feet.own_place(pose_w, feet.ground_joint(side)).y());
+            if (has_toes) slopes.push_back(feet.slope(pose_w, side));
         }
         before_w = pose_w;
     }
-    stance.height = quantile(heights, 0.05);
+    stance.height = still.size() >= kFewest ? quantile(still, 0.5) : quantile(heights, 0.05);
     for (std::size_t side = 0; side < 2; ++side)
-        if (slopes[side].size() >= kFewest) stance.slope[side] = quantile(slopes[side], 0.9);
+        if (has_slope(side) && slopes.size() >= kFewest) stance.slope[side] = quantile(slopes, 0.9);
     return stance;
 }
 

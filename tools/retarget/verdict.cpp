@@ -15,6 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 using formats::Clip;
+using formats::position_of;
 using Poses = std::vector<formats::JointPose>;
 
 constexpr double kAway_deg = 45;               // between a bone and the source's
@@ -22,19 +23,24 @@ constexpr double kMissed = 0.05, kLost = 0.5;  // limb lengths
 constexpr double kFast_deg = 720;              // a second
 constexpr double kMostly = 0.25;               // of the frames
 
-// In how many frames something is too much, and where it is most.
+// How often something is too much, and where it is most.
 struct Excess {
-    double bound, most = 0;
-    std::size_t count = 0, most_frame = 0;
+    double bound, max = 0, sum = 0;
+    std::size_t count = 0, max_frame = 0;
 
     void add(double value, std::size_t frame)
     {
+        sum += value;
         if (value > bound) ++count;
-        if (value <= most) return;
-        most = value;
-        most_frame = frame;
+        if (value <= max) return;
+        max = value;
+        max_frame = frame;
     }
     bool is_mostly(std::size_t all) const { return static_cast<double>(count) >= kMostly * static_cast<double>(all); }
+    std::string where(std::size_t all) const
+    {
+        return fmt::format("over {:g} in {} of {} frames, most in frame {}", bound, count, all, max_frame);
+    }
 };
 
 // One limb of both bodies, over all frames.
@@ -48,10 +54,7 @@ struct LimbCourse {
 
     static Vector3d bone(const Poses& pose_w, const LimbJoints& joints, std::size_t n)
     {
-        const auto place_w = [&](std::size_t joint) {
-            return pose_w[static_cast<std::size_t>(joints[joint])].position;
-        };
-        return place_w(n + 1) - place_w(n);
+        return position_of(pose_w, joints[n + 1]) - position_of(pose_w, joints[n]);
     }
     void take(std::size_t frame, const RestFigure& source, const Poses& source_w, const RestFigure& target,
               const Poses& pose_w, const Vector3d& goal_w)
@@ -59,7 +62,7 @@ struct LimbCourse {
         for (std::size_t n = 0; n < 2; ++n)
             away[n].add(degrees_between(source.own(bone(source_w, from, n)), target.own(bone(pose_w, to, n))), frame);
         const double length = bone(pose_w, to, 0).norm() + bone(pose_w, to, 1).norm();
-        const double miss = (pose_w[static_cast<std::size_t>(to[2])].position - goal_w).norm() / length;
+        const double miss = (position_of(pose_w, to[2]) - goal_w).norm() / length;
         missed.add(miss, frame);
         lost.add(miss, frame);
         const double bend = degrees_between(bone(pose_w, to, 0), bone(pose_w, to, 1));
@@ -76,25 +79,38 @@ struct LimbCourse {
     }
 };
 
+// From the middle of the hip joints to the shoulders or else to the head, as the figure has it; zero without them.
+Vector3d trunk(const RestFigure& figure, const std::vector<BodyPart>& parts, const Poses& pose_w)
+{
+    const std::vector<int> head = joints_of(parts, "head");
+    const auto middle_w = [&](std::size_t pair) -> Vector3d {
+        return (position_of(pose_w, (*figure.limbs[pair])[0]) + position_of(pose_w, (*figure.limbs[pair + 1])[0])) / 2;
+    };
+    const auto has = [&](std::size_t pair) { return figure.limbs[pair] && figure.limbs[pair + 1]; };
+    if (!has(2) || (!has(0) && head.empty())) return Vector3d::Zero();
+    return figure.own((has(0) ? middle_w(0) : position_of(pose_w, head[0])) - middle_w(2));
+}
+
+void judge_away(const Excess& away, const std::string& what, std::size_t frames, Verdict& verdict)
+{
+    if (away.count == 0) return;
+    (away.is_mostly(frames) ? verdict.faults : verdict.doubts)
+        .push_back(fmt::format("the {} points up to {:.0f} degrees away from the source's: {}", what, away.max,
+                               away.where(frames)));
+}
+
 void judge(const LimbCourse& limb, formats::LimbName name, std::size_t frames, double frame_time, Verdict& verdict)
 {
     const LimbWords& words = words_of(name.kind);
-    const auto where = [&](const Excess& excess) {
-        return fmt::format("in {} of {} frames, most in frame {}", excess.count, frames, excess.most_frame);
-    };
-    for (std::size_t n = 0; n < 2; ++n) {
-        if (limb.away[n].count == 0) continue;
-        (limb.away[n].is_mostly(frames) ? verdict.faults : verdict.doubts)
-            .push_back(fmt::format("the {} {} points up to {:.0f} degrees away from the source's: over {:g} {}",
-                                   side_name(name.side), n == 0 ? words.upper : words.lower, limb.away[n].most,
-                                   kAway_deg, where(limb.away[n])));
-    }
+    for (std::size_t n = 0; n < 2; ++n)
+        judge_away(limb.away[n], fmt::format("{} {}", side_name(name.side), n == 0 ? words.upper : words.lower), frames,
+                   verdict);
     const bool is_lost = limb.lost.is_mostly(frames);
     const Excess& missed = is_lost ? limb.lost : limb.missed;
     if (missed.count > 0)
         (is_lost ? verdict.faults : verdict.doubts)
-            .push_back(fmt::format("the {} {} is up to {:.2g} limb lengths from its goal: over {:g} {}",
-                                   side_name(name.side), words.end_joint, missed.most, missed.bound, where(missed)));
+            .push_back(fmt::format("the {} {} is up to {:.2g} limb lengths from its goal: {}", side_name(name.side),
+                                   words.end_joint, missed.max, missed.where(frames)));
     if (limb.turn_deg > std::max(2 * limb.source_turn_deg, kFast_deg * frame_time))
         verdict.doubts.push_back(
             fmt::format("the {} {} turns by {:.1f} degrees from frame {} to {}, the source's by at "
@@ -107,23 +123,27 @@ void judge(const LimbCourse& limb, formats::LimbName name, std::size_t frames, d
 
 Verdict verdict_of(const Clip& source_clip, const Retargeted& motion, const JointPairs& pairs)
 {
-    const RestFigure source = rest_figure(source_clip, parts_of(pairs, BodySide::source));
-    const RestFigure target = rest_figure(motion.clip, parts_of(pairs, BodySide::target));
+    const std::vector<BodyPart> from = parts_of(pairs, BodySide::source), to = parts_of(pairs, BodySide::target);
+    const RestFigure source = rest_figure(source_clip, from), target = rest_figure(motion.clip, to);
+    const std::size_t frames = motion.clip.frame_count;
+    Excess trunk_away{kAway_deg};
     std::vector<LimbCourse> limbs;
-    for (const formats::LimbName name : motion.limbs) {
-        const auto n =
-            static_cast<std::size_t>(std::ranges::find(formats::kLimbNames, name) - formats::kLimbNames.begin());
-        limbs.push_back({*source.limbs[n], *target.limbs[n]});
-    }
-    for (std::size_t frame = 0; frame < motion.clip.frame_count; ++frame) {
+    for (const formats::LimbName name : motion.limbs)
+        limbs.push_back({*source.limbs[index_of(name)], *target.limbs[index_of(name)]});
+    for (std::size_t frame = 0; frame < frames; ++frame) {
         const Poses source_w = formats::world_pose(source_clip, frame),
                     pose_w = formats::world_pose(motion.clip, frame);
+        trunk_away.add(degrees_between(trunk(source, from, source_w), trunk(target, to, pose_w)), frame);
         for (std::size_t n = 0; n < limbs.size(); ++n)
             limbs[n].take(frame, source, source_w, target, pose_w, motion.goals[frame * limbs.size() + n].position);
     }
     Verdict verdict;
-    for (std::size_t n = 0; n < limbs.size(); ++n)
-        judge(limbs[n], motion.limbs[n], motion.clip.frame_count, motion.clip.frame_time, verdict);
+    judge_away(trunk_away, "trunk", frames, verdict);
+    for (std::size_t n = 0; n < limbs.size(); ++n) {
+        const Excess& missed = limbs[n].missed;
+        verdict.misses.push_back({missed.sum / static_cast<double>(frames), missed.max, missed.max_frame});
+        judge(limbs[n], motion.limbs[n], frames, motion.clip.frame_time, verdict);
+    }
     return verdict;
 }
 

@@ -10,18 +10,25 @@
 
 namespace swivel::tools {
 
-// A line each for people, with the frames.
+// How far a limb's end is from its goal, in lengths of the limb.
+struct GoalMiss {
+    double mean = 0, max = 0;
+    std::size_t max_frame = 0;
+};
+
+// Lines for people, with the frames.
 struct Verdict {
+    std::vector<GoalMiss> misses;     // of each of Retargeted::limbs
     std::vector<std::string> doubts;  // single frames or limbs: the motion may still be good
     std::vector<std::string> faults;  // garbage
 
     bool is_good() const { return doubts.empty() && faults.empty(); }
 };
 
-// Looks at the solved clip. A fault is a bone of a limb that points over 45 degrees away from the source's, or a goal
-// that is missed by half a limb, in a quarter of the frames; in fewer frames both are doubts. So are a goal that is
-// missed by 0.05 limb lengths, and a knee or elbow whose fastest turn is above 720 degrees a second and above twice the
-// source's.
+// Looks at the solved clip. A fault is a bone of a limb, or the trunk, that points over 45 degrees away from the
+// source's, or a goal that is missed by half a limb, in a quarter of the frames; in fewer frames each is a doubt. So
+// are a goal that is missed by 0.05 limb lengths, and a knee or elbow whose fastest turn is above 720 degrees a second
+// and above twice the source's.
 Verdict verdict_of(const formats::Clip& source, const Retargeted& motion, const JointPairs& pairs);
 
 }  // namespace swivel::tools

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "tools/rig/facing.h"
+#include "tools/rig/limb_chain.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 
@@ -23,10 +24,13 @@ using formats::Clip;
 constexpr double kOtherLength = 1.1;              // a bone beside the other side's, or beside its own at rest
 constexpr double kMostly = 0.25;                  // of the frames
 constexpr double kBent_deg = 20;                  // a knee or an elbow that shows which way it bends
-constexpr double kBackwards = 0.3;                // the sine of 17 degrees, against the front
-constexpr double kBehind = 0.75;                  // the sine of 49 degrees, the same of an upper arm
+constexpr double kBackwards = 0.3;                // the sine of 17 degrees: of a limb that bends the wrong way
+constexpr double kBehind = 0.75;                  // the sine of 49 degrees: an upper arm that points backwards
 constexpr double kPop_deg = 10;                   // out of the middle of the frames beside it,
 constexpr double kPopRatio = 4;                   // and this much further than in the frames around
+constexpr double kJump = 200;                     // leg lengths/s^2, 17 times what falls; a landing has 100 at most
+constexpr double kStill_deg = 0.1;                // a limb that does not move, while the other
+constexpr double kMoved_deg = 10;                 // turns by this
 constexpr double kSunk = 0.03, kElsewhere = 0.5;  // leg lengths below height 0; a body that is about another height
 
 std::string_view bone_name(std::size_t limb, std::size_t bone)
@@ -63,7 +67,10 @@ public:
         for (std::size_t side = 0; side < 2; ++side)
             if (const std::vector<int> toes = joints_of(parts, side == 0 ? "leftToes" : "rightToes"); !toes.empty())
                 toes_[side] = toes.front();
-        if (const std::vector<int> hips = joints_of(parts, "hips"); !hips.empty()) hips_ = hips.front();
+        if (const std::vector<int> hips = joints_of(parts, "hips"); !hips.empty()) {
+            hips_ = hips.front();
+            is_mirrored_ = formats::rest_pose(clip)[static_cast<std::size_t>(hips_)].mirrored;
+        }
         slots_.resize(clip.joints.size());
         for (const auto& limb : limbs_)
             for (std::size_t n = 0; limb && n < 3; ++n) see((*limb)[n]);
@@ -73,14 +80,22 @@ public:
             poses_w_.push_back(moment_of(formats::world_pose(clip, frame)));
     }
 
-    std::vector<std::string> judge()
+    std::vector<std::string> judge_body()
     {
         judge_sides();
-        judge_lengths();
         judge_exchange();
         judge_bends();
+        return std::move(doubts_);
+    }
+    std::vector<std::string> judge_all()
+    {
+        doubts_ = judge_body();
         judge_arms();
+        judge_lengths();
         judge_pops();
+        judge_first_frame();
+        judge_jumps();
+        judge_stillness();
         judge_height();
         judge_up();
         return std::move(doubts_);
@@ -119,6 +134,11 @@ private:
     {
         return place(pose_w, (*limbs_[pair])[0]) - place(pose_w, (*limbs_[pair + 1])[0]);
     }
+    // To the left of where a pair of limbs faces, unit.
+    Vector3d left_w(const BodyMoment& pose_w, std::size_t pair) const
+    {
+        return (is_mirrored_ ? -1 : 1) * to_left_w(pose_w, pair).normalized();
+    }
     Vector3d toe_way_w(const BodyMoment& pose_w, std::size_t side) const
     {
         return place(pose_w, toes_[side]) - place(pose_w, (*limbs_[2 + side])[2]);
@@ -143,6 +163,7 @@ private:
     {
         return static_cast<double>(frames.count) > kMostly * static_cast<double>(count());
     }
+    bool is_in_half(const Frames& frames) const { return 2 * frames.count > count(); }
     static const char* side_of_limb(std::size_t limb) { return limb % 2 == 0 ? "left" : "right"; }
 
     void judge_sides()
@@ -167,10 +188,10 @@ private:
                           frames.words(count()));
             }
     }
-    // Where hips or shoulders face.
+    // Where hips or shoulders face, which a mirrored figure's left and right say the other way round.
     Vector3d front_w(const BodyMoment& pose_w, std::size_t pair) const
     {
-        return to_left_w(pose_w, pair).cross(up_w_).normalized();
+        return left_w(pose_w, pair).cross(up_w_).normalized();
     }
     void judge_exchange()
     {
@@ -182,8 +203,7 @@ private:
                     return level(toe_way_w(pose_w, side)).dot(front_w(pose_w, 2)) < 0;
                 });
         // A runner's foot points back in up to a third of the frames.
-        const auto half = [&](const Frames& frames) { return 2 * frames.count > count(); };
-        const bool is_left = half(feet[0]), is_right = half(feet[1]);
+        const bool is_left = is_in_half(feet[0]), is_right = is_in_half(feet[1]);
         if (is_left && is_right)
             doubt("the left leg is on the right of where the toes point {}", feet[0].words(count()));
         else if (is_left || is_right)
@@ -191,28 +211,40 @@ private:
         if (!has(0)) return;
         const Frames arms =
             frames_where([&](const BodyMoment& pose_w) { return to_left_w(pose_w, 0).dot(to_left_w(pose_w, 2)) < 0; });
-        if (half(arms)) doubt("the left arm is on the side of the right leg {}", arms.words(count()));
+        if (is_in_half(arms)) doubt("the left arm is on the side of the right leg {}", arms.words(count()));
     }
-    // Which way a limb bends, its lower bone's part across the upper one; zero where it is too straight to tell.
-    Vector3d bend_w(const BodyMoment& pose_w, std::size_t limb) const
+    // How far a limb bends the way that people's do: 1 as theirs, -1 the other way, 0 where it is too straight to tell.
+    // In a limb that hangs, the axis of a knee points to the left and that of an elbow to the right; the limb takes the
+    // axis along, on the shortest way. Above the shoulder an arm may turn any way, but bends forwards.
+    double bend(const BodyMoment& pose_w, std::size_t limb) const
     {
+        const std::size_t pair = limb / 2 * 2;
         const Vector3d upper_w = bone_w(pose_w, limb, 0).normalized(), lower_w = bone_w(pose_w, limb, 1).normalized();
-        if (degrees_between(upper_w, lower_w) < kBent_deg) return Vector3d::Zero();
-        return (lower_w - lower_w.dot(upper_w) * upper_w).normalized();
+        const Vector3d down_w = down(pose_w), left = left_w(pose_w, pair);
+        if (degrees_between(upper_w, lower_w) < kBent_deg) return 0;
+        const Vector3d across_w = (lower_w - lower_w.dot(upper_w) * upper_w).normalized();
+        if (upper_w.dot(down_w) < 0) return across_w.dot(left.cross(-down_w));
+        const Vector3d axis_w = (pair == 0 ? -1 : 1) * (aim(down_w, upper_w) * left);
+        return upper_w.cross(across_w).dot(axis_w);
+    }
+    // From the shoulders to the hip joints, else away from up.
+    Vector3d down(const BodyMoment& pose_w) const
+    {
+        if (!has(0) || !has(2)) return -up_w_;
+        const auto sum_w = [&](std::size_t pair) -> Vector3d {
+            return place(pose_w, (*limbs_[pair])[0]) + place(pose_w, (*limbs_[pair + 1])[0]);
+        };
+        return (sum_w(2) - sum_w(0)).normalized();
     }
     void judge_bends()
     {
         for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-            const bool is_arm = limb < 2;
-            const std::size_t pair = is_arm ? 0 : 2;
-            if (!has(pair)) continue;
-            const Frames wrong = frames_where([&](const BodyMoment& pose_w) {
-                const double ahead = bend_w(pose_w, limb).dot(front_w(pose_w, pair));
-                return (is_arm ? ahead : -ahead) < -kBackwards;
-            });
+            if (!has(limb / 2 * 2)) continue;
+            const Frames wrong =
+                frames_where([&](const BodyMoment& pose_w) { return bend(pose_w, limb) < -kBackwards; });
             if (is_mostly(wrong))
                 doubt("the {} {} bends {} {}", side_of_limb(limb), words_of(formats::kLimbNames[limb].kind).lower_joint,
-                      is_arm ? "backwards" : "forwards", wrong.words(count()));
+                      limb < 2 ? "backwards" : "forwards", wrong.words(count()));
         }
     }
     void judge_arms()
@@ -252,12 +284,12 @@ private:
         int worst = -1;
         for (const BodyPart& part : parts_)
             for (const int joint : part.joints)
-                for (std::size_t frame = 1; frame + 1 < count(); ++frame) {
+                for (std::size_t frame = 2; frame + 1 < count(); ++frame) {
                     const auto at = static_cast<std::size_t>(joint);
                     const double out = out_of_middle_deg(at, frame);
                     if (out < kPop_deg || out <= most) continue;
-                    const double before = frame >= 2 ? out_of_middle_deg(at, frame - 2) : 0;
-                    if (out < kPopRatio * std::max(before, out_of_middle_deg(at, frame + 2))) continue;
+                    if (out < kPopRatio * std::max(out_of_middle_deg(at, frame - 2), out_of_middle_deg(at, frame + 2)))
+                        continue;
                     most = out;
                     worst = joint;
                     worst_frame = frame;
@@ -265,6 +297,64 @@ private:
         if (worst >= 0)
             doubt("'{}' turns there and back, by {:.0f} degrees in frame {}", printable_name(joint_at(clip_, worst)),
                   most, worst_frame);
+    }
+    // Many files begin with a T-pose.
+    void judge_first_frame()
+    {
+        if (count() < 3) return;
+        double most = 0, after = 0;
+        for (const BodyPart& part : parts_)
+            for (const int joint : part.joints) {
+                const auto turn_deg = [&](std::size_t frame) {
+                    const auto at = frame * clip_.joints.size() + static_cast<std::size_t>(joint);
+                    return clip_.rotation[at].angularDistance(clip_.rotation[at + clip_.joints.size()]) *
+                           (180 / std::numbers::pi);
+                };
+                most = std::max(most, turn_deg(0));
+                after = std::max(after, turn_deg(1));
+            }
+        if (most > 2 * kPop_deg && most > kPopRatio * after)
+            doubt("frame 0 is a pose of its own: joints turn by up to {:.0f} degrees to frame 1, then by {:.1f}", most,
+                  after);
+    }
+    // A body has weight: it gains speed over some frames.
+    void judge_jumps()
+    {
+        if (hips_ < 0 || (!limbs_[2] && !limbs_[3])) return;
+        double most = kJump * leg_length() * clip_.frame_time * clip_.frame_time;
+        std::size_t worst_frame = 0;
+        for (std::size_t frame = 2; frame + 1 < count(); ++frame) {
+            const auto hips_w = [&](std::size_t at) { return place(poses_w_[at], hips_); };
+            const double change = (hips_w(frame + 1) - 2 * hips_w(frame) + hips_w(frame - 1)).norm();
+            if (change <= most) continue;
+            most = change;
+            worst_frame = frame;
+        }
+        if (worst_frame > 0)
+            doubt("the body jumps by {:.2f} leg lengths beside frame {}", most / leg_length(), worst_frame);
+    }
+    // The most that a limb's joints turn away from the first frame, in degrees.
+    double movement_deg(std::size_t limb) const
+    {
+        double most = 0;
+        for (const int joint : *limbs_[limb])
+            for (std::size_t frame = 1; frame < count(); ++frame) {
+                const auto at = static_cast<std::size_t>(joint);
+                most = std::max(most,
+                                clip_.rotation[frame * clip_.joints.size() + at].angularDistance(clip_.rotation[at]) *
+                                    (180 / std::numbers::pi));
+            }
+        return most;
+    }
+    void judge_stillness()
+    {
+        for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
+            const std::size_t other = limb ^ 1;
+            if (!limbs_[limb] || !limbs_[other] || movement_deg(limb) > kStill_deg) continue;
+            if (const double moves = movement_deg(other); moves > kMoved_deg)
+                doubt("the {} {} never moves, the other turns by up to {:.0f} degrees", side_of_limb(limb),
+                      words_of(formats::kLimbNames[limb].kind).limb, moves);
+        }
     }
     void judge_height()
     {
@@ -297,8 +387,13 @@ private:
         const Vector3d axis_w = nearest_axis(mean_w);
         if (axis_w != up_w_ && mean_w.dot(axis_w) > 0.8)
             doubt(
-                "heads are above feet along {} in its frames and along {} in its rest pose; give --up {} if that is up",
+                "heads are above feet along {} in its frames and along {} in its rest pose; give --up {} or --rest "
+                "FRAME if that is up",
                 axis_name(axis_w), axis_name(up_w_), axis_name(axis_w));
+        else if (up_w_.y() + up_w_.z() != 1 && mean_w.dot(up_w_) < 0.5)
+            doubt(
+                "heads are above feet along {} in its rest pose and not in its frames; give --up AXIS or --rest FRAME",
+                axis_name(up_w_));
     }
 
     const Clip& clip_;
@@ -307,6 +402,7 @@ private:
     std::array<int, 2> toes_{-1, -1};
     const Vector3d up_w_;
     int hips_ = -1;
+    bool is_mirrored_ = false;               // as a whole: its left side is on the right of where it faces
     std::vector<std::size_t> seen_, slots_;  // joints, and where each is among them
     BodyMoment rest_w_;
     std::vector<BodyMoment> poses_w_;
@@ -315,10 +411,16 @@ private:
 
 }  // namespace
 
-std::vector<std::string> doubts_of(const Clip& clip, const std::vector<BodyPart>& parts)
+std::vector<std::string> clip_doubts(const Clip& clip, const std::vector<BodyPart>& parts)
 {
     if (clip.frame_count == 0) return {};
-    return ClipJudge(clip, parts).judge();
+    return ClipJudge(clip, parts).judge_all();
+}
+
+std::vector<std::string> body_doubts(const Clip& clip, const std::vector<BodyPart>& parts)
+{
+    if (clip.frame_count == 0) return {};
+    return ClipJudge(clip, parts).judge_body();
 }
 
 }  // namespace swivel::tools

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "tools/rig/body_parts.h"
@@ -18,11 +19,14 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using formats::Clip;
+using formats::position_of;
 using Poses = std::vector<formats::JointPose>;
 
-constexpr double kLeaning = 0.5;  // the cosine of 60 degrees
+constexpr double kLeaning = 0.5;    // the cosine of 60 degrees
+constexpr double kUnlike_deg = 20;  // between a leg and the other's mirror image
+constexpr double kChanged = 0.1;    // of a length: bones that differ by more are not as at rest
 
-// What is upright in a figure that stands, as directions that then point up.
+// The parts of a figure that are upright where it stands.
 class UprightParts {
 public:
     UprightParts(const Clip& clip, const KnownLimbs& limbs)
@@ -32,7 +36,13 @@ public:
             if (limbs[arm]) tops_.push_back((*limbs[arm])[0]);
         if (tops_.size() < 2) tops_ = head;
         for (const std::size_t leg : {2u, 3u})
-            if (limbs[leg]) legs_.push_back(*limbs[leg]);
+            if (limbs[leg]) {
+                legs_.push_back(*limbs[leg]);
+                chains_.emplace_back(limbs[leg]->begin(), limbs[leg]->end());
+                if (const std::vector<int> toes = toes_of(clip, formats::kLimbNames[leg].side, legs_.back()[2]);
+                    !toes.empty())
+                    chains_.back().push_back(toes[0]);
+            }
     }
 
     // From the middle of the feet to the shoulders, or else to the head or the hips; zero where no leg is known.
@@ -48,58 +58,78 @@ public:
         const auto add = [&](const Vector3d& way_w) { least = std::min(least, way_w.normalized().dot(up_w)); };
         if (!tops_.empty()) add(top_w(pose_w) - middle_w(pose_w, 0));
         for (const LimbJoints& leg : legs_) {
-            add(place(pose_w, leg[0]) - place(pose_w, leg[1]));
-            add(place(pose_w, leg[1]) - place(pose_w, leg[2]));
+            add(position_of(pose_w, leg[0]) - position_of(pose_w, leg[1]));
+            add(position_of(pose_w, leg[1]) - position_of(pose_w, leg[2]));
         }
         return least;
     }
-    // Why a rest pose cannot be one; empty if it can.
+    // Why a pose cannot stand; empty if it can.
     std::string problem(const Poses& pose_w, const Vector3d& up_w) const
     {
         Vector3d other_w = Vector3d::Zero();
         for (const LimbJoints& leg : legs_) {
-            const Vector3d down_w = (place(pose_w, leg[2]) - place(pose_w, leg[0])).normalized();
+            const Vector3d down_w = (position_of(pose_w, leg[2]) - position_of(pose_w, leg[0])).normalized();
             if (down_w.dot(up_w) > kLeaning) return "a foot is above its hip";
             if (down_w.dot(other_w) < -kLeaning) return "the legs point apart";
             other_w = down_w;
         }
         return {};
     }
+    // How far legs and feet are from each other's mirror images, in degrees: much in mid-step, little at rest.
+    double unlikeness_deg(const Poses& pose_w) const
+    {
+        if (legs_.size() < 2) return 0;
+        const Vector3d across_w = (position_of(pose_w, legs_[0][0]) - position_of(pose_w, legs_[1][0])).normalized();
+        double max_deg = 0;
+        for (std::size_t n = 0; n + 1 < std::min(chains_[0].size(), chains_[1].size()); ++n) {
+            const auto bone_w = [&](const std::vector<int>& chain) -> Vector3d {
+                return position_of(pose_w, chain[n + 1]) - position_of(pose_w, chain[n]);
+            };
+            const Vector3d left_w = bone_w(chains_[0]);
+            const Vector3d image_w = left_w - 2 * left_w.dot(across_w) * across_w;
+            max_deg = std::max(max_deg, degrees_between(image_w, bone_w(chains_[1])));
+        }
+        return max_deg;
+    }
 
 private:
-    static const Vector3d& place(const Poses& pose_w, int joint)
-    {
-        return pose_w[static_cast<std::size_t>(joint)].position;
-    }
     // The middle of the legs' hips (0), knees or ankles (2).
     Vector3d middle_w(const Poses& pose_w, std::size_t part) const
     {
         Vector3d sum_w = Vector3d::Zero();
-        for (const LimbJoints& leg : legs_) sum_w += place(pose_w, leg[part]);
+        for (const LimbJoints& leg : legs_) sum_w += position_of(pose_w, leg[part]);
         return sum_w / std::max(1.0, static_cast<double>(legs_.size()));
     }
     Vector3d top_w(const Poses& pose_w) const
     {
         if (tops_.empty()) return middle_w(pose_w, 0);
         Vector3d sum_w = Vector3d::Zero();
-        for (const int joint : tops_) sum_w += place(pose_w, joint);
+        for (const int joint : tops_) sum_w += position_of(pose_w, joint);
         return sum_w / static_cast<double>(tops_.size());
     }
 
     std::vector<int> tops_;  // both shoulders, or else the head
     std::vector<LimbJoints> legs_;
+    std::vector<std::vector<int>> chains_;  // of each leg, with the toes where they are known
 };
 
-// +Y, as facing_of() has it, where no leg is known.
-Vector3d up_of_frames(const Clip& clip, const UprightParts& body)
+// The mean direction from feet to shoulders in all frames, the shorter the less they agree; zero where no leg is known.
+Vector3d mean_height_w(const Clip& clip, const UprightParts& body)
 {
     Vector3d sum_w = Vector3d::Zero();
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
         sum_w += body.height_w(formats::world_pose(clip, frame)).normalized();
-    return sum_w.isZero(0) ? Vector3d(Vector3d::UnitY()) : nearest_axis(sum_w);
+    return sum_w / std::max(1.0, static_cast<double>(clip.frame_count));
 }
 
-// Of no frames, nothing stands: the one after the last.
+// Files stand along +Y or +Z at rest, or else as their frames do. Empty for one that does.
+std::string problem_of_up(const Vector3d& axis_w, const Vector3d& height_w)
+{
+    if (axis_w == Vector3d::UnitY() || axis_w == Vector3d::UnitZ() || height_w.dot(axis_w) > kLeaning) return {};
+    return fmt::format("its trunk points along {}, and that of its frames does not", axis_name(axis_w));
+}
+
+// The number of frames where none is upright.
 std::size_t most_upright_frame(const Clip& clip, const UprightParts& body, const Vector3d& up_w)
 {
     double most = kLeaning;
@@ -117,14 +147,15 @@ std::size_t most_upright_frame(const Clip& clip, const UprightParts& body, const
 void turn_at_rest(Clip& clip, int joint, const Quaterniond& turn_w)
 {
     const int parent = joint_at(clip, joint).parent;
-    const Quaterniond above_w =
-        parent < 0 ? Quaterniond::Identity() : formats::rest_pose(clip)[static_cast<std::size_t>(parent)].rotation;
+    const formats::JointPose above_w =
+        parent < 0 ? formats::JointPose() : formats::rest_pose(clip)[static_cast<std::size_t>(parent)];
+    const Quaterniond turn = above_w.rotation.conjugate() * turn_w * above_w.rotation;
     Quaterniond& rotation = clip.joints[static_cast<std::size_t>(joint)].rest_rotation;
-    rotation = (above_w.conjugate() * turn_w * above_w * rotation).normalized();
+    rotation = ((above_w.mirrored ? formats::mirrored(turn) : turn) * rotation).normalized();
 }
 
-// A pose in mid-step made one to start from: the figure faces the front, its hips and shoulders are square to it, and
-// all bones of its back are upright.
+// A pose in mid-step made one to start from: the figure faces the front, its hips, shoulders and feet are square to it,
+// and all bones of its back are upright, from the lowest joint of the spine to the head.
 class Straightener {
 public:
     Straightener(Clip& clip, const KnownLimbs& limbs, const Vector3d& up_w) : clip_(clip), limbs_(limbs), up_w_(up_w) {}
@@ -137,21 +168,32 @@ public:
         int root = hips[0];
         while (joint_at(clip_, root).parent >= 0) root = joint_at(clip_, root).parent;
         const Vector3d front_w = up_w_.z() == 0 ? Vector3d::UnitZ() : Vector3d(-Vector3d::UnitY());
-        turn_at_rest(clip_, root, aim(level(to_left_w(2)), up_w_.cross(front_w)));
+        const bool is_mirrored = formats::rest_pose(clip_)[static_cast<std::size_t>(hips[0])].mirrored;
+        turn_at_rest(clip_, root, yaw(to_left_w(2), (is_mirrored ? -1 : 1) * up_w_.cross(front_w)));
         std::vector<int> back = spine;
         for (const char* part : {"neck", "head"})
             for (const int joint : joints_of(parts, part)) back.push_back(joint);
         for (std::size_t n = 0; n + 1 < back.size(); ++n)
-            turn_at_rest(clip_, back[n], aim(place_w(back[n + 1]) - place_w(back[n]), up_w_));
-        turn_at_rest(clip_, spine.back(), aim(level(to_left_w(0)), level(to_left_w(2))));
+            turn_at_rest(clip_, back[n], aim(position_w(back[n + 1]) - position_w(back[n]), up_w_));
+        turn_at_rest(clip_, spine.back(), yaw(to_left_w(0), to_left_w(2)));
+        for (const std::size_t leg : {2u, 3u}) {
+            const int foot = (*limbs_[leg])[2];
+            const std::vector<int> toes = toes_of(clip_, formats::kLimbNames[leg].side, foot);
+            if (!toes.empty()) turn_at_rest(clip_, foot, yaw(position_w(toes[0]) - position_w(foot), front_w));
+        }
     }
 
 private:
     bool has(std::size_t pair) const { return limbs_[pair] && limbs_[pair + 1]; }
-    Vector3d place_w(int joint) const { return formats::rest_pose(clip_)[static_cast<std::size_t>(joint)].position; }
-    Vector3d start_w(std::size_t limb) const { return place_w((*limbs_[limb])[0]); }
+    Vector3d position_w(int joint) const { return position_of(formats::rest_pose(clip_), joint); }
+    Vector3d start_w(std::size_t limb) const { return position_w((*limbs_[limb])[0]); }
     Vector3d to_left_w(std::size_t pair) const { return start_w(pair) - start_w(pair + 1); }
-    Vector3d level(const Vector3d& way_w) const { return way_w - way_w.dot(up_w_) * up_w_; }
+    // The turn about up that brings the level part of one direction to that of the other.
+    Quaterniond yaw(const Vector3d& from_w, const Vector3d& to_w) const
+    {
+        const double along = from_w.dot(to_w) - from_w.dot(up_w_) * to_w.dot(up_w_);
+        return Quaterniond(Eigen::AngleAxisd(std::atan2(up_w_.dot(from_w.cross(to_w)), along), up_w_));
+    }
 
     Clip& clip_;
     const KnownLimbs& limbs_;
@@ -169,21 +211,20 @@ void take_frame(Clip& clip, const KnownLimbs& limbs, std::size_t frame, const Ve
     Straightener(clip, limbs, up_w).straighten();
 }
 
-// How long the first bone of a limb is in the first frame that is not within a tenth of its length at rest; as a share
-// of that. 1 if there is none.
+// How many times as long as at rest the limbs' bones are in the first frame: the median, without bones of no length
+// there. Infinite where they have none at rest, 1 where there are no bones.
 double change_of_length(const Clip& clip, const KnownLimbs& limbs)
 {
     const Poses rest_w = formats::rest_pose(clip), first_w = formats::world_pose(clip, 0);
-    const auto length = [](const Poses& pose_w, int from, int to) {
-        return (pose_w[static_cast<std::size_t>(to)].position - pose_w[static_cast<std::size_t>(from)].position).norm();
-    };
+    std::vector<double> changes;
     for (const auto& limb : limbs)
         for (std::size_t n = 0; limb && n < 2; ++n) {
-            const double change =
-                length(first_w, (*limb)[n], (*limb)[n + 1]) / length(rest_w, (*limb)[n], (*limb)[n + 1]);
-            if (!(std::abs(change - 1) < 0.1)) return change;
+            const auto length = [&](const Poses& pose_w) {
+                return (position_of(pose_w, (*limb)[n + 1]) - position_of(pose_w, (*limb)[n])).norm();
+            };
+            if (length(first_w) > 0) changes.push_back(length(first_w) / length(rest_w));
         }
-    return 1;
+    return changes.empty() ? 1 : quantile(changes, 0.5);
 }
 
 }  // namespace
@@ -194,10 +235,18 @@ std::string stand_at_rest(Clip& clip, const KnownLimbs& limbs, const RestChoice&
     if (choice.frame && *choice.frame >= clip.frame_count)
         throw CannotBind(fmt::format("--rest {}: it has {} frames", *choice.frame, clip.frame_count),
                          "frames count from 0");
-    const std::string problem = body.problem(formats::rest_pose(clip), facing_of(clip, limbs).up_w);
-    if (problem.empty() && !choice.frame && !choice.up_w) return {};
-    const Vector3d up_w = choice.up_w ? *choice.up_w : up_of_frames(clip, body);
+    const Poses rest_w = formats::rest_pose(clip);
+    const Vector3d height_w = mean_height_w(clip, body), rest_up_w = facing_of(clip, limbs).up_w;
+    std::string problem = body.problem(rest_w, rest_up_w);
+    const bool is_needed = !problem.empty() || choice.frame || choice.up_w;
+    if (problem.empty()) problem = problem_of_up(nearest_axis(rest_up_w), height_w);
+    if (const double apart = body.unlikeness_deg(rest_w); problem.empty() && apart > kUnlike_deg)
+        problem = fmt::format("its legs differ by {:.0f} degrees, as in mid-step", apart);
+    if (problem.empty() && !is_needed) return {};
+    const Vector3d frames_up_w = height_w.isZero(0) ? Vector3d(Vector3d::UnitY()) : nearest_axis(height_w);
+    const Vector3d up_w = choice.up_w ? *choice.up_w : frames_up_w;
     const std::size_t frame = choice.frame ? *choice.frame : most_upright_frame(clip, body, up_w);
+    if (frame == clip.frame_count && !is_needed) return {};
     if (frame == clip.frame_count)
         throw CannotBind(
             fmt::format("{}no frame stands along {}",
@@ -215,15 +264,17 @@ std::string size_at_rest(Clip& clip, const KnownLimbs& limbs)
     const std::vector<int> hips = joints_of(body_parts(clip, limbs), "hips");
     if (hips.empty() || clip.frame_count == 0) return {};
     const double change = change_of_length(clip, limbs);
-    if (change == 1) return {};
+    if (std::abs(change - 1) <= kChanged) return {};
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
         formats::Joint& joint = clip.joints[n];
         joint.unkeyed = pose_without_keys(joint);
         if (is_above(clip, hips[0], static_cast<int>(n))) joint.offset = formats::local_translation(clip, 0, n);
         if (joint.scale_track >= 0) joint.rest_scale = clip.scale[static_cast<std::size_t>(joint.scale_track)];
     }
-    return fmt::format("the clip's bones are {:.3g} times as long as at rest; those of its first frame are taken",
-                       change);
+    return std::isinf(change)
+               ? "at rest the clip's bones have no length; those of its first frame are taken"
+               : fmt::format("the clip's bones are {:.3g} times as long as at rest; those of its first frame are taken",
+                             change);
 }
 
 }  // namespace swivel::tools

@@ -12,26 +12,30 @@
 
 namespace swivel::tools {
 
-// What the user says of the rest pose.
+// The user's own choice of a rest pose.
 struct RestChoice {
     std::optional<std::size_t> frame;     // this one is the rest pose
     std::optional<Eigen::Vector3d> up_w;  // an axis of the world: a frame that stands along it is the rest pose
 };
 
-// Where the rest pose cannot be one, because a foot is above its hip or the legs point apart, a frame takes its place:
-// the most upright one, then straightened. It is turned to where files of that up face, +Z, or -Y where Z is up; its
-// shoulders are square to that, and the bones of its back are upright. A frame is as upright as the least upright of
-// its trunk, thighs and shins. Up is the axis of the world along which heads are above feet, in the mean of all frames.
-// The joints' rest_rotation changes, and no frame does. choice overrides all. limbs: where no leg is known, a frame
-// must be chosen.
+// A frame takes the rest pose's place where the file's own cannot stand:
+// - a foot is above its hip, or the legs point apart;
+// - the trunk points along another axis than +Y or +Z, and than in the frames;
+// - legs or feet differ by 20 degrees from each other's mirror images, as in mid-step.
+// It is the most upright frame, straightened: turned to where files of that up face, +Z, or -Y where Z is up, with
+// shoulders and feet square to that, and with a back that is upright from the lowest joint of the spine to the head. A
+// frame is as upright as the least upright of its trunk, thighs and shins. Up is the axis of the world along which
+// heads are above feet, in the mean of all frames. The joints' rest_rotation changes alone, and no frame does. choice
+// overrides all. limbs: where no leg is known, a frame must be chosen.
 //
-// Returns what was done, a line for people; empty where the rest pose is the file's own. Throws CannotBind where no
-// frame stands, all parts within 60 degrees of upright, or where the chosen one does not exist.
+// Returns what was done, a line for people; empty where the rest pose is the file's own. Where no frame stands, all
+// parts within 60 degrees of upright, the first of the three throws CannotBind, and so does the user's choice. The
+// others then leave the file's own.
 std::string stand_at_rest(formats::Clip& clip, const KnownLimbs& limbs, const RestChoice& choice);
 
-// Some files have their bones' true lengths in keys alone. Where a limb's bone is longer or shorter by a tenth in the
-// first frame than at rest, joints below the hips rest at the first frame's offsets, and all at its scales. Returns a
-// line for people; empty where nothing was changed.
+// Some files have their bones' true lengths in keys alone. Where the limbs' bones are longer or shorter by a tenth in
+// the first frame than at rest, in the median, joints below the hips rest at the first frame's offsets, and all at its
+// scales. Returns a line for people; empty where nothing was changed.
 std::string size_at_rest(formats::Clip& clip, const KnownLimbs& limbs);
 
 }  // namespace swivel::tools

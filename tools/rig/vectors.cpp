@@ -21,6 +21,14 @@ std::string axis_name(const Eigen::Vector3d& axis)
     return fmt::format("{}{}", axis[at] < 0 ? "-" : "", "xyz"[at]);
 }
 
+std::optional<Eigen::Vector3d> axis_of(std::string_view name)
+{
+    for (Eigen::Index at = 0; at < 3; ++at)
+        for (const double sign : {1.0, -1.0})
+            if (const Eigen::Vector3d axis = sign * Eigen::Vector3d::Unit(at); axis_name(axis) == name) return axis;
+    return std::nullopt;
+}
+
 double quantile(std::vector<double> values, double share)
 {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

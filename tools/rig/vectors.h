@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -32,6 +34,9 @@ Eigen::Vector3d nearest_axis(const Eigen::Vector3d& direction);
 
 // "x" to "z", with a minus in front where it points the other way.
 std::string axis_name(const Eigen::Vector3d& axis);
+
+// The axis of such a name; nothing for any other.
+std::optional<Eigen::Vector3d> axis_of(std::string_view name);
 
 // The value that this share of all is not above. values: one at least. share: 0 to 1.
 double quantile(std::vector<double> values, double share);

@@ -157,7 +157,17 @@ void add_retarget(CLI::App& app)
     add_input("SOURCE", options->source, "Motion file: BVH or glTF. - is standard input");
     add_input("TARGET", options->target,
               "File of the figure that is to move: BVH or glTF. Its own motion only tells how its feet stand");
-    add_motion(*command, options->motion, "Here FILE is SOURCE");
+    add_animation(*command, options->clip, options->rate, "Here FILE is SOURCE");
+    const auto add_of_body = [&](const char* name, const char* type, std::vector<std::string>& texts,
+                                 const char* meaning) {
+        command->add_option(name, texts, meaning)->type_name(type)->allow_extra_args(false);
+    };
+    add_of_body("--rest", "FRAME", options->rests,
+                "The frame that is taken as the rest pose, counted from 0, with source: or target: in front. Without "
+                "it the file's own, or the most upright frame where that cannot stand");
+    add_of_body("--up", "AXIS", options->ups,
+                "The axis that is up, x, y, z, -x, -y or -z, with source: or target: in front. The rest pose is then a "
+                "frame that stands along it");
     takes(command->add_option("-o,--out", options->out,
                               "TARGET with the motion, in its own format: .bvh, or .glb, .gltf and .vrm. The motion "
                               "replaces that of a BVH file and the first animation of a glTF file, and all else is "
@@ -165,11 +175,8 @@ void add_retarget(CLI::App& app)
           file_name());
     add_named_limbs(*command, options->arms, options->legs,
                     "Before that, source: or target: says whose it is, as in source:left:#16,#17,#18");
-    command
-        ->add_option("--head", options->heads,
-                     "Joint that is the head, where its name does not tell, with source: or target: in front")
-        ->type_name("JOINT")
-        ->allow_extra_args(false);
+    add_of_body("--head", "JOINT", options->heads,
+                "Joint that is the head, where its name does not tell, with source: or target: in front");
     takes(command->add_option("--map", options->map,
                               "Table of the joints that stand for one another, with the columns part,source,target. "
                               "Without it they are found by their names. - is standard input"),

@@ -55,9 +55,11 @@ void view_cache(const SolveOptions& options, const std::string& about_clip);
 struct RetargetOptions {
     std::string source, target, out;
     std::string map, export_map;                 // tables of pairs
-    std::vector<std::string> arms, legs, heads;  // "source:left:SHOULDER,ELBOW,WRIST", "target:HEAD"
-    MotionChoice motion;                         // of source
-    bool force = false;                          // garbage is written, too
+    // "source:left:SHOULDER,ELBOW,WRIST", "target:HEAD", "source:0", "source:z"
+    std::vector<std::string> arms, legs, heads, rests, ups;
+    std::string clip;    // of source, as MotionChoice has it
+    double rate = 0;     // so is this
+    bool force = false;  // garbage is written, too
     bool quiet = false;
 };
 void run_retarget(const RetargetOptions& options);

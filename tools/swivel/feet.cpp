@@ -127,8 +127,6 @@ FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& fi
                                                "and lower than {:g} over its floor; raise --speed or --height, or give "
                                                "--contacts",
                                                run.bars.speed, run.bars.height));
-    if (!run.export_contacts.empty())
-        formats::write_contacts_csv(run.export_contacts, rows_of(run.motion, run.contacts));
     run.floor = {run.motion.up_w, floor_level(run.motion, run.contacts), hills};
     run.placed = place_feet(run.motion, run.contacts, run.bars, run.floor, run.file);
     const formats::Clip& clip = file.clip();
@@ -137,10 +135,11 @@ FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& fi
     const LegMotion after = leg_motion(with_joints(clip, joints), run.legs, run.motion.carrier, run.motion.up_w);
     run.after = skating_of(after, run.contacts, run.floor);
     run.doubts = doubts_of(after, run.motion, run.contacts, run.bars, run.floor);
-    if (run.out.empty()) return run;
     std::vector<formats::JointKeys> keys;
     for (const TurnedJoint& each : joints) keys.push_back({each.joint, each.rotation, each.translation});
-    file.write(run.out, keys);
+    if (!run.out.empty()) file.write(run.out, keys);
+    if (!run.export_contacts.empty())
+        formats::write_contacts_csv(run.export_contacts, rows_of(run.motion, run.contacts));
     return run;
 }
 

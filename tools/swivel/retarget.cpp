@@ -29,6 +29,7 @@ namespace swivel::tools {
 namespace {
 
 using formats::Clip;
+using formats::position_of;
 
 constexpr double kLeastBone = 1e-6;  // of its limb
 
@@ -52,10 +53,7 @@ void require_bones(const std::string& file, const Clip& clip, const LimbJoints& 
 {
     const std::vector<formats::JointPose> pose_w = formats::rest_pose(clip);
     const auto length = [&](std::size_t n) {
-        const auto place_w = [&](std::size_t at) -> const Eigen::Vector3d& {
-            return pose_w[static_cast<std::size_t>(joints[at])].position;
-        };
-        return (place_w(n + 1) - place_w(n)).norm();
+        return (position_of(pose_w, joints[n + 1]) - position_of(pose_w, joints[n])).norm();
     };
     for (std::size_t n = 0; n < 2; ++n)
         if (!(length(n) > kLeastBone * (length(0) + length(1))))
@@ -140,16 +138,18 @@ void print_pairs(std::FILE* to, const Clip& source, const Clip& target, const Jo
     say(to, "unused    of SOURCE: {}\n", names_of(source, unpaired_bones(pairs, source, BodySide::source)));
 }
 
-void print_motion(std::FILE* to, const Retargeted& motion, const std::vector<GoalMiss>& misses)
+// problems: of each limb, why it was not solved; empty: it was.
+void print_motion(std::FILE* to, const Retargeted& motion, const std::vector<std::string>& problems,
+                  const std::vector<GoalMiss>& misses)
 {
     say(to, "lengths   {:.6g} of TARGET for 1 of SOURCE, by the legs\n", motion.leg_ratio);
-    for (const GoalMiss& miss : misses) {
-        const LimbWords& words = words_of(miss.limb.kind);
-        if (!miss.problem.empty())
-            say(to, "{:<9} not solved: {}\n", plain_name(miss.limb), miss.problem);
+    for (std::size_t n = 0; n < misses.size(); ++n) {
+        const formats::LimbName limb = motion.limbs[n];
+        if (!problems[n].empty())
+            say(to, "{:<9} not solved: {}\n", plain_name(limb), problems[n]);
         else
             say(to, "{:<9} {} from its goal: {:.2g} of the limb's length in the mean, most {:.2g} in frame {}\n",
-                plain_name(miss.limb), words.end_joint, miss.mean, miss.most, miss.most_frame);
+                plain_name(limb), words_of(limb.kind).end_joint, misses[n].mean, misses[n].max, misses[n].max_frame);
     }
 }
 
@@ -185,7 +185,8 @@ void run_retarget(const RetargetOptions& options)
         throw CommandError(2, "more than one of SOURCE, TARGET and --map is -, standard input; name the others");
     const BodyChoice of_source = body_choice(options, BodySide::source),
                      of_target = body_choice(options, BodySide::target);
-    MotionFile source_file(options.source, options.motion), target_file(options.target, {});
+    MotionFile source_file(options.source, {options.clip, options.rate, of_source.rest}),
+        target_file(options.target, {{}, 0, of_target.rest});
     if (!options.out.empty()) target_file.require_can_write(options.out, "TARGET", "");
     const std::string outputs[] = {options.out, options.export_map};
     const ReadFile read[] = {
@@ -205,11 +206,13 @@ void run_retarget(const RetargetOptions& options)
     target_file.stand(limbs_of(parts_of(pairs, BodySide::target)), true);
     require_bodies(options, pairs, source, target);
     Retargeted motion = retarget(source, target, pairs);
-    const std::vector<GoalMiss> misses =
+    const std::vector<std::string> problems =
         solve_limbs(motion, parts_of(pairs, BodySide::target), options.map.empty() ? options.target : options.map);
     Verdict verdict = verdict_of(source, motion, pairs);
-    for (const std::string& doubt : doubts_of(source, parts_of(pairs, BodySide::source)))
+    for (const std::string& doubt : clip_doubts(source, parts_of(pairs, BodySide::source)))
         verdict.doubts.push_back("SOURCE: " + doubt);
+    for (const std::string& doubt : body_doubts(target, parts_of(pairs, BodySide::target)))
+        verdict.doubts.push_back("TARGET: " + doubt);
     const bool is_written = !options.out.empty() && (verdict.faults.empty() || options.force);
     if (is_written)
         target_file.write(options.out, MovedJoints(motion).keys(),
@@ -219,16 +222,18 @@ void run_retarget(const RetargetOptions& options)
         std::FILE* const to = report_stream(outputs);
         print_clips(to, options, source_file, target_file);
         print_pairs(to, source, target, pairs);
-        print_motion(to, motion, misses);
+        print_motion(to, motion, problems, verdict.misses);
         print_verdict(to, verdict);
         print_written(to, {options.export_map, is_written ? options.out : ""});
     }
     if (!verdict.faults.empty() && !options.force)
         throw CommandError(
             1, fmt::format(
-                   "{}: {}{}; nothing is written; see swivel rig of both, or give --force",
-                   options.out.empty() ? options.target : options.out, verdict.faults.front(),
-                   verdict.faults.size() == 1 ? "" : fmt::format(", and {} faults more", verdict.faults.size() - 1)));
+                   "{}: {}{}{}; see swivel rig of both{}", options.out.empty() ? options.target : options.out,
+                   verdict.faults.front(),
+                   verdict.faults.size() == 1 ? "" : fmt::format(", and {} faults more", verdict.faults.size() - 1),
+                   options.out.empty() ? "" : "; the motion is not written",
+                   options.out.empty() ? "" : ", or give --force"));
 }
 
 }  // namespace swivel::tools

@@ -11,13 +11,15 @@
 
 namespace swivel::tools {
 
-// What --arm, --leg and --head say of one body.
+// What --arm, --leg, --head, --rest and --up say of one body.
 struct BodyChoice {
     LimbChoice limbs;
     std::optional<NamedJoint> head;
+    RestChoice rest;
 };
 
-// Throws CommandError for an option that does not say whose it is, for two heads of one body, and beside --map.
+// Throws CommandError for an option that does not say whose it is or is given twice for one body, and for the first
+// three beside --map.
 BodyChoice body_choice(const RetargetOptions& options, BodySide side);
 
 // Throws InputError as choose_joints() and body_of() do.

@@ -99,7 +99,7 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                {"up", vector_of(facing.up_w)},
                                {"up_by", facing.up_source}};
     if (const auto notes = motion.notes(); !notes.empty()) out["notes"] = notes;
-    if (const auto doubts = doubts_of(clip, search.body); !doubts.empty()) out["doubts"] = doubts;
+    if (const auto doubts = clip_doubts(clip, search.body); !doubts.empty()) out["doubts"] = doubts;
     for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, facing));
     for (const BodyPart& part : search.body)
         for (const int joint : part.joints) out["body"][part.name].push_back(joint_at(clip, joint).number);

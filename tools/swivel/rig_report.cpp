@@ -140,7 +140,7 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
     say(stdout, "faces {}, told by {}; up is {}, told by {}\n", vector_text(facing.forwards_w), facing.forwards_source,
         vector_text(facing.up_w), facing.up_source);
     for (const std::string& note : motion.notes()) say(stdout, "note: {}\n", note);
-    for (const std::string& doubt : doubts_of(clip, search.body)) say(stdout, "look: {}\n", doubt);
+    for (const std::string& doubt : clip_doubts(clip, search.body)) say(stdout, "look: {}\n", doubt);
     for (const LimbFinding& finding : search.findings) {
         if (finding.limb)
             print_limb(clip, *finding.limb, facing);

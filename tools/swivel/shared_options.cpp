@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/shared_options.h"
 
+#include "tools/rig/vectors.h"
+
 namespace swivel::tools {
-
-namespace {
-
-// "x" to "z", with or without a minus in front.
-Eigen::Vector3d axis_of(const std::string& name)
-{
-    return (name[0] == '-' ? -1 : 1) * Eigen::Vector3d::Unit(name.back() - 'x');
-}
-
-}  // namespace
 
 CLI::Option* add_threads(CLI::App& command, unsigned& threads, const char* meaning)
 {
@@ -40,24 +32,29 @@ CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string&
     return takes(command.add_option("--limbs", kinds, meaning), one_of({"arms", "legs", "all"}));
 }
 
-void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
+void add_animation(CLI::App& command, std::string& clip, double& rate, const std::string& use)
 {
-    takes(command.add_option("--clip", motion.clip,
+    takes(command.add_option("--clip", clip,
                              "Which animation of a glTF FILE, by name or, counted from 0, by index. "
                              "Without it the first. " +
                                  use),
           name("name an animation, or leave the option out for the first"));
-    takes(command.add_option("--fps", motion.rate,
+    takes(command.add_option("--fps", rate,
                              "Even frames a second of a glTF animation, 0.001 to 10000. Without it the limbs' own keys "
                              "(docs/motion_files.md)"),
           number(0.001, 10'000));
+}
+
+void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
+{
+    add_animation(command, motion.clip, motion.rate, use);
     takes(command.add_option("--rest", motion.rest.frame,
                              "The frame that is taken as FILE's rest pose, counted from 0. Without it the file's own, "
                              "or the most upright frame where that cannot stand"),
           whole_number(0, UINT32_MAX));
     const std::vector<std::string> axes{"x", "y", "z", "-x", "-y", "-z"};
     takes(command.add_option_function<std::string>(
-              "--up", [&motion](const std::string& axis) { motion.rest.up_w = axis_of(axis); },
+              "--up", [&motion](const std::string& axis) { motion.rest.up_w = *axis_of(axis); },
               "The axis that is up in FILE. Its rest pose is then a frame that stands along it"),
           one_of(axes));
 }

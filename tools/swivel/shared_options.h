@@ -35,7 +35,9 @@ CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meanin
 // The positional FILE.
 CLI::Option* add_file(CLI::App& command, std::string& file, const std::string& meaning);
 CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning);
-// --clip and --fps; use: what the animation is there for.
+// --clip and --fps, as MotionChoice has them; use: what the animation is there for.
+void add_animation(CLI::App& command, std::string& clip, double& rate, const std::string& use);
+// The same, and --rest and --up.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use);
 // --leg alone.
 CLI::Option* add_named_legs(CLI::App& command, std::vector<std::string>& legs, const std::string& meaning);

@@ -2,36 +2,25 @@
 """The promise: whatever a cache holds, no command on it ends by a signal, hangs, takes more memory than it may, or changes a byte outside
 the cache.
 
-    test_hostile.py                       150 hostile caches
-    test_hostile.py --full                10,000
-    test_hostile.py --count N --seed S    N of them, from seed S on"""
+    test_caches.py                       150 hostile caches
+    test_caches.py --full                10,000
+    test_caches.py --count N --seed S    N of them, from seed S on"""
 import collections
 import ctypes
 import os
 import random
 import re
 import shutil
-import subprocess
 import sys
-import threading
 from concurrent.futures import ThreadPoolExecutor
 
-from stage import LIMITED, SWIVEL, WHOLE, Stage, unittest
+from hostile import EVIL, TOKEN, argument, command_with_page, measured
+from stage import LIMITED, WHOLE, Stage, unittest
 
 MEMORY = 1024 + 128  # MiB: what a cache may take, and beside it attributes of 4 MiB as JSON
-SECONDS = 60  # a command that takes longer hangs
 XXHASH = ctypes.CDLL("libxxhash.so.0")
 XXHASH.XXH3_64bits.restype = ctypes.c_uint64
 XXHASH.XXH3_64bits.argtypes = (ctypes.c_char_p, ctypes.c_size_t)
-TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[][{}:,]|[^][{}:,\s"]+')
-EVIL = ("0", "1", "15", "17", "-1", "65536", "1073741824", "2147483648", "4294967296", "9223372036854775808", "1e+30", "1.5", "null", '"x"', "[]", "{}",
-        "[[[[[[[[[[[[]]]]]]]]]]]]", "[" * 100_000)
-
-
-def argument(name, otherwise):
-    return int(sys.argv[sys.argv.index(name) + 1]) if name in sys.argv else otherwise
-
-
 COUNT, SEED = argument("--count", 10_000 if "--full" in sys.argv else 150), argument("--seed", 0)
 
 
@@ -97,19 +86,6 @@ class Maker:
             self.choose.choice((os.mkfifo, lambda new: new.symlink_to(self.outside / "file")))(to)
 
 
-def measured(program, words, folder):
-    """The exit code, what was said on stderr, and the most memory that was resident, in MiB."""
-    process = subprocess.Popen([program, *words], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    timer = threading.Timer(SECONDS, process.kill)
-    timer.start()
-    said = process.stderr.read()
-    process.stderr.close()
-    _, status, used = os.wait4(process.pid, 0)
-    timer.cancel()
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, said, used.ru_maxrss / 1024
-
-
 def kept(folder):
     """All that is in a folder: kinds, sizes, times of writing, and where links lead. Some files are sparse and huge."""
     found = {}
@@ -122,11 +98,7 @@ def kept(folder):
 class Hostile(Stage):
     def setUp(self):
         super().setUp()
-        # The command, with a page's program beside it.
-        (self.folder / "bin").mkdir()
-        (self.folder / "share/swivel").mkdir(parents=True)
-        (self.folder / "share/swivel/view.html").write_text('<script data-digest="">start(/*crowd*/null)</script>')
-        self.program = shutil.copy(SWIVEL, self.folder / "bin/swivel")
+        self.program = command_with_page(self.folder)
         shape = dict(characters=20, frames=6, chunk="2,16")
         self.bases = [self.store("plain", **shape), self.fill(self.store("limited", toml=LIMITED, **shape)), self.fill(self.store("state", toml=WHOLE, **shape)),
                       self.fill(self.store("goals", "--no-poses", **shape)), self.fill(self.store("boxes", toml="[carry]\n", **shape))]
@@ -142,7 +114,7 @@ class Hostile(Stage):
         made = Maker(work / "cache", outside, seed)
         before, faults = kept(outside), []
         for words in (("replay", "cache", "--out", "out.csv"), ("view", "cache"), ("check", "cache"), ("fill", "cache"), ("check", "cache")):
-            code, text, used = measured(self.program, (*words, "--threads", "2", "--quiet"), work)
+            code, _, text, used = measured(self.program, (*words, "--threads", "2", "--quiet"), work)
             self.codes[words[0], code] += 1
             if code not in (0, 1) or (code == 1 and not (text.startswith(b"swivel: ") and text.count(b"\n") == 1 and len(text) < 2000)):
                 faults.append(f"{words}: exit code {code}: {text[-300:]}")
