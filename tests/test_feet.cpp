@@ -5,6 +5,7 @@
 // test_feet -# "[#test_feet]".
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -14,8 +15,10 @@
 #include "tests/plain_gltf.h"
 #include "tests/run_command.h"
 #include "tests/shared_figures.h"
+#include "tools/feet/treads.h"
 
 using namespace swivel::test;
+namespace tools = swivel::tools;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 using Eigen::Vector3d;
@@ -307,6 +310,35 @@ TEST_CASE("feet: on hills they stand on the ground as it lies, and on one side o
     }
 }
 
+TEST_CASE("feet: a swing clears what lies below it, and lifts the foot by no more than twice that")
+{
+    // One leg that stands, swings along z on the level for 31 frames, and stands again.
+    tools::LegMotion motion{Vector3d::UnitY(), 1.0 / 60, 0, {}, {{}}};
+    std::vector<bool> contact;
+    for (int frame = 0; frame < 41; ++frame) {
+        const double z = 0.5 * std::clamp(frame - 4, 0, 32);
+        motion.carrier_w.push_back({0, 1, z});
+        motion.legs[0].toe_w.push_back({0, 0, z});
+        motion.legs[0].ankle_w.push_back({0, 0, z - 0.4});
+        contact.push_back(frame < 5 || frame >= 36);
+    }
+    for (const double ridge : {8.0, 0.5}) {  // in the middle, and where the foot leaves the ground
+        tools::Ground ground{{{1, 0.3, 40}, {0, 0, 0}, 2, 401}, {}};
+        for (int row = 0; row < 401; ++row)
+            ground.heights.insert(ground.heights.end(), 2, std::abs(0.1 * row - 20 - ridge) < 0.15 ? 1 : 0);
+        const tools::Floor floor{motion.up_w, 0, &ground};
+        const std::vector<Vector3d> move_w = tools::lift_of(motion, {contact}, floor).legs[0].move_w;
+        double highest = 0, lowest = 1;  // lowest: at the ridge
+        for (std::size_t frame = 0; frame < move_w.size(); ++frame) {
+            const Vector3d toe_w = motion.legs[0].toe_w[frame] + move_w[frame];
+            highest = std::max(highest, toe_w.y());
+            if (std::abs(toe_w.z() - ridge) < 0.1) lowest = std::min(lowest, floor.over(toe_w));
+        }
+        CHECK(highest <= 0.6 + 1e-6);
+        if (ridge == 8.0) CHECK(lowest > -1e-6);
+    }
+}
+
 TEST_CASE("feet: ground that legs cannot follow is told, with frames and place")
 {
     const TempFolder folder;
@@ -462,7 +494,7 @@ TEST_CASE("feet: what is wrong with tables, pictures and options is said in a li
                Contains("is another output"));
 }
 
-TEST_CASE("feet: a frame time that no clip has is told, at once")
+TEST_CASE("feet: a frame time that no clip has is told, or costs nothing")
 {
     const TempFolder folder;
     const std::string jump = first_jump({});
@@ -476,6 +508,10 @@ TEST_CASE("feet: a frame time that no clip has is told, at once")
     CHECK_THAT(refused_feet(folder, {"fast.bvh", "--contacts", "c.csv", "--out", "o.bvh"}),
                Contains("fast.bvh: has frames of 1e-300 s and legs ") && Contains("check its frame time"));
     CHECK(!fs::exists(folder / "o.bvh"));
+    spill(folder / "slow.bvh", timed("1e6"));
+    feet_done(folder, {"slow.bvh", "--quiet"});
+    spill(folder / "slow.bvh", timed("1e30"));
+    feet_done(folder, {"slow.bvh", "--quiet"});
 }
 
 TEST_CASE("feet: a table on standard output has that to itself")
