@@ -92,7 +92,7 @@ Clip nodding_clip(std::size_t frame_count, double frame_time, const auto& angles
     return clip;
 }
 
-// The gap of two frames, of a clip whose root has no turn.
+// The gap of two frames, of a clip of which the root alone never turns.
 double plain_gap(const Clip& clip, std::size_t a, std::size_t b)
 {
     const std::size_t joints = clip.joints.size();
@@ -108,7 +108,7 @@ double plain_gap(const Clip& clip, std::size_t a, std::size_t b)
         const double sine = std::sin(clip.rotation[a * joints + n].angularDistance(clip.rotation[b * joints + n]) / 2);
         sum2 += 4 * sine * sine + (motion(a, n) - motion(b, n)).squaredNorm();
     }
-    return std::sqrt(sum2 / static_cast<double>(joints));
+    return std::sqrt(sum2 / static_cast<double>(joints - 1));
 }
 
 }  // namespace
@@ -196,6 +196,9 @@ TEST_CASE("a clip that moves has no loop in which it rests, however well it rest
     // One that does nothing but breathe has its loop there.
     const Clip breath = nodding_clip(1000, 0.02, [](double t) { return std::array{0.01 * std::sin(t), 0.0}; });
     CHECK(tools::find_loop(breath, 0).loop.length() >= 50);
+    // Where all frames are alike, not all pairs of them are looked at.
+    const Clip still = nodding_clip(tools::kMostSearched, 0.02, [](double) { return std::array{0.3, 0.0}; });
+    CHECK(tools::find_loop(still, 0).loop.length() == 50);
 }
 
 TEST_CASE("a stride of less than a second is a loop where the clip has no two seconds")

@@ -18,9 +18,11 @@ using Eigen::MatrixXf;
 using Eigen::Quaterniond;
 using formats::Clip;
 
-// Of each frame, how its joints are turned, and below that how far they turn in kStep. The distance of two such columns
-// is that of the poses: the root of the sum of squared angles, in radians, where they are small. What lies in the world
-// is turned with the body.
+constexpr double kNoGap = 1e-3;  // radians: nobody sees them
+
+// A frame's column says how its joints are turned, and below that how far they turn in kStep. The distance of two such
+// columns is that of the poses: the root of the sum of squared angles, in radians, where they are small. Joints that
+// lie in the world are turned with the body.
 MatrixXf looks_of(const Clip& clip, int body)
 {
     constexpr double kStep = 1.0 / 30;  // seconds
@@ -48,6 +50,17 @@ MatrixXf looks_of(const Clip& clip, int body)
     return looks;
 }
 
+// How many joints ever turn from where they are in the first frame; at least 1. The others would only dilute a mean.
+double turning_count(const MatrixXf& looks)
+{
+    Index count = 0;
+    for (Index row = 0; row < looks.rows() / 12 * 9; row += 9) {
+        const auto joint = looks.middleRows<9>(row);
+        if ((joint.colwise() - joint.col(0)).colwise().norm().maxCoeff() > kNoGap) ++count;
+    }
+    return static_cast<double>(std::max<Index>(count, 1));
+}
+
 float gap2_of(const MatrixXf& looks, const ClipLoop& loop)
 {
     return (looks.col(static_cast<Index>(loop.last)) - looks.col(static_cast<Index>(loop.first))).squaredNorm();
@@ -63,9 +76,9 @@ public:
         const std::size_t frames = sums_.size() - 1, span = std::min(frames_a_second, frames);
         double sum2 = 0;
         for (std::size_t n = 0; n + span <= frames; ++n) sum2 += std::pow(mean({n, n + span}), 2);
-        least_ = kLeastPace * std::sqrt(sum2 / static_cast<double>(frames - span + 1));
+        min_pace_ = kLeastPace * std::sqrt(sum2 / static_cast<double>(frames - span + 1));
     }
-    bool is_kept(const ClipLoop& loop) const { return mean(loop) >= least_; }
+    bool is_kept(const ClipLoop& loop) const { return mean(loop) >= min_pace_; }
 
 private:
     double mean(const ClipLoop& of) const
@@ -74,7 +87,7 @@ private:
     }
 
     std::vector<double> sums_ = {0};  // of the speeds of all frames before each one
-    double least_;
+    double min_pace_;
 };
 
 constexpr Index kDirections = 8;
@@ -97,24 +110,26 @@ Coarse coarse_of(const MatrixXf& looks)
     return axes.transpose() * looks;
 }
 
-// The best loop of so many frames or more. Frames are sorted along the first of the coarse directions. Each is compared
-// with those behind it, until they are farther away there than the best two frames are from each other; in full only
-// where all the coarse directions allow it, and kInFull times. (Real clips need 40. Where frames are noise, and all are
-// as far apart, more would find nothing better.)
+// The best loop of so many frames or more, nearly. Frames are sorted along the first of the coarse directions, and by
+// time where they are equal there. Each is compared with those behind it, until they are farther away there than the
+// best two frames are from each other; in full only where all the coarse directions allow it. A budget bounds the time
+// where all frames are alike, or all as far apart: kBudget looks at other frames, of which a full one costs kInFull.
+// (Real clips need 40 full ones.)
 FoundLoop nearest(const MatrixXf& looks, const Pace& pace, std::size_t apart, float no_gap2)
 {
-    constexpr int kInFull = 200;
+    constexpr Index kBudget = 4000, kInFull = 20;
     const Coarse unsorted = coarse_of(looks);
     std::vector<std::uint32_t> order(static_cast<std::size_t>(looks.cols()));
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, {}, [&](std::uint32_t n) { return unsorted(0, n); });
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t n) { return unsorted(0, n); });
     Coarse coarse(kDirections, looks.cols());
     for (Index n = 0; n < looks.cols(); ++n) coarse.col(n) = unsorted.col(order[static_cast<std::size_t>(n)]);
 
     FoundLoop best{{0, order.size() - 1}, std::numeric_limits<double>::infinity()};
     float best2 = std::numeric_limits<float>::infinity();
     for (Index at = 0; at < looks.cols(); ++at)
-        for (Index to = at + 1, left = kInFull; to < looks.cols() && left > 0; ++to) {
+        for (Index to = at + 1, left = kBudget + static_cast<Index>(apart); to < looks.cols() && left > 0;
+             ++to, --left) {
             const float ahead = coarse(0, to) - coarse(0, at);
             if (ahead * ahead > best2) break;
             if ((coarse.col(to) - coarse.col(at)).squaredNorm() > best2) continue;
@@ -123,7 +138,7 @@ FoundLoop nearest(const MatrixXf& looks, const Pace& pace, std::size_t apart, fl
             const ClipLoop loop{first, last};
             const bool is_shorter = loop.length() < best.loop.length();
             if (loop.length() < apart || (best2 <= no_gap2 && !is_shorter) || !pace.is_kept(loop)) continue;
-            --left;
+            left -= kInFull;
             const float gap2 = std::max(gap2_of(looks, loop), no_gap2);
             if (gap2 < best2 || (gap2 <= no_gap2 && is_shorter)) best = {loop, 0}, best2 = gap2;
         }
@@ -135,7 +150,6 @@ FoundLoop nearest(const MatrixXf& looks, const Pace& pace, std::size_t apart, fl
 
 FoundLoop find_loop(const Clip& clip, int body)
 {
-    constexpr double kNoGap = 1e-3;  // radians: nobody sees them
     const auto frames_in = [&](double seconds) {
         const double frames = std::ceil(seconds / clip.frame_time - 1e-6);
         return static_cast<std::size_t>(std::clamp(frames, 1.0, static_cast<double>(clip.frame_count)));
@@ -144,7 +158,7 @@ FoundLoop find_loop(const Clip& clip, int body)
     const std::size_t apart = std::max(frames_in(std::clamp(half, kShortestLoop, kLongEnough)), kFewestLooped);
     if (apart >= clip.frame_count) return {{0, clip.frame_count - 1}, std::numeric_limits<double>::infinity()};
     const MatrixXf looks = looks_of(clip, body);
-    const auto joints = static_cast<double>(clip.joints.size());
+    const double joints = turning_count(looks);
     FoundLoop best = nearest(looks, Pace(looks, frames_in(1)), apart, static_cast<float>(kNoGap * kNoGap * joints));
     best.gap /= std::sqrt(joints);
     return best;

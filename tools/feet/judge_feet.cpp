@@ -54,8 +54,8 @@ void add_off_ground(const LegMotion& after, const LegMotion& before, std::size_t
 
 }  // namespace
 
-std::vector<FeetDoubt> doubts_of(const LegMotion& after, const LegMotion& before, const Contacts& contacts,
-                                 const ContactBars& bars, const Floor& floor)
+std::vector<FeetDoubt> feet_doubts(const LegMotion& after, const LegMotion& before, const Skating& skating,
+                                   const Contacts& contacts, const ContactBars& bars, const Floor& floor)
 {
     std::vector<FeetDoubt> doubts;
     const auto judge = [&](Kind kind, std::size_t leg, const Peak& now, double own, double seen,
@@ -63,20 +63,15 @@ std::vector<FeetDoubt> doubts_of(const LegMotion& after, const LegMotion& before
         if (now.value > kWorse * own && now.value > seen * after.frame_time)
             doubts.push_back({kind, leg, now.frame, now.frame, now.value, own, places_w[now.frame]});
     };
-    double knees = 0, toes = 0;  // of the clip
-    for (const LegPath& leg : before.legs) {
-        knees = std::max(knees, knee_peak(leg).value);
-        toes = std::max(toes, jump_peak(before, leg.toe_w).value);
-    }
     for (std::size_t n = 0; n < after.legs.size(); ++n) {
         const LegPath& leg = after.legs[n];
         for (const Contact& contact : contacts_of(contacts[n]))
             add_off_ground(after, before, n, contact, bars, floor, doubts);
-        judge(Kind::knee, n, knee_peak(leg), knees, kKneeSpeed, leg.toe_w);
-        judge(Kind::toe_jump, n, jump_peak(after, leg.toe_w), toes, kToeJump, leg.toe_w);
+        judge(Kind::knee, n, knee_peak(leg), skating.knee_deg, kKneeSpeed, leg.toe_w);
+        judge(Kind::toe_jump, n, jump_peak(after, leg.toe_w), skating.jump, kToeJump, leg.toe_w);
     }
-    judge(Kind::body_jump, after.legs.size(), jump_peak(after, after.carrier_w),
-          jump_peak(before, before.carrier_w).value, kBodyJump, after.carrier_w);
+    judge(Kind::body_jump, after.legs.size(), jump_peak(after, after.carrier_w), skating.body_jump, kBodyJump,
+          after.carrier_w);
     return doubts;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a stranger would point at in a clip whose feet were placed: where it is worse than before. Knows where legs are.
+// Where a clip is worse than before its feet were placed, as a stranger would see it. Knows where legs are.
 #pragma once
 
 #include "tools/feet/place_feet.h"
@@ -17,9 +17,10 @@ struct FeetDoubt {
 };
 
 // A line for each contact whose toe is off its ground by more than 0.012 leg lengths, a man's centimetre. And one for
-// each leg's knee and toe, and for the body, that turns or jumps more than twice as much as the clip's largest. Below
-// 720 degrees, 60 and 30 leg lengths a second, a second, nobody sees that.
-std::vector<FeetDoubt> doubts_of(const LegMotion& after, const LegMotion& before, const Contacts& contacts,
-                                 const ContactBars& bars, const Floor& floor);
+// each leg's knee and toe, and for the body, that turns or jumps more than twice as much as the clip's largest. A jump
+// below 60 leg lengths/s^2 of a toe, or 30 of the body, or a knee slower than 720 degrees/s, is never reported.
+// skating: of the clip before.
+std::vector<FeetDoubt> feet_doubts(const LegMotion& after, const LegMotion& before, const Skating& skating,
+                                   const Contacts& contacts, const ContactBars& bars, const Floor& floor);
 
 }  // namespace swivel::tools

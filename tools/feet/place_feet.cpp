@@ -63,7 +63,7 @@ struct Squares {
 
     explicit Squares(int unknown_count) : right(VectorXd::Zero(3 * unknown_count)) {}
 
-    // What a sum is along a direction shall be that.
+    // Along a direction the sum shall be that.
     void want(const Sum& sum, const Vector3d& direction, double value, double weight)
     {
         const double rest = value - direction.dot(sum.known);
@@ -79,10 +79,11 @@ struct Squares {
                     }
         }
     }
-    void want_small(const Sum& sum, double weight)
+    void want_at(const Sum& sum, const Vector3d& value, double weight)
     {
-        for (int axis = 0; axis < 3; ++axis) want(sum, Vector3d::Unit(axis), 0, weight);
+        for (int axis = 0; axis < 3; ++axis) want(sum, Vector3d::Unit(axis), value[axis], weight);
     }
+    void want_small(const Sum& sum, double weight) { want_at(sum, Vector3d::Zero(), weight); }
     Eigen::SparseMatrix<double> matrix() const
     {
         Eigen::SparseMatrix<double> matrix(right.size(), right.size());
@@ -91,12 +92,12 @@ struct Squares {
     }
 };
 
-// A contact's toe: its unknown, how far over the ground it stands, and where an edge keeps it.
+// A contact's toe: its unknown, how far over the ground it stands, and where it goes if an edge is below its sole.
 struct Stand {
     Sum toe;
     double height;
-    Vector3d tread_w;
-    bool is_at_edge;  // so it goes to this tread
+    std::optional<Vector3d> tread_w;  // none: nowhere near can it stand
+    bool is_at_edge;                  // so it goes to this tread
     Contact frames;
 };
 
@@ -111,7 +112,6 @@ public:
     Problem(const LegMotion& motion, const Contacts& contacts, const ContactBars& bars, const Floor& floor)
         : motion_(motion),
           floor_(floor),
-
           is_down_(contacts),
           lift_(lift_of(motion, contacts, floor)),
           pace_(60 * motion.frame_time)
@@ -174,9 +174,9 @@ private:
         }
         for (const Contact& each : contacts_of(contact)) {
             const std::size_t middle = middle_of(each);
-            const Vector3d toe_w = path.toe_w[middle], tread_w = tread_near(motion_, path, middle, toe_w, floor_);
+            const std::optional<Vector3d> tread_w = tread_near(motion_, path, middle, floor_);
             leg.stands.push_back({leg.toe[each.first], stand_height(motion_, path, each, bars, floor_), tread_w,
-                                  tread_w != toe_w, each});
+                                  tread_w && *tread_w != path.toe_w[middle], each});
         }
         legs_.push_back(std::move(leg));
     }
@@ -232,16 +232,14 @@ private:
     void add_stand(std::size_t n, Stand& stand, const VectorXd& values, Squares& squares) const
     {
         const Vector3d toe_w = stand.toe.at(values);
-        const std::size_t middle = middle_of(stand.frames);
         // For good: else it would go to and fro from round to round.
-        if (tread_near(motion_, motion_.legs[n], middle, toe_w, floor_) != toe_w) stand.is_at_edge = true;
-        const Vector3d ground_w = stand.is_at_edge ? stand.tread_w : toe_w;
-        const Vector3d normal_w = floor_.normal_w(ground_w);
-        // The plane through the point of the ground below.
+        if (!stand.is_at_edge && stand.tread_w)
+            stand.is_at_edge = !can_stand(motion_, motion_.legs[n], middle_of(stand.frames), toe_w, floor_);
+        const Vector3d ground_w = stand.is_at_edge ? *stand.tread_w : toe_w;
         const Vector3d point_w = ground_w + (stand.height - floor_.over(ground_w)) * motion_.up_w;
+        if (stand.is_at_edge) return squares.want_at(stand.toe, point_w, kGround);
+        const Vector3d normal_w = floor_.normal_w(ground_w);  // of the plane through that point
         squares.want(stand.toe, normal_w, normal_w.dot(point_w), kGround);
-        if (!stand.is_at_edge) return;
-        for (int axis = 0; axis < 3; ++axis) squares.want(stand.toe, Vector3d::Unit(axis), point_w[axis], kGround);
     }
 
     // A toe in the air is no deeper in the ground than it is in the clip.

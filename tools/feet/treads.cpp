@@ -15,23 +15,32 @@ using Eigen::Vector3d;
 // ankle. Its ground is looked at a sixteenth of that way apart, and so are the places that it may go to.
 constexpr int kParts = 16, kBefore = 8, kBehind = 4, kDirections = 16;
 constexpr double kShortest = 0.1;  // leg lengths: of that way, where the ankle stands or a toe hangs down
+constexpr double kLowArc = 0.5;    // of an arc's height
 constexpr double kLongest = 1;     // second of a swing: a longer one follows the ground in parts
 
-bool can_stand(const Vector3d& toe_w, const Vector3d& part_w, const Floor& floor)
+// From one of the points of a sole to the next, towards the ankle.
+Vector3d sole_part_w(const LegMotion& motion, const LegPath& path, std::size_t frame)
+{
+    const Vector3d part_w = motion.level(path.ankle_w[frame] - path.toe_w[frame]) / kParts;
+    const double min_part = kShortest * path.length / kParts;
+    return part_w.norm() < min_part ? min_part * motion.up_w.unitOrthogonal() : part_w;
+}
+
+bool is_tread(const Vector3d& toe_w, const Vector3d& part_w, const Floor& floor)
 {
     const double steep = std::cos(std::numbers::pi / 4);
     double last = 0;
     for (int n = -kBefore; n <= kParts + kBehind; ++n) {
-        const Vector3d place_w = toe_w + n * part_w;
-        const double height = floor.hill(place_w);
+        const Vector3d position_w = toe_w + n * part_w;
+        const double height = floor.hill(position_w);
         if (n > -kBefore && std::abs(height - last) > part_w.norm()) return false;
-        if (floor.normal_w(place_w).dot(floor.up_w) < steep) return false;
+        if (floor.normal_w(position_w).dot(floor.up_w) < steep) return false;
         last = height;
     }
     return true;
 }
 
-// A frame in which the ground below a foot counts: one of a contact, or of the air.
+// Frames in which the ground below a foot counts: all those of a contact, or one of the air.
 struct Anchor {
     std::size_t first, end;
     Vector3d move_w;
@@ -41,9 +50,8 @@ struct Anchor {
 Anchor anchor_at(const LegMotion& motion, const LegPath& path, const Contact& frames, const Floor& floor)
 {
     const std::size_t middle = middle_of(frames);
-    const Vector3d place_w = tread_near(motion, path, middle, path.toe_w[middle], floor);
-    return {frames.first, frames.end, place_w - path.toe_w[middle] + floor.hill(place_w) * floor.up_w,
-            floor.normal_w(place_w)};
+    const Vector3d toe_w = path.toe_w[middle], tread_w = tread_near(motion, path, middle, floor).value_or(toe_w);
+    return {frames.first, frames.end, tread_w - toe_w + floor.hill(tread_w) * floor.up_w, floor.normal_w(tread_w)};
 }
 
 std::vector<Anchor> anchors_of(const LegMotion& motion, std::size_t leg, const std::vector<bool>& contact,
@@ -54,7 +62,8 @@ std::vector<Anchor> anchors_of(const LegMotion& motion, std::size_t leg, const s
     std::vector<Anchor> anchors{anchor_at(motion, motion.legs[leg], {0, 1}, floor)};
     for (const Contact& next : stands) {
         const std::size_t from = anchors.back().end, way = next.first > from ? next.first - from : 0;
-        const auto parts = 1 + static_cast<std::size_t>(static_cast<double>(way) * motion.frame_time / kLongest);
+        const auto frames = static_cast<double>(way);
+        const auto parts = 1 + static_cast<std::size_t>(std::min(frames, frames * motion.frame_time / kLongest));
         for (std::size_t part = 1; part < parts; ++part) {
             const std::size_t frame = from + way * part / parts;
             anchors.push_back(anchor_at(motion, motion.legs[leg], {frame, frame + 1}, floor));
@@ -65,7 +74,9 @@ std::vector<Anchor> anchors_of(const LegMotion& motion, std::size_t leg, const s
 }
 
 // In the air between two anchors: evenly from one to the other. And over what lies between, by an arc that is as high
-// as the toe needs so as not to be deeper in the ground than in the clip.
+// as the toe needs so as not to be deeper in the ground than in the clip. Where the arc is lower than kLowArc of its
+// height, in the first and last sevenths of the swing, it does not rise for that: the whole foot would fly up for a
+// ridge that it just leaves. What it lacks there is left to place_feet().
 void add_swing(const LegMotion& motion, const LegPath& path, const Anchor& from, const Anchor& next, const Floor& floor,
                LegLift& lift)
 {
@@ -81,7 +92,7 @@ void add_swing(const LegMotion& motion, const LegPath& path, const Anchor& from,
         const Vector3d toe_w = path.toe_w[frame] + lift.move_w.back();
         const double own = path.toe_w[frame].dot(motion.up_w) - floor.level;
         const double lacks = std::min(own, 0.0) - floor.over(toe_w);
-        arc = std::max(arc, lacks / arc_at(frame));
+        arc = std::max(arc, lacks / std::max(arc_at(frame), kLowArc));
     }
     for (std::size_t frame = from.end; frame < next.first; ++frame)
         lift.move_w[frame] += arc * arc_at(frame) * floor.up_w;
@@ -101,22 +112,24 @@ LegLift lift_of_leg(const LegMotion& motion, std::size_t leg, const std::vector<
 
 }  // namespace
 
-Vector3d tread_near(const LegMotion& motion, const LegPath& path, std::size_t frame, const Vector3d& toe_w,
-                    const Floor& floor)
+bool can_stand(const LegMotion& motion, const LegPath& path, std::size_t frame, const Vector3d& toe_w,
+               const Floor& floor)
 {
-    if (!floor.hills) return toe_w;
-    Vector3d part_w = motion.level(path.ankle_w[frame] - path.toe_w[frame]) / kParts;
-    const double least = kShortest * path.length / kParts;
-    if (part_w.norm() < least) part_w = least * floor.up_w.unitOrthogonal();
-    const Vector3d side_w = part_w.cross(floor.up_w);
-    if (can_stand(toe_w, part_w, floor)) return toe_w;
+    return !floor.hills || is_tread(toe_w, sole_part_w(motion, path, frame), floor);
+}
+
+std::optional<Vector3d> tread_near(const LegMotion& motion, const LegPath& path, std::size_t frame, const Floor& floor)
+{
+    const Vector3d toe_w = path.toe_w[frame];
+    if (can_stand(motion, path, frame, toe_w, floor)) return toe_w;
+    const Vector3d part_w = sole_part_w(motion, path, frame), side_w = part_w.cross(floor.up_w);
     for (int ring = 1; ring <= kBefore + kParts + kBehind; ++ring)
         for (int n = 0; n < kDirections; ++n) {
             const double angle = 2 * std::numbers::pi * n / kDirections;
-            const Vector3d place_w = toe_w + ring * (std::cos(angle) * part_w + std::sin(angle) * side_w);
-            if (can_stand(place_w, part_w, floor)) return place_w;
+            const Vector3d tread_w = toe_w + ring * (std::cos(angle) * part_w + std::sin(angle) * side_w);
+            if (is_tread(tread_w, part_w, floor)) return tread_w;
         }
-    return toe_w;
+    return std::nullopt;
 }
 
 Lift lift_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor)

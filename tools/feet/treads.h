@@ -5,11 +5,13 @@
 // nothing.
 #pragma once
 
+#include <optional>
+
 #include "tools/feet/floor.h"
 
 namespace swivel::tools {
 
-// Of one leg, in each frame: where its toe is moved, and which way is across the ground that it stands on or goes to.
+// A leg's toe in each frame: where it is moved, and which way is across the ground that it stands on or goes to.
 struct LegLift {
     std::vector<Eigen::Vector3d> move_w;  // up with the ground, and aside from edges
     std::vector<Eigen::Vector3d> normal_w;
@@ -21,9 +23,14 @@ struct Lift {
 
 Lift lift_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor);
 
-// Where a toe is, or the nearest place around it where the whole sole has ground below that is not steeper than 45
-// degrees. A toe that has none within a sole's length stays. Only the way over the ground counts.
-Eigen::Vector3d tread_near(const LegMotion& motion, const LegPath& path, std::size_t frame,
-                           const Eigen::Vector3d& toe_w, const Floor& floor);
+// True if no ground below the sole is steeper than 45 degrees, with the toe at toe_w and the sole as in that frame of
+// the clip. Heights are ignored.
+bool can_stand(const LegMotion& motion, const LegPath& path, std::size_t frame, const Eigen::Vector3d& toe_w,
+               const Floor& floor);
+
+// The toe's position in that frame if the sole can stand there, else the nearest one within a sole's length where it
+// can, else none.
+std::optional<Eigen::Vector3d> tread_near(const LegMotion& motion, const LegPath& path, std::size_t frame,
+                                          const Floor& floor);
 
 }  // namespace swivel::tools

@@ -134,7 +134,7 @@ FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& fi
     run.before = skating_of(run.motion, run.contacts, {run.motion.up_w, run.floor.level, nullptr});
     const LegMotion after = leg_motion(with_joints(clip, joints), run.legs, run.motion.carrier, run.motion.up_w);
     run.after = skating_of(after, run.contacts, run.floor);
-    run.doubts = doubts_of(after, run.motion, run.contacts, run.bars, run.floor);
+    run.doubts = feet_doubts(after, run.motion, run.before, run.contacts, run.bars, run.floor);
     std::vector<formats::JointKeys> keys;
     for (const TurnedJoint& each : joints) keys.push_back({each.joint, each.rotation, each.translation});
     if (!run.out.empty()) file.write(run.out, keys);

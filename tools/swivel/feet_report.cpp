@@ -54,9 +54,9 @@ std::string doubt_text(const FeetRun& run, const FeetDoubt& doubt)
 {
     const std::string who = doubt.leg < run.legs.size() ? plain_name(run.legs[doubt.leg].name) : "the body";
     if (doubt.kind == FeetDoubt::off_ground)
-        return fmt::format(
-            "{}, frames {} to {}: its toe is up to {:.3g} off the ground, near {}; it cannot follow there", who,
-            doubt.first, doubt.last, doubt.value * run.motion.leg_length(), vector_text(doubt.place_w));
+        return fmt::format("{}, frames {} to {}: its toe is up to {:.3g} off the ground, near {}{}", who, doubt.first,
+                           doubt.last, doubt.value * run.motion.leg_length(), vector_text(doubt.place_w),
+                           run.floor.hills ? "; it cannot follow there" : "");
     const bool is_knee = doubt.kind == FeetDoubt::knee;
     return fmt::format("{}, frame {}: {} by {:.3g} {}, in the clip by {:.3g} at most; near {}", who, doubt.first,
                        is_knee                             ? "its knee turns"
