@@ -239,8 +239,9 @@ std::string stand_at_rest(Clip& clip, const KnownLimbs& limbs, const RestChoice&
     const Vector3d height_w = mean_height_w(clip, body), rest_up_w = facing_of(clip, limbs).up_w;
     std::string problem = body.problem(rest_w, rest_up_w);
     const bool is_needed = !problem.empty() || choice.frame || choice.up_w;
-    if (problem.empty()) problem = problem_of_up(nearest_axis(rest_up_w), height_w);
-    if (const double apart = body.unlikeness_deg(rest_w); problem.empty() && apart > kUnlike_deg)
+    const bool has_motion = clip.frame_count > 1;
+    if (problem.empty() && has_motion) problem = problem_of_up(nearest_axis(rest_up_w), height_w);
+    if (const double apart = body.unlikeness_deg(rest_w); problem.empty() && has_motion && apart > kUnlike_deg)
         problem = fmt::format("its legs differ by {:.0f} degrees, as in mid-step", apart);
     if (problem.empty() && !is_needed) return {};
     const Vector3d frames_up_w = height_w.isZero(0) ? Vector3d(Vector3d::UnitY()) : nearest_axis(height_w);

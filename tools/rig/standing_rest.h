@@ -30,7 +30,7 @@ struct RestChoice {
 //
 // Returns what was done, a line for people; empty where the rest pose is the file's own. Where no frame stands, all
 // parts within 60 degrees of upright, the first of the three throws CannotBind, and so does the user's choice. The
-// others then leave the file's own.
+// others then leave the file's own, and so they do without motion, in clips of one frame.
 std::string stand_at_rest(formats::Clip& clip, const KnownLimbs& limbs, const RestChoice& choice);
 
 // Some files have their bones' true lengths in keys alone. Where the limbs' bones are longer or shorter by a tenth in

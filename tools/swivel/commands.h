@@ -54,7 +54,7 @@ void view_cache(const SolveOptions& options, const std::string& about_clip);
 
 struct RetargetOptions {
     std::string source, target, out;
-    std::string map, export_map;                 // tables of pairs
+    std::string map, export_map;  // tables of pairs
     // "source:left:SHOULDER,ELBOW,WRIST", "target:HEAD", "source:0", "source:z"
     std::vector<std::string> arms, legs, heads, rests, ups;
     std::string clip;    // of source, as MotionChoice has it
