@@ -82,9 +82,10 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
     const SoftReach<T> reach =
         use.reach || use.cap ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
     const Mask<T> missed = reach.too_far | reach.too_near | reach.softened;
-    Bits<T> flags = bits_where(reach.too_far, SWIVEL_CLAMPED_FAR) | bits_where(reach.too_near, SWIVEL_CLAMPED_NEAR) |
-                    bits_where(reach.softened, SWIVEL_SOFTENED) | bits_where(reach.stretch > T(1), SWIVEL_STRETCHED) |
-                    bits_where(!missed, SWIVEL_REACHED);
+    Bits<T> flags = select(reach.too_far, bits<T>(SWIVEL_CLAMPED_FAR),
+                           select(reach.too_near, bits<T>(SWIVEL_CLAMPED_NEAR),
+                                  select(reach.softened, bits<T>(SWIVEL_SOFTENED), bits<T>(SWIVEL_REACHED)))) |
+                    bits_where(reach.stretch > T(1), SWIVEL_STRETCHED);
     if (use.limits.flexion) {
         const Mask<T> too_straight = (distance > range.far) & (range.far < far) & (range.far >= uncapped),
                       too_bent = (distance < range.near) & (range.near > near);
