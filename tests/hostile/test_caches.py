@@ -12,16 +12,15 @@ import random
 import re
 import shutil
 import sys
-from concurrent.futures import ThreadPoolExecutor
 
-from hostile import EVIL, TOKEN, argument, command_with_page, measured
+from hostile import EVIL, TOKEN, argument, check_all, command_with_page, measured
 from stage import LIMITED, WHOLE, Stage, unittest
 
 MEMORY = 1024 + 128  # MiB: what a cache may take, and beside it attributes of 4 MiB as JSON
 XXHASH = ctypes.CDLL("libxxhash.so.0")
 XXHASH.XXH3_64bits.restype = ctypes.c_uint64
 XXHASH.XXH3_64bits.argtypes = (ctypes.c_char_p, ctypes.c_size_t)
-COUNT, SEED = argument("--count", 10_000 if "--full" in sys.argv else 150), argument("--seed", 0)
+COUNT = argument("--count", 10_000 if "--full" in sys.argv else 150)
 
 
 class Maker:
@@ -129,14 +128,7 @@ class Hostile(Stage):
         return [f"seed {seed}, {'; '.join(made.said)}: {fault}" for fault in faults]
 
     def test_hostile_caches(self):
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            faults = [fault for of_one in pool.map(self.try_one, range(SEED, SEED + COUNT)) for fault in of_one]
-        print(f"{COUNT} hostile caches; exit codes {dict(sorted(self.codes.items()))}")
-        self.assertEqual(faults, [], "\n" + "\n".join(faults[:20]))
-        if COUNT >= 150:  # some get through, so what is behind the first checks is reached, too
-            for command in ("check", "fill", "replay", "view"):
-                self.assertGreater(self.codes[command, 0], COUNT // 40, command)
-                self.assertGreater(self.codes[command, 1], COUNT // 40, command)
+        check_all(self, "hostile caches", self.try_one, COUNT, self.codes)
 
 
 if __name__ == "__main__":
