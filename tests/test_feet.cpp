@@ -412,6 +412,33 @@ TEST_CASE("feet: a glTF's feet stand, and a foot without a toe joint stands on i
     CHECK(ankles.at("legs").at(0).at("has_toe") == false);
 }
 
+TEST_CASE("feet: a body that glides along with both feet is told so")
+{
+    const auto leg = [](const std::string& side, int left) {
+        std::string text;
+        for (const auto& [name, offset] :
+             {std::pair("UpLeg", fmt::format("{} 0 0", left)), std::pair("Leg", std::string("0 -4 0")),
+              std::pair("Foot", std::string("0 -4 0")), std::pair("ToeBase", std::string("0 0 1"))})
+            text += fmt::format("JOINT {}{}\n{{\nOFFSET {}\nCHANNELS 3 Zrotation Yrotation Xrotation\n", side, name,
+                                offset);
+        return text + "End Site\n{\nOFFSET 0 0 1\n}\n}\n}\n}\n}\n";
+    };
+    std::string frames;
+    for (int n = 0; n < 60; ++n) {
+        frames += fmt::format("0 8 {}", 0.4 * n);
+        for (int value = 3; value < 6 + 2 * 4 * 3; ++value) frames += " 0";
+        frames += "\n";
+    }
+    const TempFolder folder;
+    spill(folder / "glides.bvh",
+          "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation "
+          "Xrotation\n" +
+              leg("Left", 1) + leg("Right", -1) + "}\nMOTION\nFrames: 60\nFrame Time: 0.0333333\n" + frames);
+    // 12 units a second, of legs of 8
+    CHECK_THAT(refused_feet(folder, {"glides.bvh"}),
+               Contains("glides.bvh: its feet slide with the body, by 1.5 leg lengths a second"));
+}
+
 TEST_CASE("feet: a clip that walks in place is told so")
 {
     const TempFolder folder;

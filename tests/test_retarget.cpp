@@ -441,8 +441,9 @@ TEST_CASE("retarget: rest poses and up are chosen for either body")
     const std::string note = "note      frame 1 is taken as the rest pose, and y is up\n";
     CHECK_THAT(report({"--rest", "source:1"}), Contains(note + "target"));
     CHECK_THAT(report({"--rest", "target:1"}), Contains("target") && !Contains(note + "target") && Contains(note));
-    CHECK_THAT(report({"--up", "source:x"}), Contains("a.bvh: no frame stands along x; say which way is up by --up"));
-    CHECK_THAT(report({"--up", "target:x"}), Contains("b.bvh: no frame stands along x; say which way is up by --up"));
+    CHECK_THAT(report({"--up", "source:x"}),
+               Contains("a.bvh: no frame stands along x; --rest says which frame is the rest pose, besides --up"));
+    CHECK_THAT(report({"--up", "target:x"}), Contains("b.bvh: no frame stands along x; --rest says which frame"));
     for (const auto& [words, said] : std::vector<std::pair<Words, std::string>>{
              {{"--rest", "1"}, "--rest 1: does not say whose; write source: or target: in front"},
              {{"--rest", "source:y"}, "--rest: y is not a frame"},

@@ -97,23 +97,27 @@ std::vector<Contact> contacts_of(const std::vector<bool>& frames)
     return contacts;
 }
 
-std::optional<Vector3d> missing_way(const LegMotion& motion, const ContactBars& bars)
+std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars)
 {
-    Vector3d way = Vector3d::Zero();
+    Vector3d way = Vector3d::Zero(), beside_body = Vector3d::Zero();
     double frames = 0;
     const std::vector<std::vector<bool>> low = low_frames(motion, bars);
     for (std::size_t n = 0; n < low.size(); ++n) {
         const std::vector<Vector3d>& toe_w = motion.legs[n].toe_w;
         for (std::size_t frame = 1; frame < toe_w.size(); ++frame)
             if (low[n][frame] && low[n][frame - 1]) {
-                way += motion.level(toe_w[frame] - toe_w[frame - 1]);
+                const Vector3d step = motion.level(toe_w[frame] - toe_w[frame - 1]);
+                way += step;
+                beside_body += step - motion.level(motion.carrier_w[frame] - motion.carrier_w[frame - 1]);
                 ++frames;
             }
     }
     Eigen::AlignedBox3d room;
     for (const Vector3d& place_w : motion.carrier_w) room.extend(motion.level(place_w));
-    if (way.norm() <= std::max(motion.leg_length() / 2, 2 * room.diagonal().norm())) return std::nullopt;
-    return -way / (frames * motion.frame_time);
+    if (way.norm() <= motion.leg_length() / 2) return std::nullopt;
+    const bool with_body = beside_body.norm() < way.norm() / 2;
+    if (!with_body && way.norm() <= 2 * room.diagonal().norm()) return std::nullopt;
+    return Slide{way / (frames * motion.frame_time), with_body};
 }
 
 std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts& contacts)

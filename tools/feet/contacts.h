@@ -32,10 +32,15 @@ inline std::size_t middle_of(const Contact& contact) { return (contact.first + c
 // A leg's contacts, in order.
 std::vector<Contact> contacts_of(const std::vector<bool>& frames);
 
-// The velocity of the body, in lengths of the clip a second, that a clip lacks which walks in place. Nothing for
-// another clip. It walks in place if its feet, while they are low, go further one way than half a leg. And that must be
-// more than twice as far as the room is wide in which the body stays.
-std::optional<Eigen::Vector3d> missing_way(const LegMotion& motion, const ContactBars& bars);
+// How feet slide while they are low, by more than half a leg in the clip.
+struct Slide {
+    Eigen::Vector3d velocity_w;  // of the feet, in lengths of the clip a second
+    bool with_body;              // they go where the body goes; else the clip walks in place
+};
+
+// Nothing for feet that stand. They go with the body if beside it they move by less than half of that. Else the clip
+// walks in place, if they go more than twice as far as the room is wide in which the body stays.
+std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars);
 
 // The rows of a table: each leg's first frame, and each in which its contact begins or ends.
 std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts& contacts);

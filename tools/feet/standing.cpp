@@ -123,7 +123,7 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
         if (parts.size() > 1) alone = frames_of(clip, part);
         LegMotion of_part = leg_motion(alone ? *alone : clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
         const ContactBars bars;
-        if (missing_way(of_part, bars))
+        if (const auto slide = slide_of(of_part, bars); slide && !slide->with_body)
             refuse(fmt::format("the clip{} walks in place, so its feet slide; move its root first",
                                part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
         const Contacts found = own ? read_contacts(file, of_part.legs, part, frames) : find_contacts(of_part, bars);

@@ -29,6 +29,7 @@ constexpr double kBehind = 0.75;                  // the sine of 49 degrees: an 
 constexpr double kPop_deg = 10;                   // out of the middle of the frames beside it,
 constexpr double kPopRatio = 4;                   // and this much further than in the frames around
 constexpr double kJump = 200;                     // leg lengths/s^2, 17 times what falls; a landing has 100 at most
+constexpr double kSeen = 0.05;                    // leg lengths: a jump that people see
 constexpr double kStill_deg = 0.1;                // a limb that does not move, while the other
 constexpr double kMoved_deg = 10;                 // turns by this
 constexpr double kSunk = 0.03, kElsewhere = 0.5;  // leg lengths below height 0; a body that is about another height
@@ -269,6 +270,12 @@ private:
         const double share = way_w.dot(back_w) / back_w.squaredNorm();
         return share > 0 && share < 1 && (way_w - share * back_w).norm() < to_left_w(pose_w, 0).norm() / 4;
     }
+    // How far a joint turns against its parent between two frames.
+    double turn_deg(std::size_t joint, std::size_t from, std::size_t to) const
+    {
+        const auto rotation = [&](std::size_t frame) { return clip_.rotation[frame * clip_.joints.size() + joint]; };
+        return rotation(from).angularDistance(rotation(to)) * (180 / std::numbers::pi);
+    }
     // How far a joint's own rotation in a frame is out of the middle of those before and after, in degrees.
     double out_of_middle_deg(std::size_t joint, std::size_t frame) const
     {
@@ -288,6 +295,7 @@ private:
                     const auto at = static_cast<std::size_t>(joint);
                     const double out = out_of_middle_deg(at, frame);
                     if (out < kPop_deg || out <= most) continue;
+                    if (turn_deg(at, frame - 1, frame + 1) > out) continue;  // it goes there alone
                     if (out < kPopRatio * std::max(out_of_middle_deg(at, frame - 2), out_of_middle_deg(at, frame + 2)))
                         continue;
                     most = out;
@@ -305,13 +313,8 @@ private:
         double most = 0, after = 0;
         for (const BodyPart& part : parts_)
             for (const int joint : part.joints) {
-                const auto turn_deg = [&](std::size_t frame) {
-                    const auto at = frame * clip_.joints.size() + static_cast<std::size_t>(joint);
-                    return clip_.rotation[at].angularDistance(clip_.rotation[at + clip_.joints.size()]) *
-                           (180 / std::numbers::pi);
-                };
-                most = std::max(most, turn_deg(0));
-                after = std::max(after, turn_deg(1));
+                most = std::max(most, turn_deg(static_cast<std::size_t>(joint), 0, 1));
+                after = std::max(after, turn_deg(static_cast<std::size_t>(joint), 1, 2));
             }
         if (most > 2 * kPop_deg && most > kPopRatio * after)
             doubt("frame 0 is a pose of its own: joints turn by up to {:.0f} degrees to frame 1, then by {:.1f}", most,
@@ -321,7 +324,7 @@ private:
     void judge_jumps()
     {
         if (hips_ < 0 || (!limbs_[2] && !limbs_[3])) return;
-        double most = kJump * leg_length() * clip_.frame_time * clip_.frame_time;
+        double most = leg_length() * std::max(kSeen, kJump * clip_.frame_time * clip_.frame_time);
         std::size_t worst_frame = 0;
         for (std::size_t frame = 2; frame + 1 < count(); ++frame) {
             const auto hips_w = [&](std::size_t at) { return place(poses_w_[at], hips_); };
@@ -338,12 +341,8 @@ private:
     {
         double most = 0;
         for (const int joint : *limbs_[limb])
-            for (std::size_t frame = 1; frame < count(); ++frame) {
-                const auto at = static_cast<std::size_t>(joint);
-                most = std::max(most,
-                                clip_.rotation[frame * clip_.joints.size() + at].angularDistance(clip_.rotation[at]) *
-                                    (180 / std::numbers::pi));
-            }
+            for (std::size_t frame = 1; frame < count(); ++frame)
+                most = std::max(most, turn_deg(static_cast<std::size_t>(joint), 0, frame));
         return most;
     }
     void judge_stillness()
@@ -387,12 +386,13 @@ private:
         const Vector3d axis_w = nearest_axis(mean_w);
         if (axis_w != up_w_ && mean_w.dot(axis_w) > 0.8)
             doubt(
-                "heads are above feet along {} in its frames and along {} in its rest pose; give --up {} or --rest "
-                "FRAME if that is up",
-                axis_name(axis_w), axis_name(up_w_), axis_name(axis_w));
+                "heads are above feet along {} in its frames and along {} in its rest pose; --up or --rest says "
+                "which is right",
+                axis_name(axis_w), axis_name(up_w_));
         else if (up_w_.y() + up_w_.z() != 1 && mean_w.dot(up_w_) < 0.5)
             doubt(
-                "heads are above feet along {} in its rest pose and not in its frames; give --up AXIS or --rest FRAME",
+                "heads are above feet along {} in its rest pose and not in its frames; --up and --rest say what is "
+                "right",
                 axis_name(up_w_));
     }
 

@@ -253,7 +253,8 @@ std::string stand_at_rest(Clip& clip, const KnownLimbs& limbs, const RestChoice&
             fmt::format("{}no frame stands along {}",
                         problem.empty() ? "" : fmt::format("its rest pose cannot stand, {}, and ", problem),
                         axis_name(up_w)),
-            "say which way is up by --up AXIS, or which frame is the rest pose by --rest FRAME");
+            choice.up_w ? "--rest says which frame is the rest pose, besides --up"
+                        : "--up says which way is up, and --rest which frame is the rest pose");
     take_frame(clip, limbs, frame, up_w);
     return fmt::format("{}frame {} is taken as the rest pose, and {} is up",
                        problem.empty() ? "" : fmt::format("the file's rest pose cannot stand, {}: ", problem), frame,

@@ -108,12 +108,19 @@ Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
     if (!options.contacts.empty())
         return contacts_of_rows(run.motion.legs, run.motion.frame_count(), formats::read_contacts_csv(options.contacts),
                                 options.contacts);
-    if (const auto way_w = missing_way(run.motion, run.bars))
+    if (const auto slide = slide_of(run.motion, run.bars)) {
+        const double speed = slide->velocity_w.norm() / run.motion.leg_length();
         throw InputError(
-            run.file, fmt::format("it walks in place: on the ground its feet slide by {:.2g} leg lengths a second, and "
-                                  "its body stays; move its root by {} a second first, or say by --contacts when feet "
-                                  "stand",
-                                  way_w->norm() / run.motion.leg_length(), vector_text(*way_w)));
+            run.file,
+            slide->with_body
+                ? fmt::format("its feet slide with the body, by {:.2g} leg lengths a second in the mean; say by "
+                              "--contacts when feet stand",
+                              speed)
+                : fmt::format("it walks in place: on the ground its feet slide by {:.2g} leg lengths a second in the "
+                              "mean, and its body ends near where it began; move its root by {} a second first, or say "
+                              "by --contacts when feet stand",
+                              speed, vector_text(Eigen::Vector3d(-slide->velocity_w))));
+    }
     return find_contacts(run.motion, run.bars);
 }
 

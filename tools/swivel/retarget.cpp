@@ -44,8 +44,11 @@ std::vector<int> all_bones(const Clip& clip)
 std::string names_of(const Clip& clip, const std::vector<int>& joints)
 {
     std::string names;
-    for (const int joint : joints) names += (names.empty() ? "" : ", ") + printable_name(joint_at(clip, joint));
-    return names.empty() ? "none" : formats::printable(names, formats::kMostQuoted);
+    for (std::size_t n = 0; n < joints.size(); ++n) {
+        if (names.size() > formats::kMostQuoted) return names + fmt::format(" and {} more", joints.size() - n);
+        names += (names.empty() ? "" : ", ") + printable_name(joint_at(clip, joints[n]));
+    }
+    return names.empty() ? "none" : names;
 }
 
 // A bone of no length has no direction, and its limb no knee or elbow.
@@ -228,12 +231,11 @@ void run_retarget(const RetargetOptions& options)
     }
     if (!verdict.faults.empty() && !options.force)
         throw CommandError(
-            1, fmt::format(
-                   "{}: {}{}{}; see swivel rig of both{}", options.out.empty() ? options.target : options.out,
-                   verdict.faults.front(),
-                   verdict.faults.size() == 1 ? "" : fmt::format(", and {} faults more", verdict.faults.size() - 1),
-                   options.out.empty() ? "" : "; the motion is not written",
-                   options.out.empty() ? "" : ", or give --force"));
+            1, fmt::format("{}: {}{}{}; see swivel rig of both{}", options.out.empty() ? options.target : options.out,
+                           verdict.faults.front(),
+                           verdict.faults.size() == 1 ? "" : fmt::format(", and {} more", verdict.faults.size() - 1),
+                           options.out.empty() ? "" : "; the motion is not written",
+                           options.out.empty() ? "" : ", or give --force"));
 }
 
 }  // namespace swivel::tools
