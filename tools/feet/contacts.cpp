@@ -99,7 +99,8 @@ std::vector<Contact> contacts_of(const std::vector<bool>& frames)
 
 std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars)
 {
-    Vector3d way = Vector3d::Zero(), beside_body = Vector3d::Zero();
+    Vector3d way = Vector3d::Zero();
+    double path = 0, beside_body = 0;
     double frames = 0;
     const std::vector<std::vector<bool>> low = low_frames(motion, bars);
     for (std::size_t n = 0; n < low.size(); ++n) {
@@ -108,14 +109,15 @@ std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars)
             if (low[n][frame] && low[n][frame - 1]) {
                 const Vector3d step = motion.level(toe_w[frame] - toe_w[frame - 1]);
                 way += step;
-                beside_body += step - motion.level(motion.carrier_w[frame] - motion.carrier_w[frame - 1]);
+                path += step.norm();
+                beside_body += (step - motion.level(motion.carrier_w[frame] - motion.carrier_w[frame - 1])).norm();
                 ++frames;
             }
     }
     Eigen::AlignedBox3d room;
     for (const Vector3d& place_w : motion.carrier_w) room.extend(motion.level(place_w));
     if (way.norm() <= motion.leg_length() / 2) return std::nullopt;
-    const bool with_body = beside_body.norm() < way.norm() / 2;
+    const bool with_body = beside_body < path / 2;
     if (!with_body && way.norm() <= 2 * room.diagonal().norm()) return std::nullopt;
     return Slide{way / (frames * motion.frame_time), with_body};
 }

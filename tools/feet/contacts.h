@@ -38,8 +38,8 @@ struct Slide {
     bool with_body;              // they go where the body goes; else the clip walks in place
 };
 
-// Nothing for feet that stand. They go with the body if beside it they move by less than half of that. Else the clip
-// walks in place, if they go more than twice as far as the room is wide in which the body stays.
+// Nothing for feet that stand. They go with the body if their path beside it is less than half of that in the world.
+// Else the clip walks in place, if they go more than twice as far as the room is wide in which the body stays.
 std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars);
 
 // The rows of a table: each leg's first frame, and each in which its contact begins or ends.

@@ -61,8 +61,8 @@ Stance stance_of(const Clip& clip, const RestFigure& figure, bool has_toes)
         return stance;
     }
     if (clip.frame_count < 2) return stance;
-    std::vector<double> heights;        // of the lower foot in each frame
-    std::vector<double> still, slopes;  // heights and slopes of both feet: in some clips one of them hardly stands
+    std::vector<double> heights, still;  // of the lower foot in each frame, and where it is still
+    std::vector<double> slopes;          // of both feet: in some clips one of them hardly stands
     Poses before_w;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const Poses pose_w = formats::world_pose(clip, frame);
@@ -72,7 +72,8 @@ Stance stance_of(const Clip& clip, const RestFigure& figure, bool has_toes)
             if (!figure.limbs[2 + side] || feet.step(before_w, pose_w, feet.ankle(side)) >= max_step ||
                 feet.step(before_w, pose_w, feet.ground_joint(side)) >= max_step)
                 continue;
-            still.push_back(feet.own_place(pose_w, feet.ground_joint(side)).y());
+            if (const double height = feet.own_place(pose_w, feet.ground_joint(side)).y(); height <= heights.back())
+                still.push_back(height);
             if (has_toes) slopes.push_back(feet.slope(pose_w, side));
         }
         before_w = pose_w;
