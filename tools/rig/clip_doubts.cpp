@@ -81,24 +81,23 @@ public:
             poses_w_.push_back(moment_of(formats::world_pose(clip, frame)));
     }
 
-    std::vector<std::string> judge_body()
+    // of_motion: of the motion, too, and not of the body alone.
+    std::vector<std::string> judge(bool of_motion)
     {
+        judge_up();
+        if (!doubts_.empty()) return std::move(doubts_);  // all else would follow from it
         judge_sides();
         judge_exchange();
         judge_bends();
-        return std::move(doubts_);
-    }
-    std::vector<std::string> judge_all()
-    {
-        doubts_ = judge_body();
-        judge_arms();
-        judge_lengths();
-        judge_pops();
-        judge_first_frame();
-        judge_jumps();
-        judge_stillness();
-        judge_height();
-        judge_up();
+        if (of_motion) {
+            judge_arms();
+            judge_lengths();
+            judge_pops();
+            judge_first_frame();
+            judge_jumps();
+            judge_stillness();
+            judge_height();
+        }
         return std::move(doubts_);
     }
 
@@ -414,13 +413,13 @@ private:
 std::vector<std::string> clip_doubts(const Clip& clip, const std::vector<BodyPart>& parts)
 {
     if (clip.frame_count == 0) return {};
-    return ClipJudge(clip, parts).judge_all();
+    return ClipJudge(clip, parts).judge(true);
 }
 
 std::vector<std::string> body_doubts(const Clip& clip, const std::vector<BodyPart>& parts)
 {
     if (clip.frame_count == 0) return {};
-    return ClipJudge(clip, parts).judge_body();
+    return ClipJudge(clip, parts).judge(false);
 }
 
 }  // namespace swivel::tools

@@ -18,12 +18,13 @@ namespace swivel::tools {
 // - A knee bends forwards, or an elbow backwards; an upper arm points backwards; an elbow is inside the trunk.
 // - A joint turns there and back within three frames, far more than it does beside that. The worst one is told.
 // - The first frame is a pose of its own, such as a T-pose. The body jumps. A limb never moves while the other does.
-// - The feet are below height 0; the frames stand along another axis than the rest pose.
+// - The feet are below height 0.
+// - The frames stand along another axis than the rest pose. This stands alone, since all else would follow from it.
 // parts: as body_parts() finds them; what is not known is not judged. Time: some passes over all frames.
 std::vector<std::string> clip_doubts(const formats::Clip& clip, const std::vector<BodyPart>& parts);
 
-// Those of them that tell of the body, whatever it does: lengths beside the other side's, left and right exchanged,
-// knees and elbows that bend the wrong way.
+// Those of them that tell of the body, whatever it does: its up, lengths beside the other side's, left and right
+// exchanged, knees and elbows that bend the wrong way.
 std::vector<std::string> body_doubts(const formats::Clip& clip, const std::vector<BodyPart>& parts);
 
 }  // namespace swivel::tools

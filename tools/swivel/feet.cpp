@@ -18,6 +18,7 @@
 #include "tools/formats/height_picture.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
+#include "tools/rig/clip_doubts.h"
 #include "tools/rig/vectors.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
@@ -101,6 +102,7 @@ void bind_legs(const FeetOptions& options, MotionFile& file, FeetRun& run)
     const int carrier = carrier_of(clip, figure);
     if (carrier < 0) throw InputError(run.file, "no joint is above both legs; the body cannot be moved");
     run.motion = leg_motion(clip, run.legs, carrier, search.facing.up_w);
+    run.clip_doubts = clip_doubts(clip, search.body);
 }
 
 Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)

@@ -123,6 +123,7 @@ void print_feet(const FeetRun& run, std::FILE* to)
         say(to, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value, each.unit);
     const BodyMove body(run);
     say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.most, body.down);
+    for (const std::string& doubt : run.clip_doubts) say(to, "look     FILE: {}\n", doubt);
     for (const FeetDoubt& doubt : run.doubts) say(to, "look     {}\n", doubt_text(run, doubt));
     for (const std::string& name : {run.out, run.export_contacts})
         if (!name.empty())
@@ -166,6 +167,7 @@ nlohmann::ordered_json json_of(const FeetRun& run)
     out["after"]["body_moved_most"] = body.most;
     out["after"]["body_moved_down_most"] = body.down;
     for (const FeetDoubt& doubt : run.doubts) out["look"].push_back(doubt_json(run, doubt));
+    if (!run.clip_doubts.empty()) out["doubts"] = run.clip_doubts;
     if (!run.out.empty()) out["out"] = run.out;
     if (!run.export_contacts.empty()) out["export_contacts"] = run.export_contacts;
     return out;

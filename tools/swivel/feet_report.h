@@ -27,6 +27,7 @@ struct FeetRun {
     PlacedFeet placed;
     Skating before, after;
     std::vector<FeetDoubt> doubts;
+    std::vector<std::string> clip_doubts;  // of FILE itself, as clip_doubts() tells them
 };
 
 void print_feet(const FeetRun& run, std::FILE* to);
