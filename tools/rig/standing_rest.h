@@ -22,11 +22,11 @@ struct RestChoice {
 // - a foot is above its hip, or the legs point apart;
 // - the trunk points along another axis than +Y or +Z, and than in the frames;
 // - legs or feet differ by 20 degrees from each other's mirror images, as in mid-step.
-// It is the most upright frame, straightened: turned to where files of that up face, +Z, or -Y where Z is up, with
-// shoulders and feet square to that, and with a back that is upright from the lowest joint of the spine to the head. A
-// frame is as upright as the least upright of its trunk, thighs and shins. Up is the axis of the world along which
-// heads are above feet, in the mean of all frames. The joints' rest_rotation changes alone, and no frame does. choice
-// overrides all. limbs: where no leg is known, a frame must be chosen.
+// It is the most upright frame, straightened. The figure is turned to where files of that up face: +Z, or -Y where Z is
+// up. Its shoulders and feet are square to that, and its back is upright from the lowest joint of the spine to the
+// head. A frame is as upright as the least upright of its trunk, thighs and shins. Up is the axis of the world along
+// which heads are above feet, in the mean of all frames. The joints' rest_rotation changes alone, and no frame does.
+// choice overrides all. limbs: where no leg is known, a frame must be chosen.
 //
 // Returns what was done, a line for people; empty where the rest pose is the file's own. Where no frame stands, all
 // parts within 60 degrees of upright, the first of the three throws CannotBind, and so does the user's choice. The
