@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "tests/feet_motion.h"
@@ -101,6 +102,22 @@ std::string first_jump(const Carried& to)
     return carried(jump, to);
 }
 
+// Where the End Site right below a joint is, in the joint's axes.
+Vector3d end_site(const PlainMotion& motion, const std::string& joint)
+{
+    const std::string& text = motion.header;
+    const std::size_t end = text.find("End Site", text.find("JOINT " + joint));
+    std::istringstream in(text.substr(text.find("OFFSET", end) + 6));
+    Vector3d offset;
+    in >> offset.x() >> offset.y() >> offset.z();
+    return offset;
+}
+
+double angle_deg(const Vector3d& a, const Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
 // Splits a line of a BVH's frames.
 Words tokens_of(const std::string& line)
 {
@@ -178,7 +195,7 @@ TEST_CASE("feet: a clip that skates tells its own contacts, and all else of its 
     std::vector<bool> may_change(was.values[0].size());
     for (const PlainJoint& joint : was.joints)
         for (std::size_t n = 0; n < joint.channels.size(); ++n)
-            for (const char* const turned : {"Hips", "UpLeg", "Leg", "Foot"})
+            for (const char* const turned : {"Hips", "UpLeg", "Leg", "Foot", "ToeBase"})
                 if (joint.name.ends_with(turned) && (joint.name != "Hips" || joint.channels[n].ends_with("position")))
                     may_change[joint.first_channel + n] = true;
     for (std::size_t frame = 0; frame < was.lines.size(); ++frame) {
@@ -186,6 +203,36 @@ TEST_CASE("feet: a clip that skates tells its own contacts, and all else of its 
         for (std::size_t n = 0; n < before.size(); ++n)
             if (!may_change[n]) REQUIRE(before[n] == after[n]);
     }
+}
+
+TEST_CASE("feet: toes bend where a foot presses their tips into the ground, and no faster than 360 degrees a second")
+{
+    const TempFolder folder;
+    const std::string text = first_jump({});
+    const PlainMotion clip = plain_motion(text);
+    spill(folder / "clip.bvh", text);
+    feet_done(folder, {"clip.bvh", "--out", "out.bvh"});
+    const PlainMotion out = plain_motion_of(folder / "out.bvh");
+    double pressed = 0;
+    for (const std::string side : {"Left", "Right"}) {
+        const auto toe = static_cast<std::size_t>(joint_named(clip, side + "ToeBase"));
+        const Vector3d end = end_site(clip, side + "ToeBase");
+        std::vector<double> heights;  // of the toe
+        for (std::size_t frame = 0; frame < out.lines.size(); ++frame)
+            heights.push_back(pose_of(out, frame)[toe].position.y());
+        const double level = *std::ranges::min_element(heights);
+        double before_deg = 0;
+        for (std::size_t frame = 0; frame < out.lines.size(); ++frame) {
+            const PlainPose was = pose_of(clip, frame)[toe], is = pose_of(out, frame)[toe];
+            const double rest = end.y();  // BVH rests without rotation
+            pressed = std::max(pressed, level + rest - (heights[frame] + (was.rotation * end).y()));
+            CHECK((is.position + is.rotation * end).y() > level + rest - 1e-3 * end.norm());
+            const double bent_deg = angle_deg(was.rotation * end, is.rotation * end);
+            CHECK(std::abs(bent_deg - before_deg) < 360 * kCarriedTime + 0.1);
+            before_deg = bent_deg;
+        }
+    }
+    CHECK(pressed > 0.2);  // a centimetre: there was something to do
 }
 
 TEST_CASE("feet: toes stand, whatever they are called")

@@ -176,6 +176,24 @@ TEST_CASE("verdicts: a motion that is the source's is good, limbs elsewhere are 
     CHECK_THAT(raised(3).doubts.front(), Contains("in 3 of 120 frames"));
 }
 
+TEST_CASE("verdicts: a hand in the ground is told, and not where the source's is as deep")
+{
+    const Clip source = tools::demo_clip(kFrames);
+    const tools::JointPairs pairs = test::demo_pairs(source, source);
+    tools::Retargeted motion = tools::retarget(source, source, pairs);
+    REQUIRE(motion.ground);
+    const auto said = [&] {
+        std::string all;
+        for (const std::string& each : tools::verdict_of(source, motion, pairs).doubts) all += each + "\n";
+        return all;
+    };
+    motion.ground->target = 1.5;  // over the hands: they are in it, and so are the feet
+    CHECK_THAT(said(), Contains("the left hand goes up to") && Contains("the right foot goes up to") &&
+                           Contains("leg lengths deeper into the ground than the source's: over 0.03 in 120 of 120"));
+    motion.ground->source = 1.5;
+    CHECK(said().empty());
+}
+
 TEST_CASE("eased: no step is above the most, slow courses stay, and none leaves what the values span")
 {
     std::mt19937 random(1);

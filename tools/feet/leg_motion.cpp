@@ -14,6 +14,38 @@ namespace {
 using Eigen::Vector3d;
 using formats::Clip;
 using formats::joint_at;
+using JointPoses = std::vector<formats::JointPose>;
+
+constexpr double kToes = 0.56;  // of the level way from ankle to ball: people have 0.27 and 0.48 of a foot's length
+
+const formats::JointPose& pose_at(const JointPoses& pose_w, int joint)
+{
+    return pose_w[static_cast<std::size_t>(joint)];
+}
+
+// A point that goes along with a joint.
+struct Tip {
+    int joint;
+    Vector3d offset;
+
+    Vector3d place_w(const JointPoses& pose_w) const { return to_outer(pose_at(pose_w, joint), offset); }
+};
+
+Tip tip_of(const Clip& clip, const JointPoses& rest_w, int ankle, int toe, const Vector3d& up_w)
+{
+    const Vector3d toe_w = pose_at(rest_w, toe).position, foot_w = toe_w - pose_at(rest_w, ankle).position;
+    Tip tip{toe, to_inner(pose_at(rest_w, toe), toe_w + kToes * (foot_w - foot_w.dot(up_w) * up_w))};
+    double furthest = 0;
+    for (int joint = toe; joint < static_cast<int>(clip.joints.size()); ++joint) {
+        if (joint != toe && !is_above(clip, toe, joint)) continue;
+        const Tip end{joint, joint_at(clip, joint).end.value_or(Vector3d::Zero())};
+        const double away = (end.place_w(rest_w) - toe_w).norm();
+        if (away <= furthest) continue;
+        furthest = away;
+        tip = end;
+    }
+    return tip;
+}
 
 }  // namespace
 
@@ -53,13 +85,19 @@ int carrier_of(const Clip& clip, const FigureJoints& figure)
 LegMotion leg_motion(const Clip& clip, std::span<const Limb> legs, int carrier, const Vector3d& up_w)
 {
     LegMotion motion{nearest_axis(up_w), clip.frame_time, carrier, {}, {}};
+    const JointPoses rest_w = formats::rest_pose(clip);
+    std::vector<Tip> tips;
     for (const Limb& leg : legs) {
-        const int toe = toe_of(clip, leg);
-        motion.legs.push_back(
-            {leg.name, toe, toe != leg.end(), leg.bound.lengths[0] + leg.bound.lengths[1], {}, {}, {}, {}});
+        LegPath& path = motion.legs.emplace_back();
+        path.name = leg.name;
+        path.toe = toe_of(clip, leg);
+        path.has_toe = path.toe != leg.end();
+        path.length = leg.bound.lengths[0] + leg.bound.lengths[1];
+        tips.push_back(tip_of(clip, rest_w, leg.end(), path.toe, motion.up_w));
+        path.tip_rise = (tips.back().place_w(rest_w) - pose_at(rest_w, path.toe).position).dot(motion.up_w);
     }
-    std::vector<formats::JointPose> pose_w(clip.joints.size());
-    const auto place_w = [&](int joint) -> const Vector3d& { return pose_w[static_cast<std::size_t>(joint)].position; };
+    JointPoses pose_w(clip.joints.size());
+    const auto place_w = [&](int joint) -> const Vector3d& { return pose_at(pose_w, joint).position; };
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         formats::world_pose(clip, frame, pose_w);
         motion.carrier_w.push_back(place_w(carrier));
@@ -69,6 +107,7 @@ LegMotion leg_motion(const Clip& clip, std::span<const Limb> legs, int carrier, 
             path.knee_w.push_back(place_w(legs[n].lower()));
             path.ankle_w.push_back(place_w(legs[n].end()));
             path.toe_w.push_back(place_w(path.toe));
+            path.tip_w.push_back(tips[n].place_w(pose_w));
         }
     }
     return motion;

@@ -16,7 +16,10 @@ struct LegPath {
     int toe = -1;         // the joint that stands: the toe's, or without one the ankle's
     bool has_toe = true;  // false: it is the ankle's
     double length = 1;    // of both bones at rest
+    double tip_rise = 0;  // how high the toes' tip is over the toe at rest
     std::vector<Eigen::Vector3d> hip_w, knee_w, ankle_w, toe_w;
+    std::vector<Eigen::Vector3d> tip_w;  // of the toes: the end of the skeleton that is furthest from the toe, a joint
+                                         // or BVH's End Site. Without any it is ahead of the toe, as far as people's.
 };
 
 struct LegMotion {

@@ -25,6 +25,8 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
         const std::vector<Vector3d>& toe_w = leg.toe_w;
         for (std::size_t frame = 1; frame < toe_w.size(); ++frame)
             raise(most.knee_deg, std::abs(bend_deg(leg, frame) - bend_deg(leg, frame - 1)));
+        for (std::size_t frame = 0; leg.has_toe && frame < toe_w.size(); ++frame)
+            raise(most.tip_depth, leg.tip_rise - floor.over(leg.tip_w[frame]));
         raise(most.jump, largest_jump(toe_w) / motion.frame_time);
         for (const Contact& contact : contacts_of(contacts[n])) {
             if (contact.first > 0) ++steps;
@@ -42,8 +44,8 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
     most.body_jump = largest_jump(motion.carrier_w) / motion.frame_time;
     most.mean_speed = times > 0 ? way / times : 0;
     most.step = way / std::max(steps, 1.0);
-    for (double* const length :
-         {&most.mean_speed, &most.most_speed, &most.step, &most.drift, &most.off_ground, &most.jump, &most.body_jump})
+    for (double* const length : {&most.mean_speed, &most.most_speed, &most.step, &most.drift, &most.off_ground,
+                                 &most.tip_depth, &most.jump, &most.body_jump})
         *length /= motion.leg_length();
     return most;
 }

@@ -92,14 +92,15 @@ void open_joint(Scanner& scan, BvhFile& file, std::vector<OpenJoint>& open)
     expect(scan, "{");
 }
 
-// An end site is a point to draw to; it is checked and stays in the text, no joint comes of it.
-void read_end_site(Scanner& scan)
+// An end site is a point to draw to; no joint comes of it.
+Eigen::Vector3d read_end_site(Scanner& scan)
 {
     rest_of_line(scan);
     expect(scan, "{");
     expect(scan, "OFFSET");
-    read_offset(scan);
+    const Eigen::Vector3d offset = read_offset(scan);
     expect(scan, "}");
+    return offset;
 }
 
 void add_channels(Scanner& scan, BvhFile& file, std::size_t joint)
@@ -129,7 +130,7 @@ void read_member(Scanner& scan, BvhFile& file, std::vector<OpenJoint>& open)
     if (same_ignoring_case(token, "JOINT")) {
         open_joint(scan, file, open);
     } else if (same_ignoring_case(token, "End")) {
-        read_end_site(scan);
+        file.clip.joints[inner.joint].end = read_end_site(scan);
         inner.has_child = true;
     } else if (same_ignoring_case(token, "OFFSET") && !inner.has_offset && !inner.has_child) {
         file.clip.joints[inner.joint].offset = read_offset(scan);

@@ -33,6 +33,7 @@ struct Joint {
     bool is_sheared = false;               // the file's matrix is more than these three say
     int track = -1;                        // column in Clip::translation; -1: the joint never leaves its offset
     int scale_track = -1;                  // column in Clip::scale; -1: always rest_scale
+    std::optional<Eigen::Vector3d> end{};  // BVH's End Site, as an offset: where the joint's bone ends
     int number = -1;      // what the file calls it besides its name, "#12": its place in the file's own list
     bool is_bone = true;  // false: the file says which nodes are joints of a skin, and this is none
 };

@@ -94,7 +94,11 @@ public:
         out_.leg_ratio = target_length / source_length;
         const Stance from = stance_of(source, source_, has_toes_), to = stance_of(target, target_, has_toes_);
         transfers_ = transfers_of(pairs, {source, source_, from}, {target, target_, to});
-        if (from.height && to.height) lift_ = *to.height - out_.leg_ratio * *from.height;
+        if (from.height) {
+            const double scaled = out_.leg_ratio * *from.height;
+            out_.ground = {*from.height, to.height.value_or(scaled), has_toes_};
+            lift_ = out_.ground->target - scaled;
+        }
         if (has_toes_)
             for (const std::size_t leg : legs_)
                 foot_difference_ += foot_difference(leg, from, to) / static_cast<double>(legs_.size());

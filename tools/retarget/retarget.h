@@ -4,6 +4,7 @@
 // and feet then belong. Knows clips and rigs, no solver.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tools/formats/targets_csv.h"
@@ -11,10 +12,17 @@
 
 namespace swivel::tools {
 
+// Heights over the world's origin, along the figures' up, of toes that stand, or else of ankles.
+struct GroundHeights {
+    double source, target;
+    bool of_toes;
+};
+
 struct Retargeted {
-    formats::Clip clip;    // the target, with the source's frames; its hips alone move against a parent
-    int hips = -1;         // of the target
-    double leg_ratio = 1;  // lengths of the target for one of the source
+    formats::Clip clip;                   // the target, with the source's frames; its hips alone move against a parent
+    int hips = -1;                        // of the target
+    double leg_ratio = 1;                 // lengths of the target for one of the source
+    std::optional<GroundHeights> ground;  // where the source says it
     // Wrists and ankles, of the limbs that both have: their places in the target's world, and where elbow and knee
     // lean. [frame * limbs.size() + limb]
     std::vector<formats::Target> goals;

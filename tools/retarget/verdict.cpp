@@ -20,6 +20,7 @@ using Poses = std::vector<formats::JointPose>;
 
 constexpr double kAway_deg = 45;               // between a bone and the source's
 constexpr double kMissed = 0.05, kLost = 0.5;  // limb lengths
+constexpr double kSunk = 0.03;                 // leg lengths below the ground, 3 cm of a grown man's
 constexpr double kFast_deg = 720;              // a second
 constexpr double kMostly = 0.25;               // of the frames
 
@@ -47,7 +48,7 @@ struct Excess {
 struct LimbCourse {
     const LimbJoints &from, &to;
     std::array<Excess, 2> away{Excess{kAway_deg}, Excess{kAway_deg}};
-    Excess missed{kMissed}, lost{kLost};
+    Excess missed{kMissed}, lost{kLost}, sunk{kSunk};
     double turn_deg = 0, source_turn_deg = 0;  // the fastest of knee or elbow, a frame
     double bend_deg = 0, source_bend_deg = 0;  // in the frame before
     std::size_t turn_frame = 0;
@@ -78,6 +79,17 @@ struct LimbCourse {
         source_bend_deg = source_bend;
     }
 };
+
+// How far a joint is below the ground, in leg lengths; above it 0.
+double depth(const RestFigure& figure, const Poses& pose_w, int joint, double ground)
+{
+    return std::max(0.0, (ground - position_of(pose_w, joint).dot(figure.up_w())) / figure.leg);
+}
+// A limb's joint that touches the ground.
+int low_joint(const RestFigure& figure, std::size_t limb, bool of_toes)
+{
+    return limb >= 2 && of_toes ? figure.toes[limb - 2] : (*figure.limbs[limb])[2];
+}
 
 // From the middle of the hip joints to the shoulders or else to the head, as the figure has it; zero without them.
 Vector3d trunk(const RestFigure& figure, const std::vector<BodyPart>& parts, const Poses& pose_w)
@@ -111,6 +123,11 @@ void judge(const LimbCourse& limb, formats::LimbName name, std::size_t frames, d
         (is_lost ? verdict.faults : verdict.doubts)
             .push_back(fmt::format("the {} {} is up to {:.2g} limb lengths from its goal: {}", side_name(name.side),
                                    words.end_joint, missed.max, missed.where(frames)));
+    if (limb.sunk.count > 0)
+        verdict.doubts.push_back(
+            fmt::format("the {} {} goes up to {:.2g} leg lengths deeper into the ground than the "
+                        "source's: {}",
+                        side_name(name.side), words.end, limb.sunk.max, limb.sunk.where(frames)));
     if (limb.turn_deg > std::max(2 * limb.source_turn_deg, kFast_deg * frame_time))
         verdict.doubts.push_back(
             fmt::format("the {} {} turns by {:.1f} degrees from frame {} to {}, the source's by at "
@@ -134,8 +151,15 @@ Verdict verdict_of(const Clip& source_clip, const Retargeted& motion, const Join
         const Poses source_w = formats::world_pose(source_clip, frame),
                     pose_w = formats::world_pose(motion.clip, frame);
         trunk_away.add(degrees_between(trunk(source, from, source_w), trunk(target, to, pose_w)), frame);
-        for (std::size_t n = 0; n < limbs.size(); ++n)
+        for (std::size_t n = 0; n < limbs.size(); ++n) {
             limbs[n].take(frame, source, source_w, target, pose_w, motion.goals[frame * limbs.size() + n].position);
+            if (!motion.ground) continue;
+            const std::size_t limb = index_of(motion.limbs[n]);
+            const auto& [source_ground, ground, of_toes] = *motion.ground;
+            limbs[n].sunk.add(depth(target, pose_w, low_joint(target, limb, of_toes), ground) -
+                                  depth(source, source_w, low_joint(source, limb, of_toes), source_ground),
+                              frame);
+        }
     }
     Verdict verdict;
     judge_away(trunk_away, "trunk", frames, verdict);

@@ -13,6 +13,7 @@
 
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
+#include "tools/feet/toes.h"
 #include "tools/feet/turn_legs.h"
 #include "tools/formats/error.h"
 #include "tools/formats/height_picture.h"
@@ -139,9 +140,14 @@ FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& fi
     run.floor = {run.motion.up_w, floor_level(run.motion, run.contacts), hills};
     run.placed = place_feet(run.motion, run.contacts, run.bars, run.floor, run.file);
     const formats::Clip& clip = file.clip();
-    const std::vector<TurnedJoint> joints = turn_legs(clip, run.legs, run.motion, run.placed, run.file);
+    std::vector<TurnedJoint> joints = turn_legs(clip, run.legs, run.motion, run.placed, run.file);
     run.before = skating_of(run.motion, run.contacts, {run.motion.up_w, run.floor.level, nullptr});
-    const LegMotion after = leg_motion(with_joints(clip, joints), run.legs, run.motion.carrier, run.motion.up_w);
+    const auto motion_of = [&](const formats::Clip& moved) {
+        return leg_motion(moved, run.legs, run.motion.carrier, run.motion.up_w);
+    };
+    const formats::Clip standing = with_joints(clip, joints);
+    std::ranges::move(bend_toes(standing, motion_of(standing), run.placed, run.floor), std::back_inserter(joints));
+    const LegMotion after = motion_of(with_joints(clip, joints));
     run.after = skating_of(after, run.contacts, run.floor);
     run.doubts = feet_doubts(after, run.motion, run.before, run.contacts, run.bars, run.floor);
     std::vector<formats::JointKeys> keys;

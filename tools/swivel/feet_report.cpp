@@ -32,6 +32,7 @@ constexpr Measure kMeasures[] = {
     {"skate a step", "leg lengths", "skate_a_step", &Skating::step},
     {"drift in a contact, most", "leg lengths", "drift_most", &Skating::drift},
     {"off the ground in contact, most", "leg lengths", "off_ground_most", &Skating::off_ground},
+    {"a toe's tip in the ground, most", "leg lengths", "tip_depth_most", &Skating::tip_depth},
     {"a knee's turn in a frame, most", "degrees", "knee_degrees_a_frame_most", &Skating::knee_deg},
     {"a toe's jump in velocity, most", "leg lengths/s", "velocity_jump_most", &Skating::jump},
     {"the body's jump in velocity, most", "leg lengths/s", "body_velocity_jump_most", &Skating::body_jump},

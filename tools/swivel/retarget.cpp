@@ -15,6 +15,7 @@
 #include "tools/formats/text.h"
 #include "tools/retarget/retarget_limbs.h"
 #include "tools/retarget/verdict.h"
+#include "tools/rig/body_doubts.h"
 #include "tools/rig/clip_doubts.h"
 #include "tools/rig/limb_words.h"
 #include "tools/swivel/commands.h"
