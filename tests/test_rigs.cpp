@@ -145,7 +145,8 @@ TEST_CASE("rigs: the page shows what the command prints")
     std::size_t lines = 0;
     for (std::string line; std::getline(shown, line) && line.starts_with("    "); ++lines) {
         INFO(line);
-        CHECK(printed.find("\n" + line.substr(4) + "\n") != std::string::npos);
+        const bool is_cut = line == "    ...";
+        CHECK((is_cut || printed.find("\n" + line.substr(4) + "\n") != std::string::npos));
     }
     CHECK(lines > 10);
 }
