@@ -160,6 +160,20 @@ swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_
     return SWIVEL_OK;
 }
 
+swivel_status check_limbs(const swivel_crowd& crowd, std::uint32_t group, const char* call)
+{
+    if (!(crowd.groups[group].features & kNoLimb)) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is SWIVEL_%s, which is no limb; name a group of limbs", call,
+                group, feature_name(crowd.groups[group].features & kNoLimb));
+}
+
+swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const char* call)
+{
+    if (const swivel_status status = check_limbs(crowd, group, call); status != SWIVEL_OK) return status;
+    if (crowd.joint_count == 0 || crowd.groups[group].features & SWIVEL_WITH_RECORD) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is of bodies; create it with SWIVEL_WITH_RECORD", call, group);
+}
+
 swivel_status check_stride(std::uint32_t group, const char* name, std::uint32_t limb_count, const void* data,
                            std::size_t stride, std::size_t value_bytes, bool may_repeat)
 {

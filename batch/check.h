@@ -17,6 +17,11 @@ swivel_crowd_def full_def(const swivel_crowd_def* def);
 // A range of limbs of a group.
 swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);
 
+// A group of limbs; and one whose limbs' poses are known, because they are free or because the group keeps records.
+// call: the entry point, named in the line.
+swivel_status check_limbs(const swivel_crowd& crowd, std::uint32_t group, const char* call);
+swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const char* call);
+
 // A caller's array for some limbs, named in the line.
 swivel_status check_stride(std::uint32_t group, const char* name, std::uint32_t limb_count, const void* data,
                            std::size_t stride, std::size_t value_bytes, bool may_repeat);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/arm.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -28,8 +27,6 @@ struct Reader {
         return normalise(rotor((*this)(f, 0), (*this)(f, 1), (*this)(f, 2), (*this)(f, 3)));
     }
 };
-
-Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<double>(q[0], q[1], q[2], q[3])); }
 
 // The bones' lengths in the space of the targets, scaled and stretched.
 struct Bones {

@@ -5,9 +5,13 @@
 #pragma once
 
 #include "batch/crowd.h"
+#include "core/arm.h"
 #include "core/space.h"
 
 namespace swivel {
+
+// A binding's quaternion, normalised.
+inline Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<double>(q[0], q[1], q[2], q[3])); }
 
 struct LimbPose {
     Vector<double> shoulder, elbow, wrist;  // in the space of the targets

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 
-#include "core/arm.h"
+#include "batch/forward.h"
 #include "simd/rows.h"
 
 namespace swivel {
 
 namespace {
-
-Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<double>(q[0], q[1], q[2], q[3])); }
 
 constexpr swivel_features free_features(swivel_features features)
 {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# swivel_part(library): how the parts of the command compile. Their files compile as one, so that templates of Eigen, fmt and JSON are
-# instantiated once for all of them. The solves are in the library, so -O2 is enough here.
+# swivel_part(library): how a part of the command compiles. The files of a part compile as one. So templates of Eigen, fmt and JSON are
+# instantiated once. -O2 is enough, because the library solves.
 function(swivel_part library)
   set_target_properties(${library} PROPERTIES UNITY_BUILD ${SWIVEL_UNITY} UNITY_BUILD_BATCH_SIZE 16)
   target_compile_options(${library} PRIVATE $<$<CONFIG:Release>:-O2>)
@@ -10,7 +10,8 @@ function(swivel_part library)
   endif()
 endfunction()
 
-# swivel_part_headers(): compiles the headers that most parts include, once for all. Parts that come before go without.
+# swivel_part_headers(): compiles the headers that most parts include, once for all parts. The build with sanitizers and Python's own build
+# do not call it, and their parts compile the headers themselves.
 function(swivel_part_headers)
   file(CONFIGURE OUTPUT part_headers.cpp CONTENT "" @ONLY)
   add_library(swivel_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/part_headers.cpp)

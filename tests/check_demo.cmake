@@ -28,8 +28,14 @@ endfunction()
 stand_in(tools/view/build "echo built")
 expect("" "swivel demo" TRUE)
 expect("--json" "swivel demo --json" TRUE)
-expect("--help" "swivel demo --help" FALSE)
 expect("--view;mine.html" "swivel demo --view mine.html" FALSE)
 expect("--view=mine.html" "swivel demo --view=mine.html" FALSE)
 stand_in(tools/view/build "echo no npm\nexit 1")
 expect("--json" "swivel demo --json" FALSE)
+
+# Help builds nothing.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env "PATH=${stage}/bin:$ENV{PATH}" ${stage}/tools/demo --json --help
+                OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code)
+if(NOT code EQUAL 0 OR NOT out MATCHES "^usage: tools/demo .*\nswivel demo --help\n$" OR NOT err STREQUAL "")
+  message(SEND_ERROR "tools/demo --json --help: exit code ${code}, output '${out}', errors '${err}'")
+endif()

@@ -116,7 +116,7 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 
 # ---- batch: never lanes; the files of one line below know core, and the others do not
 set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"")
-may_include(batch "batch/(api|api_solve|api_pose|bodies|pose|share|sized|crowd|describe|digest|explain_text|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
+may_include(batch "batch/(api|api_explain|api_pose|api_solve|bodies|pose|share|sized|crowd|describe|digest|explain_text|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/(api_plant|rig|skeleton|body_(check|joints|plan)|angles|budget|check|compare(d_limb)?|explain(_limits|_plant|_probe)?|forward|joint_angles|one_limb|pack|posed_body|region(_cones|_directions)?)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")

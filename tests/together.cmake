@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
-# swivel_together(target size file...): compiles files together, `size` in a piece, which takes a fraction of the time. Each is in a
-# namespace of its own, so files may use the same names. The headers that any of them includes come first, outside. Files with compile
-# options of their own are not for this.
+# swivel_together(target size file...): compiles files together, `size` in a piece. Each file is in a namespace of its own, so files may use
+# the same names. Its macros reach the files after it. A file with compile options of its own cannot be compiled together with others.
+#
+# The headers of all files come first, outside of the namespaces. They have #pragma once, so the includes inside of the files add nothing.
+# A condition around an include comes along. There may be no #else, no #elif and no nested condition before the last include of a file.
 function(swivel_together target size)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})  # they may include another header
   set(files ${ARGN})
@@ -13,23 +15,9 @@ function(swivel_together target size)
     set(bodies "")
     foreach(file IN LISTS some)
       get_filename_component(path ${file} ABSOLUTE)
-      get_filename_component(folder ${path} DIRECTORY)
       get_filename_component(name ${path} NAME_WE)
-      file(STRINGS ${path} lines REGEX "^#(include|if|endif)")
-      set(condition "")  # an include that one system needs stays under its condition
-      foreach(line IN LISTS lines)
-        if(line MATCHES "^#if")
-          set(condition "${line}\n")
-        elseif(line MATCHES "^#endif")
-          set(condition "")
-        else()
-          string(REGEX REPLACE "\"([^/]*)\"$" "\"${folder}/\\1\"" line "${line}")  # a neighbour
-          if(condition)
-            set(line "${condition}${line}\n#endif")
-          endif()
-          list(APPEND headers "${line}\n")
-        endif()
-      endforeach()
+      swivel_includes(of_file ${path})
+      list(APPEND headers ${of_file})
       string(APPEND bodies "namespace file_${name} {\n#include \"${path}\"\n}\n")
     endforeach()
     list(REMOVE_DUPLICATES headers)
@@ -40,4 +28,32 @@ function(swivel_together target size)
     file(CONFIGURE OUTPUT ${together} CONTENT "${headers}${bodies}" @ONLY)
     target_sources(${target} PRIVATE ${together})
   endwhile()
+endfunction()
+
+# swivel_includes(result path): the includes of a file, each with the condition around it.
+function(swivel_includes result path)
+  get_filename_component(folder ${path} DIRECTORY)
+  file(STRINGS ${path} lines REGEX "^#(include|if|else|elif|endif)")
+  set(headers "")
+  set(condition "")
+  set(unknown "")  # the first line that this function cannot follow
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^#include")
+      if(unknown)
+        message(FATAL_ERROR "${path}: '${unknown}' comes before the last include; compile this file by itself")
+      endif()
+      string(REGEX REPLACE "\"([^/]*)\"$" "\"${folder}/\\1\"" line "${line}")  # a neighbour
+      if(condition)
+        set(line "${condition}\n${line}\n#endif")
+      endif()
+      list(APPEND headers "${line}\n")
+    elseif(line MATCHES "^#endif")
+      set(condition "")
+    elseif(line MATCHES "^#if" AND NOT condition)
+      set(condition "${line}")
+    elseif(NOT unknown)
+      set(unknown "${line}")
+    endif()
+  endforeach()
+  set(${result} ${headers} PARENT_SCOPE)
 endfunction()
