@@ -50,8 +50,9 @@ struct GroundedFoot {
         const double scale = value(SWIVEL_RECORD)[kRecordScale];
         const Vector<double> heel = vector<double>(rules.heel[0], rules.heel[1], rules.heel[2]);
         const Foot<double> foot{vector_of(value(SWIVEL_GOAL)), sent};
-        return foot_on_ground(ground, up, foot, scale * (heel - vector_of(value(SWIVEL_EFFECTOR))), scale,
-                              value(SWIVEL_GROUND_WEIGHT)[0], by)
+        return foot_on_ground(ground, leaning(ground, vector_of(value(SWIVEL_LIFT), kSlope), up), up, foot,
+                              scale * (heel - vector_of(value(SWIVEL_EFFECTOR))), scale, value(SWIVEL_GROUND_WEIGHT)[0],
+                              by)
             .rotation;
     }
 

@@ -20,6 +20,8 @@ struct GroundPlane {
     T rise;                   // its share along up
     Mask<T> is;               // whether there is ground to stand on
 
+    // The normal that a foot turns to; up without ground.
+    SWIVEL_INLINE constexpr Vector<T> slope(const Vector<T>& up) const { return select(is, normal, up); }
     SWIVEL_INLINE constexpr T distance(const Vector<T>& point) const { return scalar_product(normal, point - place); }
     // How far up a point must go to be at a distance from the plane; without ground not at all.
     SWIVEL_INLINE constexpr T way_up(const Vector<T>& point, const T& clearance) const
@@ -36,6 +38,16 @@ SWIVEL_INLINE constexpr GroundPlane<T> ground_plane(const Vector<T>& place, cons
     const T rise = scalar_product(unit, up);
     const Mask<T> is = (len2(place) <= T(kHuge2)) & (rise > T(kSteepest));
     return {place, unit, rise, is};
+}
+
+// The plane through the same point with another normal, as a foot in the air has it. Without ground there is none.
+template <class T>
+SWIVEL_INLINE constexpr GroundPlane<T> leaning(const GroundPlane<T>& ground, const Vector<T>& normal,
+                                               const Vector<T>& up)
+{
+    GroundPlane<T> plane = ground_plane(ground.place, normal, up);
+    plane.is = plane.is & ground.is;
+    return plane;
 }
 
 // A point that locks in this step does so at its clearance over the ground. Its target stays, and its offset grows by
@@ -84,20 +96,21 @@ SWIVEL_INLINE constexpr Rotor<T> lifting_turn(const Mask<T>& counts, const Vecto
 }
 
 // The foot, turned with the ground by a share of 0 to 1, with toe and heel no nearer to it than their clearances.
+// slope: the plane that the foot turns with, and that its heel is kept over: the same, or as leaning() has it.
 // heel_from_toe: in the foot's frame, in the world's unit. clearances: in the same unit.
 template <class T>
-SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, const Vector<T>& up, const Foot<T>& foot,
-                                               const Vector<T>& heel_from_toe, const T& scale, const T& share,
-                                               const GroundRules& rules)
+SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, const GroundPlane<T>& slope,
+                                               const Vector<T>& up, const Foot<T>& foot, const Vector<T>& heel_from_toe,
+                                               const T& scale, const T& share, const GroundRules& rules)
 {
     const Vector<T> toe = foot.toe + hi(ground.way_up(foot.toe, T(rules.toe_clearance) * scale), T(0)) * up;
     const Rotor<T> with_ground =
-        no_further(clavicle_turn(up, ground.normal, share), T(rules.cos_half_most), T(rules.sin_half_most)) *
+        no_further(clavicle_turn(up, slope.normal, share), T(rules.cos_half_most), T(rules.sin_half_most)) *
         foot.rotation;
     const Rotor<T> on_slope = unit_rotation(with_ground);
 
-    const T wanted = T(rules.heel_clearance) * scale - ground.distance(toe);
-    const Rotor<T> lift = lifting_turn(ground.is, ground.normal, turned(on_slope, heel_from_toe), wanted);
+    const T wanted = T(rules.heel_clearance) * scale - slope.distance(toe);
+    const Rotor<T> lift = lifting_turn(ground.is, slope.normal, turned(on_slope, heel_from_toe), wanted);
     return {toe, select(ground.is, unit_rotation(lift * on_slope), foot.rotation)};
 }
 

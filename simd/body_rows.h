@@ -52,7 +52,7 @@ enum GoalRow : std::uint32_t {
     kGoalFlagsRow = kGoalHandRow + 4,   // bits
     kGoalOwnRow = kGoalFlagsRow + 1,    // 1 where it is the pose's own
     kGoalResultsRow = kGoalOwnRow + 1,  // the results that stand only if no later stage finds bad input
-    kGoalRows = kGoalResultsRow + 38
+    kGoalRows = kGoalResultsRow + 44
 };
 // A frame that limbs are linked to, from the root's place as shifted: of a hand, or of a prop.
 enum HeldRow : std::uint32_t {

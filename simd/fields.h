@@ -113,6 +113,8 @@ enum RecordNumber : int {
     kRecordIncoming = kRecordLengths + 2,
     kRecordSize = kRecordIncoming + 12
 };
+// Those of SWIVEL_LIFT: of the height, whether it has begun, and of the normal that the foot turns with.
+enum LiftNumber : int { kLift, kLiftRate, kLiftBegun, kSlope, kSlopeRate = kSlope + 3 };
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
 enum class Place : std::uint8_t { no, yes };           // a position: it may be given in double, from an origin
 struct FieldRow {
@@ -223,7 +225,7 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_GOAL, "goal", 7, kResult, SWIVEL_SENT | SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_SHIFT, "shift", 3, kCarried, SWIVEL_FIT},
     {SWIVEL_PROBE, "probe", 3, kResult, SWIVEL_WITH_GROUND},
-    {SWIVEL_LIFT, "lift", 3, kCarried, SWIVEL_WITH_GROUND},
+    {SWIVEL_LIFT, "lift", 9, kCarried, SWIVEL_WITH_GROUND},
     {SWIVEL_HAND_FRAME, "hand_frame", 7, kResult, SWIVEL_WITH_HAND_FRAME, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_PROP_FRAME, "prop_frame", 7, kResult, SWIVEL_PROP, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_SIGHT, "sight", 6, kResult, SWIVEL_LOOK, 0, "", {0, 0, 0, 0, 0, 1}},

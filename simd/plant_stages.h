@@ -121,6 +121,13 @@ struct PlantedPoint {
                        ground_of(s, up).way_up(support.to_root(state.mark), clearance));
     }
 
+    // That the foot turns with: a planted one with its ground at once.
+    SWIVEL_INLINE Spring<Vector<T>> normal() const
+    {
+        const Vector<T> up = up_of(s);
+        return eased_normal(s, ground_of(s, up).slope(up), planted.step.fresh | state.locked, limb.ground.lift);
+    }
+
 private:
     SWIVEL_INLINE Vector<T> lifted_so_far() const
     {
@@ -171,6 +178,9 @@ struct StageBody<Stage::plant> {
             point.lock_to_ground();
             out.store_vector(SWIVEL_PROBE, in_world);
             store_eased(out, SWIVEL_LIFT, point.lift);
+            const Spring<Vector<T>> normal = point.normal();
+            out.store_vector(SWIVEL_LIFT, normal.at, kSlope);
+            out.store_vector(SWIVEL_LIFT, normal.rate, kSlopeRate);
         }
         store_plant(out, point.state);
         send(s, place, hand);
@@ -198,7 +208,10 @@ struct StageBody<Stage::ground> {
         const Vector<T> heel_from_toe = scale * (heel - s.io.load_vector(SWIVEL_EFFECTOR));
         s.require(is_share(share) & (len2(heel_from_toe) <= T(kHuge2)));
         const Foot<T> sent{s.body_vector(limb.goal + kGoalPlaceRow), s.body_rotor(limb.goal + kGoalHandRow)};
-        const Foot<T> foot = foot_on_ground(ground_of(s, up), up, sent, heel_from_toe, scale, share, rules);
+        const Vector<T> normal = waiting_rows(s).load_result_vector(SWIVEL_LIFT, kSlope);
+        const GroundPlane<T> ground = ground_of(s, up);
+        const Foot<T> foot =
+            foot_on_ground(ground, leaning(ground, normal, up), up, sent, heel_from_toe, scale, share, rules);
         send(s, foot.toe, foot.rotation);
         if (s.has(SWIVEL_WITH_RECORD)) {
             const Rows<T, kTold> out = waiting_rows(s);

@@ -20,17 +20,18 @@ struct Terrain {
     };
     std::vector<Wave> waves = {};
     double step = 0, tread = 0.3;  // stairs along z, in place of waves, if step is not 0
+    double crease = 0;             // the slope of triangles along z, 2 metres long, every other one level
 
     double height(double x, double z) const
     {
         if (step > 0) return step * std::floor(z / tread);
-        double sum = 0;
+        double sum = crease * (2 * std::floor(z / 4) + std::clamp(z - 4 * std::floor(z / 4) - 2, 0.0, 2.0));
         for (const Wave& w : waves) sum += w.slope / std::hypot(w.x, w.z) * std::sin(w.x * x + w.z * z);
         return sum;
     }
     Vector3d normal(double x, double z) const
     {
-        Vector3d n(0, 1, 0);
+        Vector3d n(0, 1, z - 4 * std::floor(z / 4) > 2 ? -crease : 0);
         for (const Wave& w : waves) {
             const double rise = w.slope / std::hypot(w.x, w.z) * std::cos(w.x * x + w.z * z);
             n -= rise * Vector3d(w.x, 0, w.z);
@@ -45,6 +46,8 @@ struct Terrain {
 // Slopes of up to 25 degrees, with 3 to 5 metres from hill to hill.
 inline Terrain bumpy_field() { return {{{0.71, 0.94, 0.16}, {-1.41, 1.12, 0.16}, {0.53, -2, 0.146}}}; }
 inline Terrain stairs() { return {{}, 0.17}; }
+// Ground of triangles, with creases of 20 degrees.
+inline Terrain creased() { return {{}, 0, 0.3, std::tan(20 * std::numbers::pi / 180)}; }
 
 struct GroundSample {
     Float3 place, normal;

@@ -457,7 +457,8 @@ TEST_CASE("ground that is not known, or too steep, is as if there were none")
         REQUIRE(third.bytes == other.bytes);
         for (std::uint32_t leg = 0; leg < 2; ++leg) {
             REQUIRE(read<std::uint32_t>(unknown, SWIVEL_FLAGS, leg) == read<std::uint32_t>(without, SWIVEL_FLAGS, leg));
-            REQUIRE(read<Float3>(unknown, SWIVEL_LIFT, leg) == std::vector<Float3>(kWalkers, {0, 0, 1}));
+            using Lift = std::array<float, 9>;
+            REQUIRE(read<Lift>(unknown, SWIVEL_LIFT, leg) == std::vector<Lift>(kWalkers, {0, 0, 1, 0, 1, 0}));
         }
     }
 }
@@ -543,7 +544,7 @@ TEST_CASE("a walker that is reset, or was not solved for longer than `longest`, 
     for (std::uint32_t leg = 0; leg < 2; ++leg)
         for (std::uint32_t n = 0; n < kWalkers; ++n) {
             const bool is_anew = carried(stage.crowd, leg, n) == carried(fresh.crowd, leg, n);
-            const auto lift = value_of<Float3>(stage.crowd, SWIVEL_LIFT, leg, n);
+            const auto lift = value_of<std::array<float, 9>>(stage.crowd, SWIVEL_LIFT, leg, n);
             if (n >= 7 && n < 12)
                 REQUIRE((is_anew && lift[1] == 0 && lift[2] == 1));
             else

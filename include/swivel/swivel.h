@@ -401,8 +401,9 @@ typedef enum swivel_field {
     SWIVEL_SHIFT,
     // 3, WITH_GROUND: where to sample the ground for the foot, in the space of the target: above or below this point.
     SWIVEL_PROBE,
-    // 3, WITH_GROUND: how far the ground lifts the animated foot along `up`, in the world's unit; its rate a second;
-    // and 1 once it has begun.
+    // 9, WITH_GROUND: how far the ground lifts the animated foot along `up`, in the world's unit; its rate a second;
+    // and
+    // 1 once it has begun. Then the normal that the foot turns with, in the world, of any length, 3; and its rate, 3.
     SWIVEL_LIFT,
     // 7, WITH_HAND_FRAME: where the wrist joint is after the solve, 3, in the space of the target, and its rotation in
     // the world, 4. Bones may be stretched. It is NaN beyond 1e15, and after bad input but for a good pose that stays.
@@ -631,17 +632,18 @@ static inline swivel_fit swivel_default_fit(void)
 // - The animated foot is raised or lowered by how far the ground is from the root's level: from the plane through the
 //   root's place, across `up`. A spring eases that.
 // - A point that locks does so at toe_clearance over the plane, where it stays.
-// - No toe is sent below toe_clearance, no heel below heel_clearance, whatever the animation wants. For its heel the
-//   foot turns about the toe. With SWIVEL_HAND_YIELDS the foot also turns where the leg is too short, and its toe stays
-//   over the plane.
-// - The foot turns by what carries `up` to the ground's normal, times SWIVEL_GROUND_WEIGHT, up to an angle.
+// - No toe is sent below toe_clearance, no heel below heel_clearance, whatever the animation wants; in the air below
+//   the plane as it is eased. For its heel the foot turns about the toe. With SWIVEL_HAND_YIELDS the foot also turns
+//   where the leg is too short, and its toe stays over the plane.
+// - The foot turns by what carries `up` to the ground's normal, times SWIVEL_GROUND_WEIGHT, up to an angle. A spring
+//   eases the normal while the foot is not planted.
 //
 // Clearances are heights over the plane, in the bones' unit. Source: our own.
 typedef struct swivel_ground {
     float heel[3];  // a point of the sole, in the wrist joint's frame, in the bones' unit; at 0 it is the wrist itself
     float toe_clearance, heel_clearance;  // of effector and heel where they stand: 0 if both are on the sole
     float cos_most;                       // cosine of the angle that the foot turns at most, 0..1
-    float half;                           // s: the time in which about half of a lift is made up
+    float half;                           // s: the time in which about half of a lift or a slope is made up
 } swivel_ground;
 
 static inline swivel_ground swivel_default_ground(void)

@@ -80,7 +80,8 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
                           {4},
                           {"part"}});
     if (has(SWIVEL_WITH_GROUND))
-        fields.push_back({SWIVEL_LIFT, "lift", "how far the ground lifts a foot, as SWIVEL_LIFT", {3}, {"part"}, true});
+        fields.push_back(
+            {SWIVEL_LIFT, "lift", "how the ground lifts and turns a foot, as SWIVEL_LIFT", {9}, {"part"}, true});
     if (has(SWIVEL_LOOK))
         fields.push_back(
             {SWIVEL_LOOK_LINE, "look_line", "where a look points, as SWIVEL_LOOK_LINE", {4}, {"part"}, true});

@@ -113,7 +113,7 @@ constexpr FieldName kFields[] = {
     {Field::goal, SWIVEL_GOAL, 7, kPlant | kRecord},
     {Field::goal, SWIVEL_GOAL, 7, kLink | kRecord},  // the two features exclude each other
     {Field::probe, SWIVEL_PROBE, 3, kGround},
-    {Field::lift, SWIVEL_LIFT, 3, kGround},
+    {Field::lift, SWIVEL_LIFT, 9, kGround},
     {Field::hand_frame, SWIVEL_HAND_FRAME, 7, kHandFrame},
 };
 
