@@ -92,8 +92,12 @@ struct VectorRegisters {
     {
         return (Float)((mask & (Word)a) | (~mask & (Word)b));
     }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return (Float)((Word)a & (Word)b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return (Float)((Word)a ^ (Word)b); }
 };
 
+// x86 has bitwise instructions for floats, and g++ takes their constant operands from memory. It would build a constant
+// of integers anew in every step, with two or three instructions.
 template <class Arch>
 struct Registers;
 #if defined(__SSE2__)
@@ -102,6 +106,8 @@ struct Registers<xsimd::sse2> : VectorRegisters<xsimd::sse2> {
     SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm_sqrt_ps(a); }
     SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm_min_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return _mm_and_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return _mm_xor_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask)
     {
         return static_cast<std::uint32_t>(_mm_movemask_ps((Float)mask));
@@ -118,6 +124,8 @@ struct Registers<xsimd::avx2> : VectorRegisters<xsimd::avx2> {
     SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm256_sqrt_ps(a); }
     SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm256_min_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm256_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return _mm256_and_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return _mm256_xor_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask)
     {
         return static_cast<std::uint32_t>(_mm256_movemask_ps((Float)mask));
@@ -135,6 +143,8 @@ struct Registers<xsimd::avx512bw> : VectorRegisters<xsimd::avx512bw> {
     SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm512_sqrt_ps(a); }
     SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm512_min_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm512_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return _mm512_and_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return _mm512_xor_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask) { return mask; }
 };
 #endif
@@ -256,7 +266,8 @@ template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> with_bits(const Lanes<A, N...>& a, std::uint32_t bits)
 {
     using R = Registers<A>;
-    return Lanes<A, N...>((typename R::Float)((typename R::Word)a.r[N] & R::words(bits))...);
+    const typename R::Float mask = R::fill(bit_cast<float>(bits));
+    return Lanes<A, N...>(R::bit_and(a.r[N], mask)...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> abs(const Lanes<A, N...>& a)
@@ -266,9 +277,8 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> abs(const Lanes<A, N...>& a)
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> flip_sign(const Lanes<A, N...>& a, const Lanes<A, N...>& sign)
 {
-    using R = Registers<A>;
     const Lanes<A, N...> flips = with_bits(sign, 0x80000000u);
-    return Lanes<A, N...>((typename R::Float)((typename R::Word)a.r[N] ^ (typename R::Word)flips.r[N])...);
+    return Lanes<A, N...>(Registers<A>::bit_xor(a.r[N], flips.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> copysign(const Lanes<A, N...>& a, const Lanes<A, N...>& sign)
