@@ -79,6 +79,10 @@ struct StageBody<Stage::bones> {
 };
 
 template <>
+struct StageBody<Stage::capped> : StageBody<Stage::bones> {
+};
+
+template <>
 struct StageBody<Stage::aim> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
