@@ -17,19 +17,13 @@
 #endif
 
 #define SWIVEL_ALWAYS_INLINE [[gnu::always_inline]] inline
-#define SWIVEL_ALWAYS_INLINE_LAMBDA __attribute__((always_inline))
 #ifdef __clang__  // its flatten inlines what an entry calls itself, and not what that calls
 #define SWIVEL_INLINE SWIVEL_ALWAYS_INLINE
-#define SWIVEL_INLINE_LAMBDA SWIVEL_ALWAYS_INLINE_LAMBDA
+#define SWIVEL_INLINE_LAMBDA __attribute__((always_inline))
 #else
 #define SWIVEL_INLINE inline
 #define SWIVEL_INLINE_LAMBDA
 #endif
 #define SWIVEL_FLATTEN [[gnu::flatten]]
 #define SWIVEL_OUT_OF_LINE_LAMBDA __attribute__((noinline))  // long, called from many places, and seldom
-// Before a loop that the compiler must not unroll.
-#ifdef __clang__
-#define SWIVEL_KEEP_LOOP _Pragma("clang loop unroll(disable)")
-#else
-#define SWIVEL_KEEP_LOOP _Pragma("GCC unroll 1")
-#endif
+#define SWIVEL_KEEP_LOOP _Pragma("GCC unroll 1")             // before a loop that the compiler must not unroll

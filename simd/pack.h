@@ -16,7 +16,7 @@ namespace swivel::inline SWIVEL_ISA {
 // single row before it could vectorise them, which took half as long again on AVX2.
 SWIVEL_INLINE void cut_words(const float* held, std::uint32_t from, std::uint32_t row_count, std::uint16_t* words)
 {
-#pragma GCC unroll 1
+    SWIVEL_KEEP_LOOP
     for (std::size_t n = 0; n < std::size_t{row_count} * kLanes; ++n) {
         std::uint32_t bits;
         std::memcpy(&bits, held + n, sizeof bits);
