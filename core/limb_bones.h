@@ -82,6 +82,7 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
     const SoftReach<T> reach =
         use.reach || use.cap ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
     const Mask<T> missed = reach.too_far | reach.too_near | reach.softened;
+    // At most one of the three holds. clang 19 did not finish AVX-512's stage of bones where their words were joined.
     Bits<T> flags = select(reach.too_far, bits<T>(SWIVEL_CLAMPED_FAR),
                            select(reach.too_near, bits<T>(SWIVEL_CLAMPED_NEAR),
                                   select(reach.softened, bits<T>(SWIVEL_SOFTENED), bits<T>(SWIVEL_REACHED)))) |
