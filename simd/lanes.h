@@ -17,15 +17,16 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// How many lanes a number has.
+// How many lanes a number has. lane_bits() has a bit for each of the most.
 template <class T>
 inline constexpr std::size_t lane_count = 1;
+inline constexpr std::size_t kMostLanes = 32;
 
 // Lanes lie in memory side by side, aligned to a register. Those of more blocks than one lie in pieces of `lanes`, each
 // `step` floats after the last one.
 struct LaneBlocks {
-    std::size_t lanes = 64, step = 0;  // 64: no number has as many
-    SWIVEL_ALWAYS_INLINE constexpr std::size_t place(std::size_t lane) const
+    std::size_t lanes = kMostLanes, step = 0;  // all in one piece
+    SWIVEL_ALWAYS_INLINE constexpr std::size_t offset(std::size_t lane) const
     {
         return lane / lanes * step + lane % lanes;
     }
@@ -82,6 +83,14 @@ struct VectorRegisters {
     }
     SWIVEL_ALWAYS_INLINE static Float fill(float x) { return fill(x, std::make_index_sequence<width>{}); }
     SWIVEL_ALWAYS_INLINE static Word words(std::uint32_t word) { return (Word)fill(bit_cast<float>(word)); }
+    // The mask of the lanes whose bits are set, the first lane's lowest. Higher bits may be anything.
+    template <std::size_t... N>
+    SWIVEL_ALWAYS_INLINE static Mask mask(std::uint32_t bits, std::index_sequence<N...>)
+    {
+        const Word own = {(1 << N)...};
+        return (words(bits) & own) == own;
+    }
+    SWIVEL_ALWAYS_INLINE static Mask mask(std::uint32_t bits) { return mask(bits, std::make_index_sequence<width>{}); }
     SWIVEL_ALWAYS_INLINE static Float load(const float* from) { return *reinterpret_cast<const Float*>(from); }
     SWIVEL_ALWAYS_INLINE static void store(float* to, Float x) { *reinterpret_cast<Float*>(to) = x; }
 
@@ -145,6 +154,7 @@ struct Registers<xsimd::avx512bw> : VectorRegisters<xsimd::avx512bw> {
     SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm512_max_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return _mm512_and_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return _mm512_xor_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Mask mask(std::uint32_t bits) { return static_cast<Mask>(bits); }
     SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask) { return mask; }
 };
 #endif
@@ -183,7 +193,7 @@ struct Lanes {
     }
     SWIVEL_ALWAYS_INLINE static Lanes load(const float* from, LaneBlocks blocks)
     {
-        return Lanes(R::load(from + blocks.place(N * width))...);
+        return Lanes(R::load(from + blocks.offset(N * width))...);
     }
     // Copies register by register. g++ would copy arrays of these as one piece of memory, through general registers.
     SWIVEL_ALWAYS_INLINE Lanes(const Lanes& other) : r{other.r[N]...} {}
@@ -199,16 +209,7 @@ struct LanesMask {
     using R = Registers<Arch>;
     typename R::Mask r[sizeof...(N)];
 
-    // The bits of one register's lanes are compared as floats. They are denormals, which the environment of every
-    // kernel keeps.
-    SWIVEL_ALWAYS_INLINE static LanesMask where(std::uint32_t bits)
-    {
-        alignas(64) static constexpr std::uint32_t bit[16] = {1u << 0,  1u << 1,  1u << 2,  1u << 3, 1u << 4,  1u << 5,
-                                                              1u << 6,  1u << 7,  1u << 8,  1u << 9, 1u << 10, 1u << 11,
-                                                              1u << 12, 1u << 13, 1u << 14, 1u << 15};
-        const Lanes<Arch, 0> each = Lanes<Arch, 0>::load(reinterpret_cast<const float*>(bit), {});
-        return {R::less(R::fill(0.0f), with_bits(each, bits >> N * R::width & ((1u << R::width) - 1)).r[0])...};
-    }
+    SWIVEL_ALWAYS_INLINE static LanesMask where(std::uint32_t bits) { return {R::mask(bits >> N * R::width)...}; }
 };
 // 32-bit words, kept in registers of floats. They are only selected, or-ed and stored, and these operations keep the
 // bits.
@@ -249,7 +250,8 @@ SWIVEL_LANES_BINARY(-)
 SWIVEL_LANES_BINARY(*)
 SWIVEL_LANES_BINARY(/)
 #undef SWIVEL_LANES_BINARY
-// Compilers may turn x + (-y) z into x - y z.
+// This is the compiler's own minus, which it may merge with its neighbours: x + (-y) z becomes x - y z, with the same
+// bits.
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> operator-(const Lanes<A, N...>& a)
 {
@@ -349,7 +351,7 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> hi(const Lanes<A, N...>& a, const Lanes<A, N
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE std::uint32_t lane_bits(const LanesMask<A, N...>& mask)
 {
-    static_assert(Lanes<A, N...>::count <= 32);
+    static_assert(Lanes<A, N...>::count <= kMostLanes);
     return ((Registers<A>::bits(mask.r[N]) << N * Registers<A>::width) | ...);
 }
 template <class A, std::size_t... N>
@@ -406,14 +408,15 @@ template <template <class, std::size_t...> class L, class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE void store_lanes(float* to, const L<A, N...>& x, LaneBlocks blocks = {})
 {
     using R = Registers<A>;
-    (R::store(to + blocks.place(N * R::width), x.r[N]), ...);
+    (R::store(to + blocks.offset(N * R::width), x.r[N]), ...);
 }
 template <template <class, std::size_t...> class L, class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE void store_lanes(float* to, const L<A, N...>& x, const LanesMask<A, N...>& where,
                                       LaneBlocks blocks = {})
 {
     using R = Registers<A>;
-    (R::store(to + blocks.place(N * R::width), R::select(where.r[N], x.r[N], R::load(to + blocks.place(N * R::width)))),
+    (R::store(to + blocks.offset(N * R::width),
+              R::select(where.r[N], x.r[N], R::load(to + blocks.offset(N * R::width)))),
      ...);
 }
 
