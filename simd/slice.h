@@ -125,7 +125,7 @@ struct Binding {
     Rotor<float> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
 };
 template <swivel_features Features>
-SWIVEL_ALWAYS_INLINE Binding binding_of(const SolveRun& run)
+SWIVEL_INLINE Binding binding_of(const SolveRun& run)
 {
     const Rotor<float> q = rotor(0.0f, 0.0f, 0.0f, 1.0f);
     if (!(features_of<Features>(run) & (SWIVEL_JOINTS | SWIVEL_BODY))) return {q, q, q, q, q, q};
