@@ -171,67 +171,71 @@ struct Registers<xsimd::neon64> : VectorRegisters<xsimd::neon64> {
 };
 #endif
 
+// What lanes, their masks and their words consist of: a register for each N. Copies go register by register. g++ would
+// copy the array as one piece of memory, through general registers.
+#define SWIVEL_LANES_REGISTERS(Type, Register)                                           \
+    Register r[sizeof...(N)];                                                            \
+    Type() = default;                                                                    \
+    template <class... Each>                                                             \
+    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, Register> && ...)) \
+        SWIVEL_ALWAYS_INLINE explicit Type(Each... each)                                 \
+        : r{each...}                                                                     \
+    {                                                                                    \
+    }                                                                                    \
+    SWIVEL_ALWAYS_INLINE Type(const Type& other) : r{other.r[N]...} {}                   \
+    SWIVEL_ALWAYS_INLINE Type& operator=(const Type& other)                              \
+    {                                                                                    \
+        ((r[N] = other.r[N]), ...);                                                      \
+        return *this;                                                                    \
+    }
+
 // N are the numbers of the registers: 0, or 0 and 1.
 template <class Arch, std::size_t... N>
 struct Lanes {
     using R = Registers<Arch>;
     using Register = typename R::Float;
     static constexpr std::size_t width = R::width, count = width * sizeof...(N);
-    Register r[sizeof...(N)];
+    SWIVEL_LANES_REGISTERS(Lanes, Register)
 
-    Lanes() = default;
     SWIVEL_ALWAYS_INLINE explicit Lanes(double x)
     {
         const Register all = R::fill(static_cast<float>(x));
         ((r[N] = all), ...);
     }
-    template <class... Each>
-    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, Register> && ...)) SWIVEL_ALWAYS_INLINE
-        explicit Lanes(Each... each)
-        : r{each...}
-    {
-    }
     SWIVEL_ALWAYS_INLINE static Lanes load(const float* from, LaneBlocks blocks)
     {
         return Lanes(R::load(from + blocks.offset(N * width))...);
-    }
-    // Copies register by register. g++ would copy arrays of these as one piece of memory, through general registers.
-    SWIVEL_ALWAYS_INLINE Lanes(const Lanes& other) : r{other.r[N]...} {}
-    SWIVEL_ALWAYS_INLINE Lanes& operator=(const Lanes& other)
-    {
-        ((r[N] = other.r[N]), ...);
-        return *this;
     }
 };
 
 template <class Arch, std::size_t... N>
 struct LanesMask {
     using R = Registers<Arch>;
-    typename R::Mask r[sizeof...(N)];
+    using Register = typename R::Mask;
+    SWIVEL_LANES_REGISTERS(LanesMask, Register)
 
-    SWIVEL_ALWAYS_INLINE static LanesMask where(std::uint32_t bits) { return {R::mask(bits >> N * R::width)...}; }
+    SWIVEL_ALWAYS_INLINE static LanesMask where(std::uint32_t bits)
+    {
+        return LanesMask(R::mask(bits >> N * R::width)...);
+    }
 };
 // 32-bit words, kept in registers of floats. They are only selected, or-ed and stored, and these operations keep the
 // bits.
 template <class Arch, std::size_t... N>
 struct LanesBits {
     using R = Registers<Arch>;
-    typename R::Float r[sizeof...(N)];
+    using Register = typename R::Float;
+    SWIVEL_LANES_REGISTERS(LanesBits, Register)
 
-    LanesBits() = default;
     SWIVEL_ALWAYS_INLINE explicit LanesBits(std::uint32_t word)
     {
         const typename R::Float all = R::fill(bit_cast<float>(word));
         ((r[N] = all), ...);
     }
-    template <class... Each>
-    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, typename R::Float> && ...)) SWIVEL_ALWAYS_INLINE
-        explicit LanesBits(Each... each)
-        : r{each...}
-    {
-    }
     SWIVEL_ALWAYS_INLINE static LanesBits load(const float* from) { return LanesBits(R::load(from + N * R::width)...); }
 };
+
+#undef SWIVEL_LANES_REGISTERS
 
 template <class Arch, std::size_t... N>
 struct NumberTraits<Lanes<Arch, N...>> {
@@ -304,7 +308,7 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> per_power_of_two(const Lanes<A, N...>& a)
     template <class A, std::size_t... N>                                                                  \
     SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator op(const Lanes<A, N...>& a, const Lanes<A, N...>& b) \
     {                                                                                                     \
-        return {Registers<A>::compare(x.r[N], y.r[N])...};                                                \
+        return LanesMask<A, N...>(Registers<A>::compare(x.r[N], y.r[N])...);                              \
     }
 SWIVEL_LANES_COMPARE(<, less, a, b)
 SWIVEL_LANES_COMPARE(<=, less_equal, a, b)
@@ -316,17 +320,17 @@ SWIVEL_LANES_COMPARE(==, equal, a, b)
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator&(const LanesMask<A, N...>& a, const LanesMask<A, N...>& b)
 {
-    return {static_cast<typename Registers<A>::Mask>(a.r[N] & b.r[N])...};
+    return LanesMask<A, N...>(static_cast<typename Registers<A>::Mask>(a.r[N] & b.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator|(const LanesMask<A, N...>& a, const LanesMask<A, N...>& b)
 {
-    return {static_cast<typename Registers<A>::Mask>(a.r[N] | b.r[N])...};
+    return LanesMask<A, N...>(static_cast<typename Registers<A>::Mask>(a.r[N] | b.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator!(const LanesMask<A, N...>& a)
 {
-    return {static_cast<typename Registers<A>::Mask>(~a.r[N])...};
+    return LanesMask<A, N...>(static_cast<typename Registers<A>::Mask>(~a.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> select(const LanesMask<A, N...>& mask, const Lanes<A, N...>& a,
