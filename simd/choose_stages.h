@@ -219,10 +219,10 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         const int line_count = Lines > 0 ? Lines : list.line_count;
         const Limits<T, Boxes> limits = load_limits<Boxes>(s, line_count, list);
         const Turned<T> wish{T(1), T(0)};
-        Bits<T> flags = s.get_flags();
+        Word<T> flags = s.get_flags();
         T least_room = T(2);
         const auto look = [&](const T& room_left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
-            flags = flags | bits_where(room_left < T(kNoRoom), flag);
+            flags = flags | word_where(room_left < T(kNoRoom), flag);
             least_room = lo(room_left, least_room);
         };
         for (int n = 0; n < line_count; ++n) look(limits.line[n].at(wish), list.line_flag[n]);

@@ -38,12 +38,12 @@ requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE float load_lanes(const fl
     return *from;
 }
 template <class T>
-requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE std::uint32_t load_lane_bits(const float* from)
+requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE std::uint32_t load_lane_word(const float* from)
 {
     return bit_cast<std::uint32_t>(*from);
 }
 SWIVEL_ALWAYS_INLINE void store_lanes(float* to, float x, LaneBlocks = {}) { *to = x; }
-SWIVEL_ALWAYS_INLINE void store_lanes(float* to, std::uint32_t bits, LaneBlocks = {}) { *to = bit_cast<float>(bits); }
+SWIVEL_ALWAYS_INLINE void store_lanes(float* to, std::uint32_t word, LaneBlocks = {}) { *to = bit_cast<float>(word); }
 // Stores some of the lanes. The places of the others keep what they hold.
 template <class Value>
 requires(std::is_same_v<Value, float> || std::is_same_v<Value, std::uint32_t>) SWIVEL_ALWAYS_INLINE
@@ -222,17 +222,17 @@ struct LanesMask {
 // 32-bit words, kept in registers of floats. They are only selected, or-ed and stored, and these operations keep the
 // bits.
 template <class Arch, std::size_t... N>
-struct LanesBits {
+struct LanesWord {
     using R = Registers<Arch>;
     using Register = typename R::Float;
-    SWIVEL_LANES_REGISTERS(LanesBits, Register)
+    SWIVEL_LANES_REGISTERS(LanesWord, Register)
 
-    SWIVEL_ALWAYS_INLINE explicit LanesBits(std::uint32_t word)
+    SWIVEL_ALWAYS_INLINE explicit LanesWord(std::uint32_t word)
     {
         const typename R::Float all = R::fill(bit_cast<float>(word));
         ((r[N] = all), ...);
     }
-    SWIVEL_ALWAYS_INLINE static LanesBits load(const float* from) { return LanesBits(R::load(from + N * R::width)...); }
+    SWIVEL_ALWAYS_INLINE static LanesWord load(const float* from) { return LanesWord(R::load(from + N * R::width)...); }
 };
 
 #undef SWIVEL_LANES_REGISTERS
@@ -240,7 +240,7 @@ struct LanesBits {
 template <class Arch, std::size_t... N>
 struct NumberTraits<Lanes<Arch, N...>> {
     using Mask = LanesMask<Arch, N...>;
-    using Bits = LanesBits<Arch, N...>;
+    using Word = LanesWord<Arch, N...>;
 };
 
 #define SWIVEL_LANES_BINARY(op)                                                                       \
@@ -269,21 +269,21 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> sqrt(const Lanes<A, N...>& a)
 
 // Signs and exponents are bits of the words.
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE Lanes<A, N...> with_bits(const Lanes<A, N...>& a, std::uint32_t bits)
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> masked(const Lanes<A, N...>& a, std::uint32_t word)
 {
     using R = Registers<A>;
-    const typename R::Float mask = R::fill(bit_cast<float>(bits));
+    const typename R::Float mask = R::fill(bit_cast<float>(word));
     return Lanes<A, N...>(R::bit_and(a.r[N], mask)...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> abs(const Lanes<A, N...>& a)
 {
-    return with_bits(a, 0x7fffffffu);
+    return masked(a, 0x7fffffffu);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> flip_sign(const Lanes<A, N...>& a, const Lanes<A, N...>& sign)
 {
-    const Lanes<A, N...> flips = with_bits(sign, 0x80000000u);
+    const Lanes<A, N...> flips = masked(sign, 0x80000000u);
     return Lanes<A, N...>(Registers<A>::bit_xor(a.r[N], flips.r[N])...);
 }
 template <class A, std::size_t... N>
@@ -294,7 +294,7 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> copysign(const Lanes<A, N...>& a, const Lane
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> power_of_two(const Lanes<A, N...>& a)
 {
-    return with_bits(a, 0x7f800000u);
+    return masked(a, 0x7f800000u);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> per_power_of_two(const Lanes<A, N...>& a)
@@ -371,21 +371,21 @@ SWIVEL_ALWAYS_INLINE bool all(const LanesMask<A, N...>& mask)
 }
 
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE LanesBits<A, N...> operator|(const LanesBits<A, N...>& a, const LanesBits<A, N...>& b)
+SWIVEL_ALWAYS_INLINE LanesWord<A, N...> operator|(const LanesWord<A, N...>& a, const LanesWord<A, N...>& b)
 {
     using R = Registers<A>;
-    return LanesBits<A, N...>((typename R::Float)((typename R::Word)a.r[N] | (typename R::Word)b.r[N])...);
+    return LanesWord<A, N...>((typename R::Float)((typename R::Word)a.r[N] | (typename R::Word)b.r[N])...);
 }
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE LanesBits<A, N...> select(const LanesMask<A, N...>& mask, const LanesBits<A, N...>& a,
-                                               const LanesBits<A, N...>& b)
+SWIVEL_ALWAYS_INLINE LanesWord<A, N...> select(const LanesMask<A, N...>& mask, const LanesWord<A, N...>& a,
+                                               const LanesWord<A, N...>& b)
 {
-    return LanesBits<A, N...>(Registers<A>::select(mask.r[N], a.r[N], b.r[N])...);
+    return LanesWord<A, N...>(Registers<A>::select(mask.r[N], a.r[N], b.r[N])...);
 }
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE LanesBits<A, N...> bits_where(const LanesMask<A, N...>& mask, std::uint32_t word)
+SWIVEL_ALWAYS_INLINE LanesWord<A, N...> word_where(const LanesMask<A, N...>& mask, std::uint32_t word)
 {
-    return select(mask, LanesBits<A, N...>(word), LanesBits<A, N...>(0u));
+    return select(mask, LanesWord<A, N...>(word), LanesWord<A, N...>(0u));
 }
 
 template <class A, std::size_t... N>
@@ -399,9 +399,9 @@ requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE T load_lanes(const float* from,
     return T::load(from, blocks);
 }
 template <class T>
-requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Bits<T> load_lane_bits(const float* from)
+requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Word<T> load_lane_word(const float* from)
 {
-    return Bits<T>::load(from);
+    return Word<T>::load(from);
 }
 template <class T>
 requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Mask<T> lanes_where(std::uint32_t bits)

@@ -23,11 +23,11 @@ struct Results {
         const std::uint32_t stored = s.strip.run.keeps ? s.good() : s.chosen();
         out.chosen = stored == S::kEvery ? kEveryLane : stored;
     }
-    SWIVEL_INLINE void store_flags(const Bits<T>& flags) const
+    SWIVEL_INLINE void store_flags(const Word<T>& flags) const
     {
         Rows<T, kTold> all = out;
         all.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        all.store(SWIVEL_FLAGS, 0, select(valid, flags, bits<T>(SWIVEL_BAD_INPUT)));
+        all.store(SWIVEL_FLAGS, 0, select(valid, flags, word<T>(SWIVEL_BAD_INPUT)));
     }
     // A joint's rotation: of its two quaternions the one nearer to the incoming pose's, or else the one with w >= 0.
     SWIVEL_INLINE void store_joint(swivel_field field, swivel_field incoming, const Rotor<T>& q,
@@ -52,14 +52,14 @@ struct StageBody<Stage::store> {
         const Results<S> results(s);
         const Vector<T> line = s.get_vector(kLineRow);
         Vector<T> normal = s.get_vector(kNormalRow);
-        Bits<T> flags = s.get_flags();
+        Word<T> flags = s.get_flags();
         if (s.has(SWIVEL_SENT)) flags = flags | s.body_flags(s.strip.run.limb->goal + kGoalFlagsRow);
         Continuity<T> continuity;
         if (s.has(SWIVEL_WITH_MOST_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & kSwivelLimits) {
             normal = swivelled(normal, line, {s.get(kSwivelRow), s.get(kSwivelRow + 1)});
             if (s.has(SWIVEL_WITH_MOST_SWIVEL) && !s.has(SWIVEL_STEP_WINS))
-                flags = flags | bits_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
+                flags = flags | word_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
         }
         if (s.has(SWIVEL_STEP_WINS)) normal = last_step(continuity, normal, line, flags);
         const Rotor<T> shoulder = lifted(line, normal, lift_of(s));

@@ -56,7 +56,7 @@ struct StripSlice {
     }
 
     SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(at(rows, row)); }
-    SWIVEL_ALWAYS_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(at(rows, kFlagsRow)); }
+    SWIVEL_ALWAYS_INLINE Word<T> get_flags() const { return load_lane_word<T>(at(rows, kFlagsRow)); }
     SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const { return load_vector_rows<T>(at(rows, row)); }
     SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const { return load_rotor_rows<T>(at(rows, row)); }
     SWIVEL_ALWAYS_INLINE Hinge<T> get_elbow() const { return hinge(get(kFlexionRow), -get(kFlexionRow + 1)); }
@@ -71,7 +71,7 @@ struct StripSlice {
     SWIVEL_ALWAYS_INLINE T body_row(std::uint32_t row) const { return load_lanes<T>(at(body, row)); }
     SWIVEL_ALWAYS_INLINE Rotor<T> body_rotor(std::uint32_t row) const { return load_rotor_rows<T>(at(body, row)); }
     SWIVEL_ALWAYS_INLINE Vector<T> body_vector(std::uint32_t row) const { return load_vector_rows<T>(at(body, row)); }
-    SWIVEL_ALWAYS_INLINE Bits<T> body_flags(std::uint32_t row) const { return load_lane_bits<T>(at(body, row)); }
+    SWIVEL_ALWAYS_INLINE Word<T> body_flags(std::uint32_t row) const { return load_lane_word<T>(at(body, row)); }
     template <class Value>
     SWIVEL_ALWAYS_INLINE void set_body(std::uint32_t row, const Value& value) const
     {
