@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "batch/limb_value.h"
 #include "batch/one_limb.h"

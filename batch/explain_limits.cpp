@@ -2,7 +2,6 @@
 #include "batch/explain_limits.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace swivel {
 
@@ -35,7 +34,7 @@ void explain_pole(Probe& probe, Text& text)
 {
     probe.take();
     if (!probe.has(SWIVEL_STEP_WINS)) probe.solve();  // which else would go one step further
-    const double degrees = 90 - std::fabs(probe.middle_angle()) * 180 / std::numbers::pi;
+    const double degrees = 90 - in_degrees(std::fabs(probe.middle_angle()));
     if (degrees > kNearPole) return;
     text.add(
         " It is %.0f degrees from the pole of shoulder_box, near which the allowed place may jump: another "
@@ -48,7 +47,7 @@ double swivel_between(const LimbPose& a, const LimbPose& b)
 {
     const Vector<double> n = cross(a.wrist - a.shoulder, a.elbow - a.shoulder),
                          m = cross(b.wrist - b.shoulder, b.elbow - b.shoulder);
-    return std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)) * 180 / std::numbers::pi;
+    return in_degrees(std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)));
 }
 
 // How far the probe's pose is outside of each limit. says_none: also where it is outside of none.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "batch/explain_plant.h"
 #include "batch/limb_value.h"

@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
+#include "batch/explain_text.h"
 #include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "core/bit_cast.h"
@@ -41,7 +41,7 @@ std::uint32_t Probe::flags() const
 double Probe::violation(const FlagRow& limit) const
 {
     const auto of_region = [&] { return of_.region ? outside_region(arm_rotors(group(), 0), *of_.region) : 0; };
-    return (limit.flag == SWIVEL_LIMITED_REGION ? of_region() : outside(limit.limit)) * 180 / std::numbers::pi;
+    return in_degrees(limit.flag == SWIVEL_LIMITED_REGION ? of_region() : outside(limit.limit));
 }
 
 double Probe::outside(swivel_field limit) const

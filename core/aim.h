@@ -54,7 +54,7 @@ SWIVEL_INLINE constexpr PlacedBones<T, Rotor<T>> aimed_bones(const LimbUse& use,
     const Vector<T> point = off + hi(ahead, along) * axis;
     const Rotor<T> lift = line_from_arm(select(len2(point) > T(kTiny2), point, axis));
     return {lift, elbow.template at<kScalar>(), -elbow.template at<kI>(), T(1),
-            bits_where(too_near, SWIVEL_CLAMPED_NEAR) | bits_where(!too_near, SWIVEL_REACHED)};
+            word_where(too_near, SWIVEL_CLAMPED_NEAR) | word_where(!too_near, SWIVEL_REACHED)};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

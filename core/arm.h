@@ -38,7 +38,7 @@ template <class T>
 struct ArmPose {
     Rotor<T> shoulder;     // carries e3 to the upper arm and e1 to the swivel plane's normal
     T cos_half, sin_half;  // of the flexion; both >= 0
-    Bits<T> flags;
+    Word<T> flags;
     Mask<T> valid;  // false: bad input, the arm is at rest
 };
 

@@ -35,14 +35,14 @@ struct SolvedLimb {
 
 // Which limits the wish breaks.
 template <class T>
-SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T>& limits)
+SWIVEL_INLINE constexpr Word<T> broken(const SwivelLimits<T>& limits)
 {
     const Turned<T> wish{T(1), T(0)};
-    Bits<T> flags = bits<T>(0);
+    Word<T> flags = word<T>(0);
     for (int n = 0; n < limits.limits.line_count; ++n)
-        flags = flags | bits_where(limits.limits.line[n].at(wish) < T(kNoRoom), limits.line_flag[n]);
+        flags = flags | word_where(limits.limits.line[n].at(wish) < T(kNoRoom), limits.line_flag[n]);
     for (int n = 0; n < limits.limits.box_count; ++n)
-        flags = flags | bits_where(room(limits.limits.box[n], wish) < T(kNoRoom), limits.box_flag[n]);
+        flags = flags | word_where(room(limits.limits.box[n], wish) < T(kNoRoom), limits.box_flag[n]);
     return flags;
 }
 
@@ -50,14 +50,14 @@ SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T>& limits)
 template <class T, class Lift>
 SWIVEL_INLINE constexpr FoundSwivel<T> chosen_swivel(const LimbUse& use, const JointLimits<T>& given,
                                                      const SwivellingArm<T, Lift>& arm, const Mask<T>& valid,
-                                                     Bits<T>& flags)
+                                                     Word<T>& flags)
 {
     const SwivelLimits<T> limits = swivel_limits(use.limits, given, arm);
     flags = flags | broken(limits);
     if (!use.limits.region) return choose_swivel(limits.limits, valid);
     const RegionOnCircle<T> region = region_limit(arm, use.limits.region);
     const Turned<T> wish{T(1), T(0)};
-    flags = flags | bits_where(room(region, wish) < T(kNoRoom), SWIVEL_LIMITED_REGION);
+    flags = flags | word_where(room(region, wish) < T(kNoRoom), SWIVEL_LIMITED_REGION);
     return choose_swivel(LimitsInRegion<T, kMostBoxes>{limits.limits, region}, valid);
 }
 
@@ -88,21 +88,21 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     }
     const Hinge<T> elbow = hinge(bones.cos_half, -bones.sin_half);
     Vector<T> normal = wish.normal;
-    Bits<T> flags = bones.flags | wish.flags | bits_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
+    Word<T> flags = bones.flags | wish.flags | word_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
     if (use.limits.on_swivel()) {
         const SwivellingArm<T, decltype(bones.lift)> arm{to.line, normal, bones.lift, elbow, wrist.hand};
         const FoundSwivel<T> chosen = chosen_swivel(use, goal.limits, arm, valid, flags);
-        flags = flags | bits_where(!chosen.allowed, SWIVEL_INFEASIBLE);
+        flags = flags | word_where(!chosen.allowed, SWIVEL_INFEASIBLE);
         normal = swivelled(normal, to.line, chosen.swivel);
         if (use.continuity && !use.step_wins)
-            flags = flags | bits_where(jumps(goal.continuity, normal, to.line), SWIVEL_JUMPED);
+            flags = flags | word_where(jumps(goal.continuity, normal, to.line), SWIVEL_JUMPED);
     }
     if (use.step_wins) normal = last_step(goal.continuity, normal, to.line, flags);
     const Rotor<T> shoulder = lifted(to.line, normal, bones.lift);
 
     SolvedLimb<T> pose;
     pose.arm = {select(valid, shoulder, one<T>()), select(valid, bones.cos_half, T(1)),
-                select(valid, bones.sin_half, T(0)), select(valid, flags, bits<T>(SWIVEL_BAD_INPUT)), valid};
+                select(valid, bones.sin_half, T(0)), select(valid, flags, word<T>(SWIVEL_BAD_INPUT)), valid};
     pose.stretch = select(valid, bones.stretch, T(1));
     if (use.continuity) pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
     if (use.hand) pose.wrist = select(valid, Aims ? wrist.hand : ~(shoulder * elbow) * wrist.hand, one<T>());

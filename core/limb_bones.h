@@ -15,7 +15,7 @@ struct PlacedBones {
     Lift lift;             // from the arm's own frame to the line's: how the upper arm lies to it; of any length
     T cos_half, sin_half;  // of the flexion
     T stretch;
-    Bits<T> flags;
+    Word<T> flags;
 };
 
 // The distances that the elbow's flexion allows: with flexion theta, d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
@@ -82,14 +82,15 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
     const SoftReach<T> reach =
         use.reach || use.cap ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
     const Mask<T> missed = reach.too_far | reach.too_near | reach.softened;
-    Bits<T> flags = select(reach.too_far, bits<T>(SWIVEL_CLAMPED_FAR),
-                           select(reach.too_near, bits<T>(SWIVEL_CLAMPED_NEAR),
-                                  select(reach.softened, bits<T>(SWIVEL_SOFTENED), bits<T>(SWIVEL_REACHED)))) |
-                    bits_where(reach.stretch > T(1), SWIVEL_STRETCHED);
+    // At most one of the three holds. clang 19 did not finish AVX-512's stage of bones where their words were joined.
+    Word<T> flags = select(reach.too_far, word<T>(SWIVEL_CLAMPED_FAR),
+                           select(reach.too_near, word<T>(SWIVEL_CLAMPED_NEAR),
+                                  select(reach.softened, word<T>(SWIVEL_SOFTENED), word<T>(SWIVEL_REACHED)))) |
+                    word_where(reach.stretch > T(1), SWIVEL_STRETCHED);
     if (use.limits.flexion) {
         const Mask<T> too_straight = (distance > range.far) & (range.far < far) & (range.far >= uncapped),
                       too_bent = (distance < range.near) & (range.near > near);
-        flags = flags | bits_where(missed & (too_straight | too_bent), SWIVEL_LIMITED_FLEXION);
+        flags = flags | word_where(missed & (too_straight | too_bent), SWIVEL_LIMITED_FLEXION);
     }
 
     // Steps 1 and 2 of the lecture: the triangle of the bones. A bone that is lost in the other's digits is straight

@@ -12,16 +12,16 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Mask<T> holds the truth of a comparison, Bits<T> a 32-bit word, one for each lane of T.
+// Mask<T> holds the truth of a comparison, Word<T> a 32-bit word, one for each lane of T.
 template <class T>
 struct NumberTraits {
     using Mask = bool;
-    using Bits = std::uint32_t;
+    using Word = std::uint32_t;
 };
 template <class T>
 using Mask = typename NumberTraits<T>::Mask;
 template <class T>
-using Bits = typename NumberTraits<T>::Bits;
+using Word = typename NumberTraits<T>::Word;
 
 SWIVEL_ALWAYS_INLINE float sqrt(float x) { return std::sqrt(x); }
 SWIVEL_ALWAYS_INLINE double sqrt(double x) { return std::sqrt(x); }
@@ -70,11 +70,11 @@ SWIVEL_ALWAYS_INLINE T hi(const T& a, const T& b)
 
 // The same word in every lane; the word where the mask holds, 0 elsewhere; one word or the other.
 template <class T>
-SWIVEL_ALWAYS_INLINE Bits<T> bits(std::uint32_t word)
+SWIVEL_ALWAYS_INLINE Word<T> word(std::uint32_t same)
 {
-    return Bits<T>{word};
+    return Word<T>{same};
 }
-SWIVEL_ALWAYS_INLINE std::uint32_t bits_where(bool mask, std::uint32_t word) { return mask ? word : 0u; }
+SWIVEL_ALWAYS_INLINE std::uint32_t word_where(bool mask, std::uint32_t word) { return mask ? word : 0u; }
 SWIVEL_ALWAYS_INLINE std::uint32_t select(bool mask, std::uint32_t a, std::uint32_t b) { return mask ? a : b; }
 
 }  // namespace swivel::inline SWIVEL_ISA

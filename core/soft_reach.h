@@ -20,7 +20,7 @@ template <class T>
 struct SoftReach {
     T distance;                           // from shoulder to wrist of the arm before it is stretched, near to far
     T stretch;                            // of the bones, 1 to the most; the wrist is at stretch times distance
-    Mask<T> too_far, too_near, softened;  // softened: short of or beyond the target in an eased zone
+    Mask<T> too_far, too_near, softened;  // at most one of them; softened: not at the target, in an eased zone
 };
 
 // Neither eased nor stretched.

@@ -50,7 +50,7 @@ struct BentElbow {
     T cos_half, sin_half;  // of the flexion
     Hinge<T> lift;         // about the plane's normal, from the frame's start; of any length
     T lift2;               // its squared length
-    Bits<T> flags;
+    Word<T> flags;
     Mask<T> holds;
 };
 template <class T>
@@ -73,8 +73,8 @@ SWIVEL_INLINE constexpr BentElbow<T> bend_elbow(const FrameStart<T>& start, cons
             triangle.sin_half,
             hinge(flip_sign(first, start.side), second),
             triangle.lift2,
-            select(reach.too_far, bits<T>(SWIVEL_CLAMPED_FAR),
-                   select(reach.too_near, bits<T>(SWIVEL_CLAMPED_NEAR), bits<T>(SWIVEL_REACHED))),
+            select(reach.too_far, word<T>(SWIVEL_CLAMPED_FAR),
+                   select(reach.too_near, word<T>(SWIVEL_CLAMPED_NEAR), word<T>(SWIVEL_REACHED))),
             holds};
 }
 

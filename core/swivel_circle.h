@@ -20,7 +20,7 @@ struct Turned {
 };
 
 template <class T>
-SWIVEL_INLINE constexpr Turned<T> select(const Mask<T>& mask, const Turned<T>& a, const Turned<T>& b)
+SWIVEL_ALWAYS_INLINE constexpr Turned<T> select(const Mask<T>& mask, const Turned<T>& a, const Turned<T>& b)
 {
     return {select(mask, a.cos, b.cos), select(mask, a.sin, b.sin)};
 }
@@ -30,25 +30,25 @@ template <class T>
 struct OnCircle {
     T a, b, c;
 
-    SWIVEL_INLINE constexpr T at(const Turned<T>& swivel) const { return a * swivel.cos + b * swivel.sin + c; }
+    SWIVEL_ALWAYS_INLINE constexpr T at(const Turned<T>& swivel) const { return a * swivel.cos + b * swivel.sin + c; }
 };
 template <class T>
-SWIVEL_INLINE constexpr OnCircle<T> operator+(const OnCircle<T>& x, const OnCircle<T>& y)
+SWIVEL_ALWAYS_INLINE constexpr OnCircle<T> operator+(const OnCircle<T>& x, const OnCircle<T>& y)
 {
     return {x.a + y.a, x.b + y.b, x.c + y.c};
 }
 template <class T>
-SWIVEL_INLINE constexpr OnCircle<T> operator-(const OnCircle<T>& x, const OnCircle<T>& y)
+SWIVEL_ALWAYS_INLINE constexpr OnCircle<T> operator-(const OnCircle<T>& x, const OnCircle<T>& y)
 {
     return {x.a - y.a, x.b - y.b, x.c - y.c};
 }
 template <class T>
-SWIVEL_INLINE constexpr OnCircle<T> operator*(const T& s, const OnCircle<T>& x)
+SWIVEL_ALWAYS_INLINE constexpr OnCircle<T> operator*(const T& s, const OnCircle<T>& x)
 {
     return {s * x.a, s * x.b, s * x.c};
 }
 template <class T>
-SWIVEL_INLINE constexpr OnCircle<T> constant(const T& c)
+SWIVEL_ALWAYS_INLINE constexpr OnCircle<T> constant(const T& c)
 {
     return {T(0), T(0), c};
 }

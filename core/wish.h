@@ -143,10 +143,10 @@ SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& sta
 // Where the step wins: the normal that the limits leave, no further from the previous one than the frame's most swivel.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> last_step(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line,
-                                            Bits<T>& flags)
+                                            Word<T>& flags)
 {
     const SteppedNormal<T> step = stepped_normal(state, normal, line);
-    flags = flags | bits_where(step.limited, SWIVEL_LIMITED_STEP);
+    flags = flags | word_where(step.limited, SWIVEL_LIMITED_STEP);
     return step.normal;
 }
 // Whether the normal that the limits leave is further from the previous one than the frame's most swivel.
@@ -162,17 +162,17 @@ SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T
 template <class T>
 struct LimbNormal {
     Vector<T> normal;  // unit
-    Bits<T> flags;
+    Word<T> flags;
 };
 template <class T>
 SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
                                                   const Vector<T>& line)
 {
     const WishedNormal<T> wish = wished_normal(use, goal, hand, line);
-    LimbNormal<T> limb{wish.normal, bits_where(wish.undefined, SWIVEL_SWIVEL_UNDEFINED)};
+    LimbNormal<T> limb{wish.normal, word_where(wish.undefined, SWIVEL_SWIVEL_UNDEFINED)};
     if (use.continuity && !use.step_wins) {
         const SteppedNormal<T> step = stepped_normal(goal.continuity, limb.normal, line);
-        limb = {step.normal, limb.flags | bits_where(step.limited, SWIVEL_LIMITED_STEP)};
+        limb = {step.normal, limb.flags | word_where(step.limited, SWIVEL_LIMITED_STEP)};
     }
     // Once more: of a wish close to the line, rounding has left some of the line. What this shortens is less than
     // rounding.

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "core/joint_frame.h"
+#include "simd/component_rows.h"
 #include "simd/kernels.h"
 #include "simd/lanes.h"
 #include "simd/values.h"
@@ -25,25 +26,17 @@ struct JointRows {
     SWIVEL_ALWAYS_INLINE void set(std::uint32_t row, const T& value) const { store_lanes(rows + row * kLanes, value); }
     SWIVEL_ALWAYS_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
     {
-        set(row, v.template at<kE1>());
-        set(row + 1, v.template at<kE2>());
-        set(row + 2, v.template at<kE3>());
+        store_rows(rows + row * kLanes, v);
     }
     SWIVEL_ALWAYS_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
     {
-        set(row, q.template at<kI>());
-        set(row + 1, q.template at<kJ>());
-        set(row + 2, q.template at<kK>());
-        set(row + 3, q.template at<kScalar>());
+        store_rows(rows + row * kLanes, q);
     }
     SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const
     {
-        return vector(get(row), get(row + 1), get(row + 2));
+        return load_vector_rows<T>(rows + row * kLanes);
     }
-    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const
-    {
-        return rotor(get(row), get(row + 1), get(row + 2), get(row + 3));
-    }
+    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const { return load_rotor_rows<T>(rows + row * kLanes); }
     SWIVEL_ALWAYS_INLINE JointFrame<T> frame() const
     {
         return {get_rotor(kTurnRow), get_vector(kPlaceRow), get(kScaleRow)};

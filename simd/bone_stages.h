@@ -14,7 +14,7 @@ namespace swivel::inline SWIVEL_ISA {
 template <class T>
 struct Laid {
     Vector<T> line;  // unit
-    Bits<T> flags;
+    Word<T> flags;
 };
 // bones_of(distance): the bones for a wanted distance.
 template <class S, class BonesOf>
@@ -36,7 +36,7 @@ SWIVEL_INLINE Laid<typename S::T> lay_bones(const S& s, const BonesOf& bones_of)
     s.set(kFlexionRow + 1, bones.sin_half);
     s.set(kStretchRow, bones.stretch);
     s.set_vector(kLineRow, to.line);
-    return {to.line, bones.flags | bits_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED)};
+    return {to.line, bones.flags | word_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED)};
 }
 template <class S>
 SWIVEL_INLINE void load_lengths(const S& s, ArmGoal<typename S::T>& arm)
@@ -76,6 +76,10 @@ struct StageBody<Stage::bones> {
     {
         s.set(kFlagsRow, lay_reaching_bones(s, use_of(s)).flags);
     }
+};
+
+template <>
+struct StageBody<Stage::capped> : StageBody<Stage::bones> {
 };
 
 template <>

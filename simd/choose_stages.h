@@ -199,11 +199,12 @@ SWIVEL_FLATTEN [[gnu::noinline]] void search_end(const Strip& strip, const Limit
     search<T, Boxes, InRegion>(strip, list, of, &left,
                                [](const auto& limits) SWIVEL_INLINE_LAMBDA { return nearest_end(limits); });
 }
-template <class T, int Boxes, bool InRegion>
+// This search is rare, so limbs without boxes share the code of those with boxes.
+template <class T, bool InRegion>
 SWIVEL_FLATTEN [[gnu::noinline]] void search_least(const Strip& strip, const LimitList& list, const LaneList& of)
 {
-    search<T, Boxes, InRegion>(strip, list, of, nullptr,
-                               [](const auto& limits) SWIVEL_INLINE_LAMBDA { return least_violation(limits); });
+    search<T, kMostBoxes, InRegion>(strip, list, of, nullptr,
+                                    [](const auto& limits) SWIVEL_INLINE_LAMBDA { return least_violation(limits); });
 }
 
 // Lines: how many limits are lines; 0: as many as the group has. The nearest end of an allowed arc of lines is found
@@ -218,10 +219,10 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         const int line_count = Lines > 0 ? Lines : list.line_count;
         const Limits<T, Boxes> limits = load_limits<Boxes>(s, line_count, list);
         const Turned<T> wish{T(1), T(0)};
-        Bits<T> flags = s.get_flags();
+        Word<T> flags = s.get_flags();
         T least_room = T(2);
         const auto look = [&](const T& room_left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
-            flags = flags | bits_where(room_left < T(kNoRoom), flag);
+            flags = flags | word_where(room_left < T(kNoRoom), flag);
             least_room = lo(room_left, least_room);
         };
         for (int n = 0; n < line_count; ++n) look(limits.line[n].at(wish), list.line_flag[n]);
@@ -247,8 +248,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
     });
     if constexpr (is_long)
         if (for_end.count > 0) search_end<T, Boxes, InRegion>(strip, list, for_end, for_least);
-    // This search is rare, so limbs without boxes share the code of those with boxes.
-    if (for_least.count > 0) search_least<T, kMostBoxes, InRegion>(strip, list, for_least);
+    if (for_least.count > 0) search_least<T, InRegion>(strip, list, for_least);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -15,7 +15,8 @@ struct Isa {
 
 // The built-in instruction sets, best first; null past the last.
 const Isa* isa_at(std::uint32_t index);
-// Those of the last, which runs on every CPU. A call about one limb takes them, because the fewest lanes cost it least.
+// The kernels for calls about a single limb, which alone find allowed arcs. They run on every CPU. They have the fewest
+// lanes, so the lanes that such a call leaves empty cost it least.
 const Kernels& single_limb_kernels();
 // By name; null if there is none.
 const Isa* find_isa(const char* name);

@@ -92,8 +92,8 @@ struct StageBody<Stage::fit> {
         all.store(
             SWIVEL_FLAGS, 0,
             select(valid,
-                   bits_where(fitted.all_reach, SWIVEL_REACHED) | bits_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR),
-                   bits<T>(SWIVEL_BAD_INPUT)));
+                   word_where(fitted.all_reach, SWIVEL_REACHED) | word_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR),
+                   word<T>(SWIVEL_BAD_INPUT)));
         const Vector<T> shift = select(valid, eased_shift.at, eased_shift.was) * up_of(s);
         s.set_body_vector(kShiftedRow, shift);
         s.set_body_vector(kRootRow, s.body_vector(kRootRow) + shift);

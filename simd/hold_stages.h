@@ -153,8 +153,8 @@ struct StageBody<Stage::prop> {
         Rows<T, kTold> all_rows = s.io;
         all_rows.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
         all_rows.store(SWIVEL_FLAGS, 0,
-                       select(valid, bits_where(reaches, SWIVEL_REACHED) | bits_where(!reaches, SWIVEL_CLAMPED_FAR),
-                              bits<T>(SWIVEL_BAD_INPUT)));
+                       select(valid, word_where(reaches, SWIVEL_REACHED) | word_where(!reaches, SWIVEL_CLAMPED_FAR),
+                              word<T>(SWIVEL_BAD_INPUT)));
     }
 };
 
@@ -174,7 +174,7 @@ struct StageBody<Stage::link> {
             own = select(says, s.body_row(limb.goal + kGoalOwnRow), T(0));
         }
         s.set_body(limb.goal + kGoalOwnRow, own);
-        s.set_body(limb.goal + kGoalFlagsRow, bits<T>(0));
+        s.set_body(limb.goal + kGoalFlagsRow, word<T>(0));
         send(s, goal.place, goal.rotation);
         if (s.has(SWIVEL_WITH_RECORD)) {
             const Rows<T, kTold> out = waiting_rows(s);

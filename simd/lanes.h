@@ -17,15 +17,16 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// How many lanes a number has.
+// How many lanes a number has. lane_bits() has a bit for each of the most.
 template <class T>
 inline constexpr std::size_t lane_count = 1;
+inline constexpr std::size_t kMostLanes = 32;
 
 // Lanes lie in memory side by side, aligned to a register. Those of more blocks than one lie in pieces of `lanes`, each
 // `step` floats after the last one.
 struct LaneBlocks {
-    std::size_t lanes = 64, step = 0;  // 64: no number has as many
-    SWIVEL_ALWAYS_INLINE constexpr std::size_t place(std::size_t lane) const
+    std::size_t lanes = kMostLanes, step = 0;  // all in one piece
+    SWIVEL_ALWAYS_INLINE constexpr std::size_t offset(std::size_t lane) const
     {
         return lane / lanes * step + lane % lanes;
     }
@@ -37,12 +38,12 @@ requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE float load_lanes(const fl
     return *from;
 }
 template <class T>
-requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE std::uint32_t load_lane_bits(const float* from)
+requires std::is_same_v<T, float> SWIVEL_ALWAYS_INLINE std::uint32_t load_lane_word(const float* from)
 {
     return bit_cast<std::uint32_t>(*from);
 }
 SWIVEL_ALWAYS_INLINE void store_lanes(float* to, float x, LaneBlocks = {}) { *to = x; }
-SWIVEL_ALWAYS_INLINE void store_lanes(float* to, std::uint32_t bits, LaneBlocks = {}) { *to = bit_cast<float>(bits); }
+SWIVEL_ALWAYS_INLINE void store_lanes(float* to, std::uint32_t word, LaneBlocks = {}) { *to = bit_cast<float>(word); }
 // Stores some of the lanes. The places of the others keep what they hold.
 template <class Value>
 requires(std::is_same_v<Value, float> || std::is_same_v<Value, std::uint32_t>) SWIVEL_ALWAYS_INLINE
@@ -82,6 +83,14 @@ struct VectorRegisters {
     }
     SWIVEL_ALWAYS_INLINE static Float fill(float x) { return fill(x, std::make_index_sequence<width>{}); }
     SWIVEL_ALWAYS_INLINE static Word words(std::uint32_t word) { return (Word)fill(bit_cast<float>(word)); }
+    // The mask of the lanes whose bits are set, the first lane's lowest. Higher bits may be anything.
+    template <std::size_t... N>
+    SWIVEL_ALWAYS_INLINE static Mask mask(std::uint32_t bits, std::index_sequence<N...>)
+    {
+        const Word own = {(1 << N)...};
+        return (words(bits) & own) == own;
+    }
+    SWIVEL_ALWAYS_INLINE static Mask mask(std::uint32_t bits) { return mask(bits, std::make_index_sequence<width>{}); }
     SWIVEL_ALWAYS_INLINE static Float load(const float* from) { return *reinterpret_cast<const Float*>(from); }
     SWIVEL_ALWAYS_INLINE static void store(float* to, Float x) { *reinterpret_cast<Float*>(to) = x; }
 
@@ -92,8 +101,12 @@ struct VectorRegisters {
     {
         return (Float)((mask & (Word)a) | (~mask & (Word)b));
     }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return (Float)((Word)a & (Word)b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return (Float)((Word)a ^ (Word)b); }
 };
 
+// x86 has bitwise instructions for floats, and g++ takes their constant operands from memory. It would build a constant
+// of integers anew in every step, with two or three instructions.
 template <class Arch>
 struct Registers;
 #if defined(__SSE2__)
@@ -102,6 +115,8 @@ struct Registers<xsimd::sse2> : VectorRegisters<xsimd::sse2> {
     SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm_sqrt_ps(a); }
     SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm_min_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return _mm_and_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return _mm_xor_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask)
     {
         return static_cast<std::uint32_t>(_mm_movemask_ps((Float)mask));
@@ -118,6 +133,8 @@ struct Registers<xsimd::avx2> : VectorRegisters<xsimd::avx2> {
     SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm256_sqrt_ps(a); }
     SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm256_min_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm256_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return _mm256_and_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return _mm256_xor_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask)
     {
         return static_cast<std::uint32_t>(_mm256_movemask_ps((Float)mask));
@@ -135,6 +152,9 @@ struct Registers<xsimd::avx512bw> : VectorRegisters<xsimd::avx512bw> {
     SWIVEL_ALWAYS_INLINE static Float sqrt(Float a) { return _mm512_sqrt_ps(a); }
     SWIVEL_ALWAYS_INLINE static Float lo(Float a, Float b) { return _mm512_min_ps(a, b); }
     SWIVEL_ALWAYS_INLINE static Float hi(Float a, Float b) { return _mm512_max_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_and(Float a, Float b) { return _mm512_and_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Float bit_xor(Float a, Float b) { return _mm512_xor_ps(a, b); }
+    SWIVEL_ALWAYS_INLINE static Mask mask(std::uint32_t bits) { return static_cast<Mask>(bits); }
     SWIVEL_ALWAYS_INLINE static std::uint32_t bits(Mask mask) { return mask; }
 };
 #endif
@@ -151,81 +171,76 @@ struct Registers<xsimd::neon64> : VectorRegisters<xsimd::neon64> {
 };
 #endif
 
+// What lanes, their masks and their words consist of: a register for each N. Copies go register by register. g++ would
+// copy the array as one piece of memory, through general registers.
+#define SWIVEL_LANES_REGISTERS(Type, Register)                                           \
+    Register r[sizeof...(N)];                                                            \
+    Type() = default;                                                                    \
+    template <class... Each>                                                             \
+    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, Register> && ...)) \
+        SWIVEL_ALWAYS_INLINE explicit Type(Each... each)                                 \
+        : r{each...}                                                                     \
+    {                                                                                    \
+    }                                                                                    \
+    SWIVEL_ALWAYS_INLINE Type(const Type& other) : r{other.r[N]...} {}                   \
+    SWIVEL_ALWAYS_INLINE Type& operator=(const Type& other)                              \
+    {                                                                                    \
+        ((r[N] = other.r[N]), ...);                                                      \
+        return *this;                                                                    \
+    }
+
 // N are the numbers of the registers: 0, or 0 and 1.
 template <class Arch, std::size_t... N>
 struct Lanes {
     using R = Registers<Arch>;
     using Register = typename R::Float;
     static constexpr std::size_t width = R::width, count = width * sizeof...(N);
-    Register r[sizeof...(N)];
+    SWIVEL_LANES_REGISTERS(Lanes, Register)
 
-    Lanes() = default;
     SWIVEL_ALWAYS_INLINE explicit Lanes(double x)
     {
         const Register all = R::fill(static_cast<float>(x));
         ((r[N] = all), ...);
     }
-    template <class... Each>
-    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, Register> && ...)) SWIVEL_ALWAYS_INLINE
-        explicit Lanes(Each... each)
-        : r{each...}
-    {
-    }
     SWIVEL_ALWAYS_INLINE static Lanes load(const float* from, LaneBlocks blocks)
     {
-        return Lanes(R::load(from + blocks.place(N * width))...);
-    }
-    // Copies register by register. g++ would copy arrays of these as one piece of memory, through general registers.
-    SWIVEL_ALWAYS_INLINE Lanes(const Lanes& other) : r{other.r[N]...} {}
-    SWIVEL_ALWAYS_INLINE Lanes& operator=(const Lanes& other)
-    {
-        ((r[N] = other.r[N]), ...);
-        return *this;
+        return Lanes(R::load(from + blocks.offset(N * width))...);
     }
 };
 
 template <class Arch, std::size_t... N>
 struct LanesMask {
     using R = Registers<Arch>;
-    typename R::Mask r[sizeof...(N)];
+    using Register = typename R::Mask;
+    SWIVEL_LANES_REGISTERS(LanesMask, Register)
 
-    // The bits of one register's lanes are compared as floats. They are denormals, which the environment of every
-    // kernel keeps.
     SWIVEL_ALWAYS_INLINE static LanesMask where(std::uint32_t bits)
     {
-        alignas(64) static constexpr std::uint32_t bit[16] = {1u << 0,  1u << 1,  1u << 2,  1u << 3, 1u << 4,  1u << 5,
-                                                              1u << 6,  1u << 7,  1u << 8,  1u << 9, 1u << 10, 1u << 11,
-                                                              1u << 12, 1u << 13, 1u << 14, 1u << 15};
-        const Lanes<Arch, 0> each = Lanes<Arch, 0>::load(reinterpret_cast<const float*>(bit), {});
-        return {R::less(R::fill(0.0f), with_bits(each, bits >> N * R::width & ((1u << R::width) - 1)).r[0])...};
+        return LanesMask(R::mask(bits >> N * R::width)...);
     }
 };
 // 32-bit words, kept in registers of floats. They are only selected, or-ed and stored, and these operations keep the
 // bits.
 template <class Arch, std::size_t... N>
-struct LanesBits {
+struct LanesWord {
     using R = Registers<Arch>;
-    typename R::Float r[sizeof...(N)];
+    using Register = typename R::Float;
+    SWIVEL_LANES_REGISTERS(LanesWord, Register)
 
-    LanesBits() = default;
-    SWIVEL_ALWAYS_INLINE explicit LanesBits(std::uint32_t word)
+    SWIVEL_ALWAYS_INLINE explicit LanesWord(std::uint32_t word)
     {
         const typename R::Float all = R::fill(bit_cast<float>(word));
         ((r[N] = all), ...);
     }
-    template <class... Each>
-    requires(sizeof...(Each) == sizeof...(N) && (std::is_same_v<Each, typename R::Float> && ...)) SWIVEL_ALWAYS_INLINE
-        explicit LanesBits(Each... each)
-        : r{each...}
-    {
-    }
-    SWIVEL_ALWAYS_INLINE static LanesBits load(const float* from) { return LanesBits(R::load(from + N * R::width)...); }
+    SWIVEL_ALWAYS_INLINE static LanesWord load(const float* from) { return LanesWord(R::load(from + N * R::width)...); }
 };
+
+#undef SWIVEL_LANES_REGISTERS
 
 template <class Arch, std::size_t... N>
 struct NumberTraits<Lanes<Arch, N...>> {
     using Mask = LanesMask<Arch, N...>;
-    using Bits = LanesBits<Arch, N...>;
+    using Word = LanesWord<Arch, N...>;
 };
 
 #define SWIVEL_LANES_BINARY(op)                                                                       \
@@ -239,7 +254,8 @@ SWIVEL_LANES_BINARY(-)
 SWIVEL_LANES_BINARY(*)
 SWIVEL_LANES_BINARY(/)
 #undef SWIVEL_LANES_BINARY
-// Compilers may turn x + (-y) z into x - y z.
+// This is the compiler's own minus, which it may merge with its neighbours: x + (-y) z becomes x - y z, with the same
+// bits.
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> operator-(const Lanes<A, N...>& a)
 {
@@ -253,22 +269,22 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> sqrt(const Lanes<A, N...>& a)
 
 // Signs and exponents are bits of the words.
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE Lanes<A, N...> with_bits(const Lanes<A, N...>& a, std::uint32_t bits)
+SWIVEL_ALWAYS_INLINE Lanes<A, N...> masked(const Lanes<A, N...>& a, std::uint32_t word)
 {
     using R = Registers<A>;
-    return Lanes<A, N...>((typename R::Float)((typename R::Word)a.r[N] & R::words(bits))...);
+    const typename R::Float mask = R::fill(bit_cast<float>(word));
+    return Lanes<A, N...>(R::bit_and(a.r[N], mask)...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> abs(const Lanes<A, N...>& a)
 {
-    return with_bits(a, 0x7fffffffu);
+    return masked(a, 0x7fffffffu);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> flip_sign(const Lanes<A, N...>& a, const Lanes<A, N...>& sign)
 {
-    using R = Registers<A>;
-    const Lanes<A, N...> flips = with_bits(sign, 0x80000000u);
-    return Lanes<A, N...>((typename R::Float)((typename R::Word)a.r[N] ^ (typename R::Word)flips.r[N])...);
+    const Lanes<A, N...> flips = masked(sign, 0x80000000u);
+    return Lanes<A, N...>(Registers<A>::bit_xor(a.r[N], flips.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> copysign(const Lanes<A, N...>& a, const Lanes<A, N...>& sign)
@@ -278,7 +294,7 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> copysign(const Lanes<A, N...>& a, const Lane
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> power_of_two(const Lanes<A, N...>& a)
 {
-    return with_bits(a, 0x7f800000u);
+    return masked(a, 0x7f800000u);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> per_power_of_two(const Lanes<A, N...>& a)
@@ -292,7 +308,7 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> per_power_of_two(const Lanes<A, N...>& a)
     template <class A, std::size_t... N>                                                                  \
     SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator op(const Lanes<A, N...>& a, const Lanes<A, N...>& b) \
     {                                                                                                     \
-        return {Registers<A>::compare(x.r[N], y.r[N])...};                                                \
+        return LanesMask<A, N...>(Registers<A>::compare(x.r[N], y.r[N])...);                              \
     }
 SWIVEL_LANES_COMPARE(<, less, a, b)
 SWIVEL_LANES_COMPARE(<=, less_equal, a, b)
@@ -304,17 +320,17 @@ SWIVEL_LANES_COMPARE(==, equal, a, b)
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator&(const LanesMask<A, N...>& a, const LanesMask<A, N...>& b)
 {
-    return {static_cast<typename Registers<A>::Mask>(a.r[N] & b.r[N])...};
+    return LanesMask<A, N...>(static_cast<typename Registers<A>::Mask>(a.r[N] & b.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator|(const LanesMask<A, N...>& a, const LanesMask<A, N...>& b)
 {
-    return {static_cast<typename Registers<A>::Mask>(a.r[N] | b.r[N])...};
+    return LanesMask<A, N...>(static_cast<typename Registers<A>::Mask>(a.r[N] | b.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE LanesMask<A, N...> operator!(const LanesMask<A, N...>& a)
 {
-    return {static_cast<typename Registers<A>::Mask>(~a.r[N])...};
+    return LanesMask<A, N...>(static_cast<typename Registers<A>::Mask>(~a.r[N])...);
 }
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE Lanes<A, N...> select(const LanesMask<A, N...>& mask, const Lanes<A, N...>& a,
@@ -339,7 +355,7 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> hi(const Lanes<A, N...>& a, const Lanes<A, N
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE std::uint32_t lane_bits(const LanesMask<A, N...>& mask)
 {
-    static_assert(Lanes<A, N...>::count <= 32);
+    static_assert(Lanes<A, N...>::count <= kMostLanes);
     return ((Registers<A>::bits(mask.r[N]) << N * Registers<A>::width) | ...);
 }
 template <class A, std::size_t... N>
@@ -355,21 +371,21 @@ SWIVEL_ALWAYS_INLINE bool all(const LanesMask<A, N...>& mask)
 }
 
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE LanesBits<A, N...> operator|(const LanesBits<A, N...>& a, const LanesBits<A, N...>& b)
+SWIVEL_ALWAYS_INLINE LanesWord<A, N...> operator|(const LanesWord<A, N...>& a, const LanesWord<A, N...>& b)
 {
     using R = Registers<A>;
-    return LanesBits<A, N...>((typename R::Float)((typename R::Word)a.r[N] | (typename R::Word)b.r[N])...);
+    return LanesWord<A, N...>((typename R::Float)((typename R::Word)a.r[N] | (typename R::Word)b.r[N])...);
 }
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE LanesBits<A, N...> select(const LanesMask<A, N...>& mask, const LanesBits<A, N...>& a,
-                                               const LanesBits<A, N...>& b)
+SWIVEL_ALWAYS_INLINE LanesWord<A, N...> select(const LanesMask<A, N...>& mask, const LanesWord<A, N...>& a,
+                                               const LanesWord<A, N...>& b)
 {
-    return LanesBits<A, N...>(Registers<A>::select(mask.r[N], a.r[N], b.r[N])...);
+    return LanesWord<A, N...>(Registers<A>::select(mask.r[N], a.r[N], b.r[N])...);
 }
 template <class A, std::size_t... N>
-SWIVEL_ALWAYS_INLINE LanesBits<A, N...> bits_where(const LanesMask<A, N...>& mask, std::uint32_t word)
+SWIVEL_ALWAYS_INLINE LanesWord<A, N...> word_where(const LanesMask<A, N...>& mask, std::uint32_t word)
 {
-    return select(mask, LanesBits<A, N...>(word), LanesBits<A, N...>(0u));
+    return select(mask, LanesWord<A, N...>(word), LanesWord<A, N...>(0u));
 }
 
 template <class A, std::size_t... N>
@@ -383,9 +399,9 @@ requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE T load_lanes(const float* from,
     return T::load(from, blocks);
 }
 template <class T>
-requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Bits<T> load_lane_bits(const float* from)
+requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Word<T> load_lane_word(const float* from)
 {
-    return Bits<T>::load(from);
+    return Word<T>::load(from);
 }
 template <class T>
 requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE Mask<T> lanes_where(std::uint32_t bits)
@@ -396,14 +412,15 @@ template <template <class, std::size_t...> class L, class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE void store_lanes(float* to, const L<A, N...>& x, LaneBlocks blocks = {})
 {
     using R = Registers<A>;
-    (R::store(to + blocks.place(N * R::width), x.r[N]), ...);
+    (R::store(to + blocks.offset(N * R::width), x.r[N]), ...);
 }
 template <template <class, std::size_t...> class L, class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE void store_lanes(float* to, const L<A, N...>& x, const LanesMask<A, N...>& where,
                                       LaneBlocks blocks = {})
 {
     using R = Registers<A>;
-    (R::store(to + blocks.place(N * R::width), R::select(where.r[N], x.r[N], R::load(to + blocks.place(N * R::width)))),
+    (R::store(to + blocks.offset(N * R::width),
+              R::select(where.r[N], x.r[N], R::load(to + blocks.offset(N * R::width)))),
      ...);
 }
 

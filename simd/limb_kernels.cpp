@@ -19,7 +19,8 @@ using Number = typename KernelNumber<SWIVEL_ARCH, 1>::type;
 template <Stage stage, swivel_features Has>
 SWIVEL_FLATTEN [[gnu::noinline]] void run_stage(Strip& strip)
 {
-    for_each_slice<Number, row_of(stage).knows, Has>(
+    constexpr StageRow row = row_of(stage);
+    for_each_slice<Number, constants_of(row), Has | implied_by(row)>(
         strip, [](const auto& s) SWIVEL_INLINE_LAMBDA { StageBody<stage>::slice(s); });
 }
 

@@ -17,9 +17,12 @@ SWIVEL_INLINE auto hinged_lift(const S& s)
     return hinge(s.get(kLiftRow), s.get(kLiftRow + 1));
 }
 template <class S>
-SWIVEL_INLINE auto aimed_lift(const S& s)
+SWIVEL_INLINE auto lift_of(const S& s)
 {
-    return s.get_rotor(kLiftRow);
+    if constexpr (S::template is<SWIVEL_WITH_AIM>())
+        return s.get_rotor(kLiftRow);
+    else
+        return hinged_lift(s);
 }
 template <class S, class Lift>
 SWIVEL_INLINE auto swivelling_arm(const S& s, const Lift& lift)
@@ -33,10 +36,7 @@ SWIVEL_INLINE auto swivelling_arm(const S& s, const Lift& lift)
 template <class S>
 SWIVEL_INLINE auto arm_of(const S& s)
 {
-    if constexpr (S::template is<SWIVEL_WITH_AIM>())
-        return swivelling_arm(s, aimed_lift(s));
-    else
-        return swivelling_arm(s, hinged_lift(s));
+    return swivelling_arm(s, lift_of(s));
 }
 // The arm, for limits of the hand. Groups that aim have none of these (fields.h), so its lift is about the hinge.
 template <class S>

@@ -191,10 +191,10 @@ private:
             for (int n = 0; n < 4; ++n) cleared.store(SWIVEL_LOOK_LINE, n, T(0));
         const Mask<T> meets =
             goal.is_given & sees(chain.sight, s.io.load_vector(SWIVEL_LOOK_TARGET) - s.body_vector(kRootRow));
-        const Bits<T> flags = bits_where(meets, SWIVEL_REACHED) |
-                              bits_where(chain.held & (goal.weight > T(0)), SWIVEL_LIMITED_LOOK) |
-                              bits_where(goal.is_behind, SWIVEL_LIMITED_STEP) | bits_where(goal.is_faded, SWIVEL_FADED);
-        all.store(SWIVEL_FLAGS, 0, select(valid, flags, bits<T>(SWIVEL_BAD_INPUT)));
+        const Word<T> flags = word_where(meets, SWIVEL_REACHED) |
+                              word_where(chain.held & (goal.weight > T(0)), SWIVEL_LIMITED_LOOK) |
+                              word_where(goal.is_behind, SWIVEL_LIMITED_STEP) | word_where(goal.is_faded, SWIVEL_FADED);
+        all.store(SWIVEL_FLAGS, 0, select(valid, flags, word<T>(SWIVEL_BAD_INPUT)));
     }
 };
 

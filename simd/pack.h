@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/pack.h"
+#include "simd/component_rows.h"
 #include "simd/kernels.h"
 #include "simd/lanes.h"
 #include "simd/rows.h"
@@ -16,7 +17,7 @@ namespace swivel::inline SWIVEL_ISA {
 // single row before it could vectorise them, which took half as long again on AVX2.
 SWIVEL_INLINE void cut_words(const float* held, std::uint32_t from, std::uint32_t row_count, std::uint16_t* words)
 {
-#pragma GCC unroll 1
+    SWIVEL_KEEP_LOOP
     for (std::size_t n = 0; n < std::size_t{row_count} * kLanes; ++n) {
         std::uint32_t bits;
         std::memcpy(&bits, held + n, sizeof bits);
@@ -25,26 +26,14 @@ SWIVEL_INLINE void cut_words(const float* held, std::uint32_t from, std::uint32_
 }
 
 template <class T>
-SWIVEL_INLINE T load_row(const float* rows, std::size_t row, std::size_t first_lane)
-{
-    return load_lanes<T>(rows + row * kLanes + first_lane);
-}
-template <class T>
-SWIVEL_INLINE void store_row(float* rows, std::size_t row, std::size_t first_lane, const T& value)
-{
-    store_lanes(rows + row * kLanes + first_lane, value);
-}
-
-template <class T>
 SWIVEL_INLINE void pack_rotation(const float* rows, std::uint16_t* words)
 {
     alignas(64) float held[3 * kLanes];
     for (std::size_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const PackedRotation<T> packed = packed_rotation(rotor(load_row<T>(rows, 0, lane), load_row<T>(rows, 1, lane),
-                                                               load_row<T>(rows, 2, lane), load_row<T>(rows, 3, lane)));
-        store_row(held, 0, lane, packed.first);
-        store_row(held, 1, lane, packed.second);
-        store_row(held, 2, lane, packed.third);
+        const PackedRotation<T> packed = packed_rotation(load_rotor_rows<T>(rows + lane));
+        store_lanes(held + lane, packed.first);
+        store_lanes(held + kLanes + lane, packed.second);
+        store_lanes(held + 2 * kLanes + lane, packed.third);
     }
     cut_words(held, 0, 3, words);
 }
@@ -53,7 +42,7 @@ SWIVEL_INLINE void pack_half(const float* row, std::uint16_t* words)
 {
     alignas(64) float held[kLanes];
     for (std::size_t lane = 0; lane < kLanes; lane += lane_count<T>)
-        store_row(held, 0, lane, packed_half(load_row<T>(row, 0, lane)));
+        store_lanes(held + lane, packed_half(load_lanes<T>(row + lane)));
     cut_words(held, kHalfBit, 1, words);
 }
 

@@ -185,8 +185,8 @@ struct StageBody<Stage::plant> {
         store_plant(out, point.state);
         send(s, place, hand);
         s.set_body(point.limb.goal + kGoalFlagsRow,
-                   bits_where(point.state.locked, SWIVEL_PLANTED) | bits_where(planted.step.releases, SWIVEL_RELEASED) |
-                       bits_where(planted.too_far, SWIVEL_BROKE_AWAY) | bits_where(planted.cut, SWIVEL_CUT));
+                   word_where(point.state.locked, SWIVEL_PLANTED) | word_where(planted.step.releases, SWIVEL_RELEASED) |
+                       word_where(planted.too_far, SWIVEL_BROKE_AWAY) | word_where(planted.cut, SWIVEL_CUT));
         if (s.has(SWIVEL_WITH_RECORD)) {
             out.store_vector(SWIVEL_GOAL, in_world);
             out.store_rotor(SWIVEL_GOAL, hand, 3);

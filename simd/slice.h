@@ -6,6 +6,7 @@
 
 #include "core/joint_limits.h"
 #include "core/space.h"
+#include "simd/component_rows.h"
 #include "simd/kernels.h"
 #include "simd/lanes.h"
 #include "simd/rows.h"
@@ -47,34 +48,37 @@ struct Rows {
             Features == kTold ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
         return first + static_cast<std::uint32_t>(component);
     }
+    SWIVEL_ALWAYS_INLINE const float* input_at(swivel_field field, int component) const
+    {
+        return input + std::size_t{row(field, component)} * kLanes;
+    }
+    SWIVEL_ALWAYS_INLINE float* result_at(swivel_field field, int component) const
+    {
+        return results + std::size_t{row(field, component)} * kLanes;
+    }
     SWIVEL_ALWAYS_INLINE T load(swivel_field field, int component) const
     {
-        return lanes(input, kPlan<Features>.input_count, row(field, component));
-    }
-    SWIVEL_ALWAYS_INLINE T load_result(swivel_field field, int component) const
-    {
-        return lanes(results, kPlan<Features>.result_count, row(field, component));
-    }
-    SWIVEL_ALWAYS_INLINE Vector<T> load_result_vector(swivel_field field, int first) const
-    {
-        return vector(load_result(field, first), load_result(field, first + 1), load_result(field, first + 2));
-    }
-    SWIVEL_ALWAYS_INLINE Rotor<T> load_result_rotor(swivel_field field, int first) const
-    {
-        return rotor(load_result(field, first), load_result(field, first + 1), load_result(field, first + 2),
-                     load_result(field, first + 3));
-    }
-    SWIVEL_ALWAYS_INLINE static T lanes(const float* rows, std::uint32_t row_count, std::uint32_t row)
-    {
-        return load_lanes<T>(rows + std::size_t{row} * kLanes, blocks_of(row_count));
+        return load_lanes<T>(input_at(field, component), kInputs);
     }
     SWIVEL_ALWAYS_INLINE Vector<T> load_vector(swivel_field field, int first = 0) const
     {
-        return vector(load(field, first), load(field, first + 1), load(field, first + 2));
+        return load_vector_rows<T>(input_at(field, first), kInputs);
     }
     SWIVEL_ALWAYS_INLINE Rotor<T> load_rotor(swivel_field field, int first = 0) const
     {
-        return rotor(load(field, first), load(field, first + 1), load(field, first + 2), load(field, first + 3));
+        return load_rotor_rows<T>(input_at(field, first), kInputs);
+    }
+    SWIVEL_ALWAYS_INLINE T load_result(swivel_field field, int component) const
+    {
+        return load_lanes<T>(result_at(field, component), kResults);
+    }
+    SWIVEL_ALWAYS_INLINE Vector<T> load_result_vector(swivel_field field, int first) const
+    {
+        return load_vector_rows<T>(result_at(field, first), kResults);
+    }
+    SWIVEL_ALWAYS_INLINE Rotor<T> load_result_rotor(swivel_field field, int first) const
+    {
+        return load_rotor_rows<T>(result_at(field, first), kResults);
     }
     SWIVEL_ALWAYS_INLINE Turned<T> load_turned(swivel_field field, int first = 0) const
     {
@@ -94,26 +98,24 @@ struct Rows {
     template <class Value>
     SWIVEL_ALWAYS_INLINE void store(swivel_field field, int component, const Value& value) const
     {
-        float* const to = results + std::size_t{row(field, component)} * kLanes;
-        constexpr LaneBlocks blocks = blocks_of(kPlan<Features>.result_count);
+        float* const to = result_at(field, component);
         if (chosen == kEveryLane)
-            store_lanes(to, value, blocks);
+            store_rows(to, value, kResults);
         else
-            store_lanes(to, value, lanes_where<T>(chosen), blocks);
+            store_rows(to, value, lanes_where<T>(chosen), kResults);
     }
     SWIVEL_ALWAYS_INLINE void store_vector(swivel_field field, const Vector<T>& v, int first = 0) const
     {
-        store(field, first, v.template at<kE1>());
-        store(field, first + 1, v.template at<kE2>());
-        store(field, first + 2, v.template at<kE3>());
+        store(field, first, v);
     }
     SWIVEL_ALWAYS_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
     {
-        store(field, first, q.template at<kI>());
-        store(field, first + 1, q.template at<kJ>());
-        store(field, first + 2, q.template at<kK>());
-        store(field, first + 3, q.template at<kScalar>());
+        store(field, first, q);
     }
+
+private:
+    static constexpr LaneBlocks kInputs = blocks_of(kPlan<Features>.input_count),
+                                kResults = blocks_of(kPlan<Features>.result_count);
 };
 
 // How a skeleton's joints lie to the arm frame, all of unit length; identities in groups without joints. They are
@@ -123,7 +125,7 @@ struct Binding {
     Rotor<float> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
 };
 template <swivel_features Features>
-SWIVEL_ALWAYS_INLINE Binding binding_of(const SolveRun& run)
+SWIVEL_INLINE Binding binding_of(const SolveRun& run)
 {
     const Rotor<float> q = rotor(0.0f, 0.0f, 0.0f, 1.0f);
     if (!(features_of<Features>(run) & (SWIVEL_JOINTS | SWIVEL_BODY))) return {q, q, q, q, q, q};

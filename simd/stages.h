@@ -32,10 +32,11 @@ enum class Stage : std::uint8_t {
     record,    // what of it free limbs are given
     goal,      // the hand's orientation and the wrist's place
     place,
-    bones,  // the line to the wrist, the flexion and the lift
-    aim,    // the same, for a line of the hand that goes through the target
-    wish,   // the swivel plane's normal
-    yield,  // the hand, turned to where the wrist does not get
+    bones,   // the line to the wrist, the flexion and the lift
+    capped,  // the same, of limbs that a cap keeps from reaching farther
+    aim,     // the same, for a line of the hand that goes through the target
+    wish,    // the swivel plane's normal
+    yield,   // the hand, turned to where the wrist does not get
     shoulder_cone,
     humeral_twist,
     hand_cone,
@@ -48,6 +49,7 @@ enum class Stage : std::uint8_t {
     choose_in_box,  // the same, with boxes
     choose_in_region,
     store,  // lifts the arm, and stores the results
+    wrist,  // the hand's rotation from the forearm
     twist_bones,
     correct,     // a body's joints
     hand_frame,  // where the hand is then
@@ -105,11 +107,12 @@ inline constexpr StageRow kStages[] = {
     {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
     {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, SWIVEL_BODY},
     {Stage::record, 0, SWIVEL_WITH_RECORD, 0},
-    {Stage::goal, 0, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
+    {Stage::goal, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
     {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSpecial},
-    {Stage::bones, 0, kSpecial, SWIVEL_WITH_AIM},
+    {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM | SWIVEL_WITH_CAP},
+    {Stage::capped, 0, SWIVEL_WITH_CAP, 0},
     {Stage::aim, 0, SWIVEL_WITH_AIM, 0},
-    {Stage::wish, 0, kSpecial, 0},
+    {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL, kSpecial, 0},
     {Stage::yield, 0, SWIVEL_HAND_YIELDS, 0},
     {Stage::shoulder_cone, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_CONE, 0},
     {Stage::humeral_twist, SWIVEL_WITH_AIM, SWIVEL_WITH_HUMERAL_TWIST, 0},
@@ -122,7 +125,8 @@ inline constexpr StageRow kStages[] = {
     {Stage::choose, 0, kLineFeatures, kBoxFeatures | SWIVEL_WITH_REGION},
     {Stage::choose_in_box, 0, kBoxFeatures, SWIVEL_WITH_REGION},
     {Stage::choose_in_region, 0, SWIVEL_WITH_REGION, 0},
-    {Stage::store, SWIVEL_JOINTS, 0, 0},
+    {Stage::store, SWIVEL_JOINTS | SWIVEL_WITH_AIM, 0, 0},
+    {Stage::wrist, SWIVEL_JOINTS, SWIVEL_WITH_HAND, 0},
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, 0, SWIVEL_BODY, 0},
     {Stage::hand_frame, 0, SWIVEL_WITH_HAND_FRAME, 0},
@@ -133,6 +137,14 @@ constexpr bool needs(swivel_features features, const StageRow& row)
 {
     return (row.needed_by == 0 || features & row.needed_by) && !(features & row.not_needed_by);
 }
+// The feature that every group has which needs a stage, if a single one makes groups need it.
+constexpr swivel_features implied_by(const StageRow& row)
+{
+    return std::has_single_bit(row.needed_by) ? row.needed_by : swivel_features{0};
+}
+// The features that are constants of a stage: those that it knows, those that no group has which needs it, and the one
+// that all of these have. The last two add no functions.
+constexpr swivel_features constants_of(const StageRow& row) { return row.knows | row.not_needed_by | implied_by(row); }
 
 constexpr std::uint32_t line_count(swivel_features features)
 {

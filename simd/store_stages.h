@@ -23,11 +23,11 @@ struct Results {
         const std::uint32_t stored = s.strip.run.keeps ? s.good() : s.chosen();
         out.chosen = stored == S::kEvery ? kEveryLane : stored;
     }
-    SWIVEL_INLINE void store_flags(const Bits<T>& flags) const
+    SWIVEL_INLINE void store_flags(const Word<T>& flags) const
     {
         Rows<T, kTold> all = out;
         all.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        all.store(SWIVEL_FLAGS, 0, select(valid, flags, bits<T>(SWIVEL_BAD_INPUT)));
+        all.store(SWIVEL_FLAGS, 0, select(valid, flags, word<T>(SWIVEL_BAD_INPUT)));
     }
     // A joint's rotation: of its two quaternions the one nearer to the incoming pose's, or else the one with w >= 0.
     SWIVEL_INLINE void store_joint(swivel_field field, swivel_field incoming, const Rotor<T>& q,
@@ -52,20 +52,20 @@ struct StageBody<Stage::store> {
         const Results<S> results(s);
         const Vector<T> line = s.get_vector(kLineRow);
         Vector<T> normal = s.get_vector(kNormalRow);
-        Bits<T> flags = s.get_flags();
+        Word<T> flags = s.get_flags();
         if (s.has(SWIVEL_SENT)) flags = flags | s.body_flags(s.strip.run.limb->goal + kGoalFlagsRow);
         Continuity<T> continuity;
         if (s.has(SWIVEL_WITH_MOST_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & kSwivelLimits) {
             normal = swivelled(normal, line, {s.get(kSwivelRow), s.get(kSwivelRow + 1)});
             if (s.has(SWIVEL_WITH_MOST_SWIVEL) && !s.has(SWIVEL_STEP_WINS))
-                flags = flags | bits_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
+                flags = flags | word_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
         }
         if (s.has(SWIVEL_STEP_WINS)) normal = last_step(continuity, normal, line, flags);
-        const bool aims = s.has(SWIVEL_WITH_AIM);
-        const Rotor<T> shoulder = aims ? lifted(line, normal, aimed_lift(s)) : lifted(line, normal, hinged_lift(s));
-        const T cos_half = s.get(kFlexionRow), sin_half = s.get(kFlexionRow + 1);
-        const T cos = select(results.valid, cos_half, T(1)), sin = select(results.valid, sin_half, T(0));
+        const Rotor<T> shoulder = lifted(line, normal, lift_of(s));
+        if (s.has(SWIVEL_WITH_HAND)) s.set_rotor(kShoulderRow, shoulder);  // for the stage `wrist`
+        const T cos = select(results.valid, s.get(kFlexionRow), T(1)),
+                sin = select(results.valid, s.get(kFlexionRow + 1), T(0));
         const Rotor<T> safe = select(results.valid, shoulder, one<T>());
 
         results.store_flags(flags);
@@ -82,16 +82,6 @@ struct StageBody<Stage::store> {
             results.out.store(SWIVEL_ELBOW, 0, cos);
             results.out.store(SWIVEL_ELBOW, 1, sin);
         }
-        if (s.has(SWIVEL_WITH_HAND)) {
-            Rotor<T> wrist = s.get_rotor(kHandRow);
-            if (!aims) wrist = ~(shoulder * hinge(cos_half, -sin_half)) * wrist;
-            wrist = select(results.valid, wrist, one<T>());
-            s.set_rotor(kTwistRow, wrist);
-            if constexpr (joints)
-                wrist = broadcast<T>(bind.wrist_parent_from_arm) * wrist * broadcast<T>(bind.hand_from_arm);
-            results.store_joint(SWIVEL_WRIST, SWIVEL_INCOMING_WRIST, wrist,
-                                joints ? broadcast<T>(b.wrist_rest) : one<T>());
-        }
         if (s.has(SWIVEL_WITH_CLAVICLE)) {
             const Rotor<T> parent_from_arm = broadcast<T>(bind.parent_from_arm);
             const Rotor<T> turn = parent_from_arm * s.get_rotor(kClavicleRow) * ~parent_from_arm;
@@ -101,6 +91,26 @@ struct StageBody<Stage::store> {
             results.out.store(SWIVEL_STRETCH, 0, select(results.valid, s.get(kStretchRow), T(1)));
         if (s.has(SWIVEL_WITH_MOST_SWIVEL))
             results.out.store_vector(SWIVEL_NORMAL, select(results.valid, normalise(normal), vector(T(0), T(0), T(0))));
+    }
+};
+
+template <>
+struct StageBody<Stage::wrist> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        constexpr bool joints = S::template is<SWIVEL_JOINTS>();
+        const Binding& bind = s.strip.bind;
+        const Results<S> results(s);
+        Rotor<T> wrist = s.get_rotor(kHandRow);  // with aim it is relative to the forearm
+        if (!s.has(SWIVEL_WITH_AIM)) wrist = ~(s.get_rotor(kShoulderRow) * s.get_elbow()) * wrist;
+        wrist = select(results.valid, wrist, one<T>());
+        s.set_rotor(kTwistRow, wrist);
+        if constexpr (joints)
+            wrist = broadcast<T>(bind.wrist_parent_from_arm) * wrist * broadcast<T>(bind.hand_from_arm);
+        results.store_joint(SWIVEL_WRIST, SWIVEL_INCOMING_WRIST, wrist,
+                            joints ? broadcast<T>(s.strip.run.binding->wrist_rest) : one<T>());
     }
 };
 

@@ -56,45 +56,22 @@ struct StripSlice {
     }
 
     SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(at(rows, row)); }
-    SWIVEL_ALWAYS_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(at(rows, kFlagsRow)); }
-    SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const
-    {
-        return vector(get(row), get(row + 1), get(row + 2));
-    }
-    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const
-    {
-        return rotor(get(row), get(row + 1), get(row + 2), get(row + 3));
-    }
+    SWIVEL_ALWAYS_INLINE Word<T> get_flags() const { return load_lane_word<T>(at(rows, kFlagsRow)); }
+    SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const { return load_vector_rows<T>(at(rows, row)); }
+    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const { return load_rotor_rows<T>(at(rows, row)); }
     SWIVEL_ALWAYS_INLINE Hinge<T> get_elbow() const { return hinge(get(kFlexionRow), -get(kFlexionRow + 1)); }
     template <class Value>
     SWIVEL_ALWAYS_INLINE void set(std::uint32_t row, const Value& value) const
     {
         store_lanes(at(rows, row), value);
     }
-    SWIVEL_ALWAYS_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
-    {
-        set(row, v.template at<kE1>());
-        set(row + 1, v.template at<kE2>());
-        set(row + 2, v.template at<kE3>());
-    }
-    SWIVEL_ALWAYS_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
-    {
-        set(row, q.template at<kI>());
-        set(row + 1, q.template at<kJ>());
-        set(row + 2, q.template at<kK>());
-        set(row + 3, q.template at<kScalar>());
-    }
+    SWIVEL_ALWAYS_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const { store_rows(at(rows, row), v); }
+    SWIVEL_ALWAYS_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const { store_rows(at(rows, row), q); }
     // Rows of the body: of its limb on the way, and of its joints.
     SWIVEL_ALWAYS_INLINE T body_row(std::uint32_t row) const { return load_lanes<T>(at(body, row)); }
-    SWIVEL_ALWAYS_INLINE Rotor<T> body_rotor(std::uint32_t row) const
-    {
-        return rotor(body_row(row), body_row(row + 1), body_row(row + 2), body_row(row + 3));
-    }
-    SWIVEL_ALWAYS_INLINE Vector<T> body_vector(std::uint32_t row) const
-    {
-        return vector(body_row(row), body_row(row + 1), body_row(row + 2));
-    }
-    SWIVEL_ALWAYS_INLINE Bits<T> body_flags(std::uint32_t row) const { return load_lane_bits<T>(at(body, row)); }
+    SWIVEL_ALWAYS_INLINE Rotor<T> body_rotor(std::uint32_t row) const { return load_rotor_rows<T>(at(body, row)); }
+    SWIVEL_ALWAYS_INLINE Vector<T> body_vector(std::uint32_t row) const { return load_vector_rows<T>(at(body, row)); }
+    SWIVEL_ALWAYS_INLINE Word<T> body_flags(std::uint32_t row) const { return load_lane_word<T>(at(body, row)); }
     template <class Value>
     SWIVEL_ALWAYS_INLINE void set_body(std::uint32_t row, const Value& value) const
     {
@@ -102,22 +79,16 @@ struct StripSlice {
     }
     SWIVEL_ALWAYS_INLINE void set_body_vector(std::uint32_t row, const Vector<T>& v) const
     {
-        set_body(row, v.template at<kE1>());
-        set_body(row + 1, v.template at<kE2>());
-        set_body(row + 2, v.template at<kE3>());
+        store_rows(at(body, row), v);
     }
     SWIVEL_ALWAYS_INLINE void set_body_rotor(std::uint32_t row, const Rotor<T>& q) const
     {
-        set_body(row, q.template at<kI>());
-        set_body(row + 1, q.template at<kJ>());
-        set_body(row + 2, q.template at<kK>());
-        set_body(row + 3, q.template at<kScalar>());
+        store_rows(at(body, row), q);
     }
     // A part of the goal: in the strip, if an earlier stage has put it there, or else as it was given.
     SWIVEL_ALWAYS_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
     {
-        const float* const at = in_strip ? rows + row * kLanes : io.input + std::size_t{io.row(field, 0)} * kLanes;
-        return vector(load_lanes<T>(at), load_lanes<T>(at + kLanes), load_lanes<T>(at + 2 * kLanes));
+        return load_vector_rows<T>(in_strip ? rows + row * kLanes : io.input_at(field, 0));
     }
 
     // Bits of its lanes.

@@ -22,6 +22,7 @@ enum StripRow : std::uint32_t {
     kLineRow = kHandRow + 4,       // to the wrist, of unit length
     kNormalRow = kLineRow + 3,     // of the swivel plane
     kLiftRow = kNormalRow + 3,     // a hinge, or with aim a rotor
+    kShoulderRow = kLiftRow,       // the shoulder's rotation, once the arm is lifted
     kFlexionRow = kLiftRow + 4,    // cos and sin of its half
     kFlagsRow = kFlexionRow + 2,   // bits
     kStretchRow = kFlagsRow + 1,   // of the bones

@@ -85,12 +85,12 @@ requires(lane_count<T> > 1) SWIVEL_ALWAYS_INLINE std::array<T, C> load_values(La
                c = every_fourth<width, C>(lane + 2, offset), d = every_fourth<width, C>(lane + 3, offset);
     const auto ab = zipped<0>(a, b, lanes), cd = zipped<0>(c, d, lanes);
     const auto ab_high = zipped<2>(a, b, lanes), cd_high = zipped<2>(c, d, lanes);
-    const auto number = [](auto v) SWIVEL_ALWAYS_INLINE_LAMBDA { return T((typename T::Register)v); };
+    using Register = typename T::Register;
     std::array<T, C> value;
-    value[0] = number(paired<0>(ab, cd, lanes));
-    value[1] = number(paired<2>(ab, cd, lanes));
-    value[2] = number(paired<0>(ab_high, cd_high, lanes));
-    if constexpr (C == 4) value[3] = number(paired<2>(ab_high, cd_high, lanes));
+    value[0] = T((Register)paired<0>(ab, cd, lanes));
+    value[1] = T((Register)paired<2>(ab, cd, lanes));
+    value[2] = T((Register)paired<0>(ab_high, cd_high, lanes));
+    if constexpr (C == 4) value[3] = T((Register)paired<2>(ab_high, cd_high, lanes));
     return value;
 }
 

@@ -62,7 +62,7 @@ inline namespace SWIVEL_ISA {
 inline constexpr std::uint32_t kWord = 0xffa5c301u, kOther = 0x5a5a5a5au;
 inline constexpr double kConstant = 0.1;  // no float
 
-// store: takes a T or Bits<T>.
+// store: takes a T or Word<T>.
 template <class T, class Store>
 SWIVEL_INLINE void apply(Op op, const T& a, const T& b, const T& c, Store store)
 {
@@ -96,27 +96,27 @@ SWIVEL_INLINE void apply(Op op, const T& a, const T& b, const T& c, Store store)
         case Op::choose:
             return store(select(c < T(0), a, b));
         case Op::less:
-            return store(bits_where(a < b, kWord));
+            return store(word_where(a < b, kWord));
         case Op::less_equal:
-            return store(bits_where(a <= b, kWord));
+            return store(word_where(a <= b, kWord));
         case Op::greater:
-            return store(bits_where(a > b, kWord));
+            return store(word_where(a > b, kWord));
         case Op::greater_equal:
-            return store(bits_where(a >= b, kWord));
+            return store(word_where(a >= b, kWord));
         case Op::equal:
-            return store(bits_where(a == b, kWord));
+            return store(word_where(a == b, kWord));
         case Op::both:
-            return store(bits_where((a < b) & (a < c), kWord));
+            return store(word_where((a < b) & (a < c), kWord));
         case Op::either:
-            return store(bits_where((a < b) | (a < c), kWord));
+            return store(word_where((a < b) | (a < c), kWord));
         case Op::not_less:
-            return store(bits_where(!(a < b), kWord));
+            return store(word_where(!(a < b), kWord));
         case Op::is_number:
-            return store(bits_where(a == a, kWord));
+            return store(word_where(a == a, kWord));
         case Op::words_or:
-            return store(bits_where(a < b, kWord) | bits_where(a < c, kOther));
+            return store(word_where(a < b, kWord) | word_where(a < c, kOther));
         case Op::choose_words:
-            return store(select(a < b, bits<T>(kWord), bits<T>(kOther)));
+            return store(select(a < b, word<T>(kWord), word<T>(kOther)));
         case Op::constant:
             return store(T(kConstant));
         case Op::any_less:

@@ -31,7 +31,7 @@ inline Recording recording;
 template <>
 struct NumberTraits<Recorded> {
     using Mask = RecordedMask;
-    using Bits = std::uint32_t;
+    using Word = std::uint32_t;
 };
 
 inline Recorded written_down(const std::string& operation)

@@ -25,7 +25,7 @@ struct Counted {
 struct CountedMask {
     bool value;
 };
-struct CountedBits {
+struct CountedWord {
     std::uint32_t value;
 };
 
@@ -86,17 +86,17 @@ inline Counted select(CountedMask mask, Counted a, Counted b)
 {
     return counted(tally.selects, mask.value ? a.value : b.value);
 }
-inline CountedBits select(CountedMask mask, CountedBits a, CountedBits b)
+inline CountedWord select(CountedMask mask, CountedWord a, CountedWord b)
 {
     ++tally.selects;
     return mask.value ? a : b;
 }
-inline CountedBits bits_where(CountedMask mask, std::uint32_t bits)
+inline CountedWord word_where(CountedMask mask, std::uint32_t word)
 {
     ++tally.selects;
-    return {mask.value ? bits : 0u};
+    return {mask.value ? word : 0u};
 }
-inline CountedBits operator|(CountedBits a, CountedBits b)
+inline CountedWord operator|(CountedWord a, CountedWord b)
 {
     ++tally.selects;
     return {a.value | b.value};
@@ -109,7 +109,7 @@ namespace swivel::inline SWIVEL_ISA {
 template <>
 struct NumberTraits<bench::Counted> {
     using Mask = bench::CountedMask;
-    using Bits = bench::CountedBits;
+    using Word = bench::CountedWord;
 };
 
 }  // namespace swivel::inline SWIVEL_ISA
