@@ -12,6 +12,8 @@ namespace swivel::inline SWIVEL_ISA {
 
 // The cosine of the steepest slope that feet stand on: 87 degrees.
 inline constexpr double kSteepest = 0.05;
+// The squared distance from up of a normal that counts as up: 1e-6 radians.
+inline constexpr double kUpright2 = 1e-12;
 
 // The plane of the ground below a foot, from the root's place.
 template <class T>
@@ -40,14 +42,12 @@ SWIVEL_INLINE constexpr GroundPlane<T> ground_plane(const Vector<T>& place, cons
     return {place, unit, rise, is};
 }
 
-// The plane through the same point with another normal, as a foot in the air has it. Without ground there is none.
+// The plane through the same point with another normal, as a foot in the air has it.
 template <class T>
 SWIVEL_INLINE constexpr GroundPlane<T> leaning(const GroundPlane<T>& ground, const Vector<T>& normal,
                                                const Vector<T>& up)
 {
-    GroundPlane<T> plane = ground_plane(ground.place, normal, up);
-    plane.is = plane.is & ground.is;
-    return plane;
+    return ground_plane(ground.place, normal, up);
 }
 
 // A point that locks in this step does so at its clearance over the ground. Its target stays, and its offset grows by
@@ -111,7 +111,9 @@ SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, con
 
     const T wanted = T(rules.heel_clearance) * scale - slope.distance(toe);
     const Rotor<T> lift = lifting_turn(ground.is, slope.normal, turned(on_slope, heel_from_toe), wanted);
-    return {toe, select(ground.is, unit_rotation(lift * on_slope), foot.rotation)};
+    // Where the ground ends below a foot, its turn fades.
+    const Mask<T> turns = ground.is | (len2(slope.normal - up) > T(kUpright2));
+    return {toe, select(turns, unit_rotation(lift * on_slope), foot.rotation)};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

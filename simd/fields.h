@@ -113,8 +113,8 @@ enum RecordNumber : int {
     kRecordIncoming = kRecordLengths + 2,
     kRecordSize = kRecordIncoming + 12
 };
-// Those of SWIVEL_LIFT: of the height, whether it has begun, and of the normal that the foot turns with.
-enum LiftNumber : int { kLift, kLiftRate, kLiftBegun, kSlope, kSlopeRate = kSlope + 3 };
+// Those of SWIVEL_LIFT behind the three of the height: the normal that the foot turns with, and its rate.
+enum LiftNumber : int { kSlope = 3, kSlopeRate = kSlope + 3 };
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
 enum class Place : std::uint8_t { no, yes };           // a position: it may be given in double, from an origin
 struct FieldRow {

@@ -121,11 +121,10 @@ struct PlantedPoint {
                        ground_of(s, up).way_up(support.to_root(state.mark), clearance));
     }
 
-    // That the foot turns with: a planted one with its ground at once.
     SWIVEL_INLINE Spring<Vector<T>> normal() const
     {
         const Vector<T> up = up_of(s);
-        return eased_normal(s, ground_of(s, up).slope(up), planted.step.fresh | state.locked, limb.ground.lift);
+        return eased_normal(s, ground_of(s, up).slope(up), up, planted.step.fresh, state.locked, limb.ground.lift);
     }
 
 private:

@@ -162,22 +162,26 @@ SWIVEL_INLINE void store_eased(const Rows<T, kTold>& out, swivel_field carried, 
     out.store(carried, 2, T(1));
 }
 
-// The normal that a foot turns with, of any length but 0: in the air a spring eases it towards the ground's. It begins
-// at the goal, and anew where that is asked for.
+// The normal that a foot turns with, of any length but 0. A spring eases it towards `goal`. A planted foot takes its
+// goal at once, and so does one where `fresh` holds or nothing usable is carried. Where time stands still no bit
+// changes.
 template <class S>
 SWIVEL_INLINE Spring<Vector<typename S::T>> eased_normal(const S& s, const Vector<typename S::T>& goal,
-                                                         const Mask<typename S::T>& anew, const SpringRule& rule)
+                                                         const Vector<typename S::T>& up,
+                                                         const Mask<typename S::T>& fresh,
+                                                         const Mask<typename S::T>& planted, const SpringRule& rule)
 {
     using T = typename S::T;
     const T time = s.body_row(kTimeRow);
-    const Spring<Vector<T>> was{s.io.load_result_vector(SWIVEL_LIFT, kSlope),
-                                s.io.load_result_vector(SWIVEL_LIFT, kSlopeRate)};
-    const Spring<Vector<T>> next = sprung(was, goal, time, rule);
-    const Mask<T> begun = is_within(len2(was.at), 1e-6, 1e6) & (len2(was.rate) <= T(kHuge2)) & !anew,
-                  moves = begun & !(time == T(0));
+    const Spring<Vector<T>> carried{s.io.load_result_vector(SWIVEL_LIFT, kSlope),
+                                    s.io.load_result_vector(SWIVEL_LIFT, kSlopeRate)};
+    const Spring<Vector<T>> next = sprung(carried, goal, time, rule);
+    const Mask<T> usable = (scalar_product(carried.at, up) > T(1e-3)) & (len2(carried.at) <= T(1e6)) &
+                           (len2(carried.rate) <= T(kHuge2)) & !fresh,
+                  stays = usable & (time == T(0)), eases = usable & !planted & !stays;
     const Vector<T> none = vector(T(0), T(0), T(0));
-    return {select(moves, next.at, select(begun, was.at, goal)),
-            select(moves, next.rate, select(begun, was.rate, none))};
+    return {select(stays, carried.at, select(eases, next.at, goal)),
+            select(stays, carried.rate, select(eases, next.rate, none))};
 }
 
 // How far a limb's wrist gets from its shoulder, and from where on it is eased before that.

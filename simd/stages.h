@@ -137,13 +137,13 @@ constexpr bool needs(swivel_features features, const StageRow& row)
 {
     return (row.needed_by == 0 || features & row.needed_by) && !(features & row.not_needed_by);
 }
-// The feature that every group has which needs a stage, if a single one makes groups need it.
+// The feature that makes groups need a stage, if it is a single one: then every group with the stage has it.
 constexpr swivel_features implied_by(const StageRow& row)
 {
     return std::has_single_bit(row.needed_by) ? row.needed_by : swivel_features{0};
 }
-// The features that are constants of a stage: those that it knows, those that no group has which needs it, and the one
-// that all of these have. The last two add no functions.
+// The features that are constants of a stage: those that it knows, those that exclude it, and the one that it is needed
+// by. Only those that it knows multiply its functions.
 constexpr swivel_features constants_of(const StageRow& row) { return row.knows | row.not_needed_by | implied_by(row); }
 
 constexpr std::uint32_t line_count(swivel_features features)

@@ -21,6 +21,7 @@ struct Terrain {
     std::vector<Wave> waves = {};
     double step = 0, tread = 0.3;  // stairs along z, in place of waves, if step is not 0
     double crease = 0;             // the slope of triangles along z, 2 metres long, every other one level
+    double end = HUGE_VAL;         // along z: nothing is known of the ground behind
 
     double height(double x, double z) const
     {
@@ -179,7 +180,8 @@ struct HillWalkers {
     GroundSample sample(std::uint32_t body, const Float3& probe) const
     {
         const Vector3d root = has_doubles ? roots[body] : Vector3d(Vector3d::Zero()), at = vec(probe) + root;
-        const Vector3d below(at.x(), terrain.height(at.x(), at.z()), at.z());
+        Vector3d below(at.x(), terrain.height(at.x(), at.z()), at.z());
+        if (at.z() > terrain.end) below.setConstant(std::nan(""));
         return {floats(Vector3d(below - root)), floats(terrain.normal(at.x(), at.z()))};
     }
     std::vector<GroundSample> samples(const Crowd& crowd, std::uint32_t leg) const

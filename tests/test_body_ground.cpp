@@ -275,8 +275,9 @@ TEST_CASE("on stairs no sole goes through a tread that it is over")
 
 TEST_CASE("over creases a sole in the air turns slowly with its ground, and lies on it as it lands")
 {
+    const auto [has_heel, end] = GENERATE(table<bool, double>({{false, HUGE_VAL}, {true, HUGE_VAL}, {false, 3}}));
     HillWalkers walkers(8, 200, creased());
-    const bool has_heel = GENERATE(false, true);
+    walkers.terrain.end = end;                                    // in the middle of a slope
     if (!has_heel) std::ranges::fill(walkers.ground.heel, 0.0f);  // the ankle, which no slope reaches
     Crowd crowd = walkers.crowd();
     // How a foot is turned beside its animation in each frame of its swing, while it is 10 frames from its contact. A
@@ -309,7 +310,9 @@ TEST_CASE("over creases a sole in the air turns slowly with its ground, and lies
                     if (swing[k].reaches && swing[k - 1].reaches)
                         turn = std::max(turn, swing[k].turn.angularDistance(swing[k - 1].turn)), ++turn_count;
                 if (!swing.empty() && flags & SWIVEL_REACHED) {
-                    const Vector3d normal = vec(value_of<Float3>(crowd, SWIVEL_GROUND_NORMAL, leg, n));
+                    const bool has_ground = std::isfinite(value_of<Float3>(crowd, SWIVEL_GROUND, leg, n)[0]);
+                    const Vector3d normal =
+                        has_ground ? vec(value_of<Float3>(crowd, SWIVEL_GROUND_NORMAL, leg, n)) : Vector3d::UnitY();
                     const Quaterniond slope = Quaterniond::FromTwoVectors(Vector3d::UnitY(), normal);
                     if (!has_heel) lies = std::max(lies, foot.angularDistance(slope * was)), ++land_count;
                 }

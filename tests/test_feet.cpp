@@ -16,12 +16,15 @@
 #include "tests/plain_gltf.h"
 #include "tests/run_command.h"
 #include "tests/shared_figures.h"
+#include "tools/feet/toes.h"
 #include "tools/feet/treads.h"
 
 using namespace swivel::test;
+namespace formats = swivel::formats;
 namespace tools = swivel::tools;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using nlohmann::json;
 
@@ -233,6 +236,42 @@ TEST_CASE("feet: toes bend where a foot presses their tips into the ground, and 
         }
     }
     CHECK(pressed > 0.2);  // a centimetre: there was something to do
+}
+
+TEST_CASE("feet: toes that turn through the vertical near the ground bend about one axis, and do not snap")
+{
+    const double end = 0.07;
+    formats::Clip clip;
+    clip.joints = {{"Foot"}, {"Toe", 0}};
+    clip.frame_time = 1.0 / 60;
+    clip.frame_count = 120;
+    tools::LegMotion motion;
+    motion.frame_time = clip.frame_time;
+    tools::LegPath& leg = motion.legs.emplace_back();
+    tools::PlacedFeet placed;
+    placed.legs.resize(1);
+    leg.toe = 1;
+    const auto foot = [&](std::size_t frame) {  // from flat to kneeling: toes point down, and then back
+        return Quaterniond(
+            Eigen::AngleAxisd(1.5 * static_cast<double>(frame) * std::numbers::pi / 180, Vector3d::UnitX()));
+    };
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        clip.rotation.insert(clip.rotation.end(), {foot(frame), Quaterniond::Identity()});
+        motion.carrier_w.push_back(Vector3d::Zero());
+        leg.toe_w.push_back(Vector3d::Zero());
+        leg.tip_w.push_back(foot(frame) * Vector3d(0, 0, end));
+        leg.across_w.push_back(-Vector3d::UnitX());
+        placed.legs[0].turn_w.push_back(Quaterniond::Identity());
+    }
+    const std::vector<tools::TurnedJoint> bent = tools::bend_toes(clip, motion, placed, {});
+    REQUIRE(bent.size() == 1);
+    for (std::size_t frame = 1; frame < clip.frame_count; ++frame) {
+        INFO(frame);
+        const Quaterniond& toe = bent[0].rotation[frame];
+        CHECK(toe.vec().cross(Vector3d::UnitX()).norm() < 1e-12);
+        CHECK(toe.angularDistance(bent[0].rotation[frame - 1]) < 2 * std::numbers::pi * clip.frame_time + 1e-9);
+        if (frame <= 60) CHECK((foot(frame) * toe * Vector3d(0, 0, end)).y() > -1e-9);
+    }
 }
 
 TEST_CASE("feet: toes stand, whatever they are called")

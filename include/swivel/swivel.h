@@ -402,8 +402,7 @@ typedef enum swivel_field {
     // 3, WITH_GROUND: where to sample the ground for the foot, in the space of the target: above or below this point.
     SWIVEL_PROBE,
     // 9, WITH_GROUND: how far the ground lifts the animated foot along `up`, in the world's unit; its rate a second;
-    // and
-    // 1 once it has begun. Then the normal that the foot turns with, in the world, of any length, 3; and its rate, 3.
+    // and 1 once it has begun. Then the normal that the foot turns with, in the world, of any length, 3; its rate, 3.
     SWIVEL_LIFT,
     // 7, WITH_HAND_FRAME: where the wrist joint is after the solve, 3, in the space of the target, and its rotation in
     // the world, 4. Bones may be stretched. It is NaN beyond 1e15, and after bad input but for a good pose that stays.
@@ -632,9 +631,9 @@ static inline swivel_fit swivel_default_fit(void)
 // - The animated foot is raised or lowered by how far the ground is from the root's level: from the plane through the
 //   root's place, across `up`. A spring eases that.
 // - A point that locks does so at toe_clearance over the plane, where it stays.
-// - No toe is sent below toe_clearance, no heel below heel_clearance, whatever the animation wants; in the air below
-//   the plane as it is eased. For its heel the foot turns about the toe. With SWIVEL_HAND_YIELDS the foot also turns
-//   where the leg is too short, and its toe stays over the plane.
+// - No toe is sent below toe_clearance over its plane, no heel of a planted foot below heel_clearance. In the air the
+//   heel's plane has the eased normal. For its heel the foot turns about the toe. With SWIVEL_HAND_YIELDS the foot also
+//   turns where the leg is too short, and its toe stays over the plane.
 // - The foot turns by what carries `up` to the ground's normal, times SWIVEL_GROUND_WEIGHT, up to an angle. A spring
 //   eases the normal while the foot is not planted.
 //

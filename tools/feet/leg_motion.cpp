@@ -16,7 +16,7 @@ using formats::Clip;
 using formats::joint_at;
 using JointPoses = std::vector<formats::JointPose>;
 
-constexpr double kToes = 0.56;  // of the level way from ankle to ball: people have 0.27 and 0.48 of a foot's length
+constexpr double kToes = 0.56;  // times the level way from ankle to ball: 0.27 and 0.48 of people's foot lengths
 
 const formats::JointPose& pose_at(const JointPoses& pose_w, int joint)
 {
@@ -24,27 +24,34 @@ const formats::JointPose& pose_at(const JointPoses& pose_w, int joint)
 }
 
 // A point that goes along with a joint.
-struct Tip {
+struct CarriedPoint {
     int joint;
     Vector3d offset;
 
     Vector3d place_w(const JointPoses& pose_w) const { return to_outer(pose_at(pose_w, joint), offset); }
 };
 
-Tip tip_of(const Clip& clip, const JointPoses& rest_w, int ankle, int toe, const Vector3d& up_w)
+CarriedPoint tip_of(const Clip& clip, const JointPoses& rest_w, int ankle, int toe, const Vector3d& up_w)
 {
     const Vector3d toe_w = pose_at(rest_w, toe).position, foot_w = toe_w - pose_at(rest_w, ankle).position;
-    Tip tip{toe, to_inner(pose_at(rest_w, toe), toe_w + kToes * (foot_w - foot_w.dot(up_w) * up_w))};
+    CarriedPoint tip{toe, to_inner(pose_at(rest_w, toe), toe_w + kToes * (foot_w - foot_w.dot(up_w) * up_w))};
     double furthest = 0;
     for (int joint = toe; joint < static_cast<int>(clip.joints.size()); ++joint) {
         if (joint != toe && !is_above(clip, toe, joint)) continue;
-        const Tip end{joint, joint_at(clip, joint).end.value_or(Vector3d::Zero())};
+        const CarriedPoint end{joint, joint_at(clip, joint).end.value_or(Vector3d::Zero())};
         const double away = (end.place_w(rest_w) - toe_w).norm();
         if (away <= furthest) continue;
         furthest = away;
         tip = end;
     }
     return tip;
+}
+
+// A point beside the ankle, across the foot at rest.
+CarriedPoint side_of(const JointPoses& rest_w, int ankle, int toe, const Vector3d& up_w)
+{
+    const Vector3d ankle_w = pose_at(rest_w, ankle).position, foot_w = pose_at(rest_w, toe).position - ankle_w;
+    return {ankle, to_inner(pose_at(rest_w, ankle), ankle_w + foot_w.cross(up_w))};
 }
 
 }  // namespace
@@ -86,7 +93,7 @@ LegMotion leg_motion(const Clip& clip, std::span<const Limb> legs, int carrier, 
 {
     LegMotion motion{nearest_axis(up_w), clip.frame_time, carrier, {}, {}};
     const JointPoses rest_w = formats::rest_pose(clip);
-    std::vector<Tip> tips;
+    std::vector<CarriedPoint> tips, sides;
     for (const Limb& leg : legs) {
         LegPath& path = motion.legs.emplace_back();
         path.name = leg.name;
@@ -94,6 +101,7 @@ LegMotion leg_motion(const Clip& clip, std::span<const Limb> legs, int carrier, 
         path.has_toe = path.toe != leg.end();
         path.length = leg.bound.lengths[0] + leg.bound.lengths[1];
         tips.push_back(tip_of(clip, rest_w, leg.end(), path.toe, motion.up_w));
+        sides.push_back(side_of(rest_w, leg.end(), path.toe, motion.up_w));
         path.tip_rise = (tips.back().place_w(rest_w) - pose_at(rest_w, path.toe).position).dot(motion.up_w);
     }
     JointPoses pose_w(clip.joints.size());
@@ -108,6 +116,7 @@ LegMotion leg_motion(const Clip& clip, std::span<const Limb> legs, int carrier, 
             path.ankle_w.push_back(place_w(legs[n].end()));
             path.toe_w.push_back(place_w(path.toe));
             path.tip_w.push_back(tips[n].place_w(pose_w));
+            path.across_w.push_back((sides[n].place_w(pose_w) - path.ankle_w.back()).normalized());
         }
     }
     return motion;

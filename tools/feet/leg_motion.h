@@ -18,6 +18,7 @@ struct LegPath {
     double length = 1;    // of both bones at rest
     double tip_rise = 0;  // how high the toes' tip is over the toe at rest
     std::vector<Eigen::Vector3d> hip_w, knee_w, ankle_w, toe_w;
+    std::vector<Eigen::Vector3d> across_w;  // the toes' axis, fixed in the foot: a turn about it brings them up
     std::vector<Eigen::Vector3d> tip_w;  // of the toes: the end of the skeleton that is furthest from the toe, a joint
                                          // or BVH's End Site. Without any it is ahead of the toe, as far as people's.
 };

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/rig/limb_chain.h"
-
 namespace swivel::tools {
 
 namespace {
@@ -16,21 +14,19 @@ using Eigen::Vector3d;
 using formats::Clip;
 
 constexpr double kBendSpeed = 2 * std::numbers::pi;  // radians a second
-constexpr double kUpright = 1e-6;                    // of a way's length, across
 
-// The angle of a way over the ground, radians.
-double elevation(const Vector3d& way_w, const Vector3d& up_w)
+// How far toes bend up about their axis so that their tip is at least `rise` over the toe, radians. From toes that
+// point ahead: 90 degrees at most, and less where they point back, which feet do that kneel or lie.
+double bend_to(const Vector3d& way_w, const Vector3d& across_w, const Vector3d& up_w, double rise)
 {
-    return std::asin(std::clamp(way_w.normalized().dot(up_w), -1.0, 1.0));
-}
-
-// The turn that raises a way by an angle, upright at most; one that is upright stays.
-Quaterniond raise_by(const Vector3d& way_w, const Vector3d& up_w, double angle)
-{
-    const Vector3d level_w = way_w - way_w.dot(up_w) * up_w;
-    if (level_w.norm() < kUpright * way_w.norm()) return Quaterniond::Identity();
-    const double after = std::min(elevation(way_w, up_w) + angle, std::numbers::pi / 2);
-    return aim(way_w, std::cos(after) * level_w.normalized() + std::sin(after) * up_w);
+    // In the plane that the toes bend in.
+    const Vector3d up = up_w - up_w.dot(across_w) * across_w, way = way_w - way_w.dot(across_w) * across_w;
+    const double reach = up.norm() * way.norm();
+    if (reach == 0 || across_w.isZero()) return 0;  // it lies on its side, or points straight down at rest
+    const double angle = std::atan2(way.dot(up), way.dot(up.cross(across_w)));
+    const double beside = way_w.dot(across_w) * up_w.dot(across_w);
+    const double min_angle = std::asin(std::clamp((rise - beside) / reach, -1.0, 1.0));
+    return std::max(0.0, std::min({min_angle - angle, std::numbers::pi / 2, angle + std::numbers::pi}));
 }
 
 // How far the toes of one leg bend up in each frame, radians.
@@ -38,12 +34,9 @@ std::vector<double> bends_of(const LegPath& leg, const std::vector<Quaterniond>&
                              const Floor& floor)
 {
     std::vector<double> bends;
-    for (std::size_t frame = 0; frame < motion.frame_count(); ++frame) {
-        const Vector3d way_w = leg.tip_w[frame] - leg.toe_w[frame];
-        const double rise = leg.tip_rise - std::max(floor.over(leg.toe_w[frame]), 0.0);
-        const double min_angle = std::asin(std::clamp(rise / way_w.norm(), -1.0, 1.0));
-        bends.push_back(std::max(0.0, min_angle - elevation(way_w, turn_w[frame] * motion.up_w)));
-    }
+    for (std::size_t frame = 0; frame < motion.frame_count(); ++frame)
+        bends.push_back(bend_to(leg.tip_w[frame] - leg.toe_w[frame], leg.across_w[frame], turn_w[frame] * motion.up_w,
+                                leg.tip_rise - std::max(floor.over(leg.toe_w[frame]), 0.0)));
     // Those that come and go in a frame begin earlier and end later.
     const double step = kBendSpeed * motion.frame_time;
     for (std::size_t n = 1; n < bends.size(); ++n) bends[n] = std::max(bends[n], bends[n - 1] - step);
@@ -71,15 +64,12 @@ std::vector<TurnedJoint> bend_toes(const Clip& clip, const LegMotion& motion, co
     for (std::size_t n = 0; n < motion.legs.size(); ++n) {
         const LegPath& leg = motion.legs[n];
         if (!leg.has_toe) continue;
-        const std::vector<Quaterniond>& turn_w = placed.legs[n].turn_w;
-        const std::vector<double> bends = bends_of(leg, turn_w, motion, floor);
+        const std::vector<double> bends = bends_of(leg, placed.legs[n].turn_w, motion, floor);
         if (std::ranges::max(bends) == 0) continue;
         TurnedJoint toes{leg.toe, {}, {}};
-        for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-            const Vector3d way_w = leg.tip_w[frame] - leg.toe_w[frame];
+        for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
             toes.rotation.push_back(
-                turned(clip, frame, leg.toe, raise_by(way_w, turn_w[frame] * motion.up_w, bends[frame])));
-        }
+                turned(clip, frame, leg.toe, Quaterniond(Eigen::AngleAxisd(bends[frame], leg.across_w[frame]))));
         bent.push_back(std::move(toes));
     }
     return bent;

@@ -8,11 +8,11 @@
 namespace swivel::tools {
 
 // Turns toes up where their tips would be in the ground: a foot that pushes off then stands on its toes, also in a clip
-// whose toes never bend. A tip may be as deep below the toe as it is at rest, and deeper by what the toe is over the
-// ground. Up is where the foot's ground leads up, as `placed` has it. No bend grows or fades faster than 360 degrees a
-// second: it begins earlier.
+// whose toes never bend. A tip may be as far below the toe joint as at rest, plus the toe joint's height over the
+// ground. Up is the normal of the foot's ground, as `placed` turns the foot. Toes bend about the foot's own axis
+// across, by up to 90 degrees. Bends change by at most 360 degrees a second: they begin earlier and end later.
 //
-// clip, motion: with the feet placed. Returns the toes that turn in some frame.
+// clip, motion: with the feet placed, of a frame or more. Returns the toes that turn in some frame.
 std::vector<TurnedJoint> bend_toes(const formats::Clip& clip, const LegMotion& motion, const PlacedFeet& placed,
                                    const Floor& floor);
 

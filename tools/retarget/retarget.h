@@ -12,7 +12,8 @@
 
 namespace swivel::tools {
 
-// Heights over the world's origin, along the figures' up, of toes that stand, or else of ankles.
+// How high the joints are that feet stand on, along each figure's up, from its world's origin: toes, or ankles where a
+// foot of either has no toes.
 struct GroundHeights {
     double source, target;
     bool of_toes;
@@ -22,7 +23,7 @@ struct Retargeted {
     formats::Clip clip;                   // the target, with the source's frames; its hips alone move against a parent
     int hips = -1;                        // of the target
     double leg_ratio = 1;                 // lengths of the target for one of the source
-    std::optional<GroundHeights> ground;  // where the source says it
+    std::optional<GroundHeights> ground;  // none where the source does not say where it stands
     // Wrists and ankles, of the limbs that both have: their places in the target's world, and where elbow and knee
     // lean. [frame * limbs.size() + limb]
     std::vector<formats::Target> goals;

@@ -153,7 +153,8 @@ Verdict verdict_of(const Clip& source_clip, const Retargeted& motion, const Join
         trunk_away.add(degrees_between(trunk(source, from, source_w), trunk(target, to, pose_w)), frame);
         for (std::size_t n = 0; n < limbs.size(); ++n) {
             limbs[n].take(frame, source, source_w, target, pose_w, motion.goals[frame * limbs.size() + n].position);
-            if (!motion.ground) continue;
+            // Where ankles stand in place of toes, the ground is lower than their height, and hands may be, too.
+            if (!motion.ground || (!motion.ground->of_toes && motion.limbs[n].kind == formats::LimbKind::arm)) continue;
             const std::size_t limb = index_of(motion.limbs[n]);
             const auto& [source_ground, ground, of_toes] = *motion.ground;
             limbs[n].sunk.add(depth(target, pose_w, low_joint(target, limb, of_toes), ground) -

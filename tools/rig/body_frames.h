@@ -67,8 +67,8 @@ public:
     {
         return place(places_w, (*limbs_[pair])[0]) - place(places_w, (*limbs_[pair + 1])[0]);
     }
-    // To the left of where a pair of limbs faces, and where it faces, unit: of a figure that is mirrored as a whole,
-    // left and right are the other way round.
+    // The direction to the left of a pair of limbs, and the one that it faces, unit. In a figure that is mirrored as a
+    // whole, the limbs called left are on the right of where it faces.
     Eigen::Vector3d left_w(const Places& places_w, std::size_t pair) const
     {
         return (is_mirrored_ ? -1 : 1) * to_left_w(places_w, pair).normalized();
@@ -79,7 +79,7 @@ public:
     }
     double leg_length() const;  // at rest; a leg must be known
 
-    // The frames of which this is so.
+    // The frames for which this is so.
     template <class IsSo>
     SomeFrames where(const IsSo& is_so) const
     {

@@ -146,7 +146,12 @@ FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& fi
         return leg_motion(moved, run.legs, run.motion.carrier, run.motion.up_w);
     };
     const formats::Clip standing = with_joints(clip, joints);
-    std::ranges::move(bend_toes(standing, motion_of(standing), run.placed, run.floor), std::back_inserter(joints));
+    for (TurnedJoint& toes : bend_toes(standing, motion_of(standing), run.placed, run.floor))
+        if (file.can_key(toes.joint))
+            joints.push_back(std::move(toes));
+        else
+            run.clip_doubts.push_back(fmt::format("the tip of '{}' goes into the ground, and it takes no new rotation",
+                                                  printable_name(joint_at(clip, toes.joint))));
     const LegMotion after = motion_of(with_joints(clip, joints));
     run.after = skating_of(after, run.contacts, run.floor);
     run.doubts = feet_doubts(after, run.motion, run.before, run.contacts, run.bars, run.floor);

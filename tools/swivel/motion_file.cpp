@@ -165,6 +165,16 @@ void MotionFile::require_can_key(int joint) const
     std::visit([joint](const auto& file) { formats::require_can_key(file, joint); }, file_);
 }
 
+bool MotionFile::can_key(int joint) const
+{
+    try {
+        require_can_key(joint);
+        return true;
+    } catch (const formats::InputError&) {
+        return false;
+    }
+}
+
 void MotionFile::write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
                        const std::optional<formats::NewFrames>& frames) const
 {

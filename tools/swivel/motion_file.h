@@ -56,6 +56,7 @@ public:
                            std::string_view others = " or .csv") const;
     // Throws InputError for a joint whose rotation that cannot hold.
     void require_can_key(int joint) const;
+    bool can_key(int joint) const;  // whether it would not throw
     // In the format that the suffix of `out` says; as write_bvh() and write_gltf() do.
     void write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
                const std::optional<formats::NewFrames>& frames = {}) const;

@@ -169,7 +169,7 @@ void print_verdict(std::FILE* to, const Verdict& verdict)
 {
     for (const std::string& doubt : verdict.doubts) say(to, "look      {}\n", doubt);
     for (const std::string& fault : verdict.faults) say(to, "garbage   {}\n", fault);
-    if (verdict.is_good()) say(to, "good      no bone, goal or knee stands out\n");
+    if (verdict.is_good()) say(to, "good      no bone, goal, knee, hand or foot stands out\n");
 }
 
 void print_written(std::FILE* to, std::initializer_list<std::string> outputs)
