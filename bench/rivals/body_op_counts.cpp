@@ -106,7 +106,7 @@ void count_body_limb(const Frames& frames, const BodyChain& chain, Arm arm = Arm
         throw std::logic_error("the body's limb that is counted is not an ordinary one");
 }
 
-// A foot on its ground: what its heights add to a plant, and its turn. Its heel is high enough.
+// A foot on its ground: what its heights add to a plant, and its turn, eased. Its heel is high enough.
 void count_ground()
 {
     const Rotor<Counted> foot = rotor(0.1, 0.05, -0.1, 0.98867);
@@ -117,8 +117,11 @@ void count_ground()
                                      ground.way_up(level, Counted(0.0)), Counted(1.0 / 60), swivel::spring_rule(0.05f));
     const swivel::GroundRules rules{};
     toe + lift.at* up;
-    swivel::foot_on_ground(ground, up, {toe, foot}, Counted(1.1) * vector(0, 0, -0.15), Counted(1.1), Counted(1.0),
-                           rules);
+    const auto normal =
+        swivel::sprung(swivel::Spring<swivel::Vector<Counted>>{vector(0.1, 1, 0.1), vector(0.2, 0, -0.1)},
+                       ground.slope(up), Counted(1.0 / 60), swivel::spring_rule(0.05f));
+    swivel::foot_on_ground(ground, swivel::leaning(ground, normal.at, up), up, {toe, foot},
+                           Counted(1.1) * vector(0, 0, -0.15), Counted(1.1), Counted(1.0), rules);
 }
 
 }  // namespace
