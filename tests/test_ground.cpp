@@ -73,8 +73,9 @@ Stood stood(const FootCase& of)
 {
     const Vector<T> up = mv<T>(of.up);
     const GroundPlane<T> ground = ground_plane(mv<T>(of.place), mv<T>(of.normal), up);
-    const Foot<T> is = foot_on_ground(ground, ground, up, Foot<T>{mv<T>(of.toe), mv<T>(of.foot)}, mv<T>(of.heel),
-                                      static_cast<T>(of.scale), static_cast<T>(of.share), of.rules());
+    const Foot<T> is =
+        foot_on_ground(ground, leaning(ground, ground.slope(up), up), up, Foot<T>{mv<T>(of.toe), mv<T>(of.foot)},
+                       mv<T>(of.heel), static_cast<T>(of.scale), static_cast<T>(of.share), of.rules());
     return {eigen(is.toe), eigen(is.rotation)};
 }
 
@@ -99,8 +100,8 @@ bool has_same_bits(const FootCase& of)
     const Vector<T> up = mv<T>(of.up);
     const Foot<T> was{mv<T>(of.toe), mv<T>(of.foot)};
     const GroundPlane<T> ground = ground_plane(mv<T>(of.place), mv<T>(of.normal), up);
-    const Foot<T> is = foot_on_ground(ground, ground, up, was, mv<T>(of.heel), static_cast<T>(of.scale),
-                                      static_cast<T>(of.share), of.rules());
+    const Foot<T> is = foot_on_ground(ground, leaning(ground, ground.slope(up), up), up, was, mv<T>(of.heel),
+                                      static_cast<T>(of.scale), static_cast<T>(of.share), of.rules());
     return std::memcmp(&is.toe, &was.toe, sizeof is.toe) == 0 &&
            std::memcmp(&is.rotation, &was.rotation, sizeof is.rotation) == 0;
 }
