@@ -96,8 +96,8 @@ SWIVEL_INLINE constexpr Rotor<T> lifting_turn(const Mask<T>& counts, const Vecto
 }
 
 // The foot, turned with the ground by a share of 0 to 1, with toe and heel no nearer to it than their clearances.
-// slope: the plane that the foot turns with, and that its heel is kept over: the same, or as leaning() has it.
-// heel_from_toe: in the foot's frame, in the world's unit. clearances: in the same unit.
+// The foot turns with the plane `slope`, and its heel is kept over that: the ground's own, or as leaning() has it.
+// heel_from_toe: in the foot's frame, in the world's unit. Clearances are in the same unit.
 template <class T>
 SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, const GroundPlane<T>& slope,
                                                const Vector<T>& up, const Foot<T>& foot, const Vector<T>& heel_from_toe,

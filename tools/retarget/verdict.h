@@ -25,10 +25,14 @@ struct Verdict {
     bool is_good() const { return doubts.empty() && faults.empty(); }
 };
 
-// Looks at the solved clip. A fault is a bone of a limb, or the trunk, that points over 45 degrees away from the
-// source's, or a goal that is missed by half a limb, in a quarter of the frames; in fewer frames each is a doubt. So
-// are a goal that is missed by 0.05 limb lengths, a hand or a foot that is deeper in the ground than the source's by
-// 0.03 leg lengths, and a knee or elbow whose fastest turn is above 720 degrees a second and above twice the source's.
+// Looks at the solved clip. A fault is, in a quarter of the frames,
+// - a bone of a limb, or the trunk, that points over 45 degrees away from the source's;
+// - a goal that is missed by half a limb.
+// In fewer frames each is a doubt. Doubts are also
+// - a goal that is missed by 0.05 limb lengths;
+// - a hand or a foot that is deeper in the ground than the source's by 0.03 leg lengths. Hands are not judged where
+//   ankles stand in place of toes;
+// - a knee or elbow whose fastest turn is above 720 degrees a second and above twice the source's.
 Verdict verdict_of(const formats::Clip& source, const Retargeted& motion, const JointPairs& pairs);
 
 }  // namespace swivel::tools
