@@ -29,17 +29,14 @@ swivel_status take_place(const double* from, const char* name, Vector<double>& t
 }
 
 // Explains each of a body's groups in a line of its own.
-void explain_body(const swivel_crowd& crowd, uint32_t body, std::span<char> room)
+void explain_body(const swivel_crowd& crowd, uint32_t body, Text& text)
 {
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
-        const Group& group = crowd.groups[g];
-        Text(room).add("%sgroup %u: ", g > 0 ? "\n" : "", g);
-        room = room.subspan(std::strlen(room.data()));
-        if (group.features & (kNoLimb | SWIVEL_WITH_RECORD))
-            explain(crowd, g, body, room);
+        text.add("%sgroup %u: ", g > 0 ? "\n" : "", g);
+        if (crowd.groups[g].features & (kNoLimb | SWIVEL_WITH_RECORD))
+            explain(crowd, g, body, text);
         else
-            Text(room).add("it has no SWIVEL_WITH_RECORD, so nothing is known of it.");
-        room = room.subspan(std::strlen(room.data()));
+            text.add("it has no SWIVEL_WITH_RECORD, so nothing is known of it.");
     }
 }
 
@@ -58,10 +55,11 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
         if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK)
             return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
+    Text to({text, size});
     if (is_body)
-        explain_body(*crowd, limb, {text, size});
+        explain_body(*crowd, limb, to);
     else
-        explain(*crowd, group, limb, {text, size});
+        explain(*crowd, group, limb, to);
     return SWIVEL_OK;
 }
 

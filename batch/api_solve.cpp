@@ -66,8 +66,8 @@ swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
 
 swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
 {
-    if (!job.sample && !job.probes_only) return SWIVEL_OK;
-    if (job.sample && job.probes_only)
+    if (!job.probes_only) return SWIVEL_OK;
+    if (job.sample)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "the job has a sample function, but probes_only does not call it; give one "
                     "of them");
@@ -78,8 +78,29 @@ swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
             "by swivel_choose(), and give both jobs its mask");
     for (std::uint32_t g = 0; g < crowd.group_count; ++g)
         if (crowd.groups[g].features & SWIVEL_WITH_GROUND && is_named(job.groups, g)) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "the job %s, but names no group that is SWIVEL_WITH_GROUND; leave it out",
-                job.sample ? "has a sample function" : "is for probes_only");
+    return fail(SWIVEL_INVALID_ARGUMENT,
+                "the job is for probes_only, but names no group that is SWIVEL_WITH_GROUND; leave it out");
+}
+
+// Whether the numbers of a frame's positions are what they are read as. The frame has its origin.
+swivel_status check_positions(std::uint32_t g, const swivel_frame& frame, const swivel_pose* pose)
+{
+    if (frame.positions > SWIVEL_DOUBLES)
+        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: positions is %u, which is no swivel_numbers", g,
+                    frame.positions);
+    const bool is_double = frame.origin.data != nullptr;
+    if (frame.positions == SWIVEL_NUMBERS_UNSAID || is_double == (frame.positions == SWIVEL_DOUBLES)) return SWIVEL_OK;
+    for (const swivel_frame_field& each : fields_of(frame))
+        if (each.data && is_input(each.field) && is_position(each.field))
+            return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: %s is in %s, but %s; %s", g, name_of(each.field),
+                        is_double ? "floats" : "doubles",
+                        !is_double ? "floats are read without an origin"
+                        : pose     ? "the pose has root_is_double"
+                                   : "the frame has an origin",
+                        is_double ? "give doubles"
+                        : pose    ? "give floats, or a root in doubles and root_is_double"
+                                  : "give floats, or an origin");
+    return SWIVEL_OK;
 }
 
 swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, swivel_frame frame, const swivel_pose* pose)
@@ -91,7 +112,7 @@ swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, swivel_fra
     frame.origin = origin;
     if (!frame.fields && frame.field_count > 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: its %u fields are null", g, frame.field_count);
-    swivel_status status = check_reserved("frame", frame);
+    swivel_status status = check_positions(g, frame, pose);
     if (status == SWIVEL_OK && frame.origin.data)
         status = check_stride(g, "origin", 1, frame.origin.data, frame.origin.stride, 3 * sizeof(double), true);
     std::uint64_t seen = 0;

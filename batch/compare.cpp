@@ -35,6 +35,7 @@ public:
     bool run()
     {
         if (limb_.agrees(limb_.posed) && !guess_turns_in_body()) {
+            if (doubt()) return false;
             const double off = limb_.worst(limb_.posed);
             text_.add(
                 "The pose agrees: it has shoulder, elbow and wrist within %.2g of your places, %.2g of the limb's "
@@ -48,8 +49,11 @@ public:
         guess_joints();
         guess_lengths();
         guess_root();
+        if (cause_count_ == 0) guess_root_numbers();
         guess_axes();
-        if (cause_count_ == 0) return describe_difference(limb_, text_), false;
+        if (cause_count_ == 0) guess_no_root();
+        if (cause_count_ == 0 && !guess_strides()) describe_difference(limb_, text_);
+        if (cause_count_ == 0 || !is_sure_) return false;
         if (cause_count_ == 1)
             text_.add(" With that the three places agree, within %.2g of the limb's length.", off_);
         else
@@ -81,6 +85,63 @@ private:
     }
     bool has_quaternions() const { return limb_.pose.form == SWIVEL_ROTATIONS; }
     bool has_root_turn() const { return limb_.pose.root_rotation.data; }
+
+    // What no place shows, and what would yet go wrong in a solve.
+    bool doubt()
+    {
+        Reading how = limb_.as_given;
+        how.at_rest = true;
+        const double at_rest = length(limb_.places(limb_.joints, how)), posed = length(limb_.posed);
+        const auto add = [&] {
+            text_.add("%s ", cause_count_++ > 0 ? "" : "The places agree, but something else is wrong.");
+        };
+        if (limb_.has_translations() && (at_rest > 2 * posed || 2 * at_rest < posed))
+            add(), text_.add(
+                       "The skeleton's bones are %.4g times as long as the pose's, so lengths that go with the "
+                       "skeleton's, "
+                       "such as those of swivel_plant, are too. Give the skeleton in the unit of the pose.",
+                       at_rest / std::max(posed, kTiny));
+        if (const double time = limb_.body.time(); time > 1)
+            add(), text_.add(
+                       "The pose's time is %g, which are that many seconds since the last solve. If it is in "
+                       "milliseconds, divide it by 1000.",
+                       time);
+        doubt_bend(add);
+        return cause_count_ > 0;
+    }
+    template <class Add>
+    void doubt_bend(const Add& add)
+    {
+        const float(&h)[3] = limb_.crowd.groups[limb_.group].limb.hinge;
+        const Vector<double> upper = limb_.posed.at[1] - limb_.posed.at[0],
+                             fore = limb_.posed.at[2] - limb_.posed.at[1],
+                             hinge = turned(limb_.body.rotation(limb_.joints.at[0], limb_.as_given),
+                                            vector<double>(h[0], h[1], h[2])),
+                             turn = cross(fore, upper);
+        const double size = std::sqrt(len2(upper) * len2(fore)), bend = std::sqrt(len2(turn)) / std::max(size, kTiny);
+        constexpr double kBent = 0.17;  // the sine of 10 degrees
+        if (bend < kBent || scalar_product(hinge, turn) > -0.7 * std::sqrt(len2(turn) * len2(hinge))) return;
+        add(),
+            text_.add(
+                "The elbow, joint %u, is bent by %.3g degrees the other way than the group's `bend` or its rest pose "
+                "says. A bend is the direction that flexion carries the forearm towards, in the shoulder joint's "
+                "frame.",
+                limb_.named(1), in_degrees(std::atan2(std::sqrt(len2(turn)), scalar_product(upper, fore))));
+    }
+    // Rotations that are none: of wrong strides or offsets.
+    bool guess_strides()
+    {
+        for (const std::uint32_t joint : limb_.joints.at)
+            for (std::uint32_t at = joint; at != 0; at = limb_.body.parent(at))
+                if (const double size = limb_.body.rotation_length(at); !(std::fabs(size - 1) <= 0.05))
+                    return text_.add(
+                               "The rotation of joint %u is a quaternion of length %.3g. Rotations have length 1, so "
+                               "the "
+                               "pose is read at the wrong places: look at its strides and offsets.",
+                               limb_.body.skeleton_joint(at), size),
+                           true;
+        return false;
+    }
 
     // Quaternions in another order or the other way round, of joints, the root, or both.
     void guess_numbers()
@@ -190,7 +251,8 @@ private:
     {
         LimbJoints found;
         for (int part = 0; part < 3; ++part)
-            if ((found.at[part] = joint_at_place(part, limb_.allowed(limb_.posed))) == 0) return;
+            if ((found.at[part] = joint_at_place(part, limb_.allowed(limb_.posed))) == 0)
+                return part == 2 ? guess_all_high(found) : void();
         const LimbPlaces ours = limb_.places(found, limb_.as_given);
         if (!limb_.agrees(ours)) return;
         cause(ours);
@@ -206,6 +268,22 @@ private:
             is_first = false;
         }
         text_.add(". Give the places of the group's joints, or name the others in the group.");
+    }
+
+    // A clavicle for a shoulder, a shoulder for an elbow, and an elbow for a wrist: then no group needs the hand.
+    void guess_all_high(const LimbJoints& found)
+    {
+        for (int part = 0; part < 2; ++part)
+            if (limb_.body.steps_up(found.at[part], limb_.joints.at[part]) == 0) return;
+        ++cause_count_, is_sure_ = false;
+        text_.add("Your shoulder and elbow are joints %u and %u, but the group has joints ",
+                  limb_.body.skeleton_joint(found.at[0]), limb_.body.skeleton_joint(found.at[1]));
+        add_joints(limb_.joints);
+        text_.add(
+            ": all three are too high, such as a clavicle for the shoulder. Name joints %u and %u as shoulder and "
+            "elbow "
+            "in the group, and the hand below them as the wrist.",
+            limb_.body.skeleton_joint(found.at[0]), limb_.body.skeleton_joint(found.at[1]));
     }
 
     // Lengths in other units, and translations or scales that do not count.
@@ -275,6 +353,41 @@ private:
         text.add("%s are in another unit than %s, such as %s instead of %s: the factor is %s%g. %s", these, those,
                  is_larger ? units.small : units.large, is_larger ? units.large : units.small, is_larger ? "" : "1 / ",
                  units.factor, advice);
+    }
+
+    // A root in floats that is read as doubles, or the other way round.
+    void guess_root_numbers()
+    {
+        const swivel_pose& pose = limb_.pose;
+        guess(
+            pose.root_position.data && pose.root_position.stride >= 3 * sizeof(double),
+            [](Reading& how) { how.root_in_other_numbers = true; },
+            pose.root_is_double
+                ? "The pose's root_position is in floats, but root_is_double says doubles. Set root_is_double to 0."
+                : "The pose's root_position is in doubles, but it is read as floats. Set root_is_double to 1.");
+    }
+    // A root that was not given.
+    void guess_no_root()
+    {
+        const swivel_pose& pose = limb_.pose;
+        const bool has_place = pose.root_position.data, has_turn = pose.root_rotation.data;
+        if ((has_place && has_turn) || !has_same_shape(limb_)) return;
+        const Vector<double> way = limb_.theirs.at[0] - limb_.posed.at[0], root = limb_.body.root_place();
+        if (!has_place && limb_.agrees(moved(limb_.posed, [&](const Vector<double>& v) { return v + way; })))
+            return add_no_root("elsewhere, and the pose gives no root_position. Give it");
+        bool is_about_root = true;
+        for (int n = 0; n < 3; ++n)
+            is_about_root &= std::fabs(distance(limb_.theirs.at[n], root) - distance(limb_.posed.at[n], root)) <=
+                             limb_.allowed(limb_.posed);
+        if (!has_turn && is_about_root)
+            return add_no_root("turned about the root, and the pose gives no root_rotation. Give it");
+        if (!has_turn && !has_place)
+            add_no_root("elsewhere and turned, and the pose gives neither root_position nor root_rotation. Give them");
+    }
+    void add_no_root(const char* how)
+    {
+        ++cause_count_, is_sure_ = false;
+        text_.add("Your limb has the shape that the pose gives it. It is %s.", how);
     }
 
     // A root that does not count, or counts twice.
@@ -361,7 +474,8 @@ private:
     const ComparedLimb& limb_;
     Text& text_;
     unsigned cause_count_ = 0;
-    double off_ = 0;  // how far the places are off with the cause, in limb lengths
+    bool is_sure_ = true;  // that with the cause the places agree
+    double off_ = 0;       // how far the places are off with the cause, in limb lengths
 };
 
 }  // namespace

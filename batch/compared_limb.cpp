@@ -48,10 +48,6 @@ double ComparedLimb::factor_about(const Vector<double>& centre) const
     return across / size;
 }
 
-namespace {
-
-double hundredths(double x) { return std::round(100 * x) / 100 + 0.0; }  // without -0
-
 bool has_same_shape(const ComparedLimb& limb)
 {
     for (int n = 0; n < 3; ++n) {
@@ -62,6 +58,10 @@ bool has_same_shape(const ComparedLimb& limb)
     }
     return true;
 }
+
+namespace {
+
+double hundredths(double x) { return std::round(100 * x) / 100 + 0.0; }  // without -0
 
 void describe_shoulder(const ComparedLimb& limb, Text& text)
 {

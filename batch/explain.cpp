@@ -11,6 +11,7 @@
 #include "batch/explain_look.h"
 #include "batch/explain_plant.h"
 #include "batch/explain_probe.h"
+#include "batch/limb_value.h"
 #include "core/limb_goal.h"
 
 namespace swivel {
@@ -181,6 +182,20 @@ bool is_near(const LimbPose& a, const LimbPose& b)
            len2(a.wrist - b.wrist) <= kShare * kShare * size2 && 1 - cos_half * cos_half <= kShare * kShare;
 }
 
+// Lengths that go with the skeleton's bones are wrong where the pose's are in another unit.
+void doubt_bones(const Group& group, std::uint32_t limb, Text& text)
+{
+    if (!(group.features & SWIVEL_WITH_RECORD)) return;
+    const LimbValue record(group, limb, SWIVEL_RECORD);
+    const double is = record[kRecordLengths] + record[kRecordLengths + 1],
+                 rest = double{group.binding.lengths[0]} + double{group.binding.lengths[1]};
+    if (!(is > 2 * rest || 2 * is < rest)) return;
+    text.add(
+        "Warning: its bones are %.4g times as long as the skeleton's. Lengths of swivel_plant and others go with the "
+        "skeleton's: give it in the unit of the pose. ",
+        is / rest);
+}
+
 // It is a function of its own so that explain_prop, which has a limb on the stack too, has that room.
 [[gnu::noinline]] void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
@@ -188,16 +203,19 @@ bool is_near(const LimbPose& a, const LimbPose& b)
     const std::uint32_t flags_were = probe.flags();
     if (probe.is_of_body() && flags_were == 0) return text.add("It was never solved, so no pose of it is known.");
     const LimbPose was = probe.pose();
-    const std::uint32_t flags = probe.solve();
+    const std::uint32_t flags_now = probe.solve();
     // The goal of a limb that is sent is that of its last good solve.
     const bool was_bad = group.features & SWIVEL_SENT && flags_were & SWIVEL_BAD_INPUT;
-    const bool is_kept = was_bad || (group.keeps && flags & SWIVEL_BAD_INPUT);
+    const bool is_kept = was_bad || (group.keeps && flags_now & SWIVEL_BAD_INPUT);
     const bool is_same = probe.is_of_body() ? is_near(was, probe.pose()) : probe.has_bits_of_limb();
+    // At the borders of reach the solver's own flags count: rounding of a record may have others.
+    const std::uint32_t flags = is_same && !(flags_now & SWIVEL_BAD_INPUT) ? flags_were : flags_now;
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
     if (!(group.features & kCarryingFeatures) && !is_kept && !is_same)
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT || was_bad || is_bad_in_body(group, limb))
         return explain_bad_input(probe, crowd, group, limb, text);
+    doubt_bones(group, limb, text);
     if (group.features & SWIVEL_WITH_PLANT) explain_plant(group, limb, flags_were, text);
     if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
     if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
@@ -207,9 +225,8 @@ bool is_near(const LimbPose& a, const LimbPose& b)
 
 }  // namespace
 
-void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, std::span<char> room)
+void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, Text& text)
 {
-    Text text(room);
     const Group& group = crowd.groups[g];
     if (group.features & SWIVEL_FIT)
         explain_shift(group, limb, text);

@@ -4,13 +4,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "batch/crowd.h"
+#include "batch/explain_text.h"
 
 namespace swivel {
 
-// What swivel_explain() promises. group: one of the crowd's; limb: counted within it; text: a byte at least.
-void explain(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t limb, std::span<char> text);
+// Adds what swivel_explain() promises. group: one of the crowd's; limb: counted within it.
+void explain(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -86,6 +86,7 @@ struct HeldProp {
     bool has_joint() const { return group.limb.joint != 0; }
     bool is_pair() const { return group.limb.holder_count > 1; }
     double share() const { return is_pair() ? LimbValue(group, limb, SWIVEL_PROP_SHARE)[0] : 0; }
+    double weight() const { return LimbValue(group, limb, SWIVEL_PROP_WEIGHT)[0]; }
     Holder holder(std::uint32_t n) const
     {
         std::uint32_t g = 0;
@@ -103,12 +104,14 @@ struct HeldProp {
     bool is_known() const
     {
         if (has_joint()) return false;
-        return is_given(place, 3) || (holder(0).is_known() && (!is_pair() || holder(1).is_known()));
+        return (is_given(place, 3) && weight() == 1) || (holder(0).is_known() && (!is_pair() || holder(1).is_known()));
     }
     Vector<double> unmoved() const
     {
-        if (is_given(place, 3)) return vector_of(place);
-        return between(holder(0).held(), holder(group.limb.holder_count - 1).held(), share()).place;
+        const double given = is_given(place, 3) ? weight() : 0;
+        if (given == 1) return vector_of(place);
+        const auto hands = between(holder(0).held(), holder(group.limb.holder_count - 1).held(), share()).place;
+        return given == 0 ? hands : (1 - given) * hands + given * vector_of(place);
     }
     double moved() const { return std::sqrt(len2(vector_of(LimbValue(group, limb, SWIVEL_PROP_FRAME)) - unmoved())); }
 
@@ -116,7 +119,7 @@ struct HeldProp {
     {
         text.add("Bad input: ");
         bool is_found = false;
-        for (const swivel_field field : {SWIVEL_PROP_PLACE, SWIVEL_PROP_TURN, SWIVEL_PROP_SHARE}) {
+        for (const swivel_field field : {SWIVEL_PROP_PLACE, SWIVEL_PROP_TURN, SWIVEL_PROP_SHARE, SWIVEL_PROP_WEIGHT}) {
             if (!is_bad_in_body(group, limb, field)) continue;
             const LimbValue value(group, limb, field);
             text.add("%s%s (", is_found ? "; " : "", name_of(field));
@@ -167,9 +170,11 @@ struct HeldProp {
         } else {
             explain_hands("It lies", text);
         }
+        if (weight() < 1 && (has_joint() || has_place || has_turn))
+            text.add(", by a weight of %.3g against where the hands have it", weight());
         text.add(". ");
     }
-    void explain_move(bool reaches, Text& text) const
+    void explain_move(std::uint32_t flags, Text& text) const
     {
         constexpr double kNone = 1e-5;  // what rounding leaves, in shares of the first arm
         const Holder first = holder(0);
@@ -177,10 +182,12 @@ struct HeldProp {
         const double way = is_known() ? moved() : 0, most = double{group.limb.most_move};
         const bool moves = way > kNone * arm;
         if (moves) text.add("It moved by %.4g. ", way);
-        if (reaches)
+        if (flags & SWIVEL_REACHED)
             text.add(moves        ? "That is no more than it must for all hands to reach it."
                      : is_known() ? "It need not move: all hands reach it."
                                   : "It moves no further than it must for all hands to reach it.");
+        else if (flags & SWIVEL_CLAMPED_NEAR)
+            text.add("A grip is nearer to the shoulder than its arm gets, and the prop does not move for that.");
         else if (most > 0)
             text.add("Not all hands reach it, wherever it goes within %.3g limb lengths.", most);
         else
@@ -220,7 +227,7 @@ void explain_link(const swivel_crowd& crowd, const Group& group, std::uint32_t l
     const std::uint32_t flags = flags_of(held, limb);
     if (group.limb.holds_prop) {
         text.add("It holds the prop of group %u%s. ", g,
-                 flags & SWIVEL_CLAMPED_FAR ? ", which not all hands reach" : "");
+                 flags & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR) ? ", which not all hands reach" : "");
         return;
     }
     text.add("It holds the hand of group %u%s. ", g,
@@ -236,7 +243,7 @@ void explain_prop(const swivel_crowd& crowd, const Group& group, std::uint32_t l
     if (flags & SWIVEL_BAD_INPUT || is_bad_in_body(group, limb)) return prop.explain_bad(text);
     if (flags == 0) return text.add("It was never solved, so it has no place.");
     prop.explain_source(text);
-    prop.explain_move(flags & SWIVEL_REACHED, text);
+    prop.explain_move(flags, text);
     prop.explain_misses(text);
 }
 

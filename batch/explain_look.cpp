@@ -20,7 +20,7 @@ struct LookOfBody {
     const swivel_crowd& crowd;
     const Group& group;
     std::uint32_t limb;
-    LimbValue sight{group, limb, SWIVEL_SIGHT}, line{group, limb, SWIVEL_LOOK_LINE},
+    LimbValue sight{group, limb, SWIVEL_SIGHT}, turns{group, limb, SWIVEL_LOOK_TURNS},
         target{group, limb, SWIVEL_LOOK_TARGET};
     const LookRules& rules = group.limb.look;
     double weight = LimbValue(group, limb, SWIVEL_LOOK_WEIGHT)[0];
@@ -29,7 +29,7 @@ struct LookOfBody {
                    to = vector(target[0] - sight[0], target[1] - sight[1], target[2] - sight[2]);
 
     bool has_target() const { return !std::isnan(target.length(0, 3)); }
-    bool is_anew() const { return line.length(0, 3) == 0; }
+    bool is_anew() const { return turns[0] == 0; }
     double distance() const { return std::sqrt(len2(to)); }
     // By how many radians the line of sight is off its target.
     double missed() const { return std::atan2(std::sqrt(len2(cross(axis, to))), scalar_product(axis, to)); }
@@ -45,6 +45,20 @@ struct LookOfBody {
         return has_target() && missed() < 1e-4 - rounding();
     }
 
+    // A target in centimetres, or from another origin, is seen as one that is very far away.
+    void doubt_distance(Text& text) const
+    {
+        double chain = 0;
+        for (std::uint32_t at = last_joint_number(); at != 0; at = parent_of(at)) {
+            const float(&v)[3] = crowd.joints[at].translation;
+            chain += std::sqrt(len2(vector<double>(v[0], v[1], v[2])));
+        }
+        if (distance() > 1e4 * chain)
+            text.add(
+                "Warning: its target is %.3g away, more than ten thousand times as far as the last joint is from the "
+                "root. Is it in another unit, or from another origin? ",
+                distance());
+    }
     void explain_bad(Text& text) const
     {
         text.add("Bad input: ");
@@ -67,8 +81,12 @@ struct LookOfBody {
     void explain_nothing(Text& text) const
     {
         text.add("It has nothing to look at");
+        explain_way_back(text);
+    }
+    void explain_way_back(Text& text) const
+    {
         if (flags & SWIVEL_LIMITED_STEP)
-            text.add(", and is on its way back to the incoming pose, by %.3g degrees a second.",
+            text.add(", and the chain is on its way back to its incoming pose, by %.3g degrees a second.",
                      in_degrees(double{rules.rate}));
         else
             text.add(", so the chain has its incoming pose.");
@@ -77,7 +95,8 @@ struct LookOfBody {
     {
         text.add("The line of sight misses its target by %.3g degrees.", in_degrees(missed()));
         const bool is_whole = weight == 1 && !(flags & SWIVEL_FADED);
-        if (weight == 0) return text.add(" Its weight is 0, so the chain has its incoming pose.");
+        if (weight == 0) text.add(" Its weight is 0");
+        if (weight == 0) return explain_way_back(text);
         if (weight < 1) text.add(" With a weight of %.3g it takes a part of the turn.", weight);
         if (flags & SWIVEL_FADED) explain_fade(text);
         if (flags & SWIVEL_LIMITED_STEP) explain_rate(is_whole && !(flags & SWIVEL_LIMITED_LOOK), text);
@@ -88,12 +107,15 @@ struct LookOfBody {
     }
 
 private:
-    std::uint32_t last_joint() const
+    std::uint32_t number_of(std::uint32_t row) const
     {
         std::uint32_t n = 0;
-        while (crowd.joints[n].row != group.limb.turned[group.limb.turned_count - 1].row) ++n;
-        return crowd.joints[n].skeleton_joint;
+        while (crowd.joints[n].row != row) ++n;
+        return n;
     }
+    std::uint32_t parent_of(std::uint32_t number) const { return number_of(crowd.joints[number].parent); }
+    std::uint32_t last_joint_number() const { return number_of(group.limb.turned[group.limb.turned_count - 1].row); }
+    std::uint32_t last_joint() const { return crowd.joints[last_joint_number()].skeleton_joint; }
     // A chain turns its line towards the target. So where the line is still behind, it came so.
     void explain_fade(Text& text) const
     {
@@ -111,7 +133,7 @@ private:
             text.add(
                 " The look fades, because its target is more than %.4g degrees from the incoming line, or nearer to "
                 "the eye than %.3g of the last joint's unit: it is %.4g away.",
-                full, double{rules.fade.distance}, 1 / std::max(line[3], 1e-30));
+                full, double{rules.fade.distance}, distance());
     }
     void explain_rate(bool is_alone, Text& text) const
     {
@@ -142,12 +164,12 @@ void explain_look(const swivel_crowd& crowd, const Group& group, std::uint32_t l
 {
     const LookOfBody look{crowd, group, limb};
     if (look.flags & SWIVEL_BAD_INPUT || is_bad_in_body(group, limb)) return look.explain_bad(text);
-    if (look.is_anew())
-        return text.add("It was never solved, or was reset: the line that it follows begins at the next target.");
+    if (look.is_anew()) return text.add("It was never solved, or was reset: it begins at its next target.");
     if (look.has_changed()) text.add("Its target changed since it was solved. ");
     if (!look.has_target()) return look.explain_nothing(text);
     if (look.has_changed())
         return text.add("The line of sight is %.3g degrees off the new one.", in_degrees(look.missed()));
+    look.doubt_distance(text);
     if (!(look.flags & SWIVEL_REACHED)) return look.explain_miss(text);
     text.add("The line of sight meets its target, %.4g from the eye.", look.distance());
     if (look.flags & SWIVEL_LIMITED_LOOK)

@@ -133,6 +133,7 @@ swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
     if (status == SWIVEL_OK) status = check_root("root_scale", pose.root_scale, sizeof(float));
     const std::size_t position = pose.root_is_double ? 3 * sizeof(double) : float3;
     if (status == SWIVEL_OK) status = check_root("time", pose.time, sizeof(float));
+    if (status == SWIVEL_OK) status = check_root("weight", pose.weight, sizeof(float));
     if (status == SWIVEL_OK) status = check_root("support_position", pose.support_position, position);
     if (status == SWIVEL_OK) status = check_root("support_rotation", pose.support_rotation, 4 * sizeof(float));
     if (status == SWIVEL_OK && pose.root_is_double && !pose.root_position.data)

@@ -118,16 +118,32 @@ PosedBody::Given PosedBody::given(std::uint32_t joint, const Reading& how) const
     return given;
 }
 
-Vector<double> PosedBody::root_place() const
+Vector<double> PosedBody::root_place(const Reading& how) const
 {
     if (!pose_.root_position.data) return vector(0.0, 0.0, 0.0);
     const char* const from = swivel::value_of(pose_.root_position, body_);
-    return vector_of(pose_.root_is_double ? load<double, 3>(from) : load<float, 3>(from));
+    const bool is_double = (pose_.root_is_double != 0) != how.root_in_other_numbers;
+    return vector_of(is_double ? load<double, 3>(from) : load<float, 3>(from));
+}
+Rotor<double> PosedBody::rotation(std::uint32_t joint, const Reading& how) const
+{
+    Rotor<double> turn = given(joint, how).rotation;
+    while (how.space == SWIVEL_LOCAL && (joint = parent(joint)) != 0) turn = given(joint, how).rotation * turn;
+    if (!pose_.root_rotation.data) return turn;
+    return load_rotation(swivel::value_of(pose_.root_rotation, body_), how.root_w_first, how.root_inverse) * turn;
+}
+double PosedBody::rotation_length(std::uint32_t joint) const
+{
+    if (pose_.form != SWIVEL_ROTATIONS) return 1;
+    const auto q = load<float, 4>(value_of(pose_.rotations, joint));
+    return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
 }
 double PosedBody::root_scale() const
 {
     return pose_.root_scale.data ? load<float, 1>(swivel::value_of(pose_.root_scale, body_))[0] : 1;
 }
+
+double PosedBody::time() const { return pose_.time.data ? load<float, 1>(swivel::value_of(pose_.time, body_))[0] : 0; }
 
 Vector<double> PosedBody::place_along(std::uint32_t joint, const Reading& how) const
 {
@@ -163,7 +179,7 @@ Vector<double> PosedBody::place(std::uint32_t joint, const Reading& how) const
         const Rotor<double> turn = load_rotation(from, how.root_w_first, how.root_inverse);
         for (int n = 0; n < how.root_turn; ++n) place = turned(turn, place);
     }
-    return place + static_cast<double>(how.root_place) * root_place();
+    return place + static_cast<double>(how.root_place) * root_place(how);
 }
 
 }  // namespace swivel

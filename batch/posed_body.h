@@ -19,6 +19,7 @@ struct Reading {
     bool joints_inverse = false, root_inverse = false;  // rotations are those of the parent to the joint
     bool at_rest = false;                               // translations are the skeleton's
     bool unscaled = false;                              // joints have no scales of their own
+    bool root_in_other_numbers = false;                 // floats for doubles, or doubles for floats
     int root_place = 1, root_turn = 1, root_scale = 1;  // how often each counts: 0, 1 or 2 times
 
     // As a solve takes them.
@@ -35,8 +36,14 @@ public:
     }
     // In the world; NaN where a number that it depends on is bad.
     Vector<double> place(std::uint32_t joint, const Reading& how) const;
-    Vector<double> root_place() const;
+    // In the world, of unit length.
+    Rotor<double> rotation(std::uint32_t joint, const Reading& how) const;
+    // Of a quaternion as it is stored; 1 of matrices.
+    double rotation_length(std::uint32_t joint) const;
+    Vector<double> root_place(const Reading& how) const;
+    Vector<double> root_place() const { return root_place(Reading(pose_)); }
     double root_scale() const;
+    double time() const;  // 0 without
 
     std::uint32_t joint_at(std::uint32_t row) const;
     std::uint32_t parent(std::uint32_t joint) const { return joint_at(crowd_.joints[joint].parent); }

@@ -7,6 +7,7 @@
 
 #include "core/joint_frame.h"
 #include "core/look_rules.h"
+#include "core/part_of_turn.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -31,18 +32,6 @@ SWIVEL_INLINE constexpr T look_weight(const LineOfSight<T>& sight, const Vector<
     const T length = sqrt(len2(to)), cosine = scalar_product(sight.axis, to) / hi(length, T(kTiny));
     return smooth_step((cosine - T(fade.cos_none)) * T(fade.per_cos)) *
            smooth_step(length / hi(T(fade.distance) * unit, T(kTiny)));
-}
-
-// A share of the angle of a rotation with the cosine of half its angle, cos_half >= 0. It goes from none to the
-// rotation by a normalised blend. A blend of `share` is up to 8 degrees off. So the share is bent by a cubic, which is
-// exact at 0, 1/2 and 1, and off by at most 0.06 degrees. Its coefficients are our own fit.
-template <class T>
-SWIVEL_INLINE constexpr T bent_share(const T& share, const T& cos_half)
-{
-    const T half = share - T(0.5);
-    const T bend = (T(0.858644) + cos_half * (T(-1.191827) + cos_half * T(0.394120))) +
-                   half * half * (T(0.972072) - cos_half * T(1.485737));
-    return share + share * half * (share - T(1)) * bend;
 }
 
 template <class T>
@@ -125,43 +114,43 @@ SWIVEL_INLINE constexpr Mask<T> sees(const LineOfSight<T>& sight, const Vector<T
     return (len2(cross(sight.axis, to)) <= T(1e-8) * len2(to)) & (scalar_product(sight.axis, to) > T(0));
 }
 
-// The line that a look follows: from the eye as it comes, towards the target. Its direction turns by at most `rate`. So
-// does what a change of the distance turns it by, for an eye that the joints carry by `lever`.
+// How a joint of a look is turned, as it is carried: its axis times the tangent of a quarter of its angle. turn: of
+// unit length, by at most half a turn, so its scalar part is none or more.
 template <class T>
-struct FollowedLine {
-    Vector<T> direction;  // of unit length
-    T nearness;           // 1 / distance
-};
-template <class T>
-struct FollowedStep {
-    FollowedLine<T> line;
-    Mask<T> behind;  // it has not come to its goal
-};
-inline constexpr double kStill = 1e-6;  // an angle below this is rounding
-// half: half of the most turn of this step, in radians. The turn's half-tangent is half + half^3 / 3, less than
-// tan(half). So it never turns further; at 0.5 radians it turns 3e-4 less. From pi on it turns all the way.
-template <class T>
-SWIVEL_INLINE constexpr FollowedStep<T> followed(const FollowedLine<T>& was, const FollowedLine<T>& goal,
-                                                 const T& lever, const T& half)
+SWIVEL_INLINE constexpr Vector<T> quarter_tangent(const Rotor<T>& turn)
 {
-    const T tangent = half + half * half * half * T(1.0 / 3), per = T(1) / (T(1) + tangent * tangent);
-    const T cosine = (T(1) - tangent * tangent) * per, sine = (tangent + tangent) * per;
-    const T between = scalar_product(was.direction, goal.direction);
-    // Twice: of directions that are nearly opposite, rounding leaves some of the first in the rest.
-    const Vector<T> rest = goal.direction - between * was.direction,
-                    across = rest - scalar_product(rest, was.direction) * was.direction;
-    const T across2 = len2(across), sine_between = sqrt(across2);
-    const Mask<T> goes = half >= T(1.5707963267948966), known = sine_between > T(kStill);
-    // By the sine of what would be left of the way, which is none for opposite directions.
-    const Mask<T> left = (sine_between * cosine - between * sine > T(kStill)) | ((!known) & (between < T(0)));
-    const Mask<T> turns = (!goes) & left;
-    const Vector<T> side =
-        select(known, (T(1) / select(known, sine_between, T(1))) * across, any_across(was.direction));
-    const T most = (half + half) / hi(lever, T(kTiny)), change = goal.nearness - was.nearness;
-    const Mask<T> comes = (!goes) & (abs(change) > most);
-    return {{select(turns, normalise(cosine * was.direction + sine * side), goal.direction),
-             select(comes, was.nearness + copysign(most, change), goal.nearness)},
-            Mask<T>(turns | comes)};
+    return (T(1) / (T(1) + turn.template at<kScalar>())) *
+           vector(turn.template at<kI>(), turn.template at<kJ>(), turn.template at<kK>());
+}
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> from_quarter_tangent(const Vector<T>& tangent)
+{
+    const T length2 = len2(tangent), per = T(1) / (T(1) + length2);
+    const Vector<T> sine = (per + per) * tangent;
+    return rotor(sine.template at<kE1>(), sine.template at<kE2>(), sine.template at<kE3>(), per * (T(1) - length2));
+}
+// The way of a joint from how it is turned to how it is to be: an axis times the tangent of half of the angle.
+template <class T>
+struct LookWay {
+    Vector<T> axis;
+    T tangent;  // its length
+};
+template <class T>
+SWIVEL_INLINE constexpr LookWay<T> look_way(const Rotor<T>& was, const Rotor<T>& goal)
+{
+    const Rotor<T> way = goal * ~was;
+    const Vector<T> axis = (T(1) / hi(way.template at<kScalar>(), T(1e-3))) *
+                           vector(way.template at<kI>(), way.template at<kJ>(), way.template at<kK>());
+    return {axis, sqrt(len2(axis))};
+}
+inline constexpr double kStillTurn = 1e-6;  // a sum of such tangents below this is rounding
+// A part of it, 0 to 1. As the tangent of an angle is at least the angle, it turns by no more than 2 * part * tangent.
+// It lies between both turns, so within a cone that holds both.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> on_way(const Rotor<T>& was, const LookWay<T>& way, const T& part)
+{
+    const Vector<T> v = part * way.axis;
+    return normalise(rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), T(1)) * was);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -123,6 +123,12 @@ SWIVEL_INLINE void take_root_from_support(const BodyBlock& block, const swivel_p
     }
 }
 
+void read_weights(const BodyPlan& plan, const BodyBlock& block)
+{
+    const Bodies weights(block, plan.pose->weight);
+    for (std::uint32_t n = 0; n < kLanes; ++n)
+        std::memcpy(block.rows + kWeightRow * kLanes + n, weights.lane[n], sizeof(float));
+}
 // What plants and shifts need of a body.
 SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan, const BodyBlock& block)
 {
@@ -185,6 +191,7 @@ void forward(const BodyPlan& plan, const BodyBlock& block)
 {
     read_root(plan, block);
     if (plan.pose->time.data) read_time_and_support(plan, block);
+    if (plan.pose->weight.data) read_weights(plan, block);
     const swivel_pose& pose = *plan.pose;
     switch (pose.form) {
         case SWIVEL_MATRIX_ROWS:

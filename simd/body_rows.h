@@ -38,6 +38,7 @@ enum PosedRow : std::uint32_t {
     // Of the body itself:
     kRootRow,                 // the root's place in the world, as shifted; 0 where positions in rows are from the root
     kTimeRow = kRootRow + 3,  // since the last solve
+    kWeightRow,               // how much of its corrections counts, where the pose says so
     kRootFromSupportRow,      // the root's place from the support's, along the world's axes
     kSupportRow = kRootFromSupportRow + 3,  // the support's rotation
     kSpanRow = kSupportRow + 4,             // the shifts from which all limbs reach: low, high, and 1 if there are any
@@ -70,7 +71,8 @@ enum HolderRow : std::uint32_t {
     kHolderWristRow = kHolderPlaceRow + 3,  // in the prop's frame
     kHolderShoulderRow = kHolderWristRow + 3,
     kHolderReachRow = kHolderShoulderRow + 3,
-    kHolderRows = kHolderReachRow + 1
+    kHolderNearRow = kHolderReachRow + 1,  // and no nearer than this
+    kHolderRows = kHolderNearRow + 1
 };
 inline constexpr std::uint32_t kSayerRow = kHeldRows, kHoldersRow = kSayerRow + 1,
                                kPropRows = kHoldersRow + kMostHolders * kHolderRows;

@@ -28,6 +28,7 @@ struct StageBody<Stage::posed> {
                                  s.body_vector(limb.shoulder + kPlaceRow), s.body_vector(limb.elbow + kPlaceRow),
                                  s.body_vector(limb.wrist + kPlaceRow)};
         s.require(is_posed(s));
+        body_weight(s);  // which must be good
         if (s.has(SWIVEL_WITH_FIT)) s.require(FitWish<S>(s).is_valid());
         Mask<T> stays = T(0) == T(1);
         if (which == BendNormal::chosen && weighs) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
@@ -45,8 +46,6 @@ struct StageBody<Stage::posed> {
             }
         }
         const T per_scale = T(1) / s.body_row(limb.parent + kScaleRow);
-        if (s.has(SWIVEL_WITH_CAP))
-            s.set_body(kReachRow, per_scale * sqrt(len2(posed.wrist_place - posed.shoulder_place)));
         see_goal(s, seen, posed.shoulder_place, per_scale);
         // Lengths that were never written are NaN.
         const auto length = [&](int n, const T& posed_length) SWIVEL_INLINE_LAMBDA {
@@ -55,6 +54,7 @@ struct StageBody<Stage::posed> {
         };
         s.set_body(kLengthsRow, length(0, seen.bones.upper_length));
         s.set_body(kLengthsRow + 1, length(1, seen.bones.fore_length));
+        if (s.has(SWIVEL_WITH_CAP)) s.set_body(kReachRow, incoming_reach(s, posed, per_scale));
         const auto set_from_arm =
             [&](std::uint32_t row, std::uint32_t joint, const Rotor<T>& frame)
                 SWIVEL_INLINE_LAMBDA { s.set_body_rotor(row, ~s.body_rotor(joint + kTurnRow) * frame); };
@@ -66,6 +66,21 @@ struct StageBody<Stage::posed> {
     }
 
 private:
+    // From shoulder to wrist as the pose has it, with lengths that are written in place of its own.
+    template <class S>
+    SWIVEL_INLINE static typename S::T incoming_reach(const S& s, const PosedLimb<typename S::T>& posed,
+                                                      const typename S::T& per_scale)
+    {
+        using T = typename S::T;
+        const T reach = per_scale * sqrt(len2(posed.wrist_place - posed.shoulder_place));
+        const T given = s.io.load(SWIVEL_LENGTHS, 0) + s.io.load(SWIVEL_LENGTHS, 1);
+        const Mask<T> is_given = given == given;
+        if (!any(is_given)) return reach;
+        const Vector<T> upper = posed.elbow_place - posed.shoulder_place, fore = posed.wrist_place - posed.elbow_place;
+        const T cosine = scalar_product(upper, fore) / hi(sqrt(len2(upper) * len2(fore)), T(kTiny)),
+                a = s.body_row(kLengthsRow), b = s.body_row(kLengthsRow + 1);
+        return select(is_given, sqrt(hi(a * a + b * b + (a + a) * b * cosine, T(0))), reach);
+    }
     // The goal, as the parent sees it. Joints' places are from the root's.
     template <class S>
     SWIVEL_INLINE static void see_goal(const S& s, const SeenLimb<typename S::T>& seen,
@@ -147,10 +162,15 @@ struct StageBody<Stage::correct> {
         const Binding& bind = s.strip.bind;
         const swivel_binding& b = *s.strip.run.binding;
         const BodyLimb& limb = *s.strip.run.limb;
-        const Mask<T> valid = lanes_where<T>(s.good()), kept = kept_lanes(s, valid);
+        const T weight = body_weight(s);
+        const bool fades = s.strip.run.strip.pose->weight.data != nullptr;
+        const Mask<T> valid = lanes_where<T>(s.good()), kept = kept_lanes(s, valid) | (valid & (weight == T(0)));
         s.set_body(kKeptRow, select(kept, T(1), T(0)));
-        const auto store = [&](std::uint32_t joint, const Rotor<T>& solved, const float(&rest)[4])
-                               SWIVEL_INLINE_LAMBDA { set_local(s, joint, solved, broadcast<T>(rest), valid, kept); };
+        const auto store = [&](std::uint32_t joint, const Rotor<T>& solved,
+                               const float(&rest)[4]) SWIVEL_INLINE_LAMBDA {
+            const Rotor<T> is = fades ? part_of_turn(s.body_rotor(joint + kLocalRow), solved, weight) : solved;
+            set_local(s, joint, is, broadcast<T>(rest), valid, kept);
+        };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
         const Rotor<T> shoulder = load_result_rotor(s, SWIVEL_SHOULDER);
         store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body_rotor(kUpperFromArmRow),

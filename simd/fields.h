@@ -103,7 +103,7 @@ constexpr const char* feature_name(swivel_features features)
 struct UnitParts {  // the numbers of a value that are a unit axis, and pairs of cosine and sine that follow
     std::uint32_t axis_size = 0, pair_count = 0;
 };
-inline constexpr std::uint32_t kMostComponents = 12;  // of an input, and of what is carried
+inline constexpr std::uint32_t kMostComponents = 25;  // of an input, and of what is carried
 // The numbers of SWIVEL_RECORD, by the first of each value.
 enum RecordNumber : int {
     kRecordShoulder,
@@ -207,6 +207,7 @@ constexpr FieldRow kFields[] = {
     place(SWIVEL_PROP_PLACE, "prop_place", SWIVEL_PROP, 0, {0, 0, 0}, Start::unknown),
     input(SWIVEL_PROP_TURN, "prop_turn", SWIVEL_PROP, kQuaternion, kIdentity, {}, Start::unknown),
     input(SWIVEL_PROP_SHARE, "prop_share", SWIVEL_PROP, "0 to 1", {0}),
+    input(SWIVEL_PROP_WEIGHT, "prop_weight", SWIVEL_PROP, "0 to 1", {1}),
     place(SWIVEL_LOOK_TARGET, "look_target", SWIVEL_LOOK, 0, {0, 0, 0}, Start::unknown),
     input(SWIVEL_LOOK_WEIGHT, "look_weight", SWIVEL_LOOK, "0 to 1", {1}),
     {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, "", {0, 0, 0, 1}},
@@ -229,7 +230,7 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_HAND_FRAME, "hand_frame", 7, kResult, SWIVEL_WITH_HAND_FRAME, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_PROP_FRAME, "prop_frame", 7, kResult, SWIVEL_PROP, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_SIGHT, "sight", 6, kResult, SWIVEL_LOOK, 0, "", {0, 0, 0, 0, 0, 1}},
-    {SWIVEL_LOOK_LINE, "look_line", 4, kCarried, SWIVEL_LOOK},
+    {SWIVEL_LOOK_TURNS, "look_turns", 1 + 3 * SWIVEL_MOST_LOOK_JOINTS, kCarried, SWIVEL_LOOK},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 

@@ -58,9 +58,14 @@ struct StageBody<Stage::grasp> {
         s.set_body_vector(limb.holder + kHolderWristRow, wrist);
         s.set_body_vector(limb.holder + kHolderShoulderRow, s.body_vector(limb.shoulder + kPlaceRow));
         // A hand that does not hold, by its weight, asks for nothing.
-        T far = reach.exact;
-        if (s.has(SWIVEL_WITH_WEIGHTS)) far = select(s.io.load(SWIVEL_WEIGHTS, 0) == T(0), T(kHuge), far);
+        T far = reach.exact, near = reach.near;
+        if (s.has(SWIVEL_WITH_WEIGHTS)) {
+            const Mask<T> asks_nothing = s.io.load(SWIVEL_WEIGHTS, 0) == T(0);
+            far = select(asks_nothing, T(kHuge), far);
+            near = select(asks_nothing, T(0), near);
+        }
         s.set_body(limb.holder + kHolderReachRow, far);
+        s.set_body(limb.holder + kHolderNearRow, near);
         // A hand that is written goes on as it is, of any length, as it would if the limb held nothing.
         const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
         const T length2 = len2(hand);
@@ -80,6 +85,14 @@ struct PropAtHand {
     Mask<T> is_of_hands;  // the caller says nothing of it
     T share;
 
+    // told: where the caller or the joint has it, which counts by the prop's weight.
+    SWIVEL_INLINE void count(const HeldFrame<T>& hands, const HeldFrame<T>& told)
+    {
+        const T weight = s.io.load(SWIVEL_PROP_WEIGHT, 0);
+        s.require(is_share(weight));
+        is_of_hands = is_of_hands | (weight == T(0));
+        frame = between(hands, told, select(is_of_hands, T(0), weight));
+    }
     SWIVEL_INLINE explicit PropAtHand(const S& of)
         : s(of), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_PROP_SHARE, 0))
     {
@@ -95,11 +108,13 @@ struct PropAtHand {
         if (prop.joint != 0) {
             const Rotor<T> rotation = s.body_rotor(prop.joint + kTurnRow);
             const Vector<T> given = select(has_place, at, vector(T(0), T(0), T(0)));
-            frame = {unit_rotation(rotation * unit), s.body_vector(prop.joint + kPlaceRow) + turned(rotation, given)};
+            count(hands,
+                  {unit_rotation(rotation * unit), s.body_vector(prop.joint + kPlaceRow) + turned(rotation, given)});
             return;
         }
-        frame = {select(has_turn, unit, hands.rotation), select(has_place, at - s.body_vector(kRootRow), hands.place)};
         is_of_hands = !(has_turn | has_place);
+        count(hands,
+              {select(has_turn, unit, hands.rotation), select(has_place, at - s.body_vector(kRootRow), hands.place)});
     }
     SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return prop.frame + kHoldersRow + n * kHolderRows; }
     // The moves by which a holder's arm reaches; all of them where that is bad input.
@@ -112,6 +127,14 @@ struct PropAtHand {
         const Mask<T> is_good = len2(place) <= T(kHuge2);
         return {select(is_good, middle, vector(T(0), T(0), T(0))),
                 select(is_good, s.body_row(at + kHolderReachRow), T(kHuge))};
+    }
+    // Whether a holder's grip is nearer to its shoulder than its arm gets.
+    SWIVEL_INLINE Mask<T> is_too_near(std::uint32_t n) const
+    {
+        const std::uint32_t at = holder(n);
+        const T length2 = len2(reaching(n).middle),
+                near = s.body_row(at + kHolderNearRow) - T(kReachSlack) * sqrt(length2);
+        return (len2(s.body_vector(at + kHolderPlaceRow)) <= T(kHuge2)) & (near > T(0)) & (length2 < near * near);
     }
 };
 
@@ -136,7 +159,9 @@ struct StageBody<Stage::prop> {
         const Vector<T> move =
             all(rests) ? none : select(rests, none, at_most(least_move(within(a), within(b)), most, !rests, is_longer));
         is.frame.place = is.frame.place + move;
-        const Mask<T> reaches = rests | (a.has(move) & b.has(move)), stays = !(len2(move) > T(0));
+        const Mask<T> is_far = !(rests | (a.has(move) & b.has(move))),
+                      is_near = (!is_far) & (is.is_too_near(0) | is.is_too_near(prop.holder_count - 1)),
+                      stays = !(len2(move) > T(0));
         s.require((len2(is.frame.place) <= T(kHuge2)) & is_within(len2(is.frame.rotation), 0.99, 1.01) &
                   (len2(s.body_vector(kRootRow)) <= T(kHuge2)));
         const T nan = T(__builtin_nan(""));
@@ -153,7 +178,9 @@ struct StageBody<Stage::prop> {
         Rows<T, kTold> all_rows = s.io;
         all_rows.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
         all_rows.store(SWIVEL_FLAGS, 0,
-                       select(valid, word_where(reaches, SWIVEL_REACHED) | word_where(!reaches, SWIVEL_CLAMPED_FAR),
+                       select(valid,
+                              word_where(!(is_far | is_near), SWIVEL_REACHED) | word_where(is_far, SWIVEL_CLAMPED_FAR) |
+                                  word_where(is_near, SWIVEL_CLAMPED_NEAR),
                               word<T>(SWIVEL_BAD_INPUT)));
     }
 };

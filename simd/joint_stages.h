@@ -8,6 +8,17 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
+// How much of a body's corrections counts.
+template <class S>
+SWIVEL_INLINE typename S::T body_weight(const S& s)
+{
+    using T = typename S::T;
+    if (!s.strip.run.strip.pose->weight.data) return T(1);
+    const T weight = s.body_row(kWeightRow);
+    s.require(is_share(weight));
+    return weight;
+}
+
 // Turns the axes of a joint's matrix; those of lanes that are not valid from the axes of no rotation.
 template <class S>
 SWIVEL_INLINE void turn_axes(const S& s, std::uint32_t joint, const Rotor<typename S::T>& turn,

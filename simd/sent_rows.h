@@ -184,10 +184,10 @@ SWIVEL_INLINE Spring<Vector<typename S::T>> eased_normal(const S& s, const Vecto
             select(stays, carried.rate, select(eases, next.rate, none))};
 }
 
-// How far a limb's wrist gets from its shoulder, and from where on it is eased before that.
+// How far a limb's wrist gets from its shoulder, and from where on it is eased before that; and how near it gets.
 template <class T>
 struct LimbReach {
-    T far, exact;
+    T far, exact, near;
 };
 template <class S>
 SWIVEL_INLINE LimbReach<typename S::T> limb_reach(const S& s)
@@ -203,24 +203,25 @@ SWIVEL_INLINE LimbReach<typename S::T> limb_reach(const S& s)
         return select(given == given, scale * given, sqrt(len2(posed)));
     };
     const T upper = length(0, elbow - shoulder), fore = length(1, wrist - elbow), bones = upper + fore;
-    T far = bones;
+    T far = bones, near = abs(upper - fore);
     if (s.has(SWIVEL_WITH_FLEXION_LIMIT)) {
-        const T cos_half = s.io.load(SWIVEL_FLEXION_LIMIT, 0);
-        s.require(is_within(cos_half, 0, 1));
+        const T cos_half = s.io.load(SWIVEL_FLEXION_LIMIT, 0), cos_half_most = s.io.load(SWIVEL_FLEXION_LIMIT, 1);
+        s.require(is_within(cos_half, 0, 1) & is_within(cos_half_most, 0, 1));
         far = lo(bent_reach(upper, fore, cos_half), far);
+        near = hi(bent_reach(upper, fore, cos_half_most), near);
     }
     if (s.has(SWIVEL_WITH_REACH)) {
         const ReachGoal<T> reach{s.io.load(SWIVEL_REACH, 0), s.io.load(SWIVEL_REACH, 1), s.io.load(SWIVEL_REACH, 2),
                                  s.io.load(SWIVEL_REACH, 3)};
         s.require(is_valid(reach));
-        return {far, hi(far - reach.soft_far * bones, T(0))};
+        return {far, hi(far - reach.soft_far * bones, T(0)), hi(near, reach.least_distance * far)};
     }
-    if (!s.has(SWIVEL_WITH_CAP)) return {far, far};
+    if (!s.has(SWIVEL_WITH_CAP)) return {far, far, near};
     const Cap<T> cap{s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
                      sqrt(len2(wrist - shoulder))};
     s.require(is_valid(cap));
     const CappedReach<T> capped = capped_reach(cap, far, bones);
-    return {capped.far, hi(capped.far - capped.zone, T(0))};
+    return {capped.far, hi(capped.far - capped.zone, T(0)), near};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -22,6 +22,7 @@ struct UnmovedProp {
     bool is_of_hands;  // the caller and the pose say nothing of it
     std::vector<Held> points, hands;
     std::vector<Ball> moves;                 // by which each arm reaches
+    std::vector<double> nearest;             // how near to its shoulder each gets
     std::vector<bool> is_posed, is_written;  // each arm's goal: nothing of it was written, all of it
     double most, off;                        // off: what floats may be off
 };
@@ -70,7 +71,8 @@ struct PropBodies : LinkedBodies {
             size += body.length(arm) + body.rounding(arm) / 3e-7 + is.hands.back().place.norm();
         }
         const double share = arms.size() == 1 ? 0 : double{value(prop, SWIVEL_PROP_SHARE, body.n, Float1{})[0]};
-        is.frame = between(is.hands.front(), is.hands.back(), share);
+        const Held hands = between(is.hands.front(), is.hands.back(), share);
+        is.frame = hands;
         const Float3 place = value(prop, SWIVEL_PROP_PLACE, body.n, kNoPlace);
         const Float4 turn = value(prop, SWIVEL_PROP_TURN, body.n, kNoTurn);
         const bool has_place = !std::isnan(place[0]), has_turn = !std::isnan(turn[0]);
@@ -83,8 +85,14 @@ struct PropBodies : LinkedBodies {
             if (has_turn) is.frame.rotation = rotation;
             is.is_of_hands = !has_place && !has_turn;
         }
+        const double weight = double{value(prop, SWIVEL_PROP_WEIGHT, body.n, Float1{1})[0]};
+        if (weight == 0) is.is_of_hands = true;
+        is.frame = between(hands, is.frame, weight);
         is.off = 1.2e-6 * (size + is.frame.place.norm()) + 3e-7 * root.norm();
-        for (std::size_t n = 0; n < arms.size(); ++n) is.moves.push_back(moves(body, arms[n], is.frame));
+        for (std::size_t n = 0; n < arms.size(); ++n) {
+            is.moves.push_back(moves(body, arms[n], is.frame));
+            is.nearest.push_back(nearest(body, arms[n]));
+        }
         is.most = double{groups[prop].prop.most_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
         return is;
     }
@@ -168,6 +176,10 @@ private:
             const std::uint32_t kind = random.below(3);
             return Float1{kind < 2 ? static_cast<float>(kind) : static_cast<float>(random.unit())};
         });
+        give(prop, SWIVEL_PROP_WEIGHT, [&](std::size_t) {
+            const std::uint32_t kind = random.below(4);
+            return Float1{kind == 0 ? 0 : kind == 1 ? static_cast<float>(random.unit()) : 1};
+        });
         const bool is_ever_written = random.below(2);
         const std::int32_t joint = groups[prop].prop.joint;
         std::vector<Held> written;
@@ -205,6 +217,16 @@ private:
         Quaterniond q;
         q.coeffs() = (1 - share) * a.rotation.coeffs() + side * share * b.rotation.coeffs();
         return {q.normalized(), (1 - share) * a.place + share * b.place};
+    }
+    double nearest(const LinkedBody& body, std::uint32_t arm) const
+    {
+        const BodyLimbJoints& limb = body.joints(arm);
+        const double upper = (body.was[limb.elbow].place - body.was[limb.shoulder].place).norm(),
+                     fore = (body.was[limb.wrist].place - body.was[limb.elbow].place).norm();
+        double bend = std::numbers::pi;
+        if (const LinkedInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT))
+            bend = 2 * std::acos(double{limit->of<Float2>(body.n)[1]});  // the largest flexion
+        return std::sqrt(std::max(0.0, upper * upper + fore * fore + 2 * upper * fore * std::cos(bend)));
     }
     Ball moves(const LinkedBody& body, std::uint32_t arm, const Held& frame) const
     {

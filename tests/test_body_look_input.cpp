@@ -20,8 +20,8 @@ TEST_CASE("bad input of a look keeps its joints, and is that of no other body")
     std::vector<Float3> targets(20, Float3{1, 1.6f, 2});
     for (UprightCrowd* each : {&good, &bodies}) each->solve(targets, 0.1f), each->reset();
     const Vector3d sight = bodies.line(7);
-    Float4 line{}, kept{};
-    check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_LINE, 0, 7, 1, {&line, sizeof line}));
+    std::array<float, 25> line{}, kept{};
+    check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_TURNS, 0, 7, 1, {&line, sizeof line}));
     good.solve(targets, 0.1f);
     targets[7] = {0, 1e16f, 0};
     SECTION("a target")
@@ -45,8 +45,8 @@ TEST_CASE("bad input of a look keeps its joints, and is that of no other body")
     }
     CHECK(bodies.flags(7) == SWIVEL_BAD_INPUT);
     CHECK((bodies.line(7) == sight));
-    check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_LINE, 0, 7, 1, {&kept, sizeof kept}));
-    CHECK((kept == (keeps ? line : Float4{})));
+    check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_TURNS, 0, 7, 1, {&kept, sizeof kept}));
+    CHECK((kept == (keeps ? line : std::array<float, 25>{})));
     for (std::size_t n = 0; n < 20; ++n)
         if (n != 7) CHECK((bodies.rotations[n] == good.rotations[n]));
 }

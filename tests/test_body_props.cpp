@@ -18,7 +18,7 @@ using namespace swivel::test;
 constexpr std::size_t kPropBodies = 200;
 
 struct PropCounts {
-    int bodies = 0, kept = 0, moved = 0, missed = 0, said = 0, free = 0;
+    int bodies = 0, kept = 0, moved = 0, missed = 0, said = 0, free = 0, near = 0;
 };
 
 // A crowd with a prop, the same with one that never moves, and one whose limbs hold nothing.
@@ -56,14 +56,16 @@ struct PropStage {
         const LinkedBody body(solved, n);
         const Vector3d root = of.root(n, solved);
         const UnmovedProp wanted = of.unmoved(body, root);
-        const std::uint32_t flags = solved.flags(of.prop, n);
-        RC_ASSERT((flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR));
+        std::uint32_t flags = solved.flags(of.prop, n);
+        RC_ASSERT((flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_CLAMPED_NEAR));
         Held is = held(solved.result<Float7>(SWIVEL_PROP_FRAME, of.prop, n));
         is.place -= root;
         RC_ASSERT(is.rotation.angularDistance(wanted.frame.rotation) <= 8e-6);
         const Vector3d move = is.place - wanted.frame.place;
         const bool stays = solved.result<std::array<std::uint32_t, 7>>(SWIVEL_PROP_FRAME, of.prop, n) ==
                            fixed.result<std::array<std::uint32_t, 7>>(SWIVEL_PROP_FRAME, of.prop, n);
+        check_near(wanted, move, flags, counts);
+        if (flags == SWIVEL_CLAMPED_NEAR) flags = SWIVEL_REACHED;  // as far as the far ends say
         check_move(wanted, move, stays, flags, counts);
         for (std::size_t a = 0; a < of.arms.size(); ++a) {
             const std::uint32_t arm = of.arms[a];
@@ -74,6 +76,19 @@ struct PropStage {
         }
         check_sayer(n, body, wanted, stays, counts);
         ++counts.bodies;
+    }
+    // A grip that is nearer to its shoulder than the arm gets is not reached.
+    static void check_near(const UnmovedProp& wanted, const Vector3d& move, std::uint32_t flags, PropCounts& counts)
+    {
+        bool is_near = false, may_be = false;
+        for (std::size_t a = 0; a < wanted.moves.size(); ++a) {
+            const double distance = (move - wanted.moves[a].middle).norm();
+            is_near |= distance < wanted.nearest[a] - 3 * wanted.off;
+            may_be |= distance < wanted.nearest[a] + 3 * wanted.off;
+        }
+        if (is_near) RC_ASSERT(flags != SWIVEL_REACHED);
+        if (flags == SWIVEL_CLAMPED_NEAR) RC_ASSERT(may_be);
+        counts.near += flags == SWIVEL_CLAMPED_NEAR;
     }
     void check_move(const UnmovedProp& wanted, const Vector3d& move, bool stays, std::uint32_t flags,
                     PropCounts& counts) const
@@ -135,7 +150,7 @@ TEST_CASE("hands hold a prop, which lies where it is said and moves no further t
     counts = {};
     const bool held_all = rc::check("by forward kinematics and a search", check_seed);
     CHECK(held_all);
-    CAPTURE(counts.bodies, counts.kept, counts.moved, counts.missed, counts.said, counts.free);
+    CAPTURE(counts.bodies, counts.kept, counts.moved, counts.missed, counts.said, counts.free, counts.near);
     if (counts.bodies > 50 * static_cast<int>(kPropBodies)) {
         CHECK(counts.kept > counts.bodies / 10);
         CHECK(counts.moved > counts.bodies / 10);

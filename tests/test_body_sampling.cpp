@@ -614,9 +614,7 @@ TEST_CASE("jobs that sample no ground are refused in one line")
     job.sample = [](const swivel_probes*, void*) {};
     job.probes_only = 1;
     refuses(stage.crowd, "give one of them");
-    job.groups = &shift_alone, job.group_word_count = 1, job.probes_only = 0;
-    refuses(stage.crowd, "has a sample function, but names no group that is SWIVEL_WITH_GROUND");
-    job.sample = nullptr, job.probes_only = 1;
+    job.groups = &shift_alone, job.group_word_count = 1, job.sample = nullptr;
     refuses(stage.crowd, "is for probes_only, but names no group that is SWIVEL_WITH_GROUND");
     CHECK(all_words(stage.crowd) == before);
     job.groups = nullptr, job.group_word_count = 0;
@@ -626,4 +624,7 @@ TEST_CASE("jobs that sample no ground are refused in one line")
     swivel_job plain = swivel_default_job();
     plain.probes_only = 1;
     CHECK_REFUSED(swivel_solve(free.get(), &plain), SWIVEL_INVALID_ARGUMENT);
+    plain.probes_only = 0;
+    plain.sample = [](const swivel_probes*, void*) { FAIL("no limb of this crowd stands on ground"); };
+    CHECK(swivel_solve(free.get(), &plain) == SWIVEL_OK);
 }

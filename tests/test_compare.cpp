@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <functional>
+#include <numbers>
 
 #include "tests/allocation_count.h"
 #include "tests/body_crowd.h"
@@ -98,6 +99,20 @@ struct Rig {
     Crowd::Comparison compare(const Places& of) const { return crowd.compare(group, body, pose, of[0], of[1], of[2]); }
     Crowd::Comparison compare() const { return compare(places(limb())); }
 
+    // 1 where an elbow bends just as the limb's bend says, in the shoulder's frame, and -1 the other way.
+    double bend_sense(const Body& made, const BodyLimbJoints& limb) const
+    {
+        Body rest;
+        rest.rotations = skeleton.rotations, rest.translations = skeleton.translations;
+        rest.scales.assign(skeleton.size(), Float3{1, 1, 1});
+        const std::vector<JointAt> at = joints_at(skeleton, made), at_rest = joints_at(skeleton, rest);
+        const Vector3d upper = at[limb.elbow].place - at[limb.shoulder].place,
+                       fore = at[limb.wrist].place - at[limb.elbow].place,
+                       bone = at_rest[limb.shoulder].rotation.conjugate() *
+                              (at_rest[limb.elbow].place - at_rest[limb.shoulder].place);
+        return upper.cross(fore).normalized().dot(at[limb.shoulder].rotation * bone.cross(vec(limb.bend)).normalized());
+    }
+
     // Calls change(floats) for each joint's rotation or matrix of all bodies.
     void change_joints(const std::function<void(float*)>& change)
     {
@@ -125,6 +140,21 @@ private:
         change(values);
         std::memcpy(at, values, count * sizeof(float));
     }
+    // Limbs are about as long as at rest, and bend as there.
+    bool is_plausible(const Body& made) const
+    {
+        Body rest = made;
+        rest.translations = skeleton.translations;
+        const std::vector<JointAt> at = joints_at(skeleton, made), at_rest = joints_at(skeleton, rest);
+        const auto length = [](const std::vector<JointAt>& joints, const BodyLimbJoints& limb) {
+            return (joints[limb.elbow].place - joints[limb.shoulder].place).norm() +
+                   (joints[limb.wrist].place - joints[limb.elbow].place).norm();
+        };
+        return std::ranges::all_of(skeleton.limbs, [&](const BodyLimbJoints& limb) {
+            const double ratio = length(at, limb) / length(at_rest, limb);
+            return ratio > 0.6 && ratio < 1.7 && bend_sense(made, limb) > 0;
+        });
+    }
     std::vector<Body> random_bodies(Random& random, const RigWish& wish) const
     {
         // A scale may be by chance that of feet to metres, or of inches to centimetres. Such a body says nothing.
@@ -135,7 +165,7 @@ private:
         std::vector<Body> made;
         while (made.size() < 3) {
             made.push_back(random_body(random, skeleton, {wish.translates && wish.stretches, wish.scales, true, 2.5}));
-            if (is_unit(double{made.back().root_scale})) made.pop_back();
+            if (is_unit(double{made.back().root_scale}) || !is_plausible(made.back())) made.pop_back();
         }
         return made;
     }
@@ -539,7 +569,122 @@ TEST_CASE("what is known of an unknown mistake is said")
     const std::string says = rig.compare(longer).text;
     CHECK(number_after(says, "Your forearm is ") == Approx(1.7 * number_after(says, "the pose's ")).epsilon(1e-3));
     rig.change_joints([](float* q) { q[0] = q[1] = q[2] = q[3] = 0; });
-    CHECK(has(rig.compare(places).text, "The pose has no place of the shoulder"));
+    CHECK(has(rig.compare(places).text, "is a quaternion of length 0."));
+}
+
+TEST_CASE("a skeleton in another unit than the pose is named, though the places agree")
+{
+    for_each_rig(kRigs / 10, [](Random& random) {
+        RigWish wish = matrix_wish(random, static_cast<swivel_pose_form>(1 + random.below(3)));
+        wish.stretches = false;
+        Rig rig(random, wish);
+        BodySkeleton large = rig.skeleton;
+        for (Float3& bone : large.translations)
+            for (float& number : bone) number *= 100;
+        rig.crowd = body_crowd(large, SWIVEL_POLE_INCOMING, static_cast<std::uint32_t>(rig.bodies.size()));
+        const auto said = rig.compare();
+        INFO(said.text);
+        REQUIRE(!said.agrees);
+        REQUIRE(
+            said.text.starts_with("The places agree, but something else is wrong. The skeleton's bones are 100 times"));
+    });
+}
+
+TEST_CASE("a time in milliseconds is named, though the places agree")
+{
+    Random random{1};
+    Rig rig(random, {});
+    for (const float time : {0.0167f, 1.0f, 16.7f}) {
+        rig.pose.time = {&time, 0};
+        CHECK(rig.compare().agrees == (time <= 1));
+    }
+    CHECK_THAT(rig.compare().text, Catch::Contains("The pose's time is 16.7, which are that many seconds"));
+}
+
+TEST_CASE("an elbow bent against its bend is named, though the places agree")
+{
+    for_each_rig(kRigs / 10, [](Random& random) {
+        Rig rig(random, any_wish(random));
+        BodySkeleton other = rig.skeleton;
+        for (float& number : other.limbs[rig.group].bend) number = -number;
+        rig.crowd = body_crowd(other, SWIVEL_POLE_INCOMING, static_cast<std::uint32_t>(rig.bodies.size()));
+        const Vector3d upper = rig.place(rig.limb().elbow) - rig.place(rig.limb().shoulder),
+                       fore = rig.place(rig.limb().wrist) - rig.place(rig.limb().elbow);
+        const double bend = angle_between(upper, fore);
+        if (bend < 0.2 || bend > 2.9 || rig.bend_sense(rig.bodies[rig.body], rig.limb()) < 0.8) return;
+        const auto said = rig.compare();
+        INFO(said.text);
+        REQUIRE(!said.agrees);
+        REQUIRE(number_after(said.text, "is bent by ") == Approx(bend * 180 / std::numbers::pi).epsilon(1e-2));
+    });
+}
+
+TEST_CASE("a root in floats for doubles, or in doubles for floats, is named")
+{
+    int doubles = 0;
+    for_each_rig(kRigs / 10, [&](Random& random) {
+        Rig rig(random, any_wish(random));
+        const bool is_double = rig.pose.root_is_double;
+        if (!is_double && rig.pose.root_position.stride < 3 * sizeof(double)) return;
+        const Places places = rig.places(rig.limb());
+        rig.pose.root_is_double = !is_double;
+        const auto said = rig.compare(places);
+        INFO(said.text);
+        REQUIRE(!said.agrees);
+        REQUIRE(said.text.find(is_double ? "root_position is in doubles, but it is read as floats"
+                                         : "root_position is in floats, but root_is_double says doubles") !=
+                std::string::npos);
+        doubles += is_double;
+    });
+    CHECK(doubles > 10);
+}
+
+TEST_CASE("a root that was not given is named")
+{
+    for_each_rig(kRigs / 10, [](Random& random) {
+        Rig rig(random, any_wish(random));
+        const Places places = rig.places(rig.limb());
+        const std::uint32_t what = random.below(3);
+        if (what != 0 && !rig.far_roots.empty()) return;  // floats tell nothing there
+        if (what != 0) rig.pose.root_position = {}, rig.pose.root_is_double = 0;
+        if (what != 1) rig.pose.root_rotation = {};
+        const auto said = rig.compare(places);
+        INFO(said.text);
+        REQUIRE(!said.agrees);
+        REQUIRE(said.text.find(what == 0   ? "gives no root_rotation"
+                               : what == 1 ? "gives no root_position"
+                                           : "gives neither root_position nor root_rotation") != std::string::npos);
+    });
+}
+
+TEST_CASE("three joints that are all too high are named")
+{
+    for_each_rig(kRigs / 10, [](Random& random) {
+        Rig rig(random, any_wish(random));
+        const BodyLimbJoints limb = rig.limb();
+        BodySkeleton high = rig.skeleton;
+        BodyLimbJoints& named = high.limbs[rig.group];
+        named.shoulder = rig.clavicle(), named.elbow = limb.shoulder, named.wrist = limb.elbow;
+        named.twist_bones.clear();
+        rig.crowd = body_crowd(high, SWIVEL_POLE_INCOMING, static_cast<std::uint32_t>(rig.bodies.size()));
+        const auto said = rig.compare(rig.places(limb));
+        INFO(said.text);
+        REQUIRE(!said.agrees);
+        REQUIRE(said.text.starts_with("Your shoulder and elbow are joints " + std::to_string(limb.shoulder) + " and " +
+                                      std::to_string(limb.elbow) + ", but the group has joints "));
+    });
+}
+
+TEST_CASE("a pose that is read at wrong strides is named")
+{
+    Random random{2};
+    Rig rig(random, {});
+    rig.pose.rotations.joint_stride += sizeof(float);
+    const Places places = rig.places(rig.limb());
+    const auto said = rig.crowd.compare(rig.group, 0, rig.pose, places[0], places[1], places[2]);
+    INFO(said.text);
+    CHECK(!said.agrees);
+    CHECK(said.text.find("look at its strides and offsets") != std::string::npos);
 }
 
 TEST_CASE("two mistakes that fit alike are both named")

@@ -406,6 +406,11 @@ TEST_CASE("C++: places of ground are doubles where roots are, and places of a pr
         pose.root_is_double = 1;
         pose.root_position = pose.support_position = stream(roots);
         CHECK(holders.crowd().solve({.frames = {leg, arm, arm, prop}, .pose = &pose}) == holders.size());
+        const std::vector<Float3> as_floats(holders.size());
+        Frame narrow;
+        narrow.in(SWIVEL_GROUND, stream(as_floats));
+        CHECK_THROWS_WITH(holders.crowd().solve({.frames = {narrow, arm, arm, prop}, .pose = &pose}),
+                          "frame of group 0: ground is in floats, but the pose has root_is_double; give doubles");
         CHECK(!holders.crowd().find(SWIVEL_BAD_INPUT));
         for (std::uint32_t n = 0; n < holders.size(); ++n) CHECK(holders.flags(kRifleGroup, n) == SWIVEL_REACHED);
         digests.push_back(holders.crowd().digest());

@@ -513,12 +513,19 @@ TEST_CASE("C++: a stream is the first one's member and the way to the next")
     CHECK((pose.data == &characters[0].pose && pose.stride == sizeof(Person)));
     Frame doubles;
     doubles.in(SWIVEL_TARGET, stream(characters, &Person::place));
-    CHECK_THROWS_WITH(swivel_frame(doubles), Catch::Contains("no origin()"));
+    CHECK(swivel_frame(doubles).positions == SWIVEL_DOUBLES);
+    CHECK_THROWS_WITH(doubles.in(SWIVEL_POLE, stream(characters, &Person::grip)),
+                      Catch::Contains("floats and in doubles"));
     CHECK_THROWS_WITH(doubles.in(SWIVEL_HAND, stream(characters, &Person::place)), Catch::Contains("is no position"));
     Frame made;
     const std::vector<Made> classes(20, Made(1));  // taken for floats, which need no origin
     made.in(SWIVEL_PARENT_SCALE, stream(classes));
-    CHECK(swivel_frame(made).field_count == 1);
+    const swivel_frame view = made;
+    CHECK((view.fields[0].data == classes.data() && view.fields[1].data == nullptr));
+    CHECK(view.positions == SWIVEL_NUMBERS_UNSAID);
+    made.in(SWIVEL_TARGET, stream(characters, &Person::grip));  // a view sees what is added later
+    CHECK(view.fields[1].data == &characters[0].grip);
+    CHECK(swivel_frame(made).positions == SWIVEL_FLOATS);
     characters.clear();
     CHECK(swivel_in(stream(characters, &Person::grip)).data == nullptr);
     CHECK(degrees(180) == Approx(3.14159265358979));

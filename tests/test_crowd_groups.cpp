@@ -169,7 +169,7 @@ TEST_CASE("the library describes the fields, features and flags that the header 
         const bool is_input = field.field < SWIVEL_INPUT_END;
         CHECK((field.kind == SWIVEL_FIELD_INPUT) == is_input);
         constexpr std::array carried = {SWIVEL_NORMAL, SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION,
-                                        SWIVEL_SHIFT,  SWIVEL_LIFT,  SWIVEL_LOOK_LINE};
+                                        SWIVEL_SHIFT,  SWIVEL_LIFT,  SWIVEL_LOOK_TURNS};
         CHECK((field.kind == SWIVEL_FIELD_CARRIED) == (std::ranges::find(carried, field.field) != carried.end()));
         CHECK((*field.range != 0) == is_input);
         // A group has the field just if it has what the field needs and lacks what it excludes.

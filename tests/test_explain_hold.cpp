@@ -49,22 +49,30 @@ std::string source_of(const PropBodies& of, std::size_t n)
 {
     const bool has_place = !std::isnan(of.value(of.prop, SWIVEL_PROP_PLACE, n, kNoPlace)[0]),
                has_turn = !std::isnan(of.value(of.prop, SWIVEL_PROP_TURN, n, kNoTurn)[0]);
+    const float weight = of.value(of.prop, SWIVEL_PROP_WEIGHT, n, Float1{1})[0];
+    const bool is_told = has_place || has_turn || of.groups[of.prop].prop.joint >= 0;
+    char by[80] = ". ";
+    if (is_told && weight < 1)
+        std::snprintf(by, sizeof by, ", by a weight of %.3g against where the hands have it. ", double{weight});
     const float share = of.arms.size() == 1 ? 0 : of.value(of.prop, SWIVEL_PROP_SHARE, n, Float1{})[0];
     const std::string hands = share == 0   ? "as the hand of " + group_name(of.arms[0]) + " has it. "
                               : share == 1 ? "as the hand of " + group_name(of.arms[1]) + " has it. "
                                            : "between the hands of groups " + std::to_string(of.arms[0]) + " and " +
                                                  std::to_string(of.arms[1]) + ", at ";
+    const auto ended = [&](const std::string& text) {
+        return text.ends_with(". ") ? text.substr(0, text.size() - 2) + by : text;
+    };
     if (const std::int32_t joint = of.groups[of.prop].prop.joint; joint >= 0)
-        return "It lies as joint " + std::to_string(joint) + " has it" +
-               (has_place && has_turn ? ", with the place and rotation that are written in that joint's frame. "
-                : has_place           ? ", with the place that is written in that joint's frame. "
-                : has_turn            ? ", with the rotation that is written in that joint's frame. "
-                                      : ". ");
-    if (has_place && has_turn) return "Its place and rotation are written. ";
-    return (has_place  ? "Its place is written, its rotation is "
-            : has_turn ? "Its rotation is written, its place is "
-                       : "It lies ") +
-           hands;
+        return ended("It lies as joint " + std::to_string(joint) + " has it" +
+                     (has_place && has_turn ? ", with the place and rotation that are written in that joint's frame. "
+                      : has_place           ? ", with the place that is written in that joint's frame. "
+                      : has_turn            ? ", with the rotation that is written in that joint's frame. "
+                                            : ". "));
+    if (has_place && has_turn) return ended("Its place and rotation are written. ");
+    return ended((has_place  ? "Its place is written, its rotation is "
+                  : has_turn ? "Its rotation is written, its place is "
+                             : "It lies ") +
+                 hands);
 }
 
 }  // namespace
@@ -93,7 +101,9 @@ TEST_CASE("explain says where a prop lies and why, how far it moved, and how far
                 RC_ASSERT(is_told(number_after(text, "It moved by "), moved, wanted.off));
             if (is_known && moved < wanted.off && wanted.off < 3e-6 * body.length(bodies.arms[0]))
                 RC_ASSERT(!has(text, "It moved by"));
-            if (reaches)
+            if (solved.flags(bodies.prop, n) == SWIVEL_CLAMPED_NEAR)
+                RC_ASSERT(has(text, "A grip is nearer to the shoulder than its arm gets"));
+            else if (reaches)
                 RC_ASSERT((has(text, "It need not move: all hands reach it.") ||
                            has(text, "no more than it must for all hands to reach it.") || !is_known));
             else

@@ -101,7 +101,7 @@ private:
 TEST_CASE("explain says that a line of sight meets its target, or that there is none")
 {
     UprightLook of(UprightLook::look(3, 30));
-    CHECK(of.text() == "It was never solved, or was reset: the line that it follows begins at the next target.");
+    CHECK(of.text() == "It was never solved, or was reset: it begins at its next target.");
     CHECK(of.solved() == "It has nothing to look at, so the chain has its incoming pose.");
     of.aim(20);
     CHECK(of.solved() == "The line of sight meets its target, 2 from the eye.");
@@ -166,8 +166,9 @@ TEST_CASE("explain says by how much the rate holds a line of sight back")
     CHECK(number_after(text, "Its rate of 57.3 degrees a second holds it back by ") == Approx(left).epsilon(3e-3));
     CHECK(has(of.solved(60), "meets its target"));
     of.crowd.write_all(SWIVEL_LOOK_TARGET, 0, Float3{kNone, kNone, kNone});
-    CHECK(of.solved() ==
-          "It has nothing to look at, and is on its way back to the incoming pose, by 57.3 degrees a second.");
+    CHECK(
+        of.solved() ==
+        "It has nothing to look at, and the chain is on its way back to its incoming pose, by 57.3 degrees a second.");
     CHECK(of.solved(60) == "It has nothing to look at, so the chain has its incoming pose.");
 }
 

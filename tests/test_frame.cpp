@@ -168,6 +168,16 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
     refuse({{SWIVEL_CLAVICLE_TURN, values, 16}}, "create it with SWIVEL_WITH_CLAVICLE");
     refuse({{SWIVEL_POLE, values, 0}, {SWIVEL_POLE, values, 0}}, "frame of group 1 lists pole twice; list it once");
     refuse({{SWIVEL_INPUT_END, values, 0}}, "");
+    frames[1].positions = SWIVEL_DOUBLES;
+    refuse({{SWIVEL_TARGET, values, 24}},
+           "target is in doubles, but floats are read without an origin; give floats, or an");
+    frames[1].positions = SWIVEL_FLOATS;
+    frames[1].origin = {values, 0};
+    refuse({{SWIVEL_TARGET, values, 24}}, "target is in floats, but the frame has an origin; give doubles");
+    frames[1].positions = 3;
+    refuse({{SWIVEL_TARGET, values, 24}}, "positions is 3, which is no swivel_numbers");
+    frames[1].positions = SWIVEL_NUMBERS_UNSAID;
+    frames[1].origin = {};
     for (const float x : values) CHECK(x == 0);
     CHECK(solve_frame_blocks(c, frames, 0, 2) == SWIVEL_OK);  // blocks of group 0 alone
     frames[1].fields = nullptr;

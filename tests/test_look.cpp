@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise of the look's formulas, in float: the shortest turn carries one direction to the other, a share of it is
-// that share of the angle, a cone holds it, the last joint brings the line of sight to the target, and a followed line
-// turns no further than it may. Eigen judges, by angles.
+// that share of the angle, a cone holds it, the last joint brings the line of sight to the target, and eased
+// turns change by no more than they may. Eigen judges, by angles.
 #include "core/look.h"
 
 #include <catch2/catch.hpp>
@@ -27,6 +27,11 @@ Vector3d beside(Random& random, const Vector3d& direction)
 {
     const double angle = random.below(4) == 0 ? kPi - random.spread(1e-7, 0.1) : random.between(0, kPi);
     return std::cos(angle) * direction.normalized() + std::sin(angle) * random.across(direction.normalized());
+}
+Rotor<float> rotor_of(const Quaterniond& q)
+{
+    const Eigen::Quaternionf turn = q.cast<float>();
+    return rotor(turn.x(), turn.y(), turn.z(), turn.w());
 }
 LookJoint joint_of(double share, double most)
 {
@@ -102,32 +107,26 @@ TEST_CASE("the last joint brings the line of sight to its target")
     });
 }
 
-TEST_CASE("a followed line turns by what it may, and stops at its goal")
+TEST_CASE("a carried turn is the turn again, and a part of a way turns by less than its tangents say")
 {
-    rc::prop("lines of any directions and distances", [](std::uint64_t seed) {
+    rc::prop("any two turns of a cone, and any part", [](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < kTurns; ++n) {
-            const Vector3d was = random.direction(), goal = beside(random, was);
-            const double most = random.spread(1e-4, 1), lever = random.spread(0.05, 1), way = angle_from_to(was, goal);
-            const FollowedLine<float> from{mv<float>(was), float(random.spread(1e-3, 2))},
-                to{mv<float>(goal), float(random.spread(1e-3, 2))};
-            const FollowedStep<float> step = followed(from, to, float(lever), float(0.5 * most));
-            const Vector3d is = eigen(step.line.direction);
-            const double turned = angle_from_to(was, is), left = angle_from_to(is, goal);
-            const double nearer = double{step.line.nearness} - double{from.nearness},
-                         change = double{to.nearness} - double{from.nearness};
+            const double cone = random.below(3) == 0 ? kPi : random.spread(1e-3, 3);
+            const auto any_turn = [&] {
+                return Quaterniond(Eigen::AngleAxisd(cone * (random.below(4) ? random.unit() : 1), random.direction()));
+            };
+            const Quaterniond was = any_turn(), goal = any_turn();
+            const Rotor<float> from = from_quarter_tangent(quarter_tangent(rotor_of(was))), to = rotor_of(goal);
+            RC_ASSERT(eigen(from).angularDistance(was) <= 2e-6);
+            const LookWay<float> way = look_way(from, to);
+            const double part = random.below(4) ? random.unit() : 1;
+            const Quaterniond is = eigen(on_way(from, way, float(part)));
             RC_ASSERT(std::fabs(is.norm() - 1) <= 1e-6);
-            RC_ASSERT(turned <= most + 2e-6);
-            // The half-tangent lacks 2 half^5 / 15 and what follows.
-            RC_ASSERT(turned >= std::min(way, most - 0.3 * std::pow(0.5 * most, 5)) - 4e-6);
-            RC_ASSERT(turned + left <= way + 4e-6);  // on the shortest way
-            RC_ASSERT(std::fabs(nearer) <= most / lever * (1 + 1e-6) + 1e-6);
-            RC_ASSERT(nearer * change >= 0);
-            RC_ASSERT(step.behind || (left <= 4e-6 && step.line.nearness == to.nearness));
-            // From half a turn of half an angle on, it goes all the way.
-            const FollowedStep<float> all = followed(from, to, float(lever), 1.6f);
-            RC_ASSERT(!all.behind);
-            RC_ASSERT(eigen(all.line.direction) == eigen(to.direction));
+            RC_ASSERT(is.angularDistance(was) <= 2 * part * double{way.tangent} + 2e-6);
+            RC_ASSERT(turn_angle(is) <= cone + 4e-6);
+            // A way of half a turn or more, on which no step is the last, ends before half a turn.
+            if (part == 1 && was.dot(goal) > 2e-3) RC_ASSERT(is.angularDistance(goal) <= 4e-6);
         }
     });
 }

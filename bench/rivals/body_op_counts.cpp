@@ -130,29 +130,27 @@ OpCounts count_look_ops()
 {
     constexpr int kTurned = 4, kFollowing = 8;
     const auto place = [](int n) { return vector(0, 1.2 + 0.15 * n, 0.02); };
-    const Rotor<Counted> was = rotor(0.1, 0.05, -0.1, 0.98867), root = rotor(0.1, -0.2, 0.05, 0.97340);
+    const Rotor<Counted> was = rotor(0.1, 0.05, -0.1, 0.98867);
     const Counted scale(1.1);
     const swivel::LookJoint joint{0.4f, 0.9f, 0.43589f};
     tally = {};
-    // The line of sight, the target from it, and the line that is followed.
+    // The line of sight, the target from it, and how much it counts.
     swivel::LineOfSight<Counted> sight{place(3) + swivel::turned(was, scale * vector(0, 0.1, 0.1)),
                                        swivel::turned(was, vector(0, 0, 1))};
-    const swivel::Vector<Counted> given = vector(3, 2.5, 7) - vector(1, 0.5, 2), to = given - sight.eye;
-    const Counted distance = sqrt(swivel::len2(to)), nearness = Counted(1.0) / distance;
-    const swivel::FollowedLine<Counted> goal{swivel::turned(~root, nearness * to), nearness};
-    const Counted lever = sqrt(swivel::len2(sight.eye - place(0)));
-    const auto step = swivel::followed({vector(0, 0.6, 0.8), Counted(0.2)}, goal, lever, Counted(1.5) * Counted(0.016));
-    const swivel::Vector<Counted> target =
-        sight.eye + (Counted(1.0) / step.line.nearness) * swivel::turned(root, step.line.direction);
+    const swivel::Vector<Counted> given = vector(3, 2.5, 7), target = given - vector(1, 0.5, 2);
     const Counted weight =
         Counted(0.9) * swivel::look_weight(sight, target, swivel::LookFade{-0.9f, 1.6f, 0.15f}, scale);
-    // The chain, and the joints' local rotations.
+    // The chain, the turns that are carried, and the joints' local rotations.
     Rotor<Counted> sum = swivel::one<Counted>();
+    Counted tangents(0.0);
     for (int n = 0; n < kTurned; ++n) {
         const swivel::Vector<Counted> at = n == 0 ? place(0) : place(n - 1) + swivel::turned(sum, place(n) - place(0));
         const swivel::LookTurn<Counted> turn = n + 1 < kTurned ? swivel::share_of_look(sight, target, weight, joint)
                                                                : swivel::rest_of_look(sight, at, target, weight, joint);
         sight = {at + swivel::turned(turn.turn, sight.eye - at), swivel::turned(turn.turn, sight.axis)};
+        swivel::turned(~(sum * was), vector(0.1, 0.05, -0.1));
+        tangents = tangents + swivel::look_way(swivel::from_quarter_tangent(vector(0.1, 0, 0)), turn.turn).tangent;
+        swivel::quarter_tangent(turn.turn);
         sum = n == 0 ? turn.turn : swivel::unit_rotation(turn.turn * sum);
         const Rotor<Counted> rotation = sum * was;
         store(swivel::unit_rotation(~was * rotation), was);

@@ -46,7 +46,7 @@ private:
     void for_each_field(const Take& take) const
     {
         for (std::uint32_t group = 0; group < frames_.size(); ++group)
-            for (std::uint32_t n = 0; n < frames_[group].field_count; ++n)
+            for (std::uint32_t n = 0; n < frames_[group].field_count && frames_[group].fields[n].data; ++n)
                 take(group, swivel_group_limb_count(crowd_.get(), group), frames_[group].fields[n]);
     }
 

@@ -142,7 +142,7 @@ TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
     // [eyes]
     swivel_look eye = swivel_default_look();
     eye.cos_most[0] = 0.87f;  // 30 degrees
-    eye.rate = 0;             // the head's line is eased, the eyes are quick
+    eye.rate = 0;             // the head is eased, the eyes are quick
     const std::array groups = {swivel::look_group({kSpine, kChest, kNeck, kHead}, look),
                                swivel::look_group({kLeftEye}, eye),
                                swivel::look_group({kRightEye}, eye)};

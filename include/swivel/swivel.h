@@ -271,7 +271,8 @@ typedef enum swivel_field {
     // + s becomes d - (d - R + s)^2 / (4 s). A larger distance becomes R. The near end mirrors this. A zone is at most
     // half of the range between the two ends. Stretch then lengthens the bones to close the gap, up to its most.
     SWIVEL_REACH,
-    // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL.
+    // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi; in a 60th of a
+    // second where a pose has a time. See SWIVEL_NORMAL.
     SWIVEL_MOST_SWIVEL,
     // 2, WITH_FLEXION_LIMIT: cos of half the least flexion, cos of half the largest. Flexion does not depend on the
     // swivel. So this limit narrows the reach, and the wrist stops short.
@@ -343,6 +344,9 @@ typedef enum swivel_field {
     // 1, PROP: which hand says where it is, 0..1. At 0, as at the start, the first that is linked to it, at 1 the
     // other; in between both.
     SWIVEL_PROP_SHARE,
+    // 1, PROP: how much place and rotation count that are given or are the joint's, 0..1. 1 at the start. At 0 it is as
+    // the hands have it, in between it lies between both.
+    SWIVEL_PROP_WEIGHT,
     // 3, LOOK: what to look at, in the space of the targets. NaN, as at the start: nothing, so the chain goes back to
     // its incoming pose.
     SWIVEL_LOOK_TARGET,
@@ -412,10 +416,9 @@ typedef enum swivel_field {
     // 6, LOOK: the line of sight after the solve: its start, 3, in the space of the targets, and its direction in the
     // world, 3, of unit length.
     SWIVEL_SIGHT,
-    // 4, LOOK: the line that the chain follows, which turns towards the target at the look's rate. From the eye as the
-    // incoming pose has it: the direction in the root's frame, 3, and 1 divided by the distance. Its direction is 0
-    // before the first solve.
-    SWIVEL_LOOK_LINE,
+    // 25, LOOK: how the look has turned its joints. 1 once it has been solved, else 0. Then 3 for each joint, 0 without
+    // a rate: the axis of its turn times the tangent of a quarter of its angle, in the last joint's incoming frame.
+    SWIVEL_LOOK_TURNS,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
@@ -653,7 +656,7 @@ static inline swivel_ground swivel_default_ground(void)
 
 // How a group with SWIVEL_PROP lies: a thing that one hand or two hold, such as a rifle, a steering wheel or a ladder.
 // Limbs are linked to it, and their grips are on it. Its place, and apart from that its rotation, are
-// - SWIVEL_PROP_PLACE and SWIVEL_PROP_TURN, where they are given;
+// - SWIVEL_PROP_PLACE and SWIVEL_PROP_TURN, where they are given, by SWIVEL_PROP_WEIGHT;
 // - or else the joint's, if there is one: as posed, and shifted with the body. No limb may turn it;
 // - or else as the hands have it in the incoming pose, each by its grip: SWIVEL_PROP_SHARE says which hand. Targets and
 //   hands that are written for these limbs count instead of the pose's. A hand that says alone where it is keeps its
@@ -661,8 +664,9 @@ static inline swivel_ground swivel_default_ground(void)
 //
 // Then it moves as little as it must so that all hands on it reach their grips, up to most_move. What counts is the
 // reach of bones, flexion limit, cap and soft zone. A hand with a position weight of 0 asks for nothing. The flags are
-// REACHED where all hands reach, and CLAMPED_FAR where not. Bad input leaves SWIVEL_PROP_FRAME as it was. Source: our
-// own.
+// REACHED where all hands reach, and CLAMPED_FAR where not: then it is where the worse hand misses least, or most_move
+// on its way there. Nothing moves for a grip that is nearer to the shoulder than bones and flexion limit let the arm
+// get: the flag is then CLAMPED_NEAR. Bad input leaves SWIVEL_PROP_FRAME as it was. Source: our own.
 typedef struct swivel_prop {
     int32_t joint;    // of the skeleton; -1: none
     float most_move;  // in limb lengths of the first limb that is linked to it; 0: it stays, as a ladder does
@@ -686,9 +690,8 @@ enum { SWIVEL_MOST_LOOK_JOINTS = 8 };  // of a look
 // - The turn fades out as the target goes behind: from the angle of cos_full to that of cos_none, between the incoming
 //   line of sight and the line to the target. It also fades as the target comes nearer to the eye than `fade_distance`.
 //   So nothing flips, and straight behind the pose is the incoming one.
-// - The line to the target is eased: it turns by at most `rate`, so a new target takes time. A change of the distance
-// may
-//   turn the line of sight by as much again. It begins at the target.
+// - The turns are eased: the one by which the last joint differs from its incoming rotation changes by at most `rate`,
+//   whatever targets, weights and fades do. So a new target takes time. The first solve begins at the target.
 //   swivel_reset() lets it begin anew: call it after a teleport.
 //
 // A body's looks come after its shift and before its props and limbs, in the order of their groups. So a limb may hang
@@ -708,7 +711,7 @@ typedef struct swivel_look {
     float axis[3];                             // where it points, in the last joint's frame, of any length but 0
     float cos_full, cos_none;                  // cosines of angles: cos_full is more than cos_none
     float fade_distance;                       // in the last joint's unit, 0 to 1e15
-    float rate;                                // radians a second; 0: the line is not eased
+    float rate;                                // radians a second; 0: turns are not eased
 } swivel_look;
 
 // No joints yet: shares of 1, cones of 46 degrees, a line along the last joint's z axis. It fades from 96 to 154
@@ -954,13 +957,18 @@ typedef struct swivel_frame_field {
     size_t stride;  // bytes; for an input 0 is one value for the group, otherwise at least the value's size
 } swivel_frame_field;
 
+// What numbers are, where the caller knows.
+typedef enum swivel_numbers { SWIVEL_NUMBERS_UNSAID, SWIVEL_FLOATS, SWIVEL_DOUBLES } swivel_numbers;
+
 // One group's values as engines keep them: a frame of animation, not one of axes. An input that is not listed keeps its
 // rows; a result that is not listed is not written. A field may be listed once.
 typedef struct swivel_frame {
     size_t size;  // sizeof(swivel_frame), set by swivel_default_frame()
     const swivel_frame_field* fields;
     uint32_t field_count;
-    uint32_t reserved;  // 0
+    // A swivel_numbers: what the positions of this frame are. A solve fails where origin, or a pose's root_is_double,
+    // would have them read as the other kind.
+    uint32_t positions;
     // Null data: positions are floats. With data, all positions are 3 doubles each, and this
     // origin, 3 doubles as well, is subtracted as by swivel_write_doubles(). A pole that is a direction is doubles,
     // too, but has no origin. A position that is not listed keeps its rows, which must be from the same origin. origin
@@ -1010,7 +1018,7 @@ typedef struct swivel_joint_values {
 //   what the limb's formulas do not know, such as a forearm's roll. A goal at the incoming wrist with POLE_INCOMING
 //   gives the incoming pose back. A joint is then within 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad, if the target is as exact
 //   as that: L1 and L2 are the bones, L their sum, b the bend. Where all weights are 0, and the group has no limit,
-//   soft reach or step, the incoming bits stay.
+//   cap, soft reach or step, the incoming bits stay.
 // - With POLE_INCOMING the swivel plane's normal stays the incoming one, made perpendicular to the new line from
 //   shoulder to wrist. Without it and POLE_HAND poles must be written. Lengths that are written count instead of the
 //   pose's. Joints in between stay as they are posed.
@@ -1063,6 +1071,11 @@ typedef struct swivel_pose {
     // seldom. What is planted moves along with a support. To change a support without a jump: swivel_change_support().
     swivel_in support_position;  // 3 floats in the world, or doubles as the root's
     swivel_in support_rotation;  // x, y, z, w
+    // Of each body: how much of all that turns its joints counts, 0..1, 1 float. Null: 1. At 0 the joints keep their
+    // incoming bits, while what is carried goes on. So a body comes and goes without a jump.
+    // Limbs below a look are solved from where the look has turned them by its part. Rows of limbs and props are those
+    // of a weight of 1, and so is SWIVEL_SHIFT: scale it where you draw it.
+    swivel_in weight;
 } swivel_pose;
 
 // Rotations must still be given.
@@ -1268,7 +1281,7 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
 
 // Compares a pose with where your engine has a limb, and says in words which input disagrees. Call it once for each
 // limb when you bind a skeleton, before the first solve.
-// pose: as a job has it. Its time and results do not matter.
+// pose: as a job has it. Its results do not matter.
 // shoulder, elbow, wrist: places of these joints of one body, 3 doubles each. They are in the world, also where the
 // root is in doubles, and those of the pose as it goes in. body is counted within the group.
 // agrees: unless null, becomes 1 or 0.
@@ -1279,11 +1292,15 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
 // of the distance from the origin is added, for the rounding of floats. If they do not agree, the call tries the usual
 // mistakes, one at a time:
 // - quaternions stored as w, x, y, z, and conjugates; matrices of another form, and transposed; the other space;
-// - the joints of another group's limb, such as left for right; joints too high or too low, such as a clavicle;
-// - other units; a root's place, rotation or scale that is missing or counts twice; scales or translations that do not
-//   count; left-handed axes, and another axis up.
+// - the joints of another group's limb, such as left for right; joints too high or too low, such as a clavicle, also
+//   all three of them;
+// - other units; a root's place, rotation or scale that is missing, was not given, or counts twice; a root in floats
+//   for doubles, or the other way round; scales or translations that do not count; left-handed axes, another axis up.
 // The text names the mistake that explains the places, or each of several. If none does, it names the first joint that
-// is off, and what to look at.
+// is off, and what to look at, or the rotation that is none because strides are wrong.
+//
+// They do not agree, either, where no place shows what is wrong: bones of the skeleton that are twice or half as long
+// as the pose's, a time above 1 second, or an elbow bent by 10 degrees and more the other way than `bend` says.
 //
 // What no place depends on cannot be seen, such as the wrist's own rotation. In SWIVEL_IN_BODY with translations the
 // call looks whether rotations lead along the bones, where these are as long as at rest. Matrices that lie 64 bytes

@@ -334,8 +334,8 @@ auto stream(Range&& values, Steps... steps)
     return Stream<Value>{std::ranges::empty(values) ? nullptr : &reached(*first, steps...), sizeof *first};
 }
 
-// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_frame, which views it. Keep
-// it from solve to solve while the arrays stay where they are.
+// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_frame, which views it: also
+// what is added later. Keep it from solve to solve while the arrays stay where they are.
 //     swivel::Frame frame;
 //     frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
 //     frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
@@ -344,14 +344,12 @@ public:
     Frame& in(swivel_field field, const swivel_in& values)
     {
         if (field >= SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "a frame takes in no result; give it by out()");
-        fields_.push_back({field, const_cast<void*>(values.data), values.stride});  // inputs are only read
-        return *this;
+        return add({field, const_cast<void*>(values.data), values.stride});  // inputs are only read
     }
     Frame& out(swivel_field field, const swivel_out& values)
     {
         if (field < SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "a frame puts out no input; give it by in()");
-        fields_.push_back({field, values.data, values.stride});
-        return *this;
+        return add({field, values.data, values.stride});
     }
     template <class Value>
     Frame& in(swivel_field, const Stream<Value>&) = delete;  // neither floats nor doubles
@@ -359,10 +357,11 @@ public:
     requires(FieldValue<Value> || DoubleValue<Value>) Frame& in(swivel_field field, const Stream<Value>& values)
     {
         check_value<std::remove_cv_t<Value>>(field);
-        if constexpr (!FieldValue<Value>) {
-            if (!is_position(field))
-                fail(SWIVEL_INVALID_ARGUMENT, "field " + std::to_string(field) + " is no position; give it floats");
-            has_doubles_ = true;
+        if (is_position(field)) {
+            if constexpr (FieldValue<Value> != DoubleValue<Value>)
+                say_positions(DoubleValue<Value> ? SWIVEL_DOUBLES : SWIVEL_FLOATS);
+        } else if (!FieldValue<Value>) {
+            fail(SWIVEL_INVALID_ARGUMENT, "field " + std::to_string(field) + " is no position; give it floats");
         }
         return in(field, swivel_in(values));
     }
@@ -382,19 +381,34 @@ public:
     }
     operator swivel_frame() const&
     {
-        if (has_doubles_ && !origin_.data) fail(SWIVEL_INVALID_ARGUMENT, "a frame has doubles and no origin()");
         swivel_frame frame = swivel_default_frame();
         frame.fields = fields_.data();
         frame.field_count = static_cast<std::uint32_t>(fields_.size());
+        frame.positions = positions_;
         frame.origin = origin_;
         return frame;
     }
     operator swivel_frame() const&& = delete;  // which would view what ends with its line
 
 private:
-    std::vector<swivel_frame_field> fields_;
+    Frame& add(const swivel_frame_field& field)
+    {
+        if (count_ == fields_.size()) fail(SWIVEL_INVALID_ARGUMENT, "a frame lists more fields than a group has");
+        fields_[count_++] = field;
+        return *this;
+    }
+    void say_positions(swivel_numbers are)
+    {
+        if (positions_ != SWIVEL_NUMBERS_UNSAID && positions_ != are)
+            fail(SWIVEL_INVALID_ARGUMENT, "a frame has positions in floats and in doubles; give all in one of them");
+        positions_ = are;
+    }
+
+    // As many as a group has. Those that are not used yet are null, which lists nothing.
+    std::array<swivel_frame_field, 64> fields_ = {};
+    std::size_t count_ = 0;
     swivel_in origin_ = {};
-    bool has_doubles_ = false;
+    swivel_numbers positions_ = SWIVEL_NUMBERS_UNSAID;
 };
 
 // Some things, none of them, or everything. It views a std::span or a range with a name, which must outlive it. It
@@ -446,27 +460,8 @@ struct Probes {
     std::span<float[3]> grounds, normals;
 };
 
-// A view of what samples the ground: anything that may be called with Probes, by several threads at a time. It must
-// live until the solve that it is given to is over. So a lambda may stand in solve()'s braces; for a Job with a name it
-// needs a name, too.
-class Sample {
-public:
-    Sample() = default;
-    template <std::invocable<const Probes&> Ask>
-    requires(!std::same_as<std::remove_cvref_t<Ask>, Sample>) Sample(Ask&& ask)
-        : ask_(const_cast<void*>(reinterpret_cast<const volatile void*>(&ask))),
-          call_([](void* of, const Probes& probes) {
-              std::invoke(*reinterpret_cast<std::add_pointer_t<Ask>>(of), probes);
-          })
-    {
-    }
-    explicit operator bool() const { return call_ != nullptr; }
-    void operator()(const Probes& probes) const { call_(ask_, probes); }
-
-private:
-    void* ask_ = nullptr;
-    void (*call_)(void* of, const Probes& probes) = nullptr;
-};
+// Samples the ground: anything that may be copied and called with Probes, by several threads at a time.
+using Sample = std::function<void(const Probes&)>;
 
 // Samples for one solve. An exception waits here until the solve is over, because none may cross C.
 class Sampling {

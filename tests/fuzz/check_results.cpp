@@ -131,8 +131,10 @@ void check_sight(const Session& session, std::uint32_t group, std::uint32_t limb
     reader.read(SWIVEL_SIGHT);
     for (std::size_t n = 0; n < 3; ++n) SWIVEL_REQUIRE(std::isfinite(reader.value[n]));
     SWIVEL_REQUIRE(is_unit(reader.value.data() + 3, 3, 1e-5));
-    reader.read(SWIVEL_LOOK_LINE);
-    SWIVEL_REQUIRE(is_unit(reader.value.data(), 3, 1e-5) && reader.value[3] >= 0 && reader.value[3] <= 1e15f);
+    reader.read(SWIVEL_LOOK_TURNS);
+    SWIVEL_REQUIRE(reader.value[0] == 1);
+    for (std::size_t n = 1; n < 25; n += 3)
+        SWIVEL_REQUIRE(std::hypot(reader.value[n], reader.value[n + 1], reader.value[n + 2]) <= 1 + 1e-5);
 }
 
 void check_places(const Session& session, std::uint32_t group, std::uint32_t limb)
@@ -159,7 +161,8 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     check_frame(reader, SWIVEL_PROP_FRAME, false);
     check_frame(reader, SWIVEL_HAND_FRAME, flags == SWIVEL_BAD_INPUT || is_endless(reader));
     if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
-        return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_BAD_INPUT);
+        return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_CLAMPED_NEAR ||
+                              flags == SWIVEL_BAD_INPUT);
     check_rotations(reader);
     if (reader.read(SWIVEL_STRETCH) > 0) SWIVEL_REQUIRE(reader.value[0] >= 1 && reader.value[0] <= 1000);
     if (reader.read(SWIVEL_NORMAL) > 0) {

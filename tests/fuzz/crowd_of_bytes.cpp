@@ -86,6 +86,7 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
         case SWIVEL_COMING_TIME:
         case SWIVEL_GROUND_WEIGHT:
         case SWIVEL_PROP_SHARE:
+        case SWIVEL_PROP_WEIGHT:
             for (float& x : value) x = std::abs(x);
             if (random.below(4) == 0) value[0] = std::round(value[0]);  // nothing or all
             break;

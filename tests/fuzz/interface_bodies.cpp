@@ -27,10 +27,18 @@ constexpr swivel_joint_values swivel_pose::*kArrays[] = {
     &swivel_pose::translation_results, &swivel_pose::joint_rotations, &swivel_pose::joint_places};
 
 // Its values of bodies.
-enum Root : std::size_t { kRootPosition, kRootRotation, kRootScale, kTime, kSupportPosition, kSupportRotation };
-constexpr swivel_in swivel_pose::*kRoots[] = {&swivel_pose::root_position,    &swivel_pose::root_rotation,
-                                              &swivel_pose::root_scale,       &swivel_pose::time,
-                                              &swivel_pose::support_position, &swivel_pose::support_rotation};
+enum Root : std::size_t {
+    kRootPosition,
+    kRootRotation,
+    kRootScale,
+    kTime,
+    kSupportPosition,
+    kSupportRotation,
+    kWeight
+};
+constexpr swivel_in swivel_pose::*kRoots[] = {
+    &swivel_pose::root_position,    &swivel_pose::root_rotation,    &swivel_pose::root_scale, &swivel_pose::time,
+    &swivel_pose::support_position, &swivel_pose::support_rotation, &swivel_pose::weight};
 
 // Bytes of a rotation or a matrix, as far as a solve may touch them.
 std::size_t rotation_bytes(swivel_pose_form form)
@@ -191,8 +199,9 @@ bool Pose::is_valid(const Session& session, const std::vector<bool>& named) cons
            are_right(pose.joint_rotations, four, true) && are_right(pose.joint_places, three, true) &&
            is_valid_root(pose.root_position, place) && is_valid_root(pose.root_rotation, four) &&
            is_valid_root(pose.root_scale, sizeof(float)) && is_valid_root(pose.time, sizeof(float)) &&
-           is_valid_root(pose.support_position, place) && is_valid_root(pose.support_rotation, four) &&
-           (pose.root_position.data || !pose.root_is_double) && (pose.time.data || !needs_time);
+           is_valid_root(pose.weight, sizeof(float)) && is_valid_root(pose.support_position, place) &&
+           is_valid_root(pose.support_rotation, four) && (pose.root_position.data || !pose.root_is_double) &&
+           (pose.time.data || !needs_time);
 }
 
 template <class Take>

@@ -80,6 +80,25 @@ for (const [name, count] of Object.entries(elements))
     crowd.dispose();
   });
 
+test('a weight of 0 keeps the pose, and one of 1 changes nothing', () => {
+  const solvedWith = (weight) => {
+    const crowd = swivel.bodies({ skeleton, bodyCount, groups });
+    give(crowd, poses);
+    if (weight !== undefined) crowd.pose('weight').fill(weight);
+    limbs.forEach((_, group) => crowd.values(Field.TARGET, group).set(targets[group].flat()));
+    crowd.solve();
+    const rotations = Array.from(crowd.pose('rotations'));
+    crowd.dispose();
+    return rotations;
+  };
+  const crowd = swivel.bodies({ skeleton, bodyCount, groups });
+  give(crowd, poses);
+  assert.deepEqual(solvedWith(0), Array.from(crowd.pose('rotations')));
+  assert.deepEqual(solvedWith(1), solvedWith(undefined));
+  assert.notDeepEqual(solvedWith(0.5), solvedWith(1));
+  crowd.dispose();
+});
+
 test('roots in doubles: a body far away has the bits of one at the origin', () => {
   const solvedAt = (origin) => {
     const crowd = swivel.bodies({ skeleton, bodyCount, groups, rootIsDouble: true });
@@ -159,7 +178,7 @@ test('what is wrong with bodies is refused in one line', () => {
   refuses(() => bodies({ skeleton: { ...skeleton, translations: [0] } }), 'translations has 1 numbers; give 24');
   refuses(() => swivel.crowd([{ limbCount: 1, joints: arm }]), 'not joints');
   const crowd = bodies();
-  refuses(() => crowd.pose('rotation'), 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPlaces, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, not "rotation"');
+  refuses(() => crowd.pose('rotation'), 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPlaces, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, weight, not "rotation"');
   refuses(() => crowd.pose('translationResults'), "only translations in the body's space change");
   crowd.dispose();
   for (const call of [() => crowd.pose('rotations'), () => crowd.pose('scales'), () => crowd.solve()]) refuses(call, 'this crowd is disposed of');

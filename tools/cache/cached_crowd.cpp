@@ -83,8 +83,12 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
         fields.push_back(
             {SWIVEL_LIFT, "lift", "how the ground lifts and turns a foot, as SWIVEL_LIFT", {9}, {"part"}, true});
     if (has(SWIVEL_LOOK))
-        fields.push_back(
-            {SWIVEL_LOOK_LINE, "look_line", "where a look points, as SWIVEL_LOOK_LINE", {4}, {"part"}, true});
+        fields.push_back({SWIVEL_LOOK_TURNS,
+                          "look_turns",
+                          "how a look has turned its joints, as SWIVEL_LOOK_TURNS",
+                          {25},
+                          {"part"},
+                          true});
     return fields;
 }
 

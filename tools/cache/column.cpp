@@ -26,7 +26,7 @@ std::size_t joint_of(swivel_field field)
 bool is_carried(swivel_field field)
 {
     return field == SWIVEL_NORMAL || field == SWIVEL_PLANT || field == SWIVEL_LIFT || field == SWIVEL_SHIFT ||
-           field == SWIVEL_LOOK_LINE;
+           field == SWIVEL_LOOK_TURNS;
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ constexpr BodyMember kBodyMembers[] = {{"root_position", &swivel_pose::root_posi
                                        {"root_scale", &swivel_pose::root_scale, 1},
                                        {"time", &swivel_pose::time, 1},
                                        {"support_position", &swivel_pose::support_position, 3, true},
-                                       {"support_rotation", &swivel_pose::support_rotation, 4}};
+                                       {"support_rotation", &swivel_pose::support_rotation, 4},
+                                       {"weight", &swivel_pose::weight, 1}};
 
 bool is_doubles(const py::object& given)
 {

@@ -160,7 +160,7 @@ static void print_structures(void)
     OFFSET(swivel_pose, results), OFFSET(swivel_pose, root_position), OFFSET(swivel_pose, root_rotation);
     OFFSET(swivel_pose, root_scale), OFFSET(swivel_pose, space), OFFSET(swivel_pose, translation_results);
     OFFSET(swivel_pose, joint_rotations), OFFSET(swivel_pose, joint_places), OFFSET(swivel_pose, time);
-    OFFSET(swivel_pose, support_position), OFFSET(swivel_pose, support_rotation), END();
+    OFFSET(swivel_pose, support_position), OFFSET(swivel_pose, support_rotation), OFFSET(swivel_pose, weight), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
     printf("export const MOST_LOOK_JOINTS = %d;\n", SWIVEL_MOST_LOOK_JOINTS);

@@ -194,6 +194,7 @@ class Pose(NamedTuple):
     time              (bodies,) seconds since the body's last solve; planted limbs, shifts and looks with a rate need it
     support_position  (bodies, 3) of what planted points stand on, in the world; None: the origin
     support_rotation  (bodies, 4) None: not turned
+    weight            (bodies,) 0 to 1, how much of all corrections counts: 0 keeps the incoming pose; None: 1
 
     Values that are the same for all bodies may lack the first axis. What is written is an array of float32, with the numbers of
     a value side by side and any distances between joints and bodies. Matrices may also be transposed views of such. Joints that
@@ -222,3 +223,4 @@ class Pose(NamedTuple):
     time: Optional[npt.ArrayLike] = None
     support_position: Optional[npt.ArrayLike] = None
     support_rotation: Optional[npt.ArrayLike] = None
+    weight: Optional[npt.ArrayLike] = None

@@ -62,6 +62,7 @@ const parts = named({
     time: { member: "time", start: () => [0], isBodys: true },
     supportPosition: { member: "support_position", start: () => [0, 0, 0], isBodys: true, isPlace: true },
     supportRotation: { member: "support_rotation", start: () => [0, 0, 0, 1], isBodys: true },
+    weight: { member: "weight", start: () => [1], isBodys: true },
 });
 /**
  * A part of poses, as swivel_pose. Each joint has a rotation relative to its parent: x, y, z, w, or by the form 12 numbers of a matrix, of
@@ -71,7 +72,7 @@ const parts = named({
  * others stay NaN. In the body's space they also write translations, or translationResults if these are asked for.
  *
  * Planted limbs, shifts and looks with a rate need time: the seconds since each body's last solve. supportPosition and supportRotation are of what planted
- * points stand on, in the world.
+ * points stand on, in the world. weight, 0 to 1, is how much of all corrections counts.
  */
 export type PosePart = keyof typeof parts;
 

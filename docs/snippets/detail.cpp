@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace {
+
+enum Joint { kChest, kUpperArm, kForearm, kHand, kJoints };
+const std::array<std::int32_t, kJoints> kParents = {-1, 0, 1, 2};
+const std::array<Float3, kJoints> kOffsets = {
+    {{0, 1.3f, 0}, {0.2f, 0, 0}, {0.3f, 0, 0}, {0.26f, 0, 0}}};
+constexpr std::uint32_t kCount = 200;
+constexpr float kFadeSeconds = 0.3f;
+
+struct Character {
+    Float3 place, target;
+    std::array<Float4, kJoints> pose;
+    float weight = 0;
+};
+
+// A forearm's turn from its animation, in radians.
+double turn_of(const Character& character)
+{
+    return quat(character.pose[kForearm])
+        .angularDistance(Eigen::Quaterniond::Identity());
+}
+
+}  // namespace
+
+TEST_CASE("docs: bodies come near and go")
+{
+    std::vector<Character> characters(kCount);
+    for (std::uint32_t n = 0; n < kCount; ++n) {
+        const auto x = static_cast<float>(n * 37 % kCount);
+        characters[n].place = {x, 0, 0};
+        characters[n].target = {x + 0.3f, 1.5f, 0.3f};
+    }
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = swivel::stream(kParents);
+    skeleton.translations = swivel::stream(kOffsets);
+    skeleton.joint_count = kJoints;
+    const swivel_limb_joints joints =
+        swivel_default_limb_joints(kUpperArm, kForearm, kHand);
+    const std::array groups = {swivel::body_group(joints, SWIVEL_POLE_INCOMING)};
+    swivel::Crowd crowd(skeleton, kCount, groups);
+    swivel_pose pose = swivel_default_pose();
+    pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
+                      nullptr};
+    pose.root_position = swivel::stream(characters, &Character::place);
+    swivel::Frame arm;
+    arm.in(SWIVEL_TARGET, swivel::stream(characters, &Character::target));
+    pose.weight = swivel::stream(characters, &Character::weight);
+    std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
+    const float seconds = 1.0f / 60;
+    double most = 0;
+    std::vector<double> was(kCount);
+    Float3 camera{20, 0, 0};
+    for (int frame = 0; frame < 120; ++frame) {
+        camera[0] += 1;
+        for (Character& each : characters) each.pose.fill({0, 0, 0, 1});
+        const auto distance = [&](const Character& each) {
+            return std::abs(each.place[0] - camera[0]);
+        };
+        // [fade]
+        for (Character& each : characters) {
+            const float step = seconds / kFadeSeconds;  // 0.3 s from 0 to 1
+            const bool is_near = distance(each) < 30;
+            each.weight =
+                std::clamp(each.weight + (is_near ? step : -step), 0.0f, 1.0f);
+        }
+        std::ranges::fill(mask, 0);
+        for (std::uint32_t n = 0; n < characters.size(); ++n)
+            if (characters[n].weight > 0) mask[n / 32] |= 1u << (n % 32);
+        crowd.solve({.mask = mask, .frames = {arm}, .pose = &pose});
+        // [end]
+        for (std::uint32_t n = 0; n < kCount; ++n) {
+            most = std::max(most, std::abs(turn_of(characters[n]) - was[n]));
+            was[n] = turn_of(characters[n]);
+        }
+    }
+    CHECK(most > 0.01);
+    CHECK(most < 0.1);
+    CHECK(std::ranges::count_if(was, [](double turn) { return turn > 0.5; }) > 40);
+}
+
+TEST_CASE("docs: neighbours share blocks")
+{
+    std::vector<Character> characters(kCount);
+    for (std::uint32_t n = 0; n < kCount; ++n)
+        characters[n].place = {static_cast<float>(n * 37 % kCount), 0, 0};
+    const Float3 camera{20, 0, 0};
+    // [sort]
+    std::vector<std::uint32_t> order(characters.size());  // slots, the nearest first
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [&](std::uint32_t n) {
+        return std::abs(characters[n].place[0] - camera[0]);
+    });
+    // [end]
+    CHECK(characters[order[0]].place[0] == 20);
+    CHECK(characters[order[kCount - 1]].place[0] == kCount - 1);
+}
