@@ -86,7 +86,7 @@ swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
 swivel_status check_positions(std::uint32_t g, const swivel_frame& frame, const swivel_pose* pose)
 {
     if (frame.positions > SWIVEL_DOUBLES)
-        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: positions is %u, which is no swivel_numbers", g,
+        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: positions is %u; it is a swivel_numbers, 0 to 2", g,
                     frame.positions);
     const bool is_double = frame.origin.data != nullptr;
     if (frame.positions == SWIVEL_NUMBERS_UNSAID || is_double == (frame.positions == SWIVEL_DOUBLES)) return SWIVEL_OK;

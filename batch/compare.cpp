@@ -86,60 +86,72 @@ private:
     bool has_quaternions() const { return limb_.pose.form == SWIVEL_ROTATIONS; }
     bool has_root_turn() const { return limb_.pose.root_rotation.data; }
 
-    // What no place shows, and what would yet go wrong in a solve.
+    // Mistakes that no place shows, but that a solve would suffer from.
     bool doubt()
     {
+        doubt_unit();
+        doubt_time();
+        doubt_bend();
+        return cause_count_ > 0;
+    }
+    Text& doubtful()
+    {
+        text_.add("%s ", cause_count_++ > 0 ? "" : "The places agree, but something else is wrong.");
+        return text_;
+    }
+    void doubt_unit()
+    {
+        constexpr double kOther = 2;  // times as long, or as short
         Reading how = limb_.as_given;
         how.at_rest = true;
         const double at_rest = length(limb_.places(limb_.joints, how)), posed = length(limb_.posed);
-        const auto add = [&] {
-            text_.add("%s ", cause_count_++ > 0 ? "" : "The places agree, but something else is wrong.");
-        };
-        if (limb_.has_translations() && (at_rest > 2 * posed || 2 * at_rest < posed))
-            add(), text_.add(
-                       "The skeleton's bones are %.4g times as long as the pose's, so lengths that go with the "
-                       "skeleton's, "
-                       "such as those of swivel_plant, are too. Give the skeleton in the unit of the pose.",
-                       at_rest / std::max(posed, kTiny));
-        if (const double time = limb_.body.time(); time > 1)
-            add(), text_.add(
-                       "The pose's time is %g, which are that many seconds since the last solve. If it is in "
-                       "milliseconds, divide it by 1000.",
-                       time);
-        doubt_bend(add);
-        return cause_count_ > 0;
+        if (!limb_.body.has_translations(limb_.as_given)) return;
+        if (at_rest <= kOther * posed && kOther * at_rest >= posed) return;
+        doubtful().add(
+            "The skeleton's bones are %.4g times as long as the pose's. Lengths that go with the skeleton's, such as "
+            "those of swivel_plant, are wrong then. Give the skeleton in the unit of the pose.",
+            at_rest / std::max(posed, kTiny));
     }
-    template <class Add>
-    void doubt_bend(const Add& add)
+    void doubt_time()
     {
+        const double time = limb_.body.time();
+        if (!(time > 1)) return;
+        doubtful().add(
+            "The pose's time is %g, which are that many seconds since the last solve. If it is in milliseconds, divide "
+            "it by 1000.",
+            time);
+    }
+    void doubt_bend()
+    {
+        constexpr double kBent = 0.17, kOpposite = -0.7;  // the sine of 10 degrees; a cosine
         const float(&h)[3] = limb_.crowd.groups[limb_.group].limb.hinge;
         const Vector<double> upper = limb_.posed.at[1] - limb_.posed.at[0],
                              fore = limb_.posed.at[2] - limb_.posed.at[1],
                              hinge = turned(limb_.body.rotation(limb_.joints.at[0], limb_.as_given),
                                             vector<double>(h[0], h[1], h[2])),
                              turn = cross(fore, upper);
-        const double size = std::sqrt(len2(upper) * len2(fore)), bend = std::sqrt(len2(turn)) / std::max(size, kTiny);
-        constexpr double kBent = 0.17;  // the sine of 10 degrees
-        if (bend < kBent || scalar_product(hinge, turn) > -0.7 * std::sqrt(len2(turn) * len2(hinge))) return;
-        add(),
-            text_.add(
-                "The elbow, joint %u, is bent by %.3g degrees the other way than the group's `bend` or its rest pose "
-                "says. A bend is the direction that flexion carries the forearm towards, in the shoulder joint's "
-                "frame.",
-                limb_.named(1), in_degrees(std::atan2(std::sqrt(len2(turn)), scalar_product(upper, fore))));
+        const double sine = std::sqrt(len2(turn)), size = std::sqrt(len2(upper) * len2(fore));
+        if (sine < kBent * size || scalar_product(hinge, turn) > kOpposite * sine * std::sqrt(len2(hinge))) return;
+        doubtful().add(
+            "The elbow, joint %u, is bent by %.3g degrees the other way than the group's `bend` or its rest pose says. "
+            "A "
+            "bend is the direction that flexion carries the forearm towards, in the shoulder joint's frame.",
+            limb_.named(1), in_degrees(std::atan2(sine, scalar_product(upper, fore))));
     }
-    // Rotations that are none: of wrong strides or offsets.
+    // Whether a quaternion has no length of about 1, as at wrong strides or offsets.
     bool guess_strides()
     {
         for (const std::uint32_t joint : limb_.joints.at)
-            for (std::uint32_t at = joint; at != 0; at = limb_.body.parent(at))
-                if (const double size = limb_.body.rotation_length(at); !(std::fabs(size - 1) <= 0.05))
-                    return text_.add(
-                               "The rotation of joint %u is a quaternion of length %.3g. Rotations have length 1, so "
-                               "the "
-                               "pose is read at the wrong places: look at its strides and offsets.",
-                               limb_.body.skeleton_joint(at), size),
-                           true;
+            for (std::uint32_t at = joint; at != 0; at = limb_.body.parent(at)) {
+                const double size = limb_.body.rotation_length(at);
+                if (std::fabs(size - 1) <= 0.05) continue;
+                text_.add(
+                    "The rotation of joint %u is a quaternion of length %.3g. Rotations have length 1, so the pose is "
+                    "read "
+                    "at the wrong places: look at its strides and offsets.",
+                    limb_.body.skeleton_joint(at), size);
+                return true;
+            }
         return false;
     }
 
@@ -251,8 +263,10 @@ private:
     {
         LimbJoints found;
         for (int part = 0; part < 3; ++part)
-            if ((found.at[part] = joint_at_place(part, limb_.allowed(limb_.posed))) == 0)
-                return part == 2 ? guess_all_high(found) : void();
+            if ((found.at[part] = joint_at_place(part, limb_.allowed(limb_.posed))) == 0) {
+                if (part == 2) guess_all_high(found);
+                return;
+            }
         const LimbPlaces ours = limb_.places(found, limb_.as_given);
         if (!limb_.agrees(ours)) return;
         cause(ours);
@@ -360,7 +374,7 @@ private:
     {
         const swivel_pose& pose = limb_.pose;
         guess(
-            pose.root_position.data && pose.root_position.stride >= 3 * sizeof(double),
+            pose.root_position.data && (pose.root_is_double || limb_.body.may_have_double_root()),
             [](Reading& how) { how.root_in_other_numbers = true; },
             pose.root_is_double
                 ? "The pose's root_position is in floats, but root_is_double says doubles. Set root_is_double to 0."

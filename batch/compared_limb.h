@@ -46,8 +46,6 @@ struct ComparedLimb {
     // How far one may be off. Floats in the world are rounded, by engines too.
     double allowed(const LimbPlaces& ours) const;
     bool agrees(const LimbPlaces& ours) const { return worst(ours) <= allowed(ours); }
-    // Whether its bones may be longer than at rest.
-    bool has_translations() const { return pose.form != SWIVEL_ROTATIONS || pose.translations.data; }
     // How much further the caller's places are from a centre than the pose's, by least squares.
     double factor_about(const Vector<double>& centre) const;
 };

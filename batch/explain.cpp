@@ -187,13 +187,13 @@ void doubt_bones(const Group& group, std::uint32_t limb, Text& text)
 {
     if (!(group.features & SWIVEL_WITH_RECORD)) return;
     const LimbValue record(group, limb, SWIVEL_RECORD);
-    const double is = record[kRecordLengths] + record[kRecordLengths + 1],
+    const double posed = record[kRecordLengths] + record[kRecordLengths + 1],
                  rest = double{group.binding.lengths[0]} + double{group.binding.lengths[1]};
-    if (!(is > 2 * rest || 2 * is < rest)) return;
+    if (!(posed > 2 * rest || 2 * posed < rest)) return;
     text.add(
         "Warning: its bones are %.4g times as long as the skeleton's. Lengths of swivel_plant and others go with the "
         "skeleton's: give it in the unit of the pose. ",
-        is / rest);
+        posed / rest);
 }
 
 // It is a function of its own so that explain_prop, which has a limb on the stack too, has that room.

@@ -53,7 +53,7 @@ struct LookOfBody {
             const float(&v)[3] = crowd.joints[at].translation;
             chain += std::sqrt(len2(vector<double>(v[0], v[1], v[2])));
         }
-        if (distance() > 1e4 * chain)
+        if (chain > 0 && distance() > 1e4 * chain)
             text.add(
                 "Warning: its target is %.3g away, more than ten thousand times as far as the last joint is from the "
                 "root. Is it in another unit, or from another origin? ",
@@ -102,8 +102,11 @@ struct LookOfBody {
         if (flags & SWIVEL_LIMITED_STEP) explain_rate(is_whole && !(flags & SWIVEL_LIMITED_LOOK), text);
         if (flags & SWIVEL_LIMITED_LOOK) explain_cone(is_whole, text);
         if (is_whole && !(flags & (SWIVEL_LIMITED_STEP | SWIVEL_LIMITED_LOOK)))
-            text.add(" The target is nearer to joint %u than the line of sight comes: it is %.4g from the eye.",
-                     last_joint(), distance());
+            text.add(
+                " The target is nearer to joint %u than the line of sight comes: it is %.4g from the eye. Or the pose "
+                "has a "
+                "weight below 1.",
+                last_joint(), distance());
     }
 
 private:

@@ -143,6 +143,10 @@ double PosedBody::root_scale() const
     return pose_.root_scale.data ? load<float, 1>(swivel::value_of(pose_.root_scale, body_))[0] : 1;
 }
 
+bool PosedBody::may_have_double_root() const
+{
+    return pose_.root_position.stride >= 3 * sizeof(double) && body_ + 1 < crowd_.groups[0].limb_count;
+}
 double PosedBody::time() const { return pose_.time.data ? load<float, 1>(swivel::value_of(pose_.time, body_))[0] : 0; }
 
 Vector<double> PosedBody::place_along(std::uint32_t joint, const Reading& how) const

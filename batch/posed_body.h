@@ -38,8 +38,12 @@ public:
     Vector<double> place(std::uint32_t joint, const Reading& how) const;
     // In the world, of unit length.
     Rotor<double> rotation(std::uint32_t joint, const Reading& how) const;
-    // Of a quaternion as it is stored; 1 of matrices.
+    // The length of a quaternion as it is stored; 1 for matrices.
     double rotation_length(std::uint32_t joint) const;
+    // Whether joints have translations of their own, and not the skeleton's.
+    bool has_translations(const Reading& how) const;
+    // Whether the root's place has room for doubles: floats of the last body may end before these.
+    bool may_have_double_root() const;
     Vector<double> root_place(const Reading& how) const;
     Vector<double> root_place() const { return root_place(Reading(pose_)); }
     double root_scale() const;
@@ -66,7 +70,6 @@ private:
     // From the root, in its frame.
     Vector<double> place_along(std::uint32_t joint, const Reading& how) const;
     Vector<double> place_in_body(std::uint32_t joint, const Reading& how) const;
-    bool has_translations(const Reading& how) const;
     const char* value_of(const swivel_joint_values& values, std::uint32_t joint) const;
 
     const swivel_crowd& crowd_;

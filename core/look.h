@@ -129,7 +129,7 @@ SWIVEL_INLINE constexpr Rotor<T> from_quarter_tangent(const Vector<T>& tangent)
     const Vector<T> sine = (per + per) * tangent;
     return rotor(sine.template at<kE1>(), sine.template at<kE2>(), sine.template at<kE3>(), per * (T(1) - length2));
 }
-// The way of a joint from how it is turned to how it is to be: an axis times the tangent of half of the angle.
+// The turn that takes a joint from its present turn to its goal: an axis times the tangent of half of the angle.
 template <class T>
 struct LookWay {
     Vector<T> axis;

@@ -26,10 +26,10 @@ SWIVEL_INLINE constexpr Rotor<T> part_of_turn(const Rotor<T>& from, const Rotor<
 {
     const Rotor<T> turn = hemisphere(to * ~from);
     const T cos_half = lo(turn.template at<kScalar>(), T(1)), part = bent_share(share, cos_half);
-    const Rotor<T> is = normalise(rotor(part * turn.template at<kI>(), part * turn.template at<kJ>(),
-                                        part * turn.template at<kK>(), T(1) - part + part * cos_half)) *
-                        from;
-    return select(share == T(1), to, is);
+    const Rotor<T> between = normalise(rotor(part * turn.template at<kI>(), part * turn.template at<kJ>(),
+                                             part * turn.template at<kK>(), T(1) - part + part * cos_half)) *
+                             from;
+    return select(share == T(1), to, between);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

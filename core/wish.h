@@ -116,13 +116,16 @@ SWIVEL_INLINE constexpr Mask<T> is_beyond(const Vector<T>& from, const Vector<T>
     return (sin_turn * most.cos - cos_turn * abs(most.sin) > T(slack)) | (cos_turn < most.cos - T(1e-3));
 }
 
-// A step that is meant for a 60th of a second, in another time. Its half-tangent goes with the time, so small angles
-// do, too, and half a turn stays half a turn.
+// A step that is meant for a 60th of a second, in another time. The tangent of half of its angle goes with the time: so
+// do small angles, and half a turn, which is no limit, stays one in any time but 0.
 template <class T>
 SWIVEL_INLINE constexpr Turned<T> timed_step(const Turned<T>& step, const T& seconds)
 {
-    const T tangent = lo(T(60) * seconds * (step.sin / hi(T(1) + step.cos, T(1e-12))), T(1e15)),
-            per = T(1) / (T(1) + tangent * tangent);
+    const T sine = abs(step.sin);
+    const Mask<T> is_wide = step.cos < T(0);
+    const T half_tangent =
+                select(is_wide, T(1) - step.cos, sine) / hi(select(is_wide, sine, T(1) + step.cos), T(1e-12)),
+            tangent = lo(T(60) * seconds * half_tangent, T(1e15)), per = T(1) / (T(1) + tangent * tangent);
     return {per * (T(1) - tangent * tangent), per * (tangent + tangent)};
 }
 

@@ -28,7 +28,7 @@ struct StageBody<Stage::posed> {
                                  s.body_vector(limb.shoulder + kPlaceRow), s.body_vector(limb.elbow + kPlaceRow),
                                  s.body_vector(limb.wrist + kPlaceRow)};
         s.require(is_posed(s));
-        body_weight(s);  // which must be good
+        s.require(is_share(body_weight(s)));
         if (s.has(SWIVEL_WITH_FIT)) s.require(FitWish<S>(s).is_valid());
         Mask<T> stays = T(0) == T(1);
         if (which == BendNormal::chosen && weighs) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
@@ -73,8 +73,8 @@ private:
     {
         using T = typename S::T;
         const T reach = per_scale * sqrt(len2(posed.wrist_place - posed.shoulder_place));
-        const T given = s.io.load(SWIVEL_LENGTHS, 0) + s.io.load(SWIVEL_LENGTHS, 1);
-        const Mask<T> is_given = given == given;
+        const T given_a = s.io.load(SWIVEL_LENGTHS, 0), given_b = s.io.load(SWIVEL_LENGTHS, 1);
+        const Mask<T> is_given = (given_a == given_a) | (given_b == given_b);
         if (!any(is_given)) return reach;
         const Vector<T> upper = posed.elbow_place - posed.shoulder_place, fore = posed.wrist_place - posed.elbow_place;
         const T cosine = scalar_product(upper, fore) / hi(sqrt(len2(upper) * len2(fore)), T(kTiny)),
@@ -168,8 +168,8 @@ struct StageBody<Stage::correct> {
         s.set_body(kKeptRow, select(kept, T(1), T(0)));
         const auto store = [&](std::uint32_t joint, const Rotor<T>& solved,
                                const float(&rest)[4]) SWIVEL_INLINE_LAMBDA {
-            const Rotor<T> is = fades ? part_of_turn(s.body_rotor(joint + kLocalRow), solved, weight) : solved;
-            set_local(s, joint, is, broadcast<T>(rest), valid, kept);
+            const Rotor<T> faded = fades ? part_of_turn(s.body_rotor(joint + kLocalRow), solved, weight) : solved;
+            set_local(s, joint, faded, broadcast<T>(rest), valid, kept);
         };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
         const Rotor<T> shoulder = load_result_rotor(s, SWIVEL_SHOULDER);

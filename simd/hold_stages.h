@@ -86,7 +86,7 @@ struct PropAtHand {
     T share;
 
     // told: where the caller or the joint has it, which counts by the prop's weight.
-    SWIVEL_INLINE void count(const HeldFrame<T>& hands, const HeldFrame<T>& told)
+    SWIVEL_INLINE void weigh(const HeldFrame<T>& hands, const HeldFrame<T>& told)
     {
         const T weight = s.io.load(SWIVEL_PROP_WEIGHT, 0);
         s.require(is_share(weight));
@@ -108,12 +108,12 @@ struct PropAtHand {
         if (prop.joint != 0) {
             const Rotor<T> rotation = s.body_rotor(prop.joint + kTurnRow);
             const Vector<T> given = select(has_place, at, vector(T(0), T(0), T(0)));
-            count(hands,
+            weigh(hands,
                   {unit_rotation(rotation * unit), s.body_vector(prop.joint + kPlaceRow) + turned(rotation, given)});
             return;
         }
         is_of_hands = !(has_turn | has_place);
-        count(hands,
+        weigh(hands,
               {select(has_turn, unit, hands.rotation), select(has_place, at - s.body_vector(kRootRow), hands.place)});
     }
     SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return prop.frame + kHoldersRow + n * kHolderRows; }

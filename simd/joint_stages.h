@@ -8,15 +8,12 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// How much of a body's corrections counts.
+// How much of a body's corrections counts: a share, in lanes that are good.
 template <class S>
 SWIVEL_INLINE typename S::T body_weight(const S& s)
 {
     using T = typename S::T;
-    if (!s.strip.run.strip.pose->weight.data) return T(1);
-    const T weight = s.body_row(kWeightRow);
-    s.require(is_share(weight));
-    return weight;
+    return s.strip.run.strip.pose->weight.data ? s.body_row(kWeightRow) : T(1);
 }
 
 // Turns the axes of a joint's matrix; those of lanes that are not valid from the axes of no rotation.

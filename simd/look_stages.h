@@ -28,8 +28,8 @@ struct LookGoal {
         const Vector<T> given = s.io.load_vector(SWIVEL_LOOK_TARGET), root_place = s.body_vector(kRootRow);
         const T given2 = len2(given);
         is_given = given2 == given2;
-        s.require(is_share(own_weight) & ((given2 <= T(kHuge2)) | !is_given) & (len2(root_place) <= T(kHuge2)) &
-                  is_within(scale, kTiny, kHuge));
+        s.require(is_share(own_weight) & is_share(body_weight) & ((given2 <= T(kHuge2)) | !is_given) &
+                  (len2(root_place) <= T(kHuge2)) & is_within(scale, kTiny, kHuge));
         for (std::uint32_t n = 0; n < look.turned_count; ++n)
             s.require(is_within(len2(s.body_rotor(look.turned[n].row + kTurnRow)), 0.99, 1.01) &
                       (len2(s.body_vector(look.turned[n].row + kPlaceRow)) <= T(kHuge2)));
@@ -87,9 +87,10 @@ private:
     struct Chain {
         LookedJoint<T> joint[kMostLookJoints];
         LineOfSight<T> sight;
-        Vector<T> carried[kMostLookJoints];  // quarter_tangent() of the turns, in the last joint's frame as it comes
-        Mask<T> held;                        // by a cone
-        Mask<T> is_behind;                   // of its goal, by the rate
+        Vector<T>
+            carried[kMostLookJoints];  // with a rate: quarter_tangent() of turns, in the last joint's frame as it comes
+        Mask<T> held;                  // by a cone
+        Mask<T> is_behind;             // of its goal, by the rate
     };
 
     // Turns the joints of the chain, each in the frame that those before it have turned. turn_of gives the turn of the
@@ -130,9 +131,8 @@ private:
         if (!has_rate && all(goal.body_weight == T(1))) return;
         const Rotor<T> came = s.body_rotor(s.strip.run.limb->turned[count - 1].row + kTurnRow);
         Rotor<T> goals[kMostLookJoints];
-        for (std::uint32_t n = 0; n < count; ++n) {
+        for (std::uint32_t n = 0; n < count; ++n)
             goals[n] = seen_by(~(n == 0 ? came : chain.joint[n - 1].sum * came), chain.joint[n].turn);
-        }
         if (has_rate) hold_back(s, goal, chain, goals);
         const Mask<T> is_less = chain.is_behind | (goal.body_weight < T(1));
         if (!any(is_less)) return;

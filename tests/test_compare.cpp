@@ -626,6 +626,7 @@ TEST_CASE("a root in floats for doubles, or in doubles for floats, is named")
         Rig rig(random, any_wish(random));
         const bool is_double = rig.pose.root_is_double;
         if (!is_double && rig.pose.root_position.stride < 3 * sizeof(double)) return;
+        if (is_double && rig.body + 1 == rig.bodies.size()) return;  // it may not read so far
         const Places places = rig.places(rig.limb());
         rig.pose.root_is_double = !is_double;
         const auto said = rig.compare(places);

@@ -117,6 +117,15 @@ TEST_CASE("explain says that a line of sight meets its target, or that there is 
     CHECK(has(of.text(), "or was reset"));
 }
 
+TEST_CASE("explain warns of a target that is very far away")
+{
+    UprightLook of(UprightLook::look(3, 30));
+    of.aim(20, 1e4);
+    CHECK(of.solved().find("Warning") == std::string::npos);
+    of.aim(20, 1e5);
+    CHECK(has(of.solved(), "Warning: its target is 1e+05 away, more than ten thousand times as far"));
+}
+
 TEST_CASE("explain says which cone holds a line of sight back")
 {
     UprightLook chain(UprightLook::look(3, 20));

@@ -175,7 +175,7 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
     frames[1].origin = {values, 0};
     refuse({{SWIVEL_TARGET, values, 24}}, "target is in floats, but the frame has an origin; give doubles");
     frames[1].positions = 3;
-    refuse({{SWIVEL_TARGET, values, 24}}, "positions is 3, which is no swivel_numbers");
+    refuse({{SWIVEL_TARGET, values, 24}}, "positions is 3; it is a swivel_numbers, 0 to 2");
     frames[1].positions = SWIVEL_NUMBERS_UNSAID;
     frames[1].origin = {};
     for (const float x : values) CHECK(x == 0);

@@ -40,8 +40,9 @@ TEST_CASE("docs: bodies come near and go")
     skeleton.parents = swivel::stream(kParents);
     skeleton.translations = swivel::stream(kOffsets);
     skeleton.joint_count = kJoints;
-    const swivel_limb_joints joints =
+    swivel_limb_joints joints =
         swivel_default_limb_joints(kUpperArm, kForearm, kHand);
+    joints.bend[2] = 1;
     const std::array groups = {swivel::body_group(joints, SWIVEL_POLE_INCOMING)};
     swivel::Crowd crowd(skeleton, kCount, groups);
     swivel_pose pose = swivel_default_pose();
@@ -62,12 +63,18 @@ TEST_CASE("docs: bodies come near and go")
         const auto distance = [&](const Character& each) {
             return std::abs(each.place[0] - camera[0]);
         };
+        const auto reset = [&](const Character& each) {
+            const auto body = static_cast<std::uint32_t>(&each - characters.data());
+            swivel::check(swivel_reset(crowd.get(), 0, body, 1));
+        };
         // [fade]
         for (Character& each : characters) {
             const float step = seconds / kFadeSeconds;  // 0.3 s from 0 to 1
             const bool is_near = distance(each) < 30;
-            each.weight =
-                std::clamp(each.weight + (is_near ? step : -step), 0.0f, 1.0f);
+            const bool returns = is_near && each.weight == 0;
+            const float next = each.weight + (is_near ? step : -step);
+            each.weight = std::clamp(next, 0.0f, 1.0f);
+            if (returns) reset(each);
         }
         std::ranges::fill(mask, 0);
         for (std::uint32_t n = 0; n < characters.size(); ++n)

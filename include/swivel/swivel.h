@@ -271,8 +271,9 @@ typedef enum swivel_field {
     // + s becomes d - (d - R + s)^2 / (4 s). A larger distance becomes R. The near end mirrors this. A zone is at most
     // half of the range between the two ends. Stretch then lengthens the bones to close the gap, up to its most.
     SWIVEL_REACH,
-    // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi; in a 60th of a
-    // second where a pose has a time. See SWIVEL_NORMAL.
+    // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL. Where a
+    // pose has a time, that is in a 60th of a second: the tangent of half of the angle goes with time, and at 0 the
+    // plane stays.
     SWIVEL_MOST_SWIVEL,
     // 2, WITH_FLEXION_LIMIT: cos of half the least flexion, cos of half the largest. Flexion does not depend on the
     // swivel. So this limit narrows the reach, and the wrist stops short.
@@ -656,17 +657,19 @@ static inline swivel_ground swivel_default_ground(void)
 
 // How a group with SWIVEL_PROP lies: a thing that one hand or two hold, such as a rifle, a steering wheel or a ladder.
 // Limbs are linked to it, and their grips are on it. Its place, and apart from that its rotation, are
-// - SWIVEL_PROP_PLACE and SWIVEL_PROP_TURN, where they are given, by SWIVEL_PROP_WEIGHT;
+// - SWIVEL_PROP_PLACE and SWIVEL_PROP_TURN, where they are given;
 // - or else the joint's, if there is one: as posed, and shifted with the body. No limb may turn it;
 // - or else as the hands have it in the incoming pose, each by its grip: SWIVEL_PROP_SHARE says which hand. Targets and
 //   hands that are written for these limbs count instead of the pose's. A hand that says alone where it is keeps its
 //   goal to the bit.
+// SWIVEL_PROP_WEIGHT is how much of the first two counts, against the third.
 //
 // Then it moves as little as it must so that all hands on it reach their grips, up to most_move. What counts is the
 // reach of bones, flexion limit, cap and soft zone. A hand with a position weight of 0 asks for nothing. The flags are
 // REACHED where all hands reach, and CLAMPED_FAR where not: then it is where the worse hand misses least, or most_move
-// on its way there. Nothing moves for a grip that is nearer to the shoulder than bones and flexion limit let the arm
-// get: the flag is then CLAMPED_NEAR. Bad input leaves SWIVEL_PROP_FRAME as it was. Source: our own.
+// on its way there. Nothing moves for a grip that is nearer to the shoulder than bones, flexion limit and least
+// distance let the arm get: the flag is then CLAMPED_NEAR. Bad input leaves SWIVEL_PROP_FRAME as it was. Source: our
+// own.
 typedef struct swivel_prop {
     int32_t joint;    // of the skeleton; -1: none
     float most_move;  // in limb lengths of the first limb that is linked to it; 0: it stays, as a ladder does
@@ -691,8 +694,8 @@ enum { SWIVEL_MOST_LOOK_JOINTS = 8 };  // of a look
 //   line of sight and the line to the target. It also fades as the target comes nearer to the eye than `fade_distance`.
 //   So nothing flips, and straight behind the pose is the incoming one.
 // - The turns are eased: the one by which the last joint differs from its incoming rotation changes by at most `rate`,
-//   whatever targets, weights and fades do. So a new target takes time. The first solve begins at the target.
-//   swivel_reset() lets it begin anew: call it after a teleport.
+//   whatever SWIVEL_LOOK_TARGET, SWIVEL_LOOK_WEIGHT and fades do. So a new target takes time. The first solve begins at
+//   the target. swivel_reset() lets it begin anew: call it after a teleport.
 //
 // A body's looks come after its shift and before its props and limbs, in the order of their groups. So a limb may hang
 // below a look, as an arm does below the spine: it is solved from where the look has turned its shoulder, and its
@@ -957,8 +960,12 @@ typedef struct swivel_frame_field {
     size_t stride;  // bytes; for an input 0 is one value for the group, otherwise at least the value's size
 } swivel_frame_field;
 
-// What numbers are, where the caller knows.
-typedef enum swivel_numbers { SWIVEL_NUMBERS_UNSAID, SWIVEL_FLOATS, SWIVEL_DOUBLES } swivel_numbers;
+// The kind of a caller's numbers.
+typedef enum swivel_numbers {
+    SWIVEL_NUMBERS_UNSAID,  // the caller does not say, so nothing is checked
+    SWIVEL_FLOATS,
+    SWIVEL_DOUBLES
+} swivel_numbers;
 
 // One group's values as engines keep them: a frame of animation, not one of axes. An input that is not listed keeps its
 // rows; a result that is not listed is not written. A field may be listed once.
@@ -966,8 +973,8 @@ typedef struct swivel_frame {
     size_t size;  // sizeof(swivel_frame), set by swivel_default_frame()
     const swivel_frame_field* fields;
     uint32_t field_count;
-    // A swivel_numbers: what the positions of this frame are. A solve fails where origin, or a pose's root_is_double,
-    // would have them read as the other kind.
+    // A swivel_numbers, 0 at the start: what the listed inputs that are positions are. A solve fails where origin, or a
+    // pose's root_is_double, would have them read as the other kind.
     uint32_t positions;
     // Null data: positions are floats. With data, all positions are 3 doubles each, and this
     // origin, 3 doubles as well, is subtracted as by swivel_write_doubles(). A pole that is a direction is doubles,
@@ -1063,18 +1070,19 @@ typedef struct swivel_pose {
     // they come; what is bad in the pose is NaN.
     swivel_joint_values joint_rotations, joint_places;
     // Of each body, for groups WITH_PLANT, FIT or LOOK with a rate: the seconds since its last solve, 1 float. It must
-    // be given where one of these is solved. 0 changes nothing that has begun to be carried. Less than 0, NaN and more
-    // than 1e15 are bad input.
+    // be given where one of these is solved. Where it is given, WITH_MOST_SWIVEL goes by it, too. 0 changes nothing
+    // that has begun to be carried. Less than 0, NaN and more than 1e15 are bad input.
     swivel_in time;
     // What planted points stand on: a platform, a ladder, or the ground. Null position: at the world's origin. Null
     // rotation: not turned. For the ground give a position near the body, such as the origin of its tile, and change it
     // seldom. What is planted moves along with a support. To change a support without a jump: swivel_change_support().
     swivel_in support_position;  // 3 floats in the world, or doubles as the root's
     swivel_in support_rotation;  // x, y, z, w
-    // Of each body: how much of all that turns its joints counts, 0..1, 1 float. Null: 1. At 0 the joints keep their
-    // incoming bits, while what is carried goes on. So a body comes and goes without a jump.
-    // Limbs below a look are solved from where the look has turned them by its part. Rows of limbs and props are those
-    // of a weight of 1, and so is SWIVEL_SHIFT: scale it where you draw it.
+    // How much of all that turns a body's joints counts, 0..1, 1 float for each body. Null: 1. Another number makes all
+    // of its groups bad input. At 0 the joints keep their incoming bits, while what is carried goes on. So a body comes
+    // and goes without a jump, as fast as the caller lets its weight change. In between no hand is quite at its goal.
+    // Looks take their part first: SWIVEL_SIGHT and REACHED are of that, and limbs below are solved from there. Rows of
+    // limbs and props are those of a weight of 1, and so is SWIVEL_SHIFT: scale it where you draw it.
     swivel_in weight;
 } swivel_pose;
 
@@ -1266,16 +1274,16 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, or how far out
 // of reach the target is. It names the limit that turned the elbow from its wish, and by how much. Where no elbow keeps
 // the limits, it says by how many degrees the pose violates each. It says so if the results do not match the present
-// inputs. It cannot know the swivel from which the last step started. Distances are in the targets' unit, unless it
-// says that they are of the limb's length. With WITH_WEIGHTS it says how far the limb is from the target itself, not
-// from the blended one. limb is counted within the group. text gets at most size bytes, the 0 at its end among them.
-// For people and logs: the words may change, and the last digits differ between C libraries. A text that was cut ends
-// in three dots. Of bodies it needs WITH_RECORD. Then it also says why a planted point stands or slides, and what a
-// hand holds. It says how the ground lifts and turns a foot, for a root that is upright. Of a group that is no limb it
-// needs none, and says how the body is shifted, where the prop is and why, or by how much a line of sight misses. With
-// the hands' records it says how far the prop moved, and how far each hand is from its grip. With SWIVEL_EVERY_GROUP it
-// says so of all groups of body `limb`, with a line for each that begins "group 0: ". Takes up to a millisecond for a
-// limb; no allocation.
+// inputs. It cannot know the swivel from which the last step started, and takes the step of a 60th of a second.
+// Distances are in the targets' unit, unless it says that they are of the limb's length. With WITH_WEIGHTS it says how
+// far the limb is from the target itself, not from the blended one. limb is counted within the group. text gets at most
+// size bytes, the 0 at its end among them. For people and logs: the words may change, and the last digits differ
+// between C libraries. A text that was cut ends in three dots. Of bodies it needs WITH_RECORD. Then it also says why a
+// planted point stands or slides, and what a hand holds. It says how the ground lifts and turns a foot, for a root that
+// is upright. Of a group that is no limb it needs none, and says how the body is shifted, where the prop is and why, or
+// by how much a line of sight misses. With the hands' records it says how far the prop moved, and how far each hand is
+// from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body `limb`, with a line for each that begins
+// "group 0: ". Takes up to a millisecond for a limb; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
@@ -1297,7 +1305,7 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
 // - other units; a root's place, rotation or scale that is missing, was not given, or counts twice; a root in floats
 //   for doubles, or the other way round; scales or translations that do not count; left-handed axes, another axis up.
 // The text names the mistake that explains the places, or each of several. If none does, it names the first joint that
-// is off, and what to look at, or the rotation that is none because strides are wrong.
+// is off, and what to look at, or a quaternion whose length shows that strides are wrong.
 //
 // They do not agree, either, where no place shows what is wrong: bones of the skeleton that are twice or half as long
 // as the pose's, a time above 1 second, or an elbow bent by 10 degrees and more the other way than `bend` says.

@@ -334,8 +334,9 @@ auto stream(Range&& values, Steps... steps)
     return Stream<Value>{std::ranges::empty(values) ? nullptr : &reached(*first, steps...), sizeof *first};
 }
 
-// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_frame, which views it: also
-// what is added later. Keep it from solve to solve while the arrays stay where they are.
+// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_frame, which views it
+// until it moves or ends, with fields that are added later, but not with a later origin(). Keep it from solve to solve
+// while the arrays stay where they are.
 //     swivel::Frame frame;
 //     frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
 //     frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
@@ -460,7 +461,8 @@ struct Probes {
     std::span<float[3]> grounds, normals;
 };
 
-// Samples the ground: anything that may be copied and called with Probes, by several threads at a time.
+// Samples the ground: anything that may be copied and called with Probes, by several threads at a time. To copy a
+// capture of more than two pointers may allocate; std::ref(ask) does not.
 using Sample = std::function<void(const Probes&)>;
 
 // Samples for one solve. An exception waits here until the solve is over, because none may cross C.
