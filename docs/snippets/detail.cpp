@@ -40,8 +40,7 @@ TEST_CASE("docs: bodies come near and go")
     skeleton.parents = swivel::stream(kParents);
     skeleton.translations = swivel::stream(kOffsets);
     skeleton.joint_count = kJoints;
-    swivel_limb_joints joints =
-        swivel_default_limb_joints(kUpperArm, kForearm, kHand);
+    swivel_limb_joints joints = swivel_default_limb_joints(kUpperArm, kForearm, kHand);
     joints.bend[2] = 1;
     const std::array groups = {swivel::body_group(joints, SWIVEL_POLE_INCOMING)};
     swivel::Crowd crowd(skeleton, kCount, groups);
