@@ -113,6 +113,7 @@ enum RecordNumber : int {
     kRecordIncoming = kRecordLengths + 2,
     kRecordSize = kRecordIncoming + 12
 };
+static_assert(std::uint32_t{kRecordSize} <= kMostComponents);
 // Those of SWIVEL_LIFT behind the three of the height: the normal that the foot turns with, and its rate.
 enum LiftNumber : int { kSlope = 3, kSlopeRate = kSlope + 3 };
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
@@ -123,8 +124,9 @@ struct FieldRow {
     std::uint32_t component_count;  // see field_row_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
-    const char* range = "";         // what a value must be to be in its range
-    float start[kRecordSize] = {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
+    const char* range = "";  // what a value must be to be in its range
+    float start[kMostComponents] =
+        {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
     Start starts = Start::neutral;
     Place place = Place::no;
     UnitParts unit = {};
