@@ -131,5 +131,5 @@ TEST_CASE("Attributes that are long or deep are refused")
     stage.require_refused({"check", "cache"}, ".zattrs: is longer than 4194304 bytes");
     spill(stage.at(".zattrs"), "{\"swivel_cache\": 1}");
     stage.require_refused({"check", "cache"},
-                          "the cache has format 1, this swivel reads format 7; make it anew by swivel store");
+                          "the cache has format 1, this swivel reads format 8; make it anew by swivel store");
 }
