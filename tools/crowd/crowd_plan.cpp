@@ -164,8 +164,15 @@ struct Planner {
         if (from.most_swivel_deg_per_second)
             most_deg = std::min(180.0, clip.frame_time * from.most_swivel_deg_per_second->value);
         if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)
-            put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(kRadians * most_deg));
+            put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(in_a_60th(kRadians * most_deg)));
         if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
+    }
+
+    // The step of a 60th of a second that SWIVEL_MOST_SWIVEL is, of the step of a frame: its half-tangent goes with
+    // time.
+    double in_a_60th(double in_a_frame) const
+    {
+        return 2 * std::atan(std::tan(std::min(in_a_frame, 3.1415) / 2) / (60 * clip.frame_time));
     }
 
     void limits()

@@ -83,8 +83,8 @@ const FIELDS = [
             share("Least distance", 0)],
         value: (swivel, numbers) => numbers, numbers: (value) => value },
     { name: "MOST_SWIVEL", title: "Step",
-        hint: "How far the elbow may swing about the line from shoulder to wrist, in one frame",
-        sliders: [angle("Most, a frame", 0, 90, 5)],
+        hint: "How far the elbow may swing about the line from shoulder to wrist, in a 60th of a second",
+        sliders: [angle("Most, a 60th of a second", 0, 90, 5)],
         value: (swivel, [most]) => swivel.turn(most * RADIANS), numbers: (value) => [middle(value)] },
 ];
 
