@@ -221,7 +221,7 @@ class Words(unittest.TestCase):
         self.assertEqual(list(rows), [field.name.lower() for field in Field])
         for field in Field:
             crowd, group = crowd_with(swivel.needed_features(field))
-            shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 23)}, "n, 4 b": 4}[rows[field.name.lower()]]
+            shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 26)}, "n, 4 b": 4}[rows[field.name.lower()]]
             self.assertEqual(shape, crowd.component_count(field, group), field.name)
             self.assertEqual(np.ndim(crowd.read(field, group)), 1 if shape == 1 else 2)
 
