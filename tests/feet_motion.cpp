@@ -55,12 +55,12 @@ std::string carried(const PlainMotion& motion, const Carried& to)
         double x = 0, y = 0, z = 0;
         if (word == "OFFSET" && is_bone && words >> x >> y >> z)
             line = fmt::format("OFFSET {} {} {}", to.legs * x, to.legs * y, to.legs * z);
-        if (word == "Frames:") line = fmt::format("Frames: {}", (motion.lines.size() + 1) / 2);
-        if (word == "Frame") line = fmt::format("Frame Time: {}", kCarriedTime);
+        if (word == "Frames:") line = fmt::format("Frames: {}", (motion.lines.size() + to.every - 1) / to.every);
+        if (word == "Frame") line = fmt::format("Frame Time: {}", to.frame_time());
         text += line + "\n";
     }
     const std::vector<double>&first = motion.values.front(), &last = motion.values.back();
-    for (std::size_t frame = 0; frame < motion.values.size(); frame += 2) {
+    for (std::size_t frame = 0; frame < motion.values.size(); frame += to.every) {
         std::vector<double> values = motion.values[frame];
         const double passed = static_cast<double>(frame) / static_cast<double>(motion.values.size() - 1);
         for (std::size_t n = 0; n < motion.joint(0).channels.size(); ++n) {
@@ -185,6 +185,21 @@ Hills random_hills(const Vector3d& size)
     for (std::size_t n = 0; n < hills.columns * hills.rows; ++n)
         hills.samples.push_back(static_cast<std::uint16_t>(any(random)));
     return hills;
+}
+
+Hills steps_along(const Vector3d& way, double rise, double tread)
+{
+    constexpr std::size_t kSamples = 401;
+    const double reach = 1.5 * way.norm(), count = std::ceil(reach / tread);  // of steps, on either side
+    Hills steps{kSamples, kSamples, {}, {2 * reach, 2 * count * std::fabs(rise), 2 * reach}};
+    for (std::size_t row = 0; row < kSamples; ++row)
+        for (std::size_t column = 0; column < kSamples; ++column) {
+            const Vector3d at(steps.size.x() * (static_cast<double>(column) / (kSamples - 1) - 0.5), 0,
+                              steps.size.z() * (static_cast<double>(row) / (kSamples - 1) - 0.5));
+            const double step = std::floor(at.dot(way.normalized()) / tread) / count / 2 * (rise > 0 ? 1 : -1) + 0.5;
+            steps.samples.push_back(static_cast<std::uint16_t>(65535 * std::clamp(step, 0.0, 1.0)));
+        }
+    return steps;
 }
 
 void write_png(const fs::path& path, const Hills& hills, int bits)

@@ -26,14 +26,18 @@ struct PlainLegs {
 // Of a skeleton with the names of the CMU library.
 PlainLegs legs_path(const PlainMotion& motion, double frame_time);
 
-// A CMU clip carried to another body, every second frame.
+inline constexpr double kCarriedTime = 1.0 / 60;  // seconds from frame to frame of a clip that is carried
+
+// A CMU clip of 120 frames a second, carried to another body.
 struct Carried {
-    double legs = 1;   // thighs and shins are so many times as long
-    double way = 1;    // the root's way over the ground is so many times as far
-    double minus = 0;  // this share of the root's mean velocity is taken away
+    double legs = 1;        // thighs and shins are so many times as long
+    double way = 1;         // the root's way over the ground is so many times as far
+    double minus = 0;       // this share of the root's mean velocity is taken away
+    std::size_t every = 2;  // frame is kept
+
+    double frame_time() const { return static_cast<double>(every) / 2 * kCarriedTime; }
 };
 std::string carried(const PlainMotion& motion, const Carried& to);
-inline constexpr double kCarriedTime = 1.0 / 60;  // seconds from frame to frame
 
 // The rule of docs/clip_feet.md.
 using PlainContacts = std::array<std::vector<bool>, 2>;
@@ -57,6 +61,8 @@ struct Hills {
     double height(double x, double z) const;
 };
 Hills random_hills(const Eigen::Vector3d& size);
+// Steps up along a way from the world's origin, or down if rise is below 0. An edge is three samples wide.
+Hills steps_along(const Eigen::Vector3d& way, double rise, double tread);
 // bits: 8 or 16; of 8 the upper ones.
 void write_png(const fs::path& path, const Hills& hills, int bits);
 

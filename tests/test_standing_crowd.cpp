@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -57,14 +58,15 @@ fs::path walk_in(const TempFolder& folder)
 
 struct HillStage {
     TempFolder folder;
+    double frame_time;
     PlainMotion clip;
     PlainContacts contacts;
     Hills hills = random_hills(kHillSize);
     double floor = 0;  // in a quarter of all frames the lowest joint is lower
 
-    HillStage()
+    explicit HillStage(const Carried& to = {}) : frame_time(to.frame_time())
     {
-        spill(folder / "walk.bvh", carried(plain_motion_of(walk_in(folder)), {}));
+        spill(folder / "walk.bvh", carried(plain_motion_of(walk_in(folder)), to));
         write_png(folder / "hills.png", hills, 16);
         clip = plain_motion_of(folder / "walk.bvh");
         REQUIRE(run_command(folder.path, {"feet", "walk.bvh", "--export-contacts", "c.csv"}).exit_code == 0);
@@ -99,10 +101,11 @@ struct HillStage {
     {
         return floor + kMiddle.y() + hills.height(at.x() - kMiddle.x(), at.z() - kMiddle.z());
     }
+    PlainLegs legs_of(const std::string& file) const { return legs_path(plain_motion_of(folder / file), frame_time); }
     // The median height of a foot's toe over the clip's floor while it is down: between these two.
     std::array<double, 2> clearance(std::size_t side) const
     {
-        const PlainLegs legs = legs_path(clip, kCarriedTime);
+        const PlainLegs legs = legs_of("walk.bvh");
         std::vector<double> heights;
         for (std::size_t frame = 0; frame < legs.frame_count(); ++frame)
             if (contacts[side][frame]) heights.push_back(legs.legs[side].toe[frame].y() - floor);
@@ -185,6 +188,56 @@ TEST_CASE("feet of a crowd on hills stand where they touch, on the ground")
     CHECK(kMillimetres * slide < 0.1);
     CHECK(kMillimetres * gap < 1);
     CHECK(kMillimetres * below < 0.1);
+}
+
+// The largest change of a velocity from frame to frame, in leg lengths a second.
+double jump_of(const PlainLegs& legs, std::span<const std::vector<Vector3d>* const> paths)
+{
+    double most = 0;
+    for (const std::vector<Vector3d>* path : paths)
+        for (std::size_t n = 2; n < path->size(); ++n)
+            most = std::max(most, ((*path)[n] - 2 * (*path)[n - 1] + (*path)[n - 2]).norm());
+    return most / legs.frame_time / legs.leg_length(0);
+}
+
+TEST_CASE("a crowd climbs steps without a jump, and its feet stand on them")
+{
+    const std::size_t every = GENERATE(2, 4);
+    const double rise = GENERATE(180.0, 100.0, -180.0);  // mm
+    HillStage stage({.every = every});
+    const PlainLegs before = stage.legs_of("walk.bvh");
+    const Hills steps = steps_along(before.body.back() - before.body.front(), rise / kMillimetres, 280 / kMillimetres);
+    write_png(stage.folder / "steps.png", steps, 16);
+    stage.solved(fmt::format("[crowd]\nlimbs = \"all\"\n[ground]\nheights = \"steps.png\"\nsize = [{}, {}, {}]\n",
+                             steps.size.x(), steps.size.y(), steps.size.z()),
+                 {"--out", "out.bvh", "--quiet"});
+    const PlainLegs after = stage.legs_of("out.bvh");
+    const auto jumps = [](const PlainLegs& legs) {
+        return std::array{jump_of(legs, std::array{&legs.body}),
+                          jump_of(legs, std::array{&legs.legs[0].toe, &legs.legs[1].toe})};
+    };
+    double gap = 0, depth = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const auto [least, most] = stage.clearance(side);
+        std::size_t since = 0;
+        for (std::size_t frame = 0; frame < after.frame_count(); ++frame) {
+            const Vector3d& toe = after.legs[side].toe[frame];
+            const double height = toe.y() - stage.floor - steps.height(toe.x(), toe.z());
+            depth = std::max(depth, least - height);
+            since = stage.contacts[side][frame] ? since + 1 : 0;
+            if (static_cast<double>(since) * stage.frame_time > 0.1)
+                gap = std::max(gap, std::fabs(height - std::clamp(height, least, most)));
+        }
+    }
+    const auto [hips, toes] = jumps(after);
+    const auto [own_hips, own_toes] = jumps(before);
+    std::printf(
+        "steps of %.0f mm, %.0f fps: jumps %.2f (hips) and %.2f (toes) of the clip's; gap %.2f mm, depth %.2f mm\n",
+        rise, 1 / stage.frame_time, hips / own_hips, toes / own_toes, kMillimetres * gap, kMillimetres * depth);
+    CHECK(hips < 2 * own_hips);
+    CHECK(toes < 2 * own_toes);
+    CHECK(kMillimetres * gap < 10);
+    CHECK(kMillimetres * depth < 0.5 * std::fabs(rise));  // of a toe in the air, at an edge that it has just passed
 }
 
 TEST_CASE("a clip that is written stands as its table says, and threads change nothing")

@@ -31,15 +31,15 @@ const words = (...numbers) => Buffer.from(new Uint32Array(numbers).buffer);
 const regionBytes = ({ first, half_spaces: halfSpaces }) => Buffer.concat([
   words(first[0], first.length - 1, ...first, ...Array(25 - first.length).fill(0)),
   ...halfSpaces.map(({ axis, cosine, is_edge: isEdge }) => Buffer.concat([floats(axis, [cosine]), words(isEdge)])), Buffer.alloc(20 * (64 - halfSpaces.length))]);
-const planBytes = (p, isLook) => Buffer.concat([
+const planBytes = (p, isLook, clearance) => Buffer.concat([
   doubles(p.target_point, p.target_offset, p.effector, p.pole_fixed, p.shoulder_place, p.bones.flat()), floats(p.weights),
-  words(p.has_target_point, p.has_pole_fixed, p.pole, p.holds_pole, p.hand_is_local, p.goes_along, isLook ? 1 : 0, p.holds, 0)]);
+  words(p.has_target_point, p.has_pole_fixed, p.pole, p.holds_pole, p.hand_is_local, p.goes_along, isLook ? 1 : 0, p.holds), floats(clearance)]);
 const groundBytes = ({ size, place, columns, rows }) => Buffer.concat([doubles(size, place), words(columns, rows)]);
 /** Bytes of a goal_root and a goal_input, and where the goals of that begin. */
-const ROOT = 32, INPUT = 240, GOAL = { target: 0, pole: 24, hand: 48, weights: 64 };
+const ROOT = 32, INPUT = 272, GOAL = { target: 0, pole: 24, hand: 48, weights: 64 };
 
 /** Members of a goal_source and of a goal_character, in their order. */
-const SOURCE = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'root', 'carried', 'parent', 'shoulder', 'elbow_local', 'wrist_local', 'contact', 'carries'];
+const SOURCE = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'root', 'carried', 'parent', 'shoulder', 'elbow_local', 'wrist_local', 'contact', 'carries', 'stand', 'leaves', 'lands', 'next'];
 const CHARACTER = ['size', 'place', 'start', 'wish', 'first', 'count', 'carries'];
 
 /** The limbs, and a look, which is the last one. */
@@ -148,7 +148,7 @@ class Column {
     this.characters = this.keep(Buffer.concat(who.map((c) => Buffer.concat([
       doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c]), floats(cache.wish[c]), words(cache.first[c], cache.count[c], cache.carries[c], 0)]))));
     this.ground = cache.heights ? [this.keep(groundBytes(cache.attrs.ground)), this.keep(Buffer.from(cache.heights.slice().buffer))] : [0, 0];
-    this.plans = this.keep(Buffer.concat(limbs.map(({ goals, isLook }) => planBytes(goals, isLook))));
+    this.plans = this.keep(Buffer.concat(limbs.map(({ goals, isLook, clearances }) => planBytes(goals, isLook, clearances?.[0] ?? 0))));
     this.sources = this.keep(words(...cache.sources.map((bytes) => this.keep(bytes))));
     this.roots = memory.allocate(ROOT * this.count);
     this.inputs = memory.allocate(INPUT * limbs.length * this.count);
@@ -156,8 +156,8 @@ class Column {
       joints: chains[n], features: BigInt(limb.features), shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, onBadInput: OnBadInput.REST_POSE,
       ...(limb.goals.holds > 0 ? { link: limb.goals.holds - 1 } : {}),
       ...(limb.region ? { region: this.swivel.region(new Uint8Array(regionBytes(limb.region))) } : {}),
-      ...(limb.clearances ? { ground: { toeClearance: limb.clearances[0], heelClearance: limb.clearances[1] }, plant: { run: 1 } } : {}) }));
-    if (limbs.some(({ features }) => BigInt(features) & Feature.WITH_FIT)) groups.push({ fit: { half: 0.03, drop: 0.2 } });
+      ...(limb.clearances ? { ground: { toeClearance: limb.clearances[0], heelClearance: limb.clearances[1], half: 0 }, plant: { run: 1 } } : {}) }));
+    if (limbs.some(({ features }) => BigInt(features) & Feature.WITH_FIT)) groups.push({ fit: {} });
     this.crowd = this.swivel.bodies({ skeleton, bodyCount: this.count, groups });
     limbs.forEach(({ fixed }, group) => {
       for (const { field, value } of fixed) this.crowd.write(field, value.slice(0, this.crowd.componentCount(field, group)), { group });

@@ -91,7 +91,7 @@ class Metadata(Stage):
             (".zattrs", lambda path: os.truncate(path, 100), "is no JSON object: it was changed or cut"),
             (".zattrs", os.remove, r"\.zattrs: is missing; take it from a copy, or make the cache anew in another folder"),
             (".zattrs", lambda path: edit(path, lambda a: a.update(swivel_cache=1)),
-             "the cache has format 1, this swivel reads format 8; make it anew by swivel store, or use the swivel that made it"),
+             "the cache has format 1, this swivel reads format 9; make it anew by swivel store, or use the swivel that made it"),
             (".zattrs", lambda path: edit(path, lambda a: a.update(characters=101)), "was changed: its digest is another"),
             (".zattrs", lambda path: edit(path, lambda a: a.pop("swivel_cache")), "describes no cache of swivel"),
             ("shoulder/.zarray", lambda path: edit(path, lambda a: a.update(shape=[40, 4, 101, 4])),

@@ -18,7 +18,7 @@ test('a dragged wrist gives the native library\'s elbow, bit for bit', async () 
       const bits = (array) => Array.from(new Uint8Array(array.buffer, array.byteOffset, array.byteLength)), { elbows, wrists } = stage.joints(limb, character, 1);
       const features = new BigUint64Array([stage.featuresOf(limb)]), rest = (numbers, parts) => numbers.slice(parts * above, parts * (above + 4));
       const floats = new Float32Array([...rest(skeleton.translations, 3), ...rest(skeleton.rotations, 4), ...limb.chain.bend]);
-      const root = memory.bytes(stage.rootsAt + 32 * character, 32), input = memory.bytes(stage.input(limb, character, 'target').byteOffset, 240);
+      const root = memory.bytes(stage.rootsAt + 32 * character, 32), input = memory.bytes(stage.input(limb, character, 'target').byteOffset, 272);
       const size = stage.poses.length / stage.characterCount, pose = stage.poses.slice(size * character + 4 * above, size * character + 4 * (above + 4));
       return {
         given: [features, floats, root, input].flatMap(bits), words: Array.from(new Uint32Array(pose.buffer), (word) => word.toString(16).padStart(8, '0')),

@@ -69,6 +69,19 @@ Cache::Cache(PlainFolder files) : crowd_(read_crowd(files)), arrays_(crowd_), st
     read_clip();
 }
 
+// Frames that a foot goes from and to are frames of the clip.
+void Cache::require_strides(std::span<const goal_source> sources) const
+{
+    for (std::size_t frame = 0; frame < sources.size(); ++frame) {
+        const auto& [stand, leaves, lands, next] = sources[frame].stride;
+        if (stand < sources.size() && next < sources.size() && lands < sources.size() &&
+            (leaves == 0 || frame < leaves || leaves <= lands))
+            continue;
+        throw InputError(folder() / "clip",
+                         "has strides that are not within the clip; make the cache anew by swivel store");
+    }
+}
+
 void Cache::read_clip()
 {
     std::vector<std::vector<goal_source>*> sources;  // of each limb
@@ -82,6 +95,7 @@ void Cache::read_clip()
         for (std::size_t limb = 0; limb < sources.size(); ++limb)
             scatter(std::span(bytes).subspan(limb * of_limb, of_limb), kSourceMembers[n], std::span(*sources[limb]));
     }
+    for (const std::vector<goal_source>* of_limb : sources) require_strides(*of_limb);
     crowd_.positions.resize(arrays_.clip.back().chunk_bytes() / sizeof(float));
     require_made(arrays_.clip.back(), {}, std::as_writable_bytes(std::span(crowd_.positions)));
     if (arrays_.ground.empty()) return;

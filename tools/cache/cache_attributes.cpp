@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 8;
+constexpr int kFormat = 9;
 constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
 constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
 constexpr double kMostLength = 1e15;             // as swivel.h has it
@@ -235,7 +235,8 @@ CachedLimb limb_of(const Json& json)
     if (json.contains("clearances")) {
         float clearances[2];
         get(json.at("clearances"), clearances);
-        setup.ground.toe_clearance = clearances[0], setup.ground.heel_clearance = clearances[1];
+        setup.goals.clearance = setup.ground.toe_clearance = clearances[0];
+        setup.ground.heel_clearance = clearances[1];
     }
     return limb;
 }

@@ -36,7 +36,12 @@ constexpr Member kSourceMembers[] = {
     {"wrist_local", "<f4", offsetof(goal_source, wrist_local), 4, "the clip's own local rotation, x y z w"},
     {"contact", "<f4", offsetof(goal_source, contact), 1, "1 while the foot is on the ground"},
     {"carried", "<f8", offsetof(goal_source, carried), 3, "from the shoulder, the wrist of who carries a box"},
-    {"carries", "<u4", offsetof(goal_source, carries), 1, "1: the arm of who carries a box follows carried"}};
+    {"carries", "<u4", offsetof(goal_source, carries), 1, "1: the arm of who carries a box follows carried"},
+    {"stand", "<u4", offsetof(goal_source, stride.stand), 1,
+     "middle frame of the stand that the foot is in or comes from"},
+    {"leaves", "<u4", offsetof(goal_source, stride.leaves), 1, "frame after that stand; 0: the limb never stands"},
+    {"lands", "<u4", offsetof(goal_source, stride.lands), 1, "first frame of the next stand"},
+    {"next", "<u4", offsetof(goal_source, stride.next), 1, "middle frame of the next stand"}};
 
 constexpr Member kCharacterMembers[] = {
     {"size", "<f8", offsetof(goal_character, size), 1, "factor of all lengths, also of the way it goes"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/crowd/stands.h"
 #include "tools/rig/vectors.h"
 
 namespace swivel::tools {
@@ -64,6 +65,24 @@ goal_source source_of(const LimbInClip& in, const Vector3d& origin, const Vector
     return source;
 }
 
+// The strides of a leg in a part of the clip.
+void put_strides(const std::vector<bool>& contact, const ClipPart& part, double frame_time,
+                 std::span<goal_source> sources)
+{
+    const auto first = contact.begin() + static_cast<std::ptrdiff_t>(part.first);
+    const std::vector<Contact> stands = stands_of({first, first + static_cast<std::ptrdiff_t>(part.count)}, frame_time);
+    const auto in_clip = [&](std::size_t frame) { return static_cast<std::uint32_t>(part.first + frame); };
+    std::size_t frame = 0;
+    for (std::size_t n = 0; n < stands.size(); ++n) {
+        const bool is_last = n + 1 == stands.size();
+        const Contact &from = stands[n], &next = is_last ? from : stands[n + 1];
+        const goal_stride stride{in_clip(middle_of(from)), in_clip(is_last ? part.count : from.end),
+                                 in_clip(next.first), in_clip(middle_of(next))};
+        for (const std::size_t end = is_last ? part.count : next.first; frame < end; ++frame)
+            sources[part.first + frame].stride = stride;
+    }
+}
+
 // Without stretched bones, lengths differ from those at rest by rounding alone.
 void settle_lengths(std::span<goal_source> sources, const float (&at_rest)[2])
 {
@@ -107,7 +126,13 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs, c
         }
         if (plan.look) sources_.back().push_back(look_source(clip, plan.look->joints, pose_w, root));
     }
-    for (std::size_t n = 0; n < limbs.size(); ++n) settle_lengths(sources_[n], limbs[n].bound.lengths);
+    std::vector<ClipPart> parts = plan.clips;
+    if (parts.empty()) parts = {{0, clip.frame_count}};
+    for (std::size_t n = 0; n < limbs.size(); ++n) {
+        settle_lengths(sources_[n], limbs[n].bound.lengths);
+        if (plan.limbs[n].has(SWIVEL_WITH_GROUND))
+            for (const ClipPart& part : parts) put_strides(plan.limbs[n].contact, part, clip.frame_time, sources_[n]);
+    }
 }
 
 }  // namespace swivel::tools

@@ -63,6 +63,7 @@ goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
     goals.holds = plan.holds ? static_cast<std::uint32_t>(*plan.holds + 1) : 0;
     goals.goes_along = !plan.holds && !plan.target_point && plan.target_offset.isZero(0) &&
                        !plan.has(SWIVEL_WITH_PLANT) && !plan.has(SWIVEL_WITH_AIM);
+    goals.clearance = plan.ground.toe_clearance;
     return goals;
 }
 

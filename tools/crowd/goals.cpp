@@ -3,8 +3,12 @@
 
 #include <stddef.h>
 #include <string.h>
+#include <cmath>
 
 #include "tools/crowd/ground.h"
+#include "tools/crowd/strides.h"
+
+using namespace swivel::tools;
 
 namespace {
 
@@ -107,22 +111,47 @@ void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, cons
     input.contact = from.contact;
 }
 
+// Where a foot goes in this frame of its stride.
+void put_foot(const Stride& stride, goal_input& input)
+{
+    input.target[0] += stride.aside[0], input.target[2] += stride.aside[1];
+    copy(stride.plane, input.plane);
+    copy(stride.slopes, input.slopes);
+    input.room = static_cast<float>(stride.room);
+}
+
+double length_of(const float (&v)[3])
+{
+    return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]);
+}
+
 // What a solve's feet stand on. Positions of probes are from the roots.
 struct Standing {
     const goal_ground* ground;
     const float* heights;
     const goal_root* roots;
+    const goal_input* inputs;
+    uint32_t limb_count;
 };
 void sample(const swivel_probes* probes, void* user)
 {
+    constexpr double kMostRaised = 0.01;  // leg lengths
     const Standing& on = *static_cast<const Standing*>(user);
     for (uint32_t n = 0; n < probes->count; ++n) {
-        const double(&root)[3] = on.roots[probes->bodies[n]].place;
-        const float(&probe)[3] = probes->places[n];
-        const swivel::tools::GroundPoint point =
-            swivel::tools::ground_at(*on.ground, on.heights, root[0] + double{probe[0]}, root[2] + double{probe[2]});
-        store({double{probe[0]}, point.height - root[1], double{probe[2]}}, probes->grounds[n]);
-        store({-point.slope_x, 1, -point.slope_z}, probes->normals[n]);
+        const uint32_t body = probes->bodies[n];
+        const goal_input& foot = on.inputs[body * on.limb_count + probes->group];
+        const double x = on.roots[body].place[0] + double{probes->places[n][0]},
+                     z = on.roots[body].place[2] + double{probes->places[n][2]};
+        const double level =
+            foot.plane[1] + double{foot.slopes[0]} * (x - foot.plane[0]) + double{foot.slopes[1]} * (z - foot.plane[2]);
+        // No toe is in the ground, except where it would jump up an edge.
+        const double above = ground_at(*on.ground, on.heights, x, z).height - level - double{foot.room};
+        const double most =
+            kMostRaised * double{on.roots[body].size} * (length_of(foot.places[2]) + length_of(foot.places[3]));
+        const double raised = above < 0 ? 0 : above < most ? above : most;
+        store({double{probes->places[n][0]}, level + raised - on.roots[body].place[1], double{probes->places[n][2]}},
+              probes->grounds[n]);
+        store({-double{foot.slopes[0]}, 1, -double{foot.slopes[1]}}, probes->normals[n]);
     }
 }
 
@@ -201,17 +230,25 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
         const uint32_t at = swivel_goal_frame(&who, frame);
         const Vec3 root = vec3(sources[0][at].root);
         Vec3 root_w = vec3(who.place) + who.size * root;
-        if (ground) {
-            const double height = swivel::tools::ground_at(*ground, heights, root_w.x, root_w.z).height;
-            who.place[1] += height - root_w.y;
-            root_w.y = height;
+        Stride strides[GOAL_MOST_LIMBS];  // of limbs that stand, in their order
+        uint32_t feet = 0;
+        if (ground)
+            for (uint32_t limb = 0; limb < limb_count; ++limb)
+                if (sources[limb][at].stride.leaves > 0)
+                    strides[feet++] = stride_at(plans[limb], sources[limb], at, who, *ground, heights);
+        if (feet > 0) {
+            const double level = body_level({strides, feet});
+            who.place[1] += level - root_w.y;
+            root_w.y = level;
         }
         store(root_w, roots[n].place);
         roots[n].size = static_cast<float>(who.size);
         roots[n].shift = 0;
+        const Stride* stride = strides;
         for (uint32_t limb = 0; limb < limb_count; ++limb) {
             goal_input& input = inputs[n * limb_count + limb];
             fill(plans[limb], sources[limb][at], root, who, ground, input);
+            if (ground && sources[limb][at].stride.leaves > 0) put_foot(*stride++, input);
             if (const uint32_t holds = plans[limb].holds)
                 put_grip(plans[limb], sources[limb][at], sources[holds - 1][at], input.grip);
         }
@@ -220,7 +257,7 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
 
 double swivel_ground_height(const goal_ground* ground, const float* heights, double x, double z)
 {
-    return swivel::tools::ground_at(*ground, heights, x, z).height;
+    return ground_at(*ground, heights, x, z).height;
 }
 
 swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground, const float* heights, float seconds,
@@ -263,7 +300,7 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
     pose.root_scale = {&roots[0].size, sizeof(goal_root)};
     pose.time = {&seconds, 0};
     pose.support_position = {characters[0].place, sizeof(goal_character)};
-    Standing standing{ground, heights, roots};
+    Standing standing{ground, heights, roots, inputs, limb_count};
     job->frames = frames;
     job->pose = &pose;
     job->sample = ground ? sample : nullptr;

@@ -12,6 +12,14 @@
 
 extern "C" {
 
+// The way of a foot from one stand to the next, in frames of the sources.
+typedef struct goal_stride {
+    uint32_t stand;   // the middle of the stand that it is in or comes from
+    uint32_t leaves;  // the frame after that; 0: the limb never stands
+    uint32_t lands;   // the first of the next stand
+    uint32_t next;    // the middle of that
+} goal_stride;
+
 // One limb in one frame of the clip: two bones that at rest point where the limb's do. All is in the world's axes, but
 // the clip's own pose; elbow and wrist are counted from the shoulder. Words are an arm's. Quaternions are x, y, z, w.
 // A look is one more limb, of up to three joints: neck and head stand for shoulder, elbow and wrist.
@@ -24,8 +32,9 @@ typedef struct goal_source {
     double carried[3];                                  // the wrist of who carries a box, from the shoulder
     float parent[4];                                    // of the joint above
     float shoulder[4], elbow_local[4], wrist_local[4];  // the clip's own pose between the two bones
-    float contact;     // of a leg that stands: 1 while the clip has its foot on the ground, else 0
-    uint32_t carries;  // 1: carried counts, for characters that carry
+    float contact;       // of a leg that stands: 1 while the clip has its foot on the ground, else 0
+    uint32_t carries;    // 1: carried counts, for characters that carry
+    goal_stride stride;  // of a leg that stands; else zeros
 } goal_source;
 
 // A character of the crowd; the first is the clip's own. What is at x in the clip is at place + size * x.
@@ -57,7 +66,7 @@ typedef struct goal_plan {
     uint32_t goes_along;  // 1: on ground its target and hand do not count, so it moves with its body; unless it carries
     uint32_t is_look;     // 1: no limb, but neck and head; target_offset is what they look at, in the world
     uint32_t holds;       // SWIVEL_WITH_LINK: 1 more than the number of the limb whose hand this one holds; else 0
-    uint32_t reserved;
+    float clearance;      // of a leg that stands: swivel_ground's toe_clearance
 } goal_plan;
 
 // What a limb is asked for, in the world. Pole and hand are as the plan says.
@@ -89,20 +98,22 @@ typedef struct goal_input {
     float rotations[5][4];  // the last one, no turn, is each twist bone's: the clip has none of these
     float contact;          // as the source's
     float grip[7];  // as SWIVEL_GRIP, of size 1: where the clip has it on the wrist that it holds; zeros: it holds none
-    uint32_t reserved;
+    float room;     // of a leg that stands: how far its toe is above its clearance over the clip's floor; at least 0
+    double plane[3];  // then: a point of the plane of its ground, in the world
+    float slopes[2];  // of that plane, along x and z
 } goal_input;
 
-static_assert(sizeof(goal_source) == 240 && sizeof(goal_character) == 56 && sizeof(goal_plan) == 216 &&
-              sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 240);
+static_assert(sizeof(goal_source) == 256 && sizeof(goal_character) == 56 && sizeof(goal_plan) == 216 &&
+              sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 272);
 
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
 // them.
 enum { GOAL_JOINTS = 4 };
 enum { GOAL_MOST_LIMBS = 8 };  // of a character, with its look
 
-// Of groups that stand on ground: swivel_plant's run, swivel_fit's half and drop, where they are not as usual. A body
-// comes down sooner and further than usual, because hills come as fast as steps.
-static const float GOAL_PLANT_RUN = 1, GOAL_FIT_HALF = 0.03f, GOAL_FIT_DROP = 0.2f;
+// Of groups that stand on ground: swivel_plant's run and swivel_ground's half, where they are not as usual. Nothing is
+// eased twice: planes rise and turn as strides go.
+static const float GOAL_PLANT_RUN = 1, GOAL_GROUND_HALF = 0;
 
 // The frame of the sources that a character shows in a frame of the crowd. Any thread; no allocation.
 inline uint32_t swivel_goal_frame(const goal_character* character, uint32_t frame)
@@ -121,7 +132,7 @@ goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_ch
 
 // Fills what count characters are asked for.
 // plans: of each limb. sources: of each limb, one for each frame of all clips.
-// ground, heights: null, or each character is raised to where the ground is below its root.
+// ground, heights: null, or feet that stand do so on it, and each character is raised to its lower foot's ground.
 // roots: count of them. inputs: [character][limb].
 // Any thread; no allocation.
 void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uint32_t limb_count, uint32_t frame,

@@ -86,17 +86,6 @@ Contacts find_contacts(const LegMotion& motion, const ContactBars& bars)
     return contacts;
 }
 
-std::vector<Contact> contacts_of(const std::vector<bool>& frames)
-{
-    std::vector<Contact> contacts;
-    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
-        if (!frames[frame]) continue;
-        if (frame == 0 || !frames[frame - 1]) contacts.push_back({frame, frame});
-        contacts.back().end = frame + 1;
-    }
-    return contacts;
-}
-
 std::optional<Slide> slide_of(const LegMotion& motion, const ContactBars& bars)
 {
     Vector3d way = Vector3d::Zero();

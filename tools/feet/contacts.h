@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/crowd/stands.h"
 #include "tools/feet/leg_motion.h"
 #include "tools/formats/contacts_csv.h"
 
@@ -23,14 +24,6 @@ struct ContactBars {
 };
 
 Contacts find_contacts(const LegMotion& motion, const ContactBars& bars);
-
-// Frames from `first` on, up to `end`.
-struct Contact {
-    std::size_t first, end;
-};
-inline std::size_t middle_of(const Contact& contact) { return (contact.first + contact.end) / 2; }
-// A leg's contacts, in order.
-std::vector<Contact> contacts_of(const std::vector<bool>& frames);
 
 // How feet slide while they are low, by more than half a leg in the clip.
 struct Slide {

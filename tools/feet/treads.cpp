@@ -16,7 +16,6 @@ using Eigen::Vector3d;
 constexpr int kParts = 16, kBefore = 8, kBehind = 4, kDirections = 16;
 constexpr double kShortest = 0.1;  // leg lengths: of that way, where the ankle stands or a toe hangs down
 constexpr double kLowArc = 0.5;    // of an arc's height
-constexpr double kLongest = 1;     // second of a swing: a longer one follows the ground in parts
 
 // From one of the points of a sole to the next, towards the ankle.
 Vector3d sole_part_w(const LegMotion& motion, const LegPath& path, std::size_t frame)
@@ -40,7 +39,7 @@ bool is_tread(const Vector3d& toe_w, const Vector3d& part_w, const Floor& floor)
     return true;
 }
 
-// Frames in which the ground below a foot counts: all those of a contact, or one of the air.
+// Where a foot goes while it stands.
 struct Anchor {
     std::size_t first, end;
     Vector3d move_w;
@@ -52,25 +51,6 @@ Anchor anchor_at(const LegMotion& motion, const LegPath& path, const Contact& fr
     const std::size_t middle = middle_of(frames);
     const Vector3d toe_w = path.toe_w[middle], tread_w = tread_near(motion, path, middle, floor).value_or(toe_w);
     return {frames.first, frames.end, tread_w - toe_w + floor.hill(tread_w) * floor.up_w, floor.normal_w(tread_w)};
-}
-
-std::vector<Anchor> anchors_of(const LegMotion& motion, std::size_t leg, const std::vector<bool>& contact,
-                               const Floor& floor)
-{
-    std::vector<Contact> stands = contacts_of(contact);
-    stands.push_back({contact.size() - 1, contact.size()});
-    std::vector<Anchor> anchors{anchor_at(motion, motion.legs[leg], {0, 1}, floor)};
-    for (const Contact& next : stands) {
-        const std::size_t from = anchors.back().end, way = next.first > from ? next.first - from : 0;
-        const auto frames = static_cast<double>(way);
-        const auto parts = 1 + static_cast<std::size_t>(std::min(frames, frames * motion.frame_time / kLongest));
-        for (std::size_t part = 1; part < parts; ++part) {
-            const std::size_t frame = from + way * part / parts;
-            anchors.push_back(anchor_at(motion, motion.legs[leg], {frame, frame + 1}, floor));
-        }
-        if (next.end > from) anchors.push_back(anchor_at(motion, motion.legs[leg], next, floor));
-    }
-    return anchors;
 }
 
 // In the air between two anchors: evenly from one to the other. And over what lies between, by an arc that is as high
@@ -100,12 +80,15 @@ void add_swing(const LegMotion& motion, const LegPath& path, const Anchor& from,
 
 LegLift lift_of_leg(const LegMotion& motion, std::size_t leg, const std::vector<bool>& contact, const Floor& floor)
 {
-    const std::vector<Anchor> anchors = anchors_of(motion, leg, contact, floor);
+    std::vector<Anchor> anchors;
+    for (const Contact& stand : stands_of(contact, motion.frame_time))
+        anchors.push_back(anchor_at(motion, motion.legs[leg], stand, floor));
     LegLift lift;
     for (std::size_t n = 0; n < anchors.size(); ++n) {
         if (n > 0) add_swing(motion, motion.legs[leg], anchors[n - 1], anchors[n], floor, lift);
-        lift.move_w.resize(anchors[n].end, anchors[n].move_w);
-        lift.normal_w.resize(anchors[n].end, anchors[n].normal_w);
+        const std::size_t end = n + 1 < anchors.size() ? anchors[n].end : contact.size();
+        lift.move_w.resize(end, anchors[n].move_w);
+        lift.normal_w.resize(end, anchors[n].normal_w);
     }
     return lift;
 }

@@ -3,7 +3,7 @@
 // The page's binary data: base64 of C structures, as tools/crowd/goals.h and include/swivel/swivel.h lay them out.
 
 /** Bytes of each structure. */
-export const SIZE = { character: 56, source: 240, plan: 216, ground: 56, root: 32, input: 240, given: 80 };
+export const SIZE = { character: 56, source: 256, plan: 216, ground: 56, root: 32, input: 272, given: 80 };
 
 /** Where members of a goal_plan begin, the goals of a goal_input, the shift of a goal_root, and the wish of a goal_character. */
 export const PLAN = { targetOffset: 24, weights: 168, hasFixedPole: 184, holds: 208 };

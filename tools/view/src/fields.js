@@ -6,7 +6,7 @@ import { Feature, Field, OnBadInput } from "swivel-wasm/layout.js";
 
 const NAMES = new Map(Object.entries(Field).map(([name, field]) => [field, name]));
 const ALL = [1, 1, 1];  // weights that say nothing
-const PLANT_RUN = 1, FIT_HALF = 0.03, FIT_DROP = 0.2;  // as tools/crowd/goals.h has them
+const PLANT_RUN = 1, GROUND_HALF = 0;  // as tools/crowd/goals.h has them
 
 /** The crowd file's values, by the field's name. */
 export function fixedOf({ fixed, weights }) {
@@ -50,10 +50,10 @@ export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
     const groups = limbs.map((limb) => {
         const { chain: joints, shoulderOrder, wristOrder, region, ground, held } = limb;
         const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
-        return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { ground, plant: { run: PLANT_RUN } }) };
+        return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { ground: { ...ground, half: GROUND_HALF }, plant: { run: PLANT_RUN } }) };
     });
     if (look) groups.push({ look });
-    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: { half: FIT_HALF, drop: FIT_DROP } });
+    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: {} });
     const crowd = swivel.bodies({ skeleton, bodyCount, groups });
     try {
         limbs.forEach((limb) => writeFields(crowd, limb));

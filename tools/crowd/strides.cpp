@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/strides.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/crowd/ground.h"
+
+namespace swivel::tools {
+
+namespace {
+
+constexpr std::uint32_t kLooks = 6;  // at the ground below a swing
+
+// A leg of a character, and its ground.
+struct Leg {
+    const goal_plan& plan;
+    const goal_source* sources;
+    const goal_character& character;
+    const goal_ground& ground;
+    const float* heights;
+
+    GroundPoint ground_below(double x, double z) const { return ground_at(ground, heights, x, z); }
+};
+
+struct Toe {
+    double x, z, room;
+};
+
+Toe toe_at(const Leg& leg, std::uint32_t frame)
+{
+    const goal toe = swivel_goal(&leg.plan, &leg.sources[frame], &leg.character);
+    const double lowest =
+        leg.character.place[1] + leg.character.size * (leg.sources[frame].root[1] + double{leg.plan.clearance});
+    return {toe.target[0], toe.target[2], std::max(0.0, toe.target[1] - lowest)};
+}
+
+// What a foot stands on.
+struct Tread {
+    double x, z;              // of the toe in the middle of the stand
+    double aside_x, aside_z;  // to where the ground is
+    GroundPoint ground;
+
+    double level_at(double at_x, double at_z) const
+    {
+        return ground.height + ground.slope_x * (at_x - x) + ground.slope_z * (at_z - z);
+    }
+    double level_at(const Toe& toe) const { return level_at(toe.x, toe.z); }
+};
+
+// The nearest place below the toe, up or down the slope there, with no ground steeper than 45 degrees below the ball of
+// the foot: a quarter of the way from ankle to toe. If none is as near as the ankle, it is below the toe.
+Tread tread_at(const Leg& leg, std::uint32_t frame)
+{
+    constexpr int kParts = 8, kBall = 2;
+    const Toe toe = toe_at(leg, frame);
+    const GroundPoint below = leg.ground_below(toe.x, toe.z);
+    const double(&foot)[3] = leg.plan.effector;
+    const double part =
+                     leg.character.size * std::sqrt(foot[0] * foot[0] + foot[1] * foot[1] + foot[2] * foot[2]) / kParts,
+                 slope = std::sqrt(below.slope_x * below.slope_x + below.slope_z * below.slope_z);
+    const auto aside = [&](int parts) {
+        return Tread{toe.x, toe.z, parts * part * below.slope_x / slope, parts * part * below.slope_z / slope, {}};
+    };
+    const auto is_steep = [](const GroundPoint& at) { return at.slope_x * at.slope_x + at.slope_z * at.slope_z > 1; };
+    for (int n = 0; slope > 0 && n <= 2 * kParts; ++n) {
+        const int parts = n % 2 == 0 ? n / 2 : -(n + 1) / 2;
+        bool can_stand = true;
+        for (int ball = -kBall; ball <= kBall; ++ball) {
+            const Tread at = aside(parts + ball);
+            can_stand = can_stand && !is_steep(leg.ground_below(toe.x + at.aside_x, toe.z + at.aside_z));
+        }
+        if (!can_stand) continue;
+        Tread tread = aside(parts);
+        tread.ground = leg.ground_below(toe.x + tread.aside_x, toe.z + tread.aside_z);
+        return tread;
+    }
+    return {toe.x, toe.z, 0, 0, below};
+}
+
+// Below the ankle in the middle of the stand: a foot that points up a slope has it lower than the toe.
+double ankle_level(const Leg& leg, const Tread& tread, std::uint32_t stand)
+{
+    const goal_source& source = leg.sources[stand];
+    const auto at = [&](int axis) {
+        return leg.character.place[axis] + leg.character.size * (source.origin[axis] + source.wrist[axis]);
+    };
+    return tread.level_at(at(0), at(2));
+}
+
+// The way of a foot through the air.
+struct Swing {
+    std::uint32_t leaves, lands;
+    Tread from, next;
+    double left, landed;  // heights of the treads' planes below the toe as it leaves the one and lands on the other
+    double levels[2];     // and below the ankle
+
+    double time_at(std::uint32_t frame) const { return (1.0 + frame - leaves) / (1.0 + lands - leaves); }
+};
+
+Swing swing_from(const Leg& leg, const goal_stride& way)
+{
+    const Tread from = tread_at(leg, way.stand), next = tread_at(leg, way.next);
+    return {way.leaves,
+            way.lands,
+            from,
+            next,
+            from.level_at(toe_at(leg, way.leaves - 1)),
+            next.level_at(toe_at(leg, way.lands)),
+            {ankle_level(leg, from, way.stand), ankle_level(leg, next, way.next)}};
+}
+
+double between(double from, double to, double share) { return from + share * (to - from); }
+
+// Without an arc.
+Stride stride_in(const Swing& swing, const Toe& toe, double time)
+{
+    const auto& [leaves, lands, from, next, left, landed, levels] = swing;
+    const double share = time * time * (3 - 2 * time);
+    const double aside_x = between(from.aside_x, next.aside_x, share),
+                 aside_z = between(from.aside_z, next.aside_z, share);
+    return {{aside_x, aside_z},
+            {toe.x + aside_x, between(left, landed, share), toe.z + aside_z},
+            {between(from.ground.slope_x, next.ground.slope_x, share),
+             between(from.ground.slope_z, next.ground.slope_z, share)},
+            share * toe.room,
+            {levels[0], levels[1]},
+            share};
+}
+
+double arc_at(double time) { return 4 * time * (1 - time); }
+
+// As high as the toe needs so as not to be deeper in the ground than in the clip. The first seventh of the way does not
+// count, nor the last: the whole foot would fly up for an edge that it just leaves.
+double arc_over(const Leg& leg, const Swing& swing)
+{
+    double arc = 0;
+    for (std::uint32_t look = 1; look <= kLooks; ++look) {
+        const std::uint64_t way = swing.lands - swing.leaves;
+        const std::uint32_t frame = swing.leaves + static_cast<std::uint32_t>(way * look / (kLooks + 1));
+        const double time = swing.time_at(frame);
+        const Stride stride = stride_in(swing, toe_at(leg, frame), time);
+        const double lacks = leg.ground_below(stride.plane[0], stride.plane[2]).height - stride.plane[1] - stride.room;
+        arc = std::max(arc, lacks / arc_at(time));
+    }
+    return arc;
+}
+
+}  // namespace
+
+Stride stride_at(const goal_plan& plan, const goal_source* sources, uint32_t frame, const goal_character& character,
+                 const goal_ground& ground, const float* heights)
+{
+    const Leg leg{plan, sources, character, ground, heights};
+    const goal_stride& way = sources[frame].stride;
+    const Toe toe = toe_at(leg, frame);
+    if (frame < way.leaves) {
+        const Tread tread = tread_at(leg, way.stand);
+        const double level = ankle_level(leg, tread, way.stand);
+        return {{tread.aside_x, tread.aside_z},
+                {toe.x + tread.aside_x, tread.level_at(toe), toe.z + tread.aside_z},
+                {tread.ground.slope_x, tread.ground.slope_z},
+                0,
+                {level, level},
+                0};
+    }
+    const Swing swing = swing_from(leg, way);
+    Stride stride = stride_in(swing, toe, swing.time_at(frame));
+    stride.plane[1] += arc_over(leg, swing) * arc_at(swing.time_at(frame));
+    return stride;
+}
+
+double body_level(std::span<const Stride> strides)
+{
+    double sum = 0;
+    for (unsigned feet = 0; feet < 1u << strides.size(); ++feet) {  // bit n: foot n counts as at its next stand
+        double share = 1, lowest = strides[0].levels[feet & 1];
+        for (std::size_t n = 0; n < strides.size(); ++n) {
+            const unsigned is_next = feet >> n & 1;
+            share *= is_next ? strides[n].share : 1 - strides[n].share;
+            lowest = std::min(lowest, strides[n].levels[is_next]);
+        }
+        sum += share * lowest;
+    }
+    return sum;
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// The ground of a foot whose clip walks on a level floor: one plane while it stands, and on its way from one stand to
+// the next a plane that rises and turns from that of the one to that of the other. So steps, curbs and gaps jerk
+// nothing. Only + - * /, floor and sqrt, so all CPUs agree.
+#pragma once
+
+#include <span>
+
+#include "tools/crowd/goals.h"
+
+namespace swivel::tools {
+
+// Heights and positions are in the world.
+struct Stride {
+    double aside[2];   // how far the foot is moved along x and z, away from an edge that it cannot stand on
+    double plane[3];   // a point of its plane, below the moved toe
+    double slopes[2];  // of the plane, along x and z
+    double room;       // how far the toe is above its clearance over the clip's floor; at least 0
+    double levels[2];  // heights of the stand that it comes from, and of the next one
+    double share;      // of the way from the one to the other, 0 to 1; 0 while it stands
+};
+
+// The stride of a leg in a frame of its clip. sources: of the leg, one for each frame. character: not yet raised to the
+// ground. Any thread; no allocation.
+Stride stride_at(const goal_plan& plan, const goal_source* sources, uint32_t frame, const goal_character& character,
+                 const goal_ground& ground, const float* heights);
+
+// How high the ground is that a body hangs over: its lower foot's. A foot that has gone a share of its way counts as at
+// its next stand by that share, and else as at its last one; all cases count by the product of their shares. So a body
+// rises while a foot swings, and not before the foot behind has left its step. strides: one or more.
+double body_level(std::span<const Stride> strides);
+
+}  // namespace swivel::tools
