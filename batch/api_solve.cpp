@@ -3,6 +3,7 @@
 // The C entry points that solve limbs and choose them: check a job, mark what it chooses, solve that.
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "batch/budget.h"
 #include "batch/check.h"
@@ -205,6 +206,17 @@ swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::u
     return SWIVEL_OK;
 }
 
+// Whether poses that nobody animates between two solves are corrected twice. The time of bodies is looked at where it
+// is one for all.
+bool stands_still_in_place(const swivel_pose& pose)
+{
+    const bool is_in_place = !pose.results.data || pose.results.data == pose.rotations.data;
+    if (!is_in_place || !pose.time.data || pose.time.stride > 0) return false;
+    float time;
+    std::memcpy(&time, pose.time.data, sizeof time);
+    return time == 0;
+}
+
 std::uint32_t count_limbs(const Work& work)
 {
     std::uint32_t limb_count = 0;
@@ -252,6 +264,9 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status == SWIVEL_OK && job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
+
+    if (job.pose)
+        crowd->stood_still_in_place.store(stands_still_in_place(full_pose(job.pose)), std::memory_order_relaxed);
 
     const Work work{*crowd,
                     isa->kernels,

@@ -61,6 +61,8 @@ struct swivel_crowd {
     std::uint32_t joint_count;        // 0: free limbs
     std::uint32_t body_row_count;     // of a block of bodies in a workspace
     std::atomic<std::uint64_t> busy;  // a bit for each workspace that a call is using
+    // Whether the last solve wrote its results over the pose, with one time of 0 for all bodies: see api_explain.cpp.
+    std::atomic<bool> stood_still_in_place;
 };
 
 namespace swivel {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <swivel/swivel.hpp>
 #include <vector>
@@ -43,10 +44,10 @@ constexpr float kOffsets[JOINTS][3] = {{0, 0.89f, 0},  {0, 0.15f, 0},  {0, 0.5f,
                                        {0, -0.26f, 0}, {-0.09f, 0, 0}, {0, -0.45f, 0},    {0, -0.42f, 0},
                                        {0.09f, 0, 0},  {0, -0.45f, 0}, {0, -0.42f, 0}};
 
-// A character as the game has it: its animation writes rotations, and the call below writes them anew.
+// A character as the game has it: its animation writes rotations, and the call below a corrected copy, to draw.
 struct Character {
     float place[3] = {}, turn[4] = {0, 0, 0, 1};  // metres, y up; x, y, z, w
-    float rotations[JOINTS][4] = {};
+    float rotations[JOINTS][4] = {}, solved[JOINTS][4] = {};
     float contact[2] = {};  // of the right foot and the left one
     float ground[2][3] = {}, normal[2][3] = {};
     float foot[2][7] = {}, rifle[7] = {};  // where they are after the call: place, rotation
@@ -147,8 +148,11 @@ void solve(swivel::Crowd& crowd, std::vector<Character>& crew, const float& seco
 {
     constexpr std::size_t step = sizeof(Character);
     Character& first = crew[0];
+    // A solve writes the joints that it turns. Spine and head are drawn as they are animated.
+    for (Character& each : crew) std::memcpy(each.solved, each.rotations, sizeof each.solved);
     swivel_pose pose = swivel_default_pose();
-    pose.rotations = {first.rotations, step, sizeof first.rotations[0], nullptr};  // in place
+    pose.rotations = {first.rotations, step, sizeof first.rotations[0], nullptr};
+    pose.results = {first.solved, step, sizeof first.solved[0], nullptr};
     pose.root_position = {first.place, step};
     pose.root_rotation = {first.turn, step};
     pose.time = {&seconds, 0};

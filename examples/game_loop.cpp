@@ -2,8 +2,9 @@
 // A crowd of bodies in a game loop. The game moves in steps of fixed length, while frames differ in length. Bodies get
 // a fixed part of each frame's time. Those near the camera move more often, and none is forgotten.
 //
-// In its turn a body is animated, and swivel corrects that pose in place. A body without a turn keeps its last pose:
-// games animate far characters less often. Animated but not solved, its hands and feet would jump off their targets.
+// In its turn a body is animated. swivel writes the corrected pose to a copy, which is drawn. A body without a turn
+// keeps its last pose: games animate far characters less often. Animated but not solved, its hands and feet would jump
+// off their targets.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -39,9 +40,9 @@ constexpr std::array<Float3, kJoints> kOffsets = {
 constexpr std::array<std::uint32_t, kLimbs> kFirstJoints = {7, 11, 14, 17};  // of arms and legs; the next two follow
 
 struct Character {
-    Float3 home, place;  // where it stands, and where its root is now
-    std::array<Float4, kJoints> pose;
-    std::array<Float3, kLimbs> targets;  // of hands and feet
+    Float3 home, place;                        // where it stands, and where its root is now
+    std::array<Float4, kJoints> pose, solved;  // as animated, and as drawn
+    std::array<Float3, kLimbs> targets;        // of hands and feet
     float phase, priority;
 };
 
@@ -55,6 +56,7 @@ std::vector<Character> make_characters()
         const float x = static_cast<float>(n % 64) - 32, z = -static_cast<float>(n / 64) - 2;
         c.home = c.place = {x, 0, z};
         c.pose.fill({0, 0, 0, 1});
+        c.solved = c.pose;
         c.targets[2] = {x + 0.12f, 0.1f + 0.02f * std::sin(z), z + 0.05f};  // feet stand still, on uneven ground
         c.targets[3] = {x - 0.12f, 0.1f + 0.02f * std::cos(z), z - 0.05f};
         c.phase = 0.7f * static_cast<float>(n % 9);
@@ -95,6 +97,7 @@ void animate(Character& c, double time)
         c.pose[kFirstJoints[limb]] = is_arm ? turn_about(2, -1.2f * side) : turn_about(0, -0.3f);
         c.pose[kFirstJoints[limb] + 1] = is_arm ? turn_about(1, -0.5f * side) : turn_about(0, 0.6f);
     }
+    c.solved = c.pose;  // a solve writes arms and legs alone
 }
 
 swivel::Crowd make_crowd()
@@ -140,6 +143,7 @@ void solve_bodies(Game& game)
 {
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {&game.characters[0].pose, sizeof(Character), sizeof(Float4), nullptr};
+    pose.results = {&game.characters[0].solved, sizeof(Character), sizeof(Float4), nullptr};
     pose.root_position = swivel::stream(game.characters, &Character::place);
     std::array<swivel::Frame, kLimbs> frames;
     for (std::size_t n = 0; n < kLimbs; ++n)
@@ -158,7 +162,7 @@ void run(Game& game)
         plan_turns(game);
         for (std::uint32_t n = 0; n < kBodyCount; ++n)
             if (game.turns[n / 32] >> n % 32 & 1) animate(game.characters[n], game.steps * kStep);
-        solve_bodies(game);  // a renderer would read the poses now
+        solve_bodies(game);  // a renderer would read the solved poses now
         game.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
 }
@@ -177,7 +181,7 @@ float miss(const Character& c, std::size_t limb)
     Float3 at = {0, 0, 0};
     for (auto joint = static_cast<std::int32_t>(kFirstJoints[limb] + 2); joint >= 0;) {
         const auto n = static_cast<std::size_t>(joint);
-        at = turned(c.pose[n], at);
+        at = turned(c.solved[n], at);
         for (std::size_t axis = 0; axis < 3; ++axis) at[axis] += kOffsets[n][axis];
         joint = kParents[n];
     }

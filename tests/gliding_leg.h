@@ -22,6 +22,7 @@ struct GlidingLeg {
     std::array<Float4, 4> rotations{};
     Float3 root{}, support{};
     float time = kFrame, scale = 1;
+    bool is_in_place = false;
     std::vector<Vector3d> sent;  // the target of each frame
 
     explicit GlidingLeg(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant(),
@@ -44,7 +45,7 @@ struct GlidingLeg {
         std::array<Float4, 4> solved = rotations;
         swivel_pose pose = swivel_default_pose();
         pose.rotations = {rotations.data(), sizeof rotations, sizeof rotations[0], nullptr};
-        pose.results = {solved.data(), sizeof solved, sizeof solved[0], nullptr};
+        if (!is_in_place) pose.results = {solved.data(), sizeof solved, sizeof solved[0], nullptr};
         pose.root_position = {&root, 0};
         pose.root_scale = {&scale, 0};
         pose.support_position = {&support, 0};

@@ -63,6 +63,22 @@ TEST_CASE("explain says that a planted point runs in, for how long and how far, 
     CHECK(has(leg.text(), "Its label of contact is 0.4 by now: the next solve releases it."));
 }
 
+TEST_CASE(
+    "explain warns of a solve without time that writes over the pose, which a pause would correct again and again")
+{
+    GlidingLeg leg;
+    const std::string warning = "Warning: the last solve had a time of 0 and wrote its results over the pose.";
+    for (const auto& [is_in_place, time, warns] :
+         {std::tuple{true, 0.0f, true}, {false, 0.0f, false}, {true, GlidingLeg::kFrame, false}}) {
+        leg.is_in_place = is_in_place;
+        leg.time = time;
+        leg.solve();
+        CHECK(leg.text().starts_with(warning) == warns);
+        CHECK(leg.text(SWIVEL_EVERY_GROUP).starts_with(warning) == warns);
+        CHECK(has(leg.text(SWIVEL_EVERY_GROUP), warns ? "\ngroup 0: " : "group 0: "));
+    }
+}
+
 TEST_CASE("explain says why a point is not locked: by its label, or by its motion and its bars")
 {
     GlidingLeg leg;

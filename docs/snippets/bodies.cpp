@@ -21,7 +21,8 @@ const std::array<Float3, kJoints> kOffsets = {{{0, 1, 0},
 struct Character {
     Float3 place;  // of the root, in the world
     Float4 rotation;
-    std::array<Float4, kJoints> pose;  // local rotations, as the animation leaves them
+    std::array<Float4, kJoints> pose;    // local rotations, as the animation has them
+    std::array<Float4, kJoints> solved;  // a copy with the limbs solved: draw this one
     Float3 hand_target, foot_target;
 };
 // [end]
@@ -32,7 +33,7 @@ Eigen::Vector3d place_of(const Character& character, int joint)
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     for (; joint >= 0; joint = kParents[static_cast<std::size_t>(joint)]) {
         const auto n = static_cast<std::size_t>(joint);
-        at = vec(kOffsets[n]) + quat(character.pose[n]) * at;
+        at = vec(kOffsets[n]) + quat(character.solved[n]) * at;
     }
     return vec(character.place) + quat(character.rotation) * at;
 }
@@ -41,8 +42,8 @@ Eigen::Vector3d place_of(const Character& character, int joint)
 
 TEST_CASE("docs: bodies")
 {
-    Character stands{
-        {2, 0, 3}, {0, 0, 0, 1}, {}, {1.6f, 1.3f, 3.3f}, {1.9f, 0.2f, 3.2f}};
+    Character stands{{2, 0, 3}, {0, 0, 0, 1},       {},
+                     {},        {1.6f, 1.3f, 3.3f}, {1.9f, 0.2f, 3.2f}};
     stands.pose.fill({0, 0, 0, 1});
     std::vector<Character> characters(40, stands);
     characters[7].hand_target[0] = std::nanf("");
@@ -61,9 +62,12 @@ TEST_CASE("docs: bodies")
     swivel::Crowd crowd(skeleton, 40, groups);
     // [end]
     // [frame]
+    for (Character& each : characters) each.solved = each.pose;
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
+    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                    nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     pose.root_rotation = swivel::stream(characters, &Character::rotation);
     swivel::Frame arms, legs;
@@ -76,7 +80,7 @@ TEST_CASE("docs: bodies")
         CHECK((place_of(character, kHand) - vec(character.hand_target)).norm() < 2e-6);
         CHECK((place_of(character, kFoot) - vec(character.foot_target)).norm() < 2e-6);
     }
-    CHECK(characters[7].pose[kUpperArm] == before.pose[kUpperArm]);
+    CHECK(characters[7].solved[kUpperArm] == before.pose[kUpperArm]);
     // [places]
     std::vector<std::array<Float3, kJoints>> places(characters.size());
     pose.joint_places = {places.data(), sizeof places[0], sizeof(Float3), nullptr};
@@ -92,9 +96,11 @@ TEST_CASE("docs: bodies")
     // [end]
     CHECK((place_of(characters[5], kHand) - vec(characters[5].hand_target)).norm() <
           2e-6);
-    CHECK(characters[4].pose == still[4].pose);
+    CHECK(characters[4].solved == still[4].solved);
     CHECK((place_of(characters[7], kFoot) - vec(before.foot_target)).norm() < 2e-6);
 
+    // Mistakes show in a pose that is bent.
+    for (Character& each : characters) each.pose = each.solved;
     const auto engine_place = [&](int joint) {
         const Eigen::Vector3d at = place_of(characters[3], joint);
         return Double3{at.x(), at.y(), at.z()};
@@ -158,15 +164,19 @@ TEST_CASE("docs: bodies in the body's space")
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 1.3f, 0.3f});
     crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0, 0, 1});
     // [whole]
+    std::vector<Model> solved = models;  // draw these
     swivel_pose pose = swivel_default_pose();
     pose.space = SWIVEL_IN_BODY;
     pose.rotations = {models[0].rotations.data(), sizeof(Model), sizeof(Float4),
                       nullptr};
     pose.translations = {models[0].places.data(), sizeof(Model), sizeof(Float3),
                          nullptr};
+    pose.results = {solved[0].rotations.data(), sizeof(Model), sizeof(Float4), nullptr};
+    pose.translation_results = {solved[0].places.data(), sizeof(Model), sizeof(Float3),
+                                nullptr};
     crowd.solve({.pose = &pose});
     // [end]
-    for (const Model& model : models) {
+    for (const Model& model : solved) {
         CHECK((vec(model.places[2]) - Eigen::Vector3d(0.3, 1.3, 0.3)).norm() < 2e-6);
         CHECK(
             (vec(model.places[3]) - vec(model.places[2]) - Eigen::Vector3d(0.08, 0, 0))

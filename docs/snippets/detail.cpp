@@ -15,14 +15,14 @@ constexpr float kFadeSeconds = 0.3f;
 
 struct Character {
     Float3 place, target;
-    std::array<Float4, kJoints> pose;
+    std::array<Float4, kJoints> pose, solved;
     float weight = 0;
 };
 
 // A forearm's turn from its animation, in radians.
 double turn_of(const Character& character)
 {
-    return quat(character.pose[kForearm])
+    return quat(character.solved[kForearm])
         .angularDistance(Eigen::Quaterniond::Identity());
 }
 
@@ -47,6 +47,8 @@ TEST_CASE("docs: bodies come near and go")
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
+    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                    nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     swivel::Frame arm;
     arm.in(SWIVEL_TARGET, swivel::stream(characters, &Character::target));
@@ -58,7 +60,10 @@ TEST_CASE("docs: bodies come near and go")
     Float3 camera{20, 0, 0};
     for (int frame = 0; frame < 120; ++frame) {
         camera[0] += 1;
-        for (Character& each : characters) each.pose.fill({0, 0, 0, 1});
+        for (Character& each : characters) {
+            each.pose.fill({0, 0, 0, 1});
+            each.solved = each.pose;
+        }
         const auto distance = [&](const Character& each) {
             return std::abs(each.place[0] - camera[0]);
         };

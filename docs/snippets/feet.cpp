@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
+#include <algorithm>
+
 namespace {
 
 enum Joint {
@@ -27,9 +29,10 @@ constexpr float kFrame = 1 / 60.0f;
 struct Character {
     Float3 place;  // of the root, in the world
     Float4 rotation;
-    std::array<Float4, kJoints> pose;  // local rotations, as the animation leaves them
-    float left_down, right_down;       // 1 while the clip has the foot down, else 0
-    float time;                        // seconds since this character's last solve
+    std::array<Float4, kJoints> pose;    // local rotations, as the animation has them
+    std::array<Float4, kJoints> solved;  // a copy with the legs solved: draw this one
+    float left_down, right_down;         // 1 while the clip has the foot down, else 0
+    float time;                          // seconds since this character's last solve
 };
 // [end]
 
@@ -51,12 +54,13 @@ swivel_limb_joints leg(std::uint32_t thigh)
 // Both knees bent, both feet down.
 Character standing()
 {
-    Character made{{1, 0, 2}, {0, 0, 0, 1}, {}, 1, 1, kFrame};
+    Character made{{1, 0, 2}, {0, 0, 0, 1}, {}, {}, 1, 1, kFrame};
     made.pose.fill({0, 0, 0, 1});
     for (const Joint thigh : {kLeftThigh, kRightThigh}) {
         made.pose[thigh] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
         made.pose[thigh + 1] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
     }
+    made.solved = made.pose;
     return made;
 }
 
@@ -66,7 +70,7 @@ Eigen::Vector3d place_of(const Character& character, int joint)
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     for (; joint >= 0; joint = kParents[static_cast<std::size_t>(joint)]) {
         const auto n = static_cast<std::size_t>(joint);
-        at = vec(kOffsets[n]) + quat(character.pose[n]) * at;
+        at = vec(kOffsets[n]) + quat(character.solved[n]) * at;
     }
     return vec(character.place) + quat(character.rotation) * at;
 }
@@ -87,16 +91,15 @@ struct Legs {
     {
         pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                           nullptr};
+        pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                        nullptr};
         pose.root_position = swivel::stream(characters, &Character::place);
         pose.time = swivel::stream(characters, &Character::time);
     }
     // A frame in which every root glides and the animation stands.
     void glide(float speed, float down = 1)
     {
-        for (Character& each : characters) {
-            each.pose = standing().pose;
-            each.place[2] += speed * kFrame;
-        }
+        for (Character& each : characters) each.place[2] += speed * kFrame;
         if (swivel_field_row_count(crowd.get(), 0, SWIVEL_CONTACT))
             for (const std::uint32_t group : {0u, 1u})
                 crowd.write_all(SWIVEL_CONTACT, group, std::array{down});
@@ -119,15 +122,15 @@ TEST_CASE("docs: feet that stand")
     // [end]
     Eigen::Vector3d stood = Eigen::Vector3d::Zero();
     for (int n = 0; n < 20; ++n) {
-        for (Character& each : characters) {
-            each.pose = standing().pose;
+        for (Character& each : characters)
             each.place[2] +=
                 0.3f * kFrame;  // in two thirds of a step the root glides on
-        }
         // [frame]
         swivel_pose pose = swivel_default_pose();
         pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                           nullptr};
+        pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                        nullptr};
         pose.root_position = swivel::stream(characters, &Character::place);
         pose.root_rotation = swivel::stream(characters, &Character::rotation);
         pose.time = swivel::stream(characters, &Character::time);
@@ -165,12 +168,12 @@ TEST_CASE("docs: feet by motion")
     std::vector<Character> one(1, standing());
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {one[0].pose.data(), sizeof(Character), sizeof(Float4), nullptr};
+    pose.results = {one[0].solved.data(), sizeof(Character), sizeof(Float4), nullptr};
     pose.root_position = swivel::stream(one, &Character::place);
     pose.time = swivel::stream(one, &Character::time);
     std::uint32_t flags[2] = {};
     for (const float speed : {1.0f, 0.2f})
         for (int n = 0; n < 5; ++n) {
-            one[0].pose = standing().pose;
             one[0].place[2] += speed * kFrame;
             crowd.solve({.pose = &pose});
             crowd.read(SWIVEL_FLAGS, 0, std::span(&flags[speed < 1], 1));
@@ -186,12 +189,12 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
         Double3 place;    // in a large world
         Double3 support;  // what it stands on: a tile's origin, a lift's place
         Float4 support_rotation;
-        std::array<Float4, kJoints> pose;
+        std::array<Float4, kJoints> pose, solved;
         float time;
     };
     // [end]
-    const Walker first{
-        {4e6 + 1, 0, 2}, {4e6, 0, 0}, {0, 0, 0, 1}, standing().pose, kFrame};
+    const Walker first{{4e6 + 1, 0, 2}, {4e6, 0, 0},       {0, 0, 0, 1},
+                       standing().pose, standing().solved, kFrame};
     std::vector<Walker> walkers(2, first);
     const swivel_limb_joints left = leg(kLeftThigh);
     swivel::Crowd crowd(
@@ -202,6 +205,7 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
     swivel_pose pose = swivel_default_pose();
     pose.root_is_double = 1;
     pose.rotations = {walkers[0].pose.data(), sizeof(Walker), sizeof(Float4), nullptr};
+    pose.results = {walkers[0].solved.data(), sizeof(Walker), sizeof(Float4), nullptr};
     pose.root_position = swivel::stream(walkers, &Walker::place);
     pose.support_position = swivel::stream(walkers, &Walker::support);
     pose.support_rotation = swivel::stream(walkers, &Walker::support_rotation);
@@ -210,14 +214,13 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
     const auto foot = [&] {
         Character as = standing();
         as.place = {};
-        as.pose = walkers[0].pose;
+        as.solved = walkers[0].solved;
         return Eigen::Vector3d(vec(walkers[0].place) + place_of(as, kLeftFoot));
     };
     crowd.solve({.pose = &pose});
     const Eigen::Vector3d stood = foot();
     for (int n = 0; n < 10; ++n) {
-        for (Walker& each : walkers)
-            each.pose = standing().pose, each.place[0] += 0.005;
+        for (Walker& each : walkers) each.place[0] += 0.005;
         crowd.solve({.pose = &pose});
         CHECK((foot() - stood).norm() < 2e-6);
     }
@@ -240,12 +243,10 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
         // [end]
     };
     ride();
-    for (Walker& each : walkers) each.pose = standing().pose;
     crowd.solve({.pose = &pose});
     CHECK((foot() - stood).norm() < 2e-6);
     lift.place[1] += 0.05;
     ride();
-    for (Walker& each : walkers) each.pose = standing().pose;
     crowd.solve({.pose = &pose});
     CHECK((foot() - stood - Eigen::Vector3d(0, 0.05, 0)).norm() < 2e-6);
 }
@@ -282,12 +283,13 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
+    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                    nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     pose.time = swivel::stream(characters, &Character::time);
     Float3 shift{};
     Eigen::Vector3d stood = Eigen::Vector3d::Zero();
     for (int n = 0; n < 60; ++n) {
-        for (Character& each : characters) each.pose = standing().pose;
         if (n == 1)
             for (Character& each : characters) each.place[1] += 0.1f;
         // [shift]
@@ -332,23 +334,23 @@ TEST_CASE("docs: palms and standing feet keep their rotation")
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
+    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                    nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     pose.root_rotation = swivel::stream(characters, &Character::rotation);
     pose.time = swivel::stream(characters, &Character::time);
     const auto foot = [&] {
         const Character& of = characters[3];
-        return Eigen::Quaterniond(quat(of.rotation) * quat(of.pose[kHips]) *
-                                  quat(of.pose[kLeftThigh]) * quat(of.pose[kLeftShin]) *
-                                  quat(of.pose[kLeftFoot]));
+        return Eigen::Quaterniond(
+            quat(of.rotation) * quat(of.solved[kHips]) * quat(of.solved[kLeftThigh]) *
+            quat(of.solved[kLeftShin]) * quat(of.solved[kLeftFoot]));
     };
     crowd.solve({.pose = &pose});
     const Eigen::Quaterniond stood = foot();
     for (int n = 1; n < 10; ++n) {
         const float half = 0.01f * static_cast<float>(n);  // it turns in place
-        for (Character& each : characters) {
-            each.pose = standing().pose;
+        for (Character& each : characters)
             each.rotation = {0, std::sin(half), 0, std::cos(half)};
-        }
         crowd.solve({.pose = &pose});
         CHECK(foot().angularDistance(stood) < 2e-6);
     }
@@ -362,7 +364,7 @@ TEST_CASE("docs: feet that are not solved in every frame")
     swivel::Crowd& crowd = scene.crowd;
     const swivel_pose& pose = scene.pose;
     const float dt = kFrame;
-    for (Character& each : characters) each.time = 0, each.pose = standing().pose;
+    for (Character& each : characters) each.time = 0;
     const std::vector<std::uint32_t> chosen = {0, 2};
     for (int n = 0; n < 3; ++n) {
         // [detail]
@@ -388,17 +390,14 @@ TEST_CASE("docs: the state of feet, saved and restored")
     scene.glide(0.3f);
     const std::vector<Character> next = scene.characters;
     for (int n = 0; n < 9; ++n) scene.glide(1, 0);
-    scene.characters = then;
-    scene.pose.rotations.data = scene.characters[0].pose.data();
-    scene.pose.root_position = swivel::stream(scene.characters, &Character::place);
-    scene.pose.time = swivel::stream(scene.characters, &Character::time);
+    std::ranges::copy(then, scene.characters.begin());
     // [restore]
     crowd.write(SWIVEL_PLANT, 0, saved);
     // [end]
     scene.glide(0.3f);
     for (std::size_t n = 0; n < 3; ++n) {
-        CHECK(scene.characters[n].pose[kLeftThigh] == next[n].pose[kLeftThigh]);
-        CHECK(scene.characters[n].pose[kLeftShin] == next[n].pose[kLeftShin]);
+        CHECK(scene.characters[n].solved[kLeftThigh] == next[n].solved[kLeftThigh]);
+        CHECK(scene.characters[n].solved[kLeftShin] == next[n].solved[kLeftShin]);
     }
 }
 

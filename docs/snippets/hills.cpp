@@ -27,7 +27,7 @@ constexpr Float3 kBall = {0, -0.08f, 0.14f}, kHeel = {0, -0.08f, -0.06f};
 struct Character {
     Float3 place;
     Float4 rotation;
-    std::array<Float4, kJoints> pose;
+    std::array<Float4, kJoints> pose, solved;
     float time;
     // Of the left foot and the right one:
     std::array<float, 2> down;
@@ -61,6 +61,7 @@ Character standing(float x)
         made.pose[thigh + 1] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
         made.pose[thigh + 2] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
     }
+    made.solved = made.pose;
     return made;
 }
 
@@ -82,6 +83,8 @@ struct Scene {
     {
         pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                           nullptr};
+        pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                        nullptr};
         pose.root_position = swivel::stream(characters, &Character::place);
         pose.root_rotation = swivel::stream(characters, &Character::rotation);
         pose.time = swivel::stream(characters, &Character::time);
@@ -138,7 +141,6 @@ TEST_CASE("docs: feet on hills")
         crowd.write_all(SWIVEL_EFFECTOR, leg, kBall);
     // [end]
     const swivel_pose& pose = scene.pose;
-    const std::vector<Character> animated = characters;
     // [frames]
     std::array<swivel::Frame, 3> frames;  // two legs, and the pelvis
     constexpr std::size_t step = sizeof(Character);
@@ -150,12 +152,7 @@ TEST_CASE("docs: feet on hills")
         frames[leg].out(SWIVEL_HAND_FRAME, {&characters[0].ankle[leg], step});
     }
     // [end]
-    const auto animate = [&] {
-        for (std::size_t n = 0; n < characters.size(); ++n)
-            characters[n].pose = animated[n].pose;
-    };
     for (int n = 0; n < 30; ++n) {
-        animate();
         // [two]
         crowd.solve({.frames = frames, .pose = &pose, .probes_only = true});
         for (Character& each : characters)
@@ -173,7 +170,6 @@ TEST_CASE("docs: feet on hills")
     for (std::uint32_t group = 0; group < 3; ++group)
         swivel::check(swivel_reset(crowd.get(), group, 0, 40));
     for (int n = 0; n < 30; ++n) {
-        animate();
         // [sample]
         const auto sample = [](const swivel::Probes& probes) {
             for (std::size_t foot = 0; foot < probes.places.size(); ++foot) {
@@ -189,7 +185,7 @@ TEST_CASE("docs: feet on hills")
         // [end]
     }
     for (std::size_t n = 0; n < characters.size(); ++n) {
-        CHECK(characters[n].pose == as_two_calls_have_it[n].pose);
+        CHECK(characters[n].solved == as_two_calls_have_it[n].solved);
         CHECK(characters[n].ankle == as_two_calls_have_it[n].ankle);
     }
 }

@@ -18,7 +18,7 @@ const std::array<Float3, kJoints> kOffsets = {{{0, 1, 0},
 
 struct Character {
     Float3 place;
-    std::array<Float4, kJoints> pose;
+    std::array<Float4, kJoints> pose, solved;
     Float3 looks_at;
     float time;
 };
@@ -32,7 +32,7 @@ double off(const Character& character, std::size_t joint, const Float3& eye,
     for (auto n = static_cast<std::int32_t>(joint); n >= 0;
          n = kParents[static_cast<std::size_t>(n)]) {
         const Eigen::Quaterniond turn =
-            quat(character.pose[static_cast<std::size_t>(n)]);
+            quat(character.solved[static_cast<std::size_t>(n)]);
         place = vec(kOffsets[static_cast<std::size_t>(n)]) + turn * place;
         line = turn * line;
     }
@@ -48,16 +48,15 @@ struct Scene {
     {
         for (int n = 0; n < 40; ++n) {
             const auto x = static_cast<float>(n);
-            characters.push_back({{x, 0, 0}, {}, {x + 0.4f, 1.7f, 2}, 1.0f / 60});
+            characters.push_back({{x, 0, 0}, {}, {}, {x + 0.4f, 1.7f, 2}, 1.0f / 60});
         }
-        rest();
+        for (Character& each : characters) {
+            each.pose.fill({0, 0, 0, 1});
+            each.solved = each.pose;
+        }
         skeleton.parents = swivel::stream(kParents);
         skeleton.translations = swivel::stream(kOffsets);
         skeleton.joint_count = kJoints;
-    }
-    void rest()
-    {
-        for (Character& each : characters) each.pose.fill({0, 0, 0, 1});
     }
 };
 
@@ -80,6 +79,8 @@ TEST_CASE("docs: a head that looks")
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
+    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                    nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     pose.time = swivel::stream(characters, &Character::time);
     swivel::Frame head;
@@ -88,7 +89,7 @@ TEST_CASE("docs: a head that looks")
     // [end]
     const Float3 eye = {0, 0.08f, 0.1f};
     for (const Character& each : characters) CHECK(off(each, kHead, eye) < 2e-6);
-    CHECK(turn_between(characters[3].pose[kSpine], Float4{0, 0, 0, 1}) > 0.01);
+    CHECK(turn_between(characters[3].solved[kSpine], Float4{0, 0, 0, 1}) > 0.01);
 
     // A new target: the line turns there at its rate, unless it begins anew.
     const std::uint32_t moved = 7;
@@ -96,7 +97,6 @@ TEST_CASE("docs: a head that looks")
     // [reset]
     swivel_reset(crowd.get(), 0, moved, 1);
     // [end]
-    scene.rest();
     crowd.solve({.frames = {head}, .pose = &pose});
     for (std::size_t n = 0; n < 40; ++n)
         CHECK((off(characters[n], kHead, eye) < 2e-6) == (n == moved));
@@ -104,15 +104,14 @@ TEST_CASE("docs: a head that looks")
     const float none = std::numeric_limits<float>::quiet_NaN();
     for (Character& each : characters) each.looks_at = {none, none, none};
     crowd.reset(0);
-    scene.rest();
     crowd.solve({.frames = {head}, .pose = &pose});
-    CHECK(characters[3].pose == std::array<Float4, kJoints>{{{0, 0, 0, 1},
-                                                             {0, 0, 0, 1},
-                                                             {0, 0, 0, 1},
-                                                             {0, 0, 0, 1},
-                                                             {0, 0, 0, 1},
-                                                             {0, 0, 0, 1},
-                                                             {0, 0, 0, 1}}});
+    CHECK(characters[3].solved == std::array<Float4, kJoints>{{{0, 0, 0, 1},
+                                                               {0, 0, 0, 1},
+                                                               {0, 0, 0, 1},
+                                                               {0, 0, 0, 1},
+                                                               {0, 0, 0, 1},
+                                                               {0, 0, 0, 1},
+                                                               {0, 0, 0, 1}}});
 }
 
 TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
@@ -151,6 +150,8 @@ TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
+    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
+                    nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     std::vector<Float3> targets;
     for (const Character& each : characters) targets.push_back(each.looks_at);
@@ -161,8 +162,8 @@ TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
         CHECK(off(each, kHead, {0, 0.08f, 0.1f}) < 2e-6);
         CHECK(off(each, kLeftEye, {0, 0, 0}) < 2e-6);
         CHECK(off(each, kRightEye, {0, 0, 0}) < 2e-6);
-        CHECK(turn_between(each.pose[kNeck], Float4{0, 0, 0, 1}) >
-              1.5 * turn_between(each.pose[kChest], Float4{0, 0, 0, 1}));
+        CHECK(turn_between(each.solved[kNeck], Float4{0, 0, 0, 1}) >
+              1.5 * turn_between(each.solved[kChest], Float4{0, 0, 0, 1}));
     }
 }
 
@@ -184,6 +185,7 @@ TEST_CASE("docs: turrets")
     // [end]
     std::vector<std::array<Float4, kParts>> rotations(40,
                                                       {{{0, 0, 0, 1}, {0, 0, 0, 1}}});
+    std::vector<std::array<Float4, kParts>> solved = rotations;
     std::vector<Float3> targets;
     for (int n = 0; n < 40; ++n)
         targets.push_back({5 * std::cos(0.15f * static_cast<float>(n)), 1,
@@ -191,11 +193,12 @@ TEST_CASE("docs: turrets")
     turrets.write(SWIVEL_LOOK_TARGET, 0, targets);
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {rotations.data(), sizeof rotations[0], sizeof(Float4), nullptr};
+    pose.results = {solved.data(), sizeof solved[0], sizeof(Float4), nullptr};
     turrets.solve({.pose = &pose});
     for (std::size_t n = 0; n < 40; ++n) {
         const Eigen::Vector3d to = vec(targets[n]) - Eigen::Vector3d(0, 2.5, 0),
-                              line = quat(rotations[n][kBarrel]) *
-                                     Eigen::Vector3d::UnitZ();
+                              line =
+                                  quat(solved[n][kBarrel]) * Eigen::Vector3d::UnitZ();
         CHECK(line.cross(to).norm() / to.norm() < 2e-6);
     }
 }
