@@ -9,6 +9,7 @@
 #include "batch/check.h"
 #include "batch/compare.h"
 #include "batch/explain.h"
+#include "batch/explain_doubts.h"
 #include "batch/explain_text.h"
 #include "batch/joint_angles.h"
 #include "batch/pose.h"
@@ -56,12 +57,7 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
             return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
     Text to({text, size});
-    if (crowd->stood_still_in_place.load(std::memory_order_relaxed))
-        to.add(
-            "Warning: the last solve had a time of 0 and wrote its results over the pose. Where nobody animates the "
-            "pose "
-            "between such solves, each corrects the last one's results, and limbs drift. Give swivel_pose.results.%s",
-            is_body ? "\n" : " ");
+    if (doubt_solve(*crowd, to)) to.add("%s", is_body ? "\n" : " ");
     if (is_body)
         explain_body(*crowd, limb, to);
     else

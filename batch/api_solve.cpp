@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #include "batch/budget.h"
 #include "batch/check.h"
@@ -206,15 +207,13 @@ swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::u
     return SWIVEL_OK;
 }
 
-// Whether poses that nobody animates between two solves are corrected twice. The time of bodies is looked at where it
-// is one for all.
-bool stands_still_in_place(const swivel_pose& pose)
+// Keeps what explanations doubt of a pose. Threads that solve parts of a crowd store the same.
+void note_pose(swivel_crowd& crowd, const swivel_pose& pose)
 {
-    const bool is_in_place = !pose.results.data || pose.results.data == pose.rotations.data;
-    if (!is_in_place || !pose.time.data || pose.time.stride > 0) return false;
-    float time;
-    std::memcpy(&time, pose.time.data, sizeof time);
-    return time == 0;
+    float time = std::numeric_limits<float>::quiet_NaN();
+    if (pose.time.data && pose.time.stride == 0) std::memcpy(&time, pose.time.data, sizeof time);
+    crowd.time.store(time, std::memory_order_relaxed);
+    crowd.is_in_place.store(!pose.results.data || pose.results.data == pose.rotations.data, std::memory_order_relaxed);
 }
 
 std::uint32_t count_limbs(const Work& work)
@@ -265,8 +264,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
 
-    if (job.pose)
-        crowd->stood_still_in_place.store(stands_still_in_place(full_pose(job.pose)), std::memory_order_relaxed);
+    if (job.pose) note_pose(*crowd, full_pose(job.pose));
 
     const Work work{*crowd,
                     isa->kernels,

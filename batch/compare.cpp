@@ -101,12 +101,11 @@ private:
     }
     void doubt_unit()
     {
-        constexpr double kOther = 2;  // times as long, or as short
         Reading how = limb_.as_given;
         how.at_rest = true;
         const double at_rest = length(limb_.places(limb_.joints, how)), posed = length(limb_.posed);
         if (!limb_.body.has_translations(limb_.as_given)) return;
-        if (at_rest <= kOther * posed && kOther * at_rest >= posed) return;
+        if (at_rest <= kOtherUnit * posed && kOtherUnit * at_rest >= posed) return;
         doubtful().add(
             "The skeleton's bones are %.4g times as long as the pose's. Lengths that go with the skeleton's, such as "
             "those of swivel_plant, are wrong then. Give the skeleton in the unit of the pose.",
@@ -123,20 +122,18 @@ private:
     }
     void doubt_bend()
     {
-        constexpr double kBent = 0.17, kOpposite = -0.7;  // the sine of 10 degrees; a cosine
+        constexpr double kBent = 0.35;  // the sine of 20 degrees
         const float(&h)[3] = limb_.crowd.groups[limb_.group].limb.hinge;
         const Vector<double> upper = limb_.posed.at[1] - limb_.posed.at[0],
                              fore = limb_.posed.at[2] - limb_.posed.at[1],
                              hinge = turned(limb_.body.rotation(limb_.joints.at[0], limb_.as_given),
                                             vector<double>(h[0], h[1], h[2])),
                              turn = cross(fore, upper);
-        const double sine = std::sqrt(len2(turn)), size = std::sqrt(len2(upper) * len2(fore));
-        if (sine < kBent * size || scalar_product(hinge, turn) > kOpposite * sine * std::sqrt(len2(hinge))) return;
+        if (scalar_product(hinge, turn) >= 0 || len2(turn) <= kBent * kBent * len2(upper) * len2(fore)) return;
         doubtful().add(
-            "The elbow, joint %u, is bent by %.3g degrees the other way than the group's `bend` or its rest pose says. "
-            "A "
-            "bend is the direction that flexion carries the forearm towards, in the shoulder joint's frame.",
-            limb_.named(1), in_degrees(std::atan2(sine, scalar_product(upper, fore))));
+            "The elbow, joint %u, is bent by %.3g degrees to the other side than the group's `bend` or its rest pose "
+            "says. A bend is the direction that flexion carries the forearm towards, in the shoulder joint's frame.",
+            limb_.named(1), in_degrees(std::atan2(std::sqrt(len2(turn)), scalar_product(upper, fore))));
     }
     // Whether a quaternion has no length of about 1, as at wrong strides or offsets.
     bool guess_strides()
@@ -323,8 +320,8 @@ private:
         const bool is_found = guess_units(none, "the pose", "Give both in one unit.");
         const bool is_away = len2(root) > 0;
         if (!is_found && is_away)
-            guess_units(root, "the pose's translations",
-                        "Give these in the unit of root_position, or give root_scale.");
+            guess_units(root, limb_.body.has_translations(limb_.as_given) ? "the pose's translations" : "the skeleton",
+                        "Give lengths in the unit of root_position, or give root_scale.");
         if (!is_found && is_away) guess_root_units(root);
     }
     static const Units* units_of(double factor, bool& is_larger)
@@ -373,9 +370,13 @@ private:
     void guess_root_numbers()
     {
         const swivel_pose& pose = limb_.pose;
-        guess(
-            pose.root_position.data && (pose.root_is_double || limb_.body.may_have_double_root()),
-            [](Reading& how) { how.root_in_other_numbers = true; },
+        if (!pose.root_position.data || !(pose.root_is_double || limb_.body.may_have_double_root())) return;
+        Reading how = limb_.as_given;
+        how.root_in_other_numbers = true;
+        const LimbPlaces ours = limb_.places(limb_.joints, how);
+        if (!(limb_.worst(ours) <= limb_.allowed(ours) + limb_.rounding())) return;
+        cause(ours).add(
+            "%s",
             pose.root_is_double
                 ? "The pose's root_position is in floats, but root_is_double says doubles. Set root_is_double to 0."
                 : "The pose's root_position is in doubles, but it is read as floats. Set root_is_double to 1.");

@@ -31,11 +31,15 @@ double ComparedLimb::worst(const LimbPlaces& ours) const
 }
 double ComparedLimb::allowed(const LimbPlaces& ours) const
 {
-    constexpr double kShare = 1e-3, kRounding = 2e-7;  // as swivel.h says
+    constexpr double kShare = 1e-3;  // as swivel.h says
+    return kShare * std::max(length(ours), length(theirs)) + (pose.root_is_double ? 0 : rounding());
+}
+double ComparedLimb::rounding() const
+{
+    constexpr double kRounding = 2e-7;  // as swivel.h says
     double size2 = 0;
     for (const Vector<double>& v : theirs.at) size2 = std::max(size2, len2(v));
-    const double rounding = pose.root_is_double ? 0 : kRounding * std::sqrt(size2);
-    return kShare * std::max(length(ours), length(theirs)) + rounding;
+    return kRounding * std::sqrt(size2);
 }
 double ComparedLimb::factor_about(const Vector<double>& centre) const
 {

@@ -45,6 +45,7 @@ struct ComparedLimb {
     double worst(const LimbPlaces& ours) const;
     // How far one may be off. Floats in the world are rounded, by engines too.
     double allowed(const LimbPlaces& ours) const;
+    double rounding() const;  // of floats as far from the origin
     bool agrees(const LimbPlaces& ours) const { return worst(ours) <= allowed(ours); }
     // How much further the caller's places are from a centre than the pose's, by least squares.
     double factor_about(const Vector<double>& centre) const;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "batch/explain_doubts.h"
 #include "batch/explain_ground.h"
 #include "batch/explain_hold.h"
 #include "batch/explain_limits.h"
@@ -89,7 +90,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
             is_found ? "; " : "");
     else if (!is_found && is_planted)
         text.add(
-            "in the pose, its time or support was not a number or out of its range, unless an input has been written "
+            "in the pose, the root, its time or support was not a number or out of its range, unless an input has been written "
             "since");
     else if (!is_found)
         text.add("each input is in its range, but not as the parent's rotation and scale have it");
@@ -182,20 +183,6 @@ bool is_near(const LimbPose& a, const LimbPose& b)
            len2(a.wrist - b.wrist) <= kShare * kShare * size2 && 1 - cos_half * cos_half <= kShare * kShare;
 }
 
-// Lengths that go with the skeleton's bones are wrong where the pose's are in another unit.
-void doubt_bones(const Group& group, std::uint32_t limb, Text& text)
-{
-    if (!(group.features & SWIVEL_WITH_RECORD)) return;
-    const LimbValue record(group, limb, SWIVEL_RECORD);
-    const double posed = record[kRecordLengths] + record[kRecordLengths + 1],
-                 rest = double{group.binding.lengths[0]} + double{group.binding.lengths[1]};
-    if (!(posed > 2 * rest || 2 * posed < rest)) return;
-    text.add(
-        "Warning: its bones are %.4g times as long as the skeleton's. Lengths of swivel_plant and others go with the "
-        "skeleton's: give it in the unit of the pose. ",
-        posed / rest);
-}
-
 // It is a function of its own so that explain_prop, which has a limb on the stack too, has that room.
 [[gnu::noinline]] void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
@@ -215,7 +202,7 @@ void doubt_bones(const Group& group, std::uint32_t limb, Text& text)
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT || was_bad || is_bad_in_body(group, limb))
         return explain_bad_input(probe, crowd, group, limb, text);
-    doubt_bones(group, limb, text);
+    if (group.features & SWIVEL_WITH_RECORD) doubt_limb(group, limb, probe, text);
     if (group.features & SWIVEL_WITH_PLANT) explain_plant(group, limb, flags_were, text);
     if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
     if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);

@@ -22,6 +22,7 @@ struct GlidingLeg {
     std::array<Float4, 4> rotations{};
     Float3 root{}, support{};
     float time = kFrame, scale = 1;
+    float stretch = 1;  // of the pose's bones
     bool is_in_place = false;
     std::vector<Vector3d> sent;  // the target of each frame
 
@@ -46,6 +47,10 @@ struct GlidingLeg {
         swivel_pose pose = swivel_default_pose();
         pose.rotations = {rotations.data(), sizeof rotations, sizeof rotations[0], nullptr};
         if (!is_in_place) pose.results = {solved.data(), sizeof solved, sizeof solved[0], nullptr};
+        std::array<Float3, 4> places = kOffsets;
+        for (Float3& place : places)
+            for (float& number : place) number *= stretch;
+        pose.translations = {places.data(), sizeof places, sizeof places[0], nullptr};
         pose.root_position = {&root, 0};
         pose.root_scale = {&scale, 0};
         pose.support_position = {&support, 0};

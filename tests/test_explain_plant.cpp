@@ -63,6 +63,43 @@ TEST_CASE("explain says that a planted point runs in, for how long and how far, 
     CHECK(has(leg.text(), "Its label of contact is 0.4 by now: the next solve releases it."));
 }
 
+TEST_CASE("explain warns of what is in another unit or from another origin")
+{
+    constexpr swivel_features kStands = kPlants | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_GROUND;
+    const auto warning = [](GlidingLeg& leg) {
+        leg.glide(1, 0, 30);
+        const std::string text = leg.text();
+        return text.starts_with("Warning: ") ? text.substr(9, text.find('.') - 9) : "";
+    };
+    GlidingLeg leg(kStands);
+    CHECK(warning(leg).empty());
+    leg.stretch = 1.8f;
+    CHECK(warning(leg).empty());
+    leg.stretch = 2;
+    CHECK(warning(leg) == "its bones are 2 times as long as the skeleton's");
+    leg.stretch = 0.5f;
+    CHECK(warning(leg) == "its bones are 0");  // 0.5
+
+    GlidingLeg effector(kStands);
+    effector.crowd.write_all(SWIVEL_EFFECTOR, 0, std::array{0.0f, 0.0f, 11.0f});
+    CHECK(warning(effector) == "its effector is 11 from the wrist joint, but its bones are 0");  // 0.9
+    GlidingLeg target;
+    target.crowd.write_all(SWIVEL_TARGET, 0, std::array{0.0f, 100.0f, 0.0f});
+    CHECK(has(warning(target), "its target is 1"));  // 109 limb lengths
+    GlidingLeg ground(kStands);
+    ground.crowd.write_all(SWIVEL_GROUND, 0, std::array{0.0f, 50.0f, 0.0f});
+    ground.crowd.write_all(SWIVEL_GROUND_NORMAL, 0, std::array{0.0f, 1.0f, 0.0f});
+    CHECK(has(warning(ground), "the ground below it is 50 from the root's level"));
+    GlidingLeg far;
+    far.root[0] = 1e5f;
+    CHECK(has(warning(far), "it is planted 1e+05 away from its support, where floats are good to 0"));
+    GlidingLeg near;
+    near.root[0] = near.support[0] = 1e5f;
+    CHECK(warning(near).empty());
+    near.time = 16;
+    CHECK(warning(near) == "the last solve had a time of 16 seconds");
+}
+
 TEST_CASE(
     "explain warns of a solve without time that writes over the pose, which a pause would correct again and again")
 {
@@ -264,11 +301,11 @@ TEST_CASE("explain names what is bad of a planted limb: labels, what is given, a
     leg.crowd.write_all(SWIVEL_TARGET, 0, Float3{kNan, kNan, kNan});
     for (const float time : {-0.1f, kNan, 1e16f}) {
         leg.time = time;
-        CHECK(says("in the pose, its time or support was not a number or out of its range, unless"));
+        CHECK(says("in the pose, the root, its time or support was not a number or out of its range, unless"));
     }
     leg.time = kFrame;
     leg.support[2] = kNan;
-    CHECK(says("in the pose, its time or support was not a number or out of its range, unless"));
+    CHECK(says("in the pose, the root, its time or support was not a number or out of its range, unless"));
     leg.support[2] = 0;
     const Float4 thigh = std::exchange(leg.rotations[1], Float4{0, 0, 0, 0});
     CHECK(says("in the pose, a rotation, place or scale of the limb's joints"));

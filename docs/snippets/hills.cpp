@@ -188,4 +188,41 @@ TEST_CASE("docs: feet on hills")
         CHECK(characters[n].solved == as_two_calls_have_it[n].solved);
         CHECK(characters[n].ankle == as_two_calls_have_it[n].ankle);
     }
+
+    // The same with roots in doubles.
+    std::vector<Double3> roots;
+    for (const Character& each : characters)
+        roots.push_back(
+            {double{each.place[0]}, double{each.place[1]}, double{each.place[2]}});
+    swivel_pose far = pose;
+    far.root_position = {roots.data(), sizeof roots[0]};
+    far.root_is_double = 1;
+    std::array<swivel::Frame, 3> contacts;
+    for (std::size_t leg = 0; leg < 2; ++leg)
+        contacts[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
+    for (std::uint32_t group = 0; group < 3; ++group)
+        swivel::check(swivel_reset(crowd.get(), group, 0, 40));
+    for (int n = 0; n < 30; ++n) {
+        // [far]
+        const auto sample = [&](const swivel::Probes& probes) {
+            for (std::size_t foot = 0; foot < probes.places.size(); ++foot) {
+                const auto& at = probes.places[foot];              // from the root
+                const Double3& root = roots[probes.bodies[foot]];  // in the world
+                const auto x = static_cast<float>(root[0] + double{at[0]}),
+                           z = static_cast<float>(root[2] + double{at[2]});
+                const double height = double{terrain.height(x, z)} - root[1];
+                probes.grounds[foot][0] = at[0];
+                probes.grounds[foot][1] = static_cast<float>(height);
+                probes.grounds[foot][2] = at[2];
+                const Float3 normal = terrain.normal(x, z);
+                std::copy(normal.begin(), normal.end(), probes.normals[foot]);
+            }
+        };
+        crowd.solve({.frames = contacts, .pose = &far, .sample = sample});
+        // [end]
+    }
+    for (std::size_t n = 0; n < characters.size(); ++n)
+        for (std::size_t joint = 0; joint < kJoints; ++joint)
+            CHECK(turn_between(characters[n].solved[joint],
+                               as_two_calls_have_it[n].solved[joint]) < 1e-3);
 }

@@ -264,7 +264,9 @@ typedef enum swivel_field {
     SWIVEL_INCOMING_SHOULDER,
     SWIVEL_INCOMING_ELBOW,
     SWIVEL_INCOMING_WRIST,
-    // 3, WITH_WEIGHTS: the weights of position, hand and pole. 0 keeps the incoming pose, 1 takes the goal.
+    // 3, WITH_WEIGHTS: the weights of position, hand and pole. 0 keeps the incoming pose, 1 takes the goal. That of the
+    // position blends places of the wrist: with an effector, at 0 and a hand weight of 1, the wrist stays and the
+    // effector turns about it.
     SWIVEL_WEIGHTS,
     // 4, WITH_REACH: far soft zone, near soft zone, most stretch 1..1000, least distance. Zones and distance are shares
     // of both bones' length. Let R be the far end of the reach and s the far zone. A wanted distance d from R - s to R
@@ -337,7 +339,8 @@ typedef enum swivel_field {
     // what it is linked to. Of a limb that is the wrist joint's, and places are in the bones' unit. Of a PROP they are
     // in the world's unit.
     SWIVEL_GRIP,
-    // 3, PROP: where it is, in the space of the targets; with a joint, in that joint's frame, in the world's unit.
+    // 3, PROP: where it is, in the space of the targets; with a joint, in that joint's frame, in the world's unit, and
+    // in floats whatever the root is.
     // NaN, as at the start: as swivel_prop says.
     SWIVEL_PROP_PLACE,
     // 4, PROP: its rotation, in the world or the joint's frame. NaN, as at the start: as swivel_prop says.
@@ -410,7 +413,7 @@ typedef enum swivel_field {
     // and 1 once it has begun. Then the normal that the foot turns with, in the world, of any length, 3; its rate, 3.
     SWIVEL_LIFT,
     // 7, WITH_HAND_FRAME: where the wrist joint is after the solve, 3, in the space of the target, and its rotation in
-    // the world, 4. Bones may be stretched. It is NaN beyond 1e15, and after bad input but for a good pose that stays.
+    // the world, 4. Bones are as long as SWIVEL_LENGTHS says, also where weights of 0 keep the pose, or stretched. It is NaN beyond 1e15, and after bad input but for a good pose that stays.
     SWIVEL_HAND_FRAME,
     // 7, PROP: where it is, 3, in the space of the targets, and its rotation in the world, 4.
     SWIVEL_PROP_FRAME,
@@ -1283,8 +1286,8 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // is upright. Of a group that is no limb it needs none, and says how the body is shifted, where the prop is and why, or
 // by how much a line of sight misses. With the hands' records it says how far the prop moved, and how far each hand is
 // from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body `limb`, with a line for each that begins
-// "group 0: ". A text begins with a warning where the last solve wrote its results over the pose, with one time of 0
-// for all bodies. Takes up to a millisecond for a limb; no allocation.
+// "group 0: ". A text begins with warnings of what no solve refuses and hardly anybody means: another
+// unit, another origin, a time in milliseconds, a pose that is solved twice. Takes up to a millisecond for a limb; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
@@ -1308,8 +1311,8 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
 // The text names the mistake that explains the places, or each of several. If none does, it names the first joint that
 // is off, and what to look at, or a quaternion whose length shows that strides are wrong.
 //
-// They do not agree, either, where no place shows what is wrong: bones of the skeleton that are twice or half as long
-// as the pose's, a time above 1 second, or an elbow bent by 10 degrees and more the other way than `bend` says.
+// They do not agree, either, where no place shows what is wrong: bones of the skeleton that are nearly twice as long as
+// the pose's or nearly half, a time above 1 second, or an elbow bent by 20 degrees and more to the other side than `bend` says.
 //
 // What no place depends on cannot be seen, such as the wrist's own rotation. In SWIVEL_IN_BODY with translations the
 // call looks whether rotations lead along the bones, where these are as long as at rest. Matrices that lie 64 bytes
