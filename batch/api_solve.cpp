@@ -207,11 +207,13 @@ swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::u
     return SWIVEL_OK;
 }
 
-// Keeps what explanations doubt of a pose. Threads that solve parts of a crowd store the same.
-void note_pose(swivel_crowd& crowd, const swivel_pose& pose)
+// Keeps what explanations doubt of a pose: that of the first body, where all are solved.
+void note_pose(swivel_crowd& crowd, const swivel_job& job, std::uint32_t body)
 {
+    const swivel_pose pose = full_pose(job.pose);
     float time = std::numeric_limits<float>::quiet_NaN();
-    if (pose.time.data && pose.time.stride == 0) std::memcpy(&time, pose.time.data, sizeof time);
+    if (pose.time.data && !job.mask && !job.limbs && !job.priorities)
+        std::memcpy(&time, static_cast<const char*>(pose.time.data) + body * pose.time.stride, sizeof time);
     crowd.time.store(time, std::memory_order_relaxed);
     crowd.is_in_place.store(!pose.results.data || pose.results.data == pose.rotations.data, std::memory_order_relaxed);
 }
@@ -264,7 +266,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
 
-    if (job.pose) note_pose(*crowd, full_pose(job.pose));
+    if (job.pose && blocks.count > 0) note_pose(*crowd, job, blocks.first * SWIVEL_LANES);
 
     const Work work{*crowd,
                     isa->kernels,

@@ -61,8 +61,8 @@ struct swivel_crowd {
     std::uint32_t joint_count;        // 0: free limbs
     std::uint32_t body_row_count;     // of a block of bodies in a workspace
     std::atomic<std::uint64_t> busy;  // a bit for each workspace that a call is using
-    // Of the last solve of poses, for explain_doubts.h: the time, NaN where it is not one for all bodies, and whether
-    // results went over the pose.
+    // Of the last solve of poses, for explain_doubts.h: the time of its first body, NaN where that may not be solved,
+    // and whether results went over the pose.
     std::atomic<float> time;
     std::atomic<bool> is_in_place;
 };

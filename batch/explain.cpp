@@ -90,7 +90,8 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
             is_found ? "; " : "");
     else if (!is_found && is_planted)
         text.add(
-            "in the pose, the root, its time or support was not a number or out of its range, unless an input has been written "
+            "in the pose, the root, its time or support was not a number or out of its range, unless an input has been "
+            "written "
             "since");
     else if (!is_found)
         text.add("each input is in its range, but not as the parent's rotation and scale have it");

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Character B: 4,096 bodies, poses as an array of structures, in place. Each of its four limbs has a target and a hand
-// or foot. Beside it are the same on glm, one body at a time, and a copy of the same bytes. Parts of the job tell what
-// its stages take. Last come two threads, and beside them two processes with crowds of their own.
-#include <algorithm>
-
+// or foot. Beside it is the same on glm, one body at a time. Parts of the job tell what its stages take. Last come two
+// threads.
 #include "bench/body_pose.h"
 #include "bench/rivals/level.h"
 #include "bench/suite.h"
-#include "bench/team.h"
-#include "bench/twin.h"
 
 namespace bench {
 
@@ -89,9 +85,6 @@ void add_swivel(const Suite& suite, const SharedCrowd& crowd)
     from_rows.frames = swivel::everything;
     add_job("bodies_one_limb/" + suite.best_isa(), suite.best_isa(), crowd, one_limb);
     add_job("bodies_from_rows/" + suite.best_isa(), suite.best_isa(), crowd, from_rows);
-    const auto copies = std::make_shared<std::vector<BodyCharacter>>(crowd->bodies);
-    add("bodies/copy", kBodies, Clock::cpu,
-        [=]() -> Work { return [=] { std::ranges::copy(crowd->bodies, copies->begin()); }; });
 }
 
 void add_glm()
@@ -106,28 +99,14 @@ void add_glm()
     }
 }
 
-// As many bodies for each thread as for each process. A process solves its own some times before it waits for the
-// other.
 void add_two(const Suite& suite)
 {
-    constexpr std::size_t rounds = 16;
-    const auto prepared = [isa = suite.best_isa()](std::size_t count) {
+    add("bodies_threads/2", kThreads * kBodies, Clock::wall, [isa = suite.best_isa()]() -> Work {
         swivel::check(swivel_use_isa(isa.c_str()));
-        return std::make_shared<BodyCrowd>(count);
-    };
-    add("bodies_threads/2", kThreads * kBodies, Clock::wall, [=]() -> Work {
-        const SharedCrowd crowd = prepared(kThreads * kBodies);
+        const auto crowd = std::make_shared<BodyCrowd>(kThreads * kBodies);
         swivel::Job job = crowd->job();
         job.on_this_thread = false;
         return [crowd, solve = solve_on(kThreads, crowd->crowd(), job)] { solve(); };
-    });
-    add("bodies_processes/2", rounds * kThreads * kBodies, Clock::wall, [=]() -> Work {
-        const auto twin = std::make_shared<Twin>([=]() -> Work {
-            return [crowd = prepared(kBodies)] {
-                for (std::size_t n = 0; n < rounds; ++n) crowd->crowd().solve(crowd->job());
-            };
-        });
-        return [twin] { twin->run(); };
     });
 }
 

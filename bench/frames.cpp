@@ -2,8 +2,7 @@
 //
 // Whole frames, from and to the pose buffers of 8,192 characters with 16,384 arms, on one thread. swivel runs in one
 // call, with each instruction set. With the best one, its three steps also run apart. The rivals solve one arm at a
-// time: a textbook with glm, and ozz-animation where it was built in. A bare loop moves the same bytes and solves
-// nothing.
+// time: a textbook with glm, and ozz-animation where it was built in.
 #include "bench/rivals/level.h"
 #include "bench/rivals/ozz_frame.h"
 #include "bench/rivals/whole_frame.h"
@@ -51,7 +50,6 @@ void add_frames(Suite& suite)
         const std::string name = std::string("/") + level->name;
         const Work glm = [frame, level] { level->solve_frame(frame->view()); };
         timed("frame_glm" + name, best, glm, checked("frame_glm" + name, *frame, glm));
-        timed("frame_bare" + name, best, [frame, level] { level->touch_frame(frame->view()); });
         if (!level->solve_frame_ozz) continue;
         const Work by_ozz = [frame, ozz, level] { level->solve_frame_ozz(frame->view(), ozz->view()); };
         timed("frame_ozz" + name, best, by_ozz, checked("frame_ozz" + name, *frame, by_ozz));

@@ -25,7 +25,7 @@ def measured(binary, options, folder):
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode:
         raise Refused(f"{binary} failed: {done.stderr.strip().splitlines()[-1] if done.stderr.strip() else 'it says nothing'}")
-    return read_results(path)[1]
+    return read_results(path)
 
 
 def ratios(options):

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // swivel_bench measures swivel's kernels with each instruction set and in each level of memory, on one thread and on
-// several, from one arm to ten million. The same run measures textbook rivals, bare copies and the machine's own
-// limits. Before timing, it checks all results by forward kinematics: the wrists of ordinary arms must be on their
-// targets.
+// several. The same run measures textbook rivals. Before timing, it checks all results by forward kinematics: the
+// wrists of ordinary arms must be on their targets.
 //
 //   cmake --preset dev && cmake --build --preset dev && bench/run
 //
-// bench/run starts it and then makes tables of ratios by tables.py. `swivel bench` runs a few families of it.
-// Repetitions are in random order, and medians are shown: of the CPU time, or of threads by the clock on the wall. It
-// takes some minutes and 2 GB. Google Benchmark's own flags come after: --benchmark_filter=P/,
-// --benchmark_repetitions=..., --benchmark_out=result.json.
+// bench/run starts it and keeps its result. `swivel bench` runs a few families of it. Repetitions are in random order,
+// and medians are shown: of the CPU time, or of threads by the clock on the wall. It takes some minutes and 1 GB.
+// Google Benchmark's own flags come after: --benchmark_filter=P/, --benchmark_repetitions=...,
+// --benchmark_out=result.json.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include <string_view>
 
 #include "bench/progress.h"
+#include "bench/rivals/cpu_model.h"
 #include "bench/rivals/level.h"
 #include "bench/suite.h"
 
@@ -27,45 +27,21 @@ namespace {
 using namespace bench;
 
 void note(const std::string& key, const std::string& value) { benchmark::AddCustomContext(key, value); }
-void note(const std::string& key, double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    note(key, text);
-}
 
 // What a result file says beside its times.
 void note_context(const Suite& suite)
 {
     std::string isas;
     for (const std::string& isa : suite.isas) isas += (isas.empty() ? "" : " ") + isa;
-    note("cpu", suite.machine.cpu);
+    note("cpu", cpu_model());
     note("isas", isas);
     note("commit", SWIVEL_COMMIT);
     note("library_build", library_build());
     for (const Level* level : runnable_levels()) {
         note(std::string("rivals_build/") + level->name, level->flags);
-        note(std::string("level_of/") + level->name, level->isa);
         if (level->ozz_flags) note(std::string("ozz_build/") + level->name, level->ozz_flags);
         for (const Loop& loop : level->loops) note(std::string("how/") + loop.name + "/" + level->name, loop.how);
     }
-    for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
-        note(std::string("copy_bytes_per_ns/") + kMemoryLevels[level], suite.machine.copy_bytes_per_ns[level]);
-    note("copy_bytes_per_ns/streamed", suite.machine.streamed_bytes_per_ns);
-    for (const IsaLimits& limits : suite.machine.isas) {
-        note("flops_per_ns/" + limits.isa, limits.flops_per_ns);
-        note("division_ns/" + limits.isa, limits.division_ns);
-        note("root_ns/" + limits.isa, limits.root_ns);
-        note("divide_root_ns/" + limits.isa, limits.divide_root_ns);
-        note("port_bound_ns/" + limits.isa, port_bound(suite.ops, limits).ns());
-    }
-    note("ops/roots", suite.ops.roots);
-    note("ops/divisions", suite.ops.divisions);
-    note("ops/multiplications", suite.ops.multiplications);
-    note("ops/additions", suite.ops.additions);
-    note("ops/comparisons", suite.ops.comparisons);
-    note("ops/selects", suite.ops.selects);
-    note("row_bytes", static_cast<double>(row_bytes(0)));
 }
 
 int run(int argc, char** argv)
@@ -85,25 +61,18 @@ int run(int argc, char** argv)
 
     Suite suite;
     note_context(suite);
-    if (!is_json) std::printf("cpu      %s\nlibrary  %s\n", suite.machine.cpu.c_str(), library_build().c_str());
+    if (!is_json) std::printf("cpu      %s\nlibrary  %s\n", cpu_model().c_str(), library_build().c_str());
     add_bounds(suite);
     add_problem_p(suite);
-    add_hard(suite);
-    add_reading(suite);
-    add_features(suite);
-    add_limits(suite);
+    add_resident(suite);
     add_production(suite);
     add_bodies(suite);
     add_feet(suite);
     add_looks(suite);
     add_regions(suite);
     add_character(suite);
-    add_choice(suite);
     add_frames(suite);
-    add_calls(suite);
-    add_copies(suite);
     add_threads(suite);
-    add_growth(suite);
 
     Progress progress;
     benchmark::JSONReporter json;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The production limb: 16,384 of them, from and to an engine's structures, in one call and step by step, and a copy of
-// these structures. What each feature adds is measured in cache, from a limb with a flexion limit up to the production
-// limb.
-#include <algorithm>
+// The production limb: 16,384 of them, from and to an engine's structures, in one call and step by step. What each
+// feature adds is measured in cache, from a limb with a flexion limit up to the production limb.
 #include <stdexcept>
 
 #include "bench/rivals/production_limb.h"
@@ -16,7 +14,7 @@ namespace {
 constexpr std::size_t kLimbs = 16384;
 
 struct Production {
-    std::vector<ProductionLimb> limbs = std::vector<ProductionLimb>(kLimbs), copies = limbs;
+    std::vector<ProductionLimb> limbs = std::vector<ProductionLimb>(kLimbs);
     FramedCrowd framed = production_crowd(limbs);
 };
 
@@ -39,8 +37,6 @@ void add_frame(const Suite& suite)
     timed(suite.best_isa(), "write", &FramedCrowd::write);
     timed(suite.best_isa(), "solve", &FramedCrowd::solve);
     timed(suite.best_isa(), "read", &FramedCrowd::read);
-    add("production/" + suite.best_isa() + "/copy", kLimbs, Clock::cpu,
-        [all]() -> Work { return [all] { std::ranges::copy(all->limbs, all->copies.begin()); }; });
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The suite's progress: a line for each benchmark with its median and notes. tables.py makes tables of them.
+// The suite's progress: a line for each benchmark with its median and notes.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -28,9 +28,8 @@ public:
         for (const Run& run : runs) {
             const bool alone = run.run_type == Run::RT_Iteration && run.repetitions <= 1;
             if (!alone && run.aggregate_name != "median") continue;
-            const bool by_call = run.counters.contains("arms/call");
-            std::printf("%-40s %10.2f ns %s, +- %.1f %%", run.run_name.function_name.c_str(),
-                        run.counters.at("time/arm") * 1e9, by_call ? "a call" : "an arm", spread);
+            std::printf("%-40s %10.2f ns an arm, +- %.1f %%", run.run_name.function_name.c_str(),
+                        run.counters.at("time/arm") * 1e9, spread);
             for (const auto& [note, value] : run.counters)
                 if (note != "time/arm" && note != "arms") std::printf(", %s %.3g", note.c_str(), value.value);
             std::puts("");

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Reads result files of swivel_bench. Knows no table and no picture."""
+"""Reads result files of swivel_bench."""
 import json
 from statistics import median
 
 UNITS = {"ns": 1, "us": 1e3, "ms": 1e6, "s": 1e9}
-NOTES = ("limited", "infeasible", "hard", "arms/call", "bytes/arm")  # counters that rows have beside their time
 
 
 class Refused(Exception):
@@ -34,16 +33,9 @@ def nanoseconds(path, entry):
 
 
 def read_results(path):
-    """The file's context, and the nanoseconds of each benchmark: an arm where it says so, otherwise a call."""
-    context, times, _ = read_all(path)
-    return context, times
-
-
-def read_all(path):
-    """The same, and the notes of each benchmark."""
-    document = read_document(path)
-    medians, rounds, notes = {}, {}, {}
-    for entry in document["benchmarks"]:
+    """The nanoseconds of each benchmark: an arm where it says so, otherwise a call."""
+    medians, rounds = {}, {}
+    for entry in read_document(path)["benchmarks"]:
         name = entry.get("run_name", entry.get("name")).removesuffix("/real_time")
         if entry.get("error_occurred"):
             continue
@@ -51,23 +43,8 @@ def read_all(path):
             rounds.setdefault(name, []).append(nanoseconds(path, entry))
         elif entry.get("aggregate_name") == "median":
             medians[name] = nanoseconds(path, entry)
-        else:
-            continue
-        notes[name] = {note: entry[note] for note in NOTES if note in entry}
     for name, values in rounds.items():
         medians.setdefault(name, median(values))
     if not medians:
         raise Refused(f"{path}: no benchmark in it has a time")
-    return document["context"], medians, notes
-
-
-def write_short(path):
-    """Leaves in a result file what is read of it: the context and each benchmark's median, a line each."""
-    document = read_document(path)
-    document["context"].pop("host_name", None)
-    kept = [{key: value for key, value in entry.items() if key in ("run_name", "run_type", "aggregate_name", "time/arm", *NOTES)}
-            for entry in document["benchmarks"] if entry.get("aggregate_name") == "median"]
-    lines = ",\n".join("    " + json.dumps(entry) for entry in kept)
-    context = json.dumps(document["context"], indent=2).replace("\n", "\n  ")
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(f'{{\n  "context": {context},\n  "benchmarks": [\n{lines}\n  ]\n}}\n')
+    return medians

@@ -24,6 +24,13 @@ std::vector<std::uint32_t> flags_of(const swivel::Crowd& crowd)
     return flags;
 }
 
+// A flexion limit does not count: it holds back the wrist, not the swivel.
+Held held_of(std::uint32_t flags)
+{
+    constexpr std::uint32_t swivel_limits = SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_REGION;
+    return flags & SWIVEL_INFEASIBLE ? Held::infeasible : flags & swivel_limits ? Held::limited : Held::free;
+}
+
 // The inputs of a limb of one crowd for a limb of another.
 void copy_limb(const swivel_rows& from, std::size_t source, const swivel_rows& to, std::size_t limb)
 {
@@ -36,15 +43,6 @@ void copy_limb(const swivel_rows& from, std::size_t source, const swivel_rows& t
 
 }  // namespace
 
-Held held_of(std::uint32_t flags)
-{
-    constexpr std::uint32_t swivel_limits = SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_HUMERAL_TWIST |
-                                            SWIVEL_LIMITED_SHOULDER_BOX | SWIVEL_LIMITED_HAND_CONE |
-                                            SWIVEL_LIMITED_FOREARM_TWIST | SWIVEL_LIMITED_HAND_TWIST |
-                                            SWIVEL_LIMITED_WRIST_BOX | SWIVEL_LIMITED_REGION;
-    return flags & SWIVEL_INFEASIBLE ? Held::infeasible : flags & swivel_limits ? Held::limited : Held::free;
-}
-
 Notes shares_of(const swivel::Crowd& crowd)
 {
     std::array<double, 3> counts{};
@@ -56,18 +54,14 @@ Notes shares_of(const swivel::Crowd& crowd)
 
 Pool make_pool(swivel_features features, const std::string& isa, const swivel_region* region)
 {
-    constexpr std::uint32_t part = 8192;
-    const std::vector<Limb> limbs = random_limbs(3 * part);
+    const std::vector<Limb> limbs = random_limbs(24576);
     Pool pool{features, region, make_crowd(features, limbs.size(), limbs, region), {}};
-    // Limits as bodies have them, and narrower ones, which more limbs cannot keep.
-    write_limits(pool.crowd, part, part, 0.6);
-    write_limits(pool.crowd, 2 * part, part, 0.3);
     solve_all(pool.crowd, isa);
     const std::vector<std::uint32_t> flags = flags_of(pool.crowd);
     for (std::uint32_t n = 0; n < flags.size(); ++n)
         pool.limbs[static_cast<std::size_t>(held_of(flags[n]))].push_back(n);
     for (const std::vector<std::uint32_t>& kind : pool.limbs)
-        if (kind.size() < part / 16) throw std::runtime_error("the pool lacks limbs of a kind; nothing is measured");
+        if (kind.size() < 512) throw std::runtime_error("the pool lacks limbs of a kind; nothing is measured");
     return pool;
 }
 

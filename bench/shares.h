@@ -17,19 +17,17 @@ enum class Held {
 };
 inline constexpr std::array<const char*, 3> kHeldNames{"free", "limited", "infeasible"};
 
-// Of the flags of a limb. A flexion limit does not count: it holds back the wrist, not the swivel.
-Held held_of(std::uint32_t flags);
 // The shares of limbs that are limited and infeasible, by the flags of the last solve.
 Notes shares_of(const swivel::Crowd& crowd);
 
-// Solved limbs of every kind. region: for SWIVEL_WITH_REGION, must outlive it.
+// Solved limbs of every kind. The region must outlive it.
 struct Pool {
     swivel_features features;
     const swivel_region* region;
     swivel::Crowd crowd;
     std::array<std::vector<std::uint32_t>, 3> limbs;  // by kind
 };
-Pool make_pool(swivel_features features, const std::string& isa, const swivel_region* region = nullptr);
+Pool make_pool(swivel_features features, const std::string& isa, const swivel_region* region);
 
 // Crowds of limbs from the pool: this share is of that kind, the others are free. They are in no order.
 std::shared_ptr<swivel::Crowd> mixed_crowd(const Pool& pool, std::size_t arm_count, Held kind, double share);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the suite's files share: the machine, the crowds that several benchmarks solve, and how one is added. Names have
-// slashes, so that --benchmark_filter picks families: P/, hard/, read/, limits/, calls/, frame/, threads/...
+// What the suite's files share: the instruction sets, the crowds that several benchmarks solve, and how one is added.
+// Names have slashes, so that --benchmark_filter picks families: P/, resident/, frame/, production/, threads/...
 #pragma once
 
 #include <functional>
@@ -13,7 +13,6 @@
 
 #include "bench/rivals/limbs.h"
 #include "bench/rivals/machine.h"
-#include "bench/rivals/op_counts.h"
 
 namespace bench {
 
@@ -29,8 +28,6 @@ private:
 
 struct Suite {
     std::vector<std::string> isas = runnable_isas();  // best first
-    Machine machine = measure_machine();
-    OpCounts ops = count_ops();
     Crowds crowds;
 
     const std::string& best_isa() const { return isas.front(); }
@@ -38,7 +35,7 @@ struct Suite {
 
 enum class Clock { cpu, wall };  // of the one thread that works; of several threads together
 using Work = std::function<void()>;
-using Notes = std::vector<std::pair<std::string, double>>;  // shown beside a time: "bytes/arm", 64
+using Notes = std::vector<std::pair<std::string, double>>;  // shown beside a time: "limited", 0.22
 
 // prepare is called at the start of every repetition; what it returns is timed.
 void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare, Notes notes = {});
@@ -52,24 +49,20 @@ void add_solve(const std::string& name, const std::string& isa, std::shared_ptr<
 // workspace of the crowd each.
 Work solve_on(int threads, swivel::Crowd& crowd, const swivel::Job& job);
 
+// Cores that this process may run on.
+int core_count();
+
 // One for each family. They also check what they are going to time, and throw if someone's results are wrong.
 void add_bounds(Suite& suite);
 void add_problem_p(Suite& suite);
-void add_hard(Suite& suite);
-void add_reading(Suite& suite);
-void add_features(Suite& suite);
-void add_limits(Suite& suite);
+void add_resident(Suite& suite);
 void add_regions(Suite& suite);
 void add_production(Suite& suite);
 void add_bodies(Suite& suite);
 void add_feet(Suite& suite);
 void add_looks(Suite& suite);
 void add_character(Suite& suite);
-void add_choice(Suite& suite);
 void add_frames(Suite& suite);
-void add_calls(Suite& suite);
-void add_copies(Suite& suite);
 void add_threads(Suite& suite);
-void add_growth(Suite& suite);
 
 }  // namespace bench

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bench/team.h"
 
-#include <algorithm>
-#ifdef __linux__
-#include <sched.h>
-#endif
-
 namespace bench {
 
 namespace {
@@ -53,15 +48,6 @@ void Team::wait_for_work(int part)
         busy_.fetch_sub(1, std::memory_order_release);
         busy_.notify_one();
     }
-}
-
-int core_count()
-{
-#ifdef __linux__
-    cpu_set_t allowed;
-    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
-#endif
-    return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
 }
 
 }  // namespace bench

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Threads that wait for work, for what is measured on several threads without oneTBB: copies, bare loops, and blocks of
-// a crowd that has its own jobs.
+// Threads that wait for work. Suites that are built without oneTBB solve on them.
 #pragma once
 
 #include <atomic>
@@ -30,9 +29,6 @@ private:
     std::atomic<int> busy_ = 0;
     std::vector<std::thread> workers_;
 };
-
-// Cores that this process may run on.
-int core_count();
 
 // The share of a part: from first to end of count things, equal but for one.
 struct Share {

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // Problem P and whole frames on 1, 2, 4... and all cores: small crowds, which must not lose by it, to large ones, and
-// crowds in memory. Beside them copies of the same rows and bare loops over the same structures. By the clock on the
-// wall. swivel runs in an arena of oneTBB, or without oneTBB as own jobs; copies and loops divide their work evenly.
+// crowds in memory. By the clock on the wall, in an arena of oneTBB, or without oneTBB as own jobs.
+#include <algorithm>
+#include <thread>
+#ifdef __linux__
+#include <sched.h>
+#endif
 #ifdef SWIVEL_BENCH_TBB
 #include <oneapi/tbb/task_arena.h>
+#else
+#include "bench/team.h"
 #endif
 
-#include "bench/rivals/probe.h"
 #include "bench/rivals/whole_frame.h"
 #include "bench/suite.h"
-#include "bench/team.h"
 
 namespace bench {
 
@@ -23,30 +27,6 @@ std::vector<int> thread_counts()
     for (int threads = 1; threads < cores; threads *= 2) counts.push_back(threads);
     counts.push_back(cores);
     return counts;
-}
-
-Work copy_on(int threads, const swivel::Crowd& crowd, const Probe& probe)
-{
-    const auto team = std::make_shared<Team>(threads);
-    const swivel_rows in = swivel_input_rows(crowd.get(), 0), out = swivel_result_rows(crowd.get(), 0);
-    return [team, in, out, &probe] {
-        team->run([&](int part) {
-            const auto [first, end] = share_of(in.block_count, part, team->size());
-            const std::size_t from = first * in.row_count * SWIVEL_LANES, to = first * out.row_count * SWIVEL_LANES;
-            probe.copy_rows(in.base + from, in.row_count, out.base + to, out.row_count, end - first);
-        });
-    };
-}
-
-Work touch_on(int threads, WholeFrame& frame, const Level& level)
-{
-    const auto team = std::make_shared<Team>(threads);
-    return [team, view = frame.view(), touch = level.touch_frame] {
-        team->run([&](int part) {
-            const auto [first, end] = share_of(view.character_count, part, team->size());
-            touch({view.world + first, view.goals + first, view.local + first, view.rigs, end - first});
-        });
-    };
 }
 
 // family/threads/what: what prepare(threads) returns.
@@ -63,16 +43,21 @@ void add_family(Suite& suite, const std::string& family, const std::string& what
 void add_memory(Suite& suite, const std::string& name, swivel_features features)
 {
     const std::size_t arm_count = arms_within(3, features);
-    const Probe& probe = probe_of(suite.best_isa().c_str());
     add_family(suite, "threads", name + "/memory", arm_count, [&suite, features, arm_count](int threads) {
         return solve_on(threads, suite.crowds.get(features, arm_count), {});
-    });
-    add_family(suite, "copy_threads", name + "/memory", arm_count, [&, features, arm_count](int threads) {
-        return copy_on(threads, suite.crowds.get(features, arm_count), probe);
     });
 }
 
 }  // namespace
+
+int core_count()
+{
+#ifdef __linux__
+    cpu_set_t allowed;
+    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
+#endif
+    return static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
+}
 
 #ifdef SWIVEL_BENCH_TBB
 Work solve_on(int threads, swivel::Crowd& crowd, const swivel::Job& job)
@@ -106,10 +91,6 @@ void add_threads(Suite& suite)
         add_family(suite, "frame_threads", arms, arm_count, [frame](int threads) {
             return solve_on(threads, frame->framed().crowd(), {.frames = frame->framed().frames()});
         });
-        const Level* const level = level_for(suite.best_isa());
-        if (!level || arm_count < 16384) continue;
-        add_family(suite, "bare_threads", arms, arm_count,
-                   [frame, level](int threads) { return touch_on(threads, *frame, *level); });
     }
     add_memory(suite, "P", 0);
     add_memory(suite, "resident", kResident);

@@ -128,7 +128,7 @@ may_include(lecture "" "${standard}|\"include/swivel/lecture[.]h\"|\"core/[a-z_]
 # ---- tools and bench: the public headers and their own; a format knows no solver
 foreach(folder tools bench)
   # To count a formula's operations, op_counts needs the formula itself.
-  must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted(_values)?[.]h|(body_)?op_counts[.]cpp)$"
+  must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted[.]h|op_counts[.]cpp)$"
                "only the public headers are for it")
   must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h, swivel.hpp and lecture.h")
 endforeach()

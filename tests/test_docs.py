@@ -76,8 +76,7 @@ class Readme(unittest.TestCase):
         self.text = (ROOT / "README.md").read_text(encoding="utf-8")
 
     def test_links_lead_to_files(self):
-        for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "examples/README.md",
-                     ROOT / "bench/results/README.md"):
+        for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "examples/README.md"):
             for link in re.findall(r"\]\(([^)#:]+)", page.read_text(encoding="utf-8")):
                 self.assertTrue((page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}")
 

@@ -18,7 +18,7 @@ Contender loop_contender(const Level& level, const Loop& loop, std::span<const L
             for (std::size_t n = 0; n < copy.count(); ++n) copy[row][n] = run->poses[row][n];
         return copy;
     };
-    return {loop.name, level.name, loop.how, [run, solve = loop.solve] { solve(run->arms, run->poses); }, poses};
+    return {loop.name, level.name, [run, solve = loop.solve] { solve(run->arms, run->poses); }, poses};
 }
 
 struct SingleRun {
@@ -41,7 +41,7 @@ Contender single_contender(const Level& level, std::span<const Limb> limbs)
     const auto solve = [run, one_by_one = level.solve_single] {
         one_by_one(run->arms.data(), run->poses.data(), run->arms.size());
     };
-    return {"single_glm", level.name, "one arm at a time", solve, poses};
+    return {"single_glm", level.name, solve, poses};
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ namespace bench {
 
 struct Contender {
     std::string name, level;  // "loop_trig", "x86-64-v3"
-    std::string how;          // what the compiler made of it
     std::function<void()> solve;
     std::function<Poses()> poses;  // what it solved last
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A number that counts what is done with it: a float with the list of operations that core/num.h asks for, each of them
-// one more in a tally. Formulas run on it unchanged.
+// A number that counts what is done with it: a float with the list of operations that core/num.h asks for. Each root,
+// division, product and sum is one more in a tally. Formulas run on it unchanged.
 #pragma once
 
 #include <cmath>
@@ -29,22 +29,16 @@ struct CountedWord {
     std::uint32_t value;
 };
 
-inline Counted counted(int& count, float result)
+inline Counted uncounted(float result)
 {
-    ++count;
     Counted x;
     x.value = result;
     return x;
 }
-inline CountedMask compared(bool result)
+inline Counted counted(int& count, float result)
 {
-    ++tally.comparisons;
-    return {result};
-}
-inline CountedMask combined(bool result)
-{
-    ++tally.selects;
-    return {result};
+    ++count;
+    return uncounted(result);
 }
 
 inline Counted operator+(Counted a, Counted b) { return counted(tally.additions, a.value + b.value); }
@@ -55,52 +49,31 @@ inline Counted operator*(Counted a, Counted b)
     return counted(tally.multiplications, a.value * b.value);
 }
 inline Counted operator/(Counted a, Counted b) { return counted(tally.divisions, a.value / b.value); }
-inline Counted operator-(Counted a) { return counted(tally.selects, -a.value); }
 inline Counted sqrt(Counted x) { return counted(tally.roots, std::sqrt(x.value)); }
-inline Counted abs(Counted x) { return counted(tally.selects, std::fabs(x.value)); }
-inline Counted copysign(Counted x, Counted sign) { return counted(tally.selects, std::copysign(x.value, sign.value)); }
-inline Counted flip_sign(Counted x, Counted sign)
-{
-    return counted(tally.selects, std::signbit(sign.value) ? -x.value : x.value);
-}
-inline Counted power_of_two(Counted x) { return counted(tally.selects, swivel::power_of_two(x.value)); }
-inline Counted per_power_of_two(Counted x)
-{
-    ++tally.selects;  // its subtraction of words
-    return counted(tally.selects, swivel::per_power_of_two(x.value));
-}
 
-inline CountedMask operator<(Counted a, Counted b) { return compared(a.value < b.value); }
-inline CountedMask operator<=(Counted a, Counted b) { return compared(a.value <= b.value); }
-inline CountedMask operator>(Counted a, Counted b) { return compared(a.value > b.value); }
-inline CountedMask operator>=(Counted a, Counted b) { return compared(a.value >= b.value); }
-inline CountedMask operator==(Counted a, Counted b) { return compared(a.value == b.value); }
+inline Counted operator-(Counted a) { return uncounted(-a.value); }
+inline Counted abs(Counted x) { return uncounted(std::fabs(x.value)); }
+inline Counted copysign(Counted x, Counted sign) { return uncounted(std::copysign(x.value, sign.value)); }
+inline Counted flip_sign(Counted x, Counted sign) { return uncounted(std::signbit(sign.value) ? -x.value : x.value); }
+inline Counted power_of_two(Counted x) { return uncounted(swivel::power_of_two(x.value)); }
+inline Counted per_power_of_two(Counted x) { return uncounted(swivel::per_power_of_two(x.value)); }
 
-inline CountedMask operator&(CountedMask a, CountedMask b) { return combined(a.value && b.value); }
-inline CountedMask operator|(CountedMask a, CountedMask b) { return combined(a.value || b.value); }
-inline CountedMask operator!(CountedMask a) { return combined(!a.value); }
-inline bool any(CountedMask mask) { return combined(mask.value).value; }
-inline bool all(CountedMask mask) { return combined(mask.value).value; }
+inline CountedMask operator<(Counted a, Counted b) { return {a.value < b.value}; }
+inline CountedMask operator<=(Counted a, Counted b) { return {a.value <= b.value}; }
+inline CountedMask operator>(Counted a, Counted b) { return {a.value > b.value}; }
+inline CountedMask operator>=(Counted a, Counted b) { return {a.value >= b.value}; }
+inline CountedMask operator==(Counted a, Counted b) { return {a.value == b.value}; }
 
-inline Counted select(CountedMask mask, Counted a, Counted b)
-{
-    return counted(tally.selects, mask.value ? a.value : b.value);
-}
-inline CountedWord select(CountedMask mask, CountedWord a, CountedWord b)
-{
-    ++tally.selects;
-    return mask.value ? a : b;
-}
-inline CountedWord word_where(CountedMask mask, std::uint32_t word)
-{
-    ++tally.selects;
-    return {mask.value ? word : 0u};
-}
-inline CountedWord operator|(CountedWord a, CountedWord b)
-{
-    ++tally.selects;
-    return {a.value | b.value};
-}
+inline CountedMask operator&(CountedMask a, CountedMask b) { return {a.value && b.value}; }
+inline CountedMask operator|(CountedMask a, CountedMask b) { return {a.value || b.value}; }
+inline CountedMask operator!(CountedMask a) { return {!a.value}; }
+inline bool any(CountedMask mask) { return mask.value; }
+inline bool all(CountedMask mask) { return mask.value; }
+
+inline Counted select(CountedMask mask, Counted a, Counted b) { return uncounted(mask.value ? a.value : b.value); }
+inline CountedWord select(CountedMask mask, CountedWord a, CountedWord b) { return mask.value ? a : b; }
+inline CountedWord word_where(CountedMask mask, std::uint32_t word) { return {mask.value ? word : 0u}; }
+inline CountedWord operator|(CountedWord a, CountedWord b) { return {a.value | b.value}; }
 
 }  // namespace bench
 

@@ -31,7 +31,6 @@ constexpr void (*kSolveFrameOzz)(const FrameView&, const OzzView&) = nullptr;
 
 extern const Level level;
 const Level level{SWIVEL_LEVEL_NAME,
-                  SWIVEL_LEVEL_ISA,
                   SWIVEL_LEVEL_FLAGS,
                   {{"loop_trig", kTrig, solve_loop_trig},
                    {"loop_light", kTrig, solve_loop_light},
@@ -40,7 +39,6 @@ const Level level{SWIVEL_LEVEL_NAME,
                   solve_frame,
                   solve_bodies,
                   solve_characters,
-                  touch_frame,
                   kOzzFlags,
                   kSolveFrameOzz};
 

@@ -5,7 +5,6 @@
 // each level of CPUs, so that a kernel meets loops in registers of its own width.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "bench/rivals/arms.h"
@@ -33,22 +32,18 @@ struct SinglePose {
 
 struct Level {
     const char* name;   // as -march calls it
-    const char* isa;    // swivel's instruction set with registers of the same width
     const char* flags;  // of the compiler
     Loop loops[3];      // trig, light, roots: see loop.cpp
     void (*solve_single)(const SingleArm* arms, SinglePose* poses, std::size_t count);
     void (*solve_frame)(const FrameView& frame);                     // one arm at a time, too
     void (*solve_bodies)(BodyCharacter* bodies, std::size_t count);  // one body at a time
     void (*solve_characters)(const Character* in, Character* out, CharacterState* states, std::size_t count);
-    void (*touch_frame)(const FrameView& frame);  // reads and writes the same fields, and solves nothing
-    const char* ozz_flags;                        // null, and so is the next one: built without SWIVEL_OZZ_DIR
+    const char* ozz_flags;  // null, and so is the next one: built without SWIVEL_OZZ_DIR
     void (*solve_frame_ozz)(const FrameView& frame, const OzzView& given);
 };
 
 // The levels that this CPU runs, widest first; none on x86 CPUs older than x86-64-v2.
 std::vector<const Level*> runnable_levels();
-// The one whose registers are as wide as that instruction set's, or the narrowest; null where none runs.
-const Level* level_for(const std::string& isa);
 
 #ifdef SWIVEL_LEVEL  // in the files that are compiled once for each level
 namespace SWIVEL_LEVEL {
@@ -60,7 +55,6 @@ void solve_single(const SingleArm* arms, SinglePose* poses, std::size_t count);
 void solve_frame(const FrameView& frame);
 void solve_bodies(BodyCharacter* bodies, std::size_t count);
 void solve_characters(const Character* in, Character* out, CharacterState* states, std::size_t count);
-void touch_frame(const FrameView& frame);
 void solve_frame_ozz(const FrameView& frame, const OzzView& given);
 
 }  // namespace SWIVEL_LEVEL

@@ -2,8 +2,6 @@
 //
 // Which levels of rivals run here. __builtin_cpu_supports() also asks the operating system. Some compilers do not know
 // the levels' names. So this asks for the instruction sets that float loops use of each level.
-#include <iterator>
-
 #include "bench/rivals/level.h"
 
 namespace bench {
@@ -38,14 +36,6 @@ std::vector<const Level*> runnable_levels()
     levels.push_back(&plain::level);
 #endif
     return levels;
-}
-
-const Level* level_for(const std::string& isa)
-{
-    const std::vector<const Level*> levels = runnable_levels();
-    for (const Level* level : levels)
-        if (isa == level->isa) return level;
-    return levels.empty() ? nullptr : levels.back();
 }
 
 }  // namespace bench

@@ -153,15 +153,12 @@ swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::s
     return crowd;
 }
 
-std::size_t row_bytes(swivel_features features)
-{
-    const swivel::Crowd crowd({swivel::group(1, binding(), features)});
-    return sizeof(float) * (swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count);
-}
-
 std::size_t arms_within(std::size_t memory_level, swivel_features features)
 {
-    const std::size_t blocks = working_sets()[memory_level] / row_bytes(features) / SWIVEL_LANES;
+    const swivel::Crowd crowd({swivel::group(1, binding(), features)});
+    const std::size_t row_count =
+        swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count;
+    const std::size_t blocks = working_sets()[memory_level] / (row_count * sizeof(float)) / SWIVEL_LANES;
     return std::max(blocks, std::size_t{1}) * SWIVEL_LANES;
 }
 

@@ -37,18 +37,14 @@ inline constexpr swivel_features kResident = SWIVEL_WORLD | SWIVEL_JOINTS;
 // Parent frame, hand, cone and flexion limits, and a blend with an incoming pose.
 inline constexpr swivel_features kFullArm = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING |
                                             SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_SHOULDER_CONE;
-// Incoming poses, weights and limits of the first limbs of a crowd, where it has them.
+// Incoming poses, weights, reach and limits of the first limbs of a crowd, where it has them.
 void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count);
-// Other limits for some of them, with half-widths so many times as large.
-void write_limits(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, double width);
 
 // A crowd of one group with all inputs written; limbs repeat where the crowd is larger than they are.
 // region: for SWIVEL_WITH_REGION.
 swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs,
                          const swivel_region* region = nullptr);
-// Bytes of rows, in and out, that a solve of one arm touches.
-std::size_t row_bytes(swivel_features features);
-// Arms whose rows are at home in a level of memory, one of kMemoryLevels; whole blocks.
+// Arms whose rows, in and out, are at home in a level of memory, one of kMemoryLevels; whole blocks.
 std::size_t arms_within(std::size_t memory_level, swivel_features features);
 // Results of a crowd without features.
 Poses poses_of(const swivel::Crowd& crowd);

@@ -1,60 +1,231 @@
 // SPDX-License-Identifier: MIT
 //
-// It looks inside the library, as body_op_counts.cpp does: it runs the formula itself, on numbers that count.
+// It looks inside the library: it runs the formulas themselves, on numbers that count.
 #include "bench/rivals/op_counts.h"
 
+#include <array>
 #include <stdexcept>
 
-#include "bench/rivals/counted_values.h"
+#include "bench/rivals/character.h"
+#include "bench/rivals/counted.h"
+#include "bench/rivals/rifle.h"
+#include "core/fit.h"
+#include "core/ground.h"
 #include "core/limb.h"
-#include "core/solve_arm.h"
+#include "core/look.h"
+#include "core/plant.h"
+#include "core/posed_limb.h"
+#include "core/prop.h"
+#include "core/space.h"
+#include "core/spring.h"
 
 namespace bench {
 
 namespace {
 
-// With one of a binding's rotations on either side.
-template <class Rotation>
-Rotor<Counted> between(const Rotation& q)
+using swivel::Rotor;
+using Frame = swivel::JointFrame<Counted>;
+using Frames = std::array<Frame, kBodyJoints>;
+
+swivel::Vector<Counted> vector(double x, double y, double z)
 {
-    return rotor(0.1, 0.2, 0.3, 0.9) * q * rotor(0.2, 0.3, 0.1, 0.9);
+    return swivel::vector(Counted(x), Counted(y), Counted(z));
 }
+Rotor<Counted> rotor(double x, double y, double z, double w)
+{
+    return swivel::rotor(Counted(x), Counted(y), Counted(z), Counted(w));
+}
+// A joint's rotation as it is stored: on the incoming one's side.
+void store(const Rotor<Counted>& local, const Rotor<Counted>& incoming)
+{
+    swivel::with_sign_of(swivel::scalar_product(~incoming, local), local);
+}
+
+// Forward kinematics of all joints, which have no scales of their own.
+Frames counted_frames(const Frame& root)
+{
+    Frames frames;
+    for (std::size_t n = 0; n < kBodyJoints; ++n) {
+        const std::int32_t parent = kBodyParents[n];
+        const float(&offset)[3] = kBodyOffsets[n];
+        frames[n] =
+            swivel::joint_frame(parent < 0 ? root : frames[static_cast<std::size_t>(parent)],
+                                rotor(0.1, 0.05, -0.1, 0.98867), vector(offset[0], offset[1], offset[2]), Counted(1.0));
+    }
+    return frames;
+}
+
+// A target in the world that the limb reaches, as it is given: not counted.
+swivel::Vector<Counted> target_of(const Frames& frames, const BodyChain& chain, const swivel::Vector<Counted>& root)
+{
+    const OpCounts before = tally;
+    const swivel::Vector<Counted>&first = frames[chain.first].place, &last = frames[chain.last].place;
+    const swivel::Vector<Counted> target = root + last + Counted(0.2) * (first - last);
+    tally = before;
+    return target;
+}
+
+// The rifle's region, with half-spaces so wide that all is allowed.
+const swivel_region& allowing_region()
+{
+    static const swivel_region allowing = [] {
+        swivel_region region = rifle_region();
+        for (swivel_half_space& half : region.half_space) half.cosine = -1;
+        return region;
+    }();
+    return allowing;
+}
+
+// Its stages, from `posed` to `correct` (simd/stages.h). The arm of a rifle has weights, too, a flexion limit and a
+// region, which allows what is wished for.
+enum class Arm { plain, rifle };
+void count_body_limb(const Frames& frames, const BodyChain& chain, Arm arm = Arm::plain)
+{
+    const Rotor<Counted> of_binding = rotor(0.1, 0.2, 0.3, 0.92736), local = rotor(0.1, 0.05, -0.1, 0.98867);
+    const swivel::Vector<Counted> root = vector(1, 2, 3), target = target_of(frames, chain, root);
+    const Frame &parent = frames[static_cast<std::size_t>(kBodyParents[chain.first])], &shoulder = frames[chain.first],
+                &elbow = frames[chain.middle], &wrist = frames[chain.last];
+    const Counted per_scale = Counted(1.0) / parent.scale;
+    const swivel::SeenLimb<Counted> seen = swivel::seen_limb<swivel::BendNormal::own>(
+        swivel::PosedLimb<Counted>{parent.rotation, shoulder.rotation, shoulder.place, elbow.place, wrist.place},
+        of_binding, vector(1, 0, 0), Counted(0.0) < Counted(0.0));
+    const Rotor<Counted> upper_from_arm = ~shoulder.rotation * seen.frames.upper,
+                         fore_from_arm = ~elbow.rotation * seen.frames.fore;
+    swivel::LimbUse use;
+    use.hand = use.incoming = true;
+    use.wish = swivel::Wish::incoming;
+    swivel::LimbGoal<Counted> goal;
+    goal.arm = {per_scale * seen.back(target - root - shoulder.place), vector(0, 0, 0),
+                per_scale * seen.bones.upper_length, per_scale * seen.bones.fore_length};
+    goal.hand = ~seen.arm * rotor(0.3, 0.2, 0.1, 0.9) * ~of_binding;
+    goal.incoming = {seen.model.upper, seen.model.upper, seen.model.upper};  // of which the first is used
+    if (arm == Arm::rifle) {
+        use.weights = use.limits.flexion = true;
+        use.limits.region = &allowing_region();
+        goal.incoming = {seen.model.upper, ~seen.model.upper * seen.model.fore,
+                         ~seen.frames.fore * wrist.rotation * ~of_binding};
+        goal.weights = {Counted(0.9), Counted(0.8), Counted(0.0)};
+        goal.limits.flexion = {Counted(0.9997), Counted(0.3)};
+    }
+    const swivel::SolvedLimb<Counted> solved = swivel::solve_limb<false>(use, goal, Counted(0.0) <= Counted(0.0));
+
+    store(of_binding * solved.arm.shoulder * ~upper_from_arm, local);
+    store(upper_from_arm * swivel::elbow_rotor(solved.arm) * ~fore_from_arm, local);
+    store(fore_from_arm * solved.wrist * of_binding, local);
+    if (solved.arm.flags.value != SWIVEL_REACHED)
+        throw std::logic_error("the body's limb that is counted is not an ordinary one");
+}
+
+// A foot on its ground: what its heights add to a plant, and its turn, eased. Its heel is high enough.
+void count_ground()
+{
+    const Rotor<Counted> foot = rotor(0.1, 0.05, -0.1, 0.98867);
+    const swivel::Vector<Counted> up = swivel::turned(foot, vector(0, 1, 0)), toe = vector(0.1, 0.1, 0.3),
+                                  level = toe - swivel::scalar_product(up, toe) * up;
+    const auto ground = swivel::ground_plane(vector(1, 2, 3) - vector(1.1, 1.9, 3), vector(0.1, 1, 0.2), up);
+    const auto lift = swivel::sprung(swivel::Spring<Counted>{Counted(0.01), Counted(0.1)},
+                                     ground.way_up(level, Counted(0.0)), Counted(1.0 / 60), swivel::spring_rule(0.05f));
+    const swivel::GroundRules rules{};
+    toe + lift.at* up;
+    const auto normal =
+        swivel::sprung(swivel::Spring<swivel::Vector<Counted>>{vector(0.1, 1, 0.1), vector(0.2, 0, -0.1)},
+                       ground.slope(up), Counted(1.0 / 60), swivel::spring_rule(0.05f));
+    swivel::foot_on_ground(ground, swivel::leaning(ground, normal.at, up), up, {toe, foot},
+                           Counted(1.1) * vector(0, 0, -0.15), Counted(1.1), Counted(1.0), rules);
+}
+
+// Spine, chest, neck and head turn to a target, eased, and the joints of both arms come along.
+void count_look()
+{
+    constexpr int kTurned = 4, kFollowing = 8;
+    const auto place = [](int n) { return vector(0, 1.2 + 0.15 * n, 0.02); };
+    const Rotor<Counted> was = rotor(0.1, 0.05, -0.1, 0.98867);
+    const Counted scale(1.1);
+    const swivel::LookJoint joint{0.4f, 0.9f, 0.43589f};
+    // The line of sight, the target from it, and how much it counts.
+    swivel::LineOfSight<Counted> sight{place(3) + swivel::turned(was, scale * vector(0, 0.1, 0.1)),
+                                       swivel::turned(was, vector(0, 0, 1))};
+    const swivel::Vector<Counted> given = vector(3, 2.5, 7), target = given - vector(1, 0.5, 2);
+    const Counted weight =
+        Counted(0.9) * swivel::look_weight(sight, target, swivel::LookFade{-0.9f, 1.6f, 0.15f}, scale);
+    // The chain, the turns that are carried, and the joints' local rotations.
+    Rotor<Counted> sum = swivel::one<Counted>();
+    Counted tangents(0.0);
+    for (int n = 0; n < kTurned; ++n) {
+        const swivel::Vector<Counted> at = n == 0 ? place(0) : place(n - 1) + swivel::turned(sum, place(n) - place(0));
+        const swivel::LookTurn<Counted> turn = n + 1 < kTurned ? swivel::share_of_look(sight, target, weight, joint)
+                                                               : swivel::rest_of_look(sight, at, target, weight, joint);
+        sight = {at + swivel::turned(turn.turn, sight.eye - at), swivel::turned(turn.turn, sight.axis)};
+        swivel::turned(~(sum * was), vector(0.1, 0.05, -0.1));
+        tangents = tangents + swivel::look_way(swivel::from_quarter_tangent(vector(0.1, 0, 0)), turn.turn).tangent;
+        swivel::quarter_tangent(turn.turn);
+        sum = n == 0 ? turn.turn : swivel::unit_rotation(turn.turn * sum);
+        const Rotor<Counted> rotation = sum * was;
+        store(swivel::unit_rotation(~was * rotation), was);
+    }
+    for (int n = 0; n < kFollowing; ++n) {
+        sum* was;
+        place(0) + swivel::turned(sum, place(n) - place(0));
+    }
+    swivel::sees(sight, given);
+}
+
+// A foot that stands on a support that is not turned, between two changes.
+void count_plant()
+{
+    const auto no = [] { return Counted(0.0) < Counted(0.0); };
+    const swivel::PlantRules rules{0.12f, 0.24f, 0.06f, 0, 0.1f, 0.2f, 0.017f, 3.6f, 4, 10, 10, 0.6f, 0.8f, 0.1f, 0.1f};
+    const Rotor<Counted> foot = rotor(0.1, 0.05, -0.1, 0.98867);
+    swivel::PlantState<Counted> state{
+        vector(0.1, 0, 0.2), vector(0.01, 0, 0.02), vector(0.1, 0, 0.1), Counted(0.15), no(), no(), no(), no()};
+    const swivel::Vector<Counted> place = vector(0.1, 0.9, 0.1) +
+                                          Counted(1.1) * swivel::turned(foot, vector(0, -0.05, 0.1)),
+                                  from = vector(1, 0, 2);
+    const swivel::PlantInput<Counted> in{place + from, no(), Counted(1.0 / 60), Counted(0.85) * Counted(1.1)};
+    const swivel::Planted<Counted> planted = swivel::plant(state, in, rules);
+    swivel::len2(planted.target - from);
+}
+
+// The body's shift for two capped legs.
+void count_fit()
+{
+    const Rotor<Counted> foot = rotor(0.1, 0.05, -0.1, 0.98867);
+    swivel::ShiftSpan<Counted> span{Counted(-1.0), Counted(1.0), Counted(0.0) <= Counted(0.0)};
+    const swivel::Vector<Counted> up = swivel::turned(foot, vector(0, 1, 0));
+    for (int leg = 0; leg < 2; ++leg) {
+        const swivel::Vector<Counted> upper = vector(0.1, -0.4, 0.1), fore = vector(0, -0.4, -0.1),
+                                      from_wrist = Counted(1.1) * swivel::turned(foot, vector(0, -0.05, 0.1));
+        const Counted bones = sqrt(swivel::len2(upper)) + sqrt(swivel::len2(fore));
+        const swivel::Cap<Counted> cap{Counted(0.01), Counted(0.0), Counted(0.0), sqrt(swivel::len2(upper + fore))};
+        const Counted reach = swivel::capped_reach(cap, bones, bones).far;
+        span = span & swivel::shift_span(from_wrist + vector(0.1, 0.8, 0.1) - vector(0, 0.1, 0), up, reach);
+    }
+    const auto fitted = swivel::fitted_shift(span, Counted(0.0), Counted(0.08), Counted(0.04));
+    const auto spring = swivel::sprung(swivel::Spring<Counted>{Counted(0.01), Counted(0.1)}, fitted.shift,
+                                       Counted(1.0 / 60), swivel::spring_rule(0.1f));
+    const swivel::Vector<Counted> shift = spring.at * up;
+    swivel::len2(shift);
+}
+
 }  // namespace
 
-OpCounts count_ops()
+OpCounts count_character_ops()
 {
-    const swivel::ArmGoal<Counted> goal{vector(0.3, 0.1, 0.4), vector(0.2, -1, 0.1), Counted(0.3), Counted(0.26)};
     tally = {};
-    const swivel::Rotor<Counted> shoulder = swivel::solve_plain(goal).pose.shoulder;
-    swivel::with_sign_of(shoulder.at<swivel::kScalar>(), shoulder);
-    return tally;
-}
-
-OpCounts count_production_ops()
-{
-    swivel::LimbUse use;
-    use.hand = use.incoming = use.weights = use.reach = use.limits.flexion = use.limits.shoulder_cone = true;
-    swivel::ParentFrame<Counted> parent{vector(1, 2, 3), rotor(0.3, 0.1, 0.2, 0.9), Counted(1.1)};
-    const Rotor<Counted> shoulder = rotor(0.3, 0.2, 0.1, 0.9), elbow = rotor(-0.4, 0, 0, 0.9),
-                         hand = rotor(0.1, 0.3, 0.4, 0.8);
-    swivel::LimbGoal<Counted> goal;
-    goal.weights = {Counted(0.9), Counted(0.8), Counted(0.7)};
-    goal.reach = {Counted(0.1), Counted(0.1), Counted(1.1), Counted(0.2)};
-    goal.limits.flexion = {Counted(0.99), Counted(0.2)};
-    goal.limits.shoulder_cone = {vector(0, 0.6, 0.8), Counted(-0.99)};
-    tally = {};
-    parent.rotation = parent.rotation * rotor(0.1, 0.2, 0.3, 0.9);
-    const swivel::SeenGoal<Counted> seen = seen_by(parent, vector(1.3, 2.1, 3.4), vector(1.2, 1, 3.1), Counted(1.0));
-    const Counted shrink = Counted(1.0) / seen.size;
-    goal.arm = {shrink * seen.wrist, shrink * seen.pole, Counted(0.3), Counted(0.26)};
-    goal.hand = ~parent.rotation * hand * rotor(0.2, 0.1, 0.3, 0.9);
-    goal.incoming = {swivel::scaled(between(shoulder)), swivel::scaled(between(elbow)), swivel::scaled(between(hand))};
-    const swivel::SolvedLimb<Counted> solved = swivel::solve_limb<false>(use, goal, Counted(0.0) <= Counted(0.0));
-    store(between(solved.arm.shoulder), shoulder);
-    store(between(swivel::elbow_rotor(solved.arm)), elbow);
-    store(between(solved.wrist), hand);
-    if (solved.arm.flags.value != SWIVEL_REACHED)
-        throw std::logic_error("the production limb that is counted is not an ordinary one");
+    const Frame root{swivel::unit_rotation(rotor(0.1, -0.2, 0.05, 0.97340)), vector(0, 0, 0), Counted(1.1)};
+    const Frames frames = counted_frames(root);
+    for (std::size_t leg = 2; leg < kBodyLimbs; ++leg) {
+        count_plant();
+        count_ground();
+        count_body_limb(frames, kBodyChains[leg]);
+    }
+    count_fit();
+    count_look();
+    count_body_limb(frames, kBodyChains[kRightArm], Arm::rifle);
+    const swivel::HeldFrame<Counted> hand{rotor(0.1, 0.05, -0.1, 0.98867), vector(0.1, 0.2, 0.3)},
+        grip{rotor(0.1, 0.1, 0.1, 0.98489), vector(0.1, 0.05, 0.15)};
+    swivel::gripped(hand, grip, Counted(1.1));
+    count_body_limb(frames, kBodyChains[0]);
     return tally;
 }
 

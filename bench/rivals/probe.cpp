@@ -1,15 +1,55 @@
 // SPDX-License-Identifier: MIT
 //
-// The arithmetic of a probe, and its table; compiled once for each instruction set.
+// The arithmetic of a probe, and its table; compiled once for each instruction set. SWIVEL_PROBE_SCALAR: a register is
+// one float.
 #include "bench/rivals/probe.h"
 
+#include <cmath>
 #include <utility>
 
-#include "bench/rivals/wide.h"
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
 
 namespace bench::SWIVEL_ISA {
 
 namespace {
+
+#if defined(SWIVEL_PROBE_SCALAR) || !(defined(__x86_64__) || defined(__aarch64__))
+using Wide = float;
+inline Wide broadcast(float x) { return x; }
+inline Wide root_of(Wide x) { return std::sqrt(x); }
+#elif defined(__AVX512F__)
+using Wide = __m512;
+inline Wide broadcast(float x) { return _mm512_set1_ps(x); }
+inline Wide root_of(Wide x) { return _mm512_sqrt_ps(x); }
+#elif defined(__AVX2__)
+using Wide = __m256;
+inline Wide broadcast(float x) { return _mm256_set1_ps(x); }
+inline Wide root_of(Wide x) { return _mm256_sqrt_ps(x); }
+#elif defined(__x86_64__)
+using Wide = __m128;
+inline Wide broadcast(float x) { return _mm_set1_ps(x); }
+inline Wide root_of(Wide x) { return _mm_sqrt_ps(x); }
+#else
+using Wide = float32x4_t;
+inline Wide broadcast(float x) { return vdupq_n_f32(x); }
+inline Wide root_of(Wide x) { return vsqrtq_f32(x); }
+#endif
+
+// The compiler may not know this value from here on, and has to have worked it out.
+inline void keep(Wide& x)
+{
+#if defined(__x86_64__)
+    asm volatile("" : "+v"(x));
+#elif defined(__aarch64__)
+    asm volatile("" : "+w"(x));
+#else
+    asm volatile("" : "+m"(x));
+#endif
+}
 
 // Twelve values stay in registers on every instruction set, with two constants; in flight side by side they hide a
 // latency of 4 for two multipliers and two adders.
@@ -39,8 +79,6 @@ inline void once(Wide& x, Work work)
     keep(result);
 }
 
-}  // namespace
-
 void multiply_add(std::size_t count)
 {
     Wide factor = broadcast(1), term = broadcast(0);
@@ -61,29 +99,14 @@ void divide(std::size_t count)
     run(count, [&]<std::size_t N>(Wide& x) { once(x, [&](Wide by) { return dividend / by; }); });
 }
 
-void root_only(std::size_t count)
+void root(std::size_t count)
 {
-    run(count, []<std::size_t N>(Wide& x) { once(x, [](Wide of) { return root(of); }); });
+    run(count, []<std::size_t N>(Wide& x) { once(x, [](Wide of) { return root_of(of); }); });
 }
 
-void divide_and_root(std::size_t count)
-{
-    Wide dividend = broadcast(1.7654321f);
-    keep(dividend);
-    run(count, [&]<std::size_t N>(Wide& x) {
-        if constexpr (N % 2 == 0)
-            once(x, [&](Wide by) { return dividend / by; });
-        else
-            once(x, [](Wide of) { return root(of); });
-    });
-}
-
-#define SWIVEL_NAME_OF(isa) #isa
-#define SWIVEL_NAME(isa) SWIVEL_NAME_OF(isa)
+}  // namespace
 
 extern const Probe probe;
-const Probe probe{SWIVEL_NAME(SWIVEL_ISA), kWide,          multiply_add,  divide,    root_only,
-                  divide_and_root,         copy,           copy_streamed, copy_rows, read_rows,
-                  solve_by_hand,           solve_by_stages};
+const Probe probe{sizeof(Wide) / sizeof(float), multiply_add, divide, root};
 
 }  // namespace bench::SWIVEL_ISA

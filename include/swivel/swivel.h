@@ -53,7 +53,7 @@
 // other limbs' inputs.
 //
 // Read next: swivel_field for every value's meaning, swivel_bind() for skeletons, and swivel_solve(). The folder docs/
-// has guides with pictures; docs/speed.md says what each feature costs.
+// has guides with pictures; docs/speed.md says what characters and limbs cost.
 #pragma once
 
 #include <stddef.h>
@@ -413,7 +413,8 @@ typedef enum swivel_field {
     // and 1 once it has begun. Then the normal that the foot turns with, in the world, of any length, 3; its rate, 3.
     SWIVEL_LIFT,
     // 7, WITH_HAND_FRAME: where the wrist joint is after the solve, 3, in the space of the target, and its rotation in
-    // the world, 4. Bones are as long as SWIVEL_LENGTHS says, also where weights of 0 keep the pose, or stretched. It is NaN beyond 1e15, and after bad input but for a good pose that stays.
+    // the world, 4. Bones are as long as SWIVEL_LENGTHS says, also where weights of 0 keep the pose, or stretched. It
+    // is NaN beyond 1e15, and after bad input but for a good pose that stays.
     SWIVEL_HAND_FRAME,
     // 7, PROP: where it is, 3, in the space of the targets, and its rotation in the world, 4.
     SWIVEL_PROP_FRAME,
@@ -1287,7 +1288,8 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // by how much a line of sight misses. With the hands' records it says how far the prop moved, and how far each hand is
 // from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body `limb`, with a line for each that begins
 // "group 0: ". A text begins with warnings of what no solve refuses and hardly anybody means: another
-// unit, another origin, a time in milliseconds, a pose that is solved twice. Takes up to a millisecond for a limb; no allocation.
+// unit, another origin, a time in milliseconds, a pose that is solved twice. Takes up to a millisecond for a limb; no
+// allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
@@ -1312,7 +1314,8 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
 // is off, and what to look at, or a quaternion whose length shows that strides are wrong.
 //
 // They do not agree, either, where no place shows what is wrong: bones of the skeleton that are nearly twice as long as
-// the pose's or nearly half, a time above 1 second, or an elbow bent by 20 degrees and more to the other side than `bend` says.
+// the pose's or nearly half, a time above 1 second, or an elbow bent by 20 degrees and more to the other side than
+// `bend` says.
 //
 // What no place depends on cannot be seen, such as the wrist's own rotation. In SWIVEL_IN_BODY with translations the
 // call looks whether rotations lead along the bones, where these are as long as at rest. Matrices that lie 64 bytes

@@ -243,8 +243,7 @@ void add_verify(CLI::App& app)
 
 void add_bench(CLI::App& app)
 {
-    CLI::App* command =
-        app.add_subcommand("bench", "Time solves on this machine beside rivals, copies and the machine's limits");
+    CLI::App* command = app.add_subcommand("bench", "Time solves on this machine beside rivals");
     auto options = std::make_shared<BenchOptions>();
     takes(command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed, 0.1 to 3600")
               ->capture_default_str(),
