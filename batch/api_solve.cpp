@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <limits>
+#include <optional>
 
 #include "batch/budget.h"
 #include "batch/check.h"
@@ -207,15 +207,26 @@ swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::u
     return SWIVEL_OK;
 }
 
-// Keeps what explanations doubt of a pose: that of the first body, where all are solved.
-void note_pose(swivel_crowd& crowd, const swivel_job& job, std::uint32_t body)
+// The first body that a job solves; none: all are left out.
+std::optional<std::uint32_t> first_body(const Work& work)
 {
-    const swivel_pose pose = full_pose(job.pose);
-    float time = std::numeric_limits<float>::quiet_NaN();
-    if (pose.time.data && !job.mask && !job.limbs && !job.priorities)
-        std::memcpy(&time, static_cast<const char*>(pose.time.data) + body * pose.time.stride, sizeof time);
-    crowd.time.store(time, std::memory_order_relaxed);
-    crowd.is_in_place.store(!pose.results.data || pose.results.data == pose.rotations.data, std::memory_order_relaxed);
+    if (!work.mask && work.blocks.count > 0) return work.blocks.first * SWIVEL_LANES;
+    for (std::uint32_t block = work.blocks.first; block < work.blocks.first + work.blocks.count; ++block)
+        if (const LaneMask bits = chosen_limbs(work.crowd.groups[0], block, work.mask))
+            return block * SWIVEL_LANES + static_cast<std::uint32_t>(std::countr_zero(bits));
+    return std::nullopt;
+}
+// Keeps the time of a pose, if explanations doubt it.
+void note_time(swivel_crowd& crowd, const Work& work)
+{
+    const swivel_pose pose = full_pose(work.pose);
+    const std::optional<std::uint32_t> body = first_body(work);
+    if (!body || !pose.time.data) return crowd.doubted_time.store(kNoDoubt, std::memory_order_relaxed);
+    float time;
+    std::memcpy(&time, static_cast<const char*>(pose.time.data) + *body * pose.time.stride, sizeof time);
+    const bool is_in_place = !pose.results.data || pose.results.data == pose.rotations.data;
+    const bool is_doubted = time > 1 || (time == 0 && is_in_place);
+    crowd.doubted_time.store(is_doubted ? time : kNoDoubt, std::memory_order_relaxed);
 }
 
 std::uint32_t count_limbs(const Work& work)
@@ -266,8 +277,6 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
 
-    if (job.pose && blocks.count > 0) note_pose(*crowd, job, blocks.first * SWIVEL_LANES);
-
     const Work work{*crowd,
                     isa->kernels,
                     blocks,
@@ -280,6 +289,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
                     job.probes_only != 0,
                     job.sample,
                     job.sample_user};
+    if (work.pose && !work.probes_only) note_time(*crowd, work);
     if (job.on_this_thread)
         solve_here(work);
     else

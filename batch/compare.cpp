@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "batch/compared_limb.h"
+#include "batch/explain_doubts.h"
 
 namespace swivel {
 
@@ -122,14 +123,15 @@ private:
     }
     void doubt_bend()
     {
-        constexpr double kBent = 0.35;  // the sine of 20 degrees
+        constexpr double kStraight = 0.94;  // the cosine of 20 degrees
         const float(&h)[3] = limb_.crowd.groups[limb_.group].limb.hinge;
         const Vector<double> upper = limb_.posed.at[1] - limb_.posed.at[0],
                              fore = limb_.posed.at[2] - limb_.posed.at[1],
                              hinge = turned(limb_.body.rotation(limb_.joints.at[0], limb_.as_given),
                                             vector<double>(h[0], h[1], h[2])),
                              turn = cross(fore, upper);
-        if (scalar_product(hinge, turn) >= 0 || len2(turn) <= kBent * kBent * len2(upper) * len2(fore)) return;
+        const bool is_straight = scalar_product(upper, fore) > kStraight * std::sqrt(len2(upper) * len2(fore));
+        if (is_straight || !(scalar_product(hinge, turn) < 0)) return;
         doubtful().add(
             "The elbow, joint %u, is bent by %.3g degrees to the other side than the group's `bend` or its rest pose "
             "says. A bend is the direction that flexion carries the forearm towards, in the shoulder joint's frame.",
@@ -374,7 +376,7 @@ private:
         Reading how = limb_.as_given;
         how.root_in_other_numbers = true;
         const LimbPlaces ours = limb_.places(limb_.joints, how);
-        if (!(limb_.worst(ours) <= limb_.allowed(ours) + limb_.rounding())) return;
+        if (!(limb_.worst(ours) <= limb_.allowed(ours) + (pose.root_is_double ? limb_.rounding() : 0))) return;
         cause(ours).add(
             "%s",
             pose.root_is_double

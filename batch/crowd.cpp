@@ -216,6 +216,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     std::memset(base, 0, static_cast<std::size_t>(layout.end));
     swivel_crowd* const crowd = new (base) swivel_crowd{};
     crowd->alive = swivel_crowd::kAlive;
+    crowd->doubted_time = kNoDoubt;
     crowd->group_count = def.group_count;
     crowd->block_count = layout.block_count;
     crowd->block_bytes = static_cast<std::size_t>((layout.end - layout.rows) / layout.block_count);

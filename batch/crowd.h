@@ -61,13 +61,14 @@ struct swivel_crowd {
     std::uint32_t joint_count;        // 0: free limbs
     std::uint32_t body_row_count;     // of a block of bodies in a workspace
     std::atomic<std::uint64_t> busy;  // a bit for each workspace that a call is using
-    // Of the last solve of poses, for explain_doubts.h: the time of its first body, NaN where that may not be solved,
-    // and whether results went over the pose.
-    std::atomic<float> time;
-    std::atomic<bool> is_in_place;
+    // Below 0, or what swivel_explain() warns of: the time in s of the first body of the last solve, if that is above
+    // 1, or if it is 0 and the solve wrote its results over the pose.
+    std::atomic<float> doubted_time;
 };
 
 namespace swivel {
+
+inline constexpr float kNoDoubt = -1;  // swivel_crowd::doubted_time
 
 // With any of these features, a group's limbs are whole limbs.
 inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);

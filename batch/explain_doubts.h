@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Warnings of what no solve refuses, and hardly anybody means: another unit, another origin, a pose that is solved
-// twice. They come first in an explanation. Bars are far beyond what games have.
+// twice. They stand before the explanation of what they are about.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,13 @@
 
 namespace swivel {
 
-// Of the crowd's last solve: its time, and whether it wrote its results over the pose. Returns whether it warns.
+// A length that is so many times another one, or less than its inverse, is doubted to be in its unit: nearly twice.
+inline constexpr double kOtherUnit = 1.9;
+
+// Adds a warning of the crowd's last solve. Returns whether there is one.
 bool doubt_solve(const swivel_crowd& crowd, Text& text);
 
-// Of a body's limb with a record. solved: the same limb.
+// Adds warnings of a body's limb that has a record. solved: the limb, solved.
 void doubt_limb(const Group& group, std::uint32_t limb, const Probe& solved, Text& text);
 
 }  // namespace swivel

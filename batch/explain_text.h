@@ -12,9 +12,6 @@
 
 namespace swivel {
 
-// So many times as long or short as another one, a length is doubted to be in its unit: nearly twice.
-inline constexpr double kOtherUnit = 1.9;
-
 inline double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 class Text {

@@ -187,19 +187,21 @@ Hills random_hills(const Vector3d& size)
     return hills;
 }
 
-Hills steps_along(const Vector3d& way, double rise, double tread)
+Hills ground_along(const Vector3d& way, const std::function<double(double)>& height)
 {
     constexpr std::size_t kSamples = 401;
-    const double reach = 1.5 * way.norm(), count = std::ceil(reach / tread);  // of steps, on either side
-    Hills steps{kSamples, kSamples, {}, {2 * reach, 2 * count * std::fabs(rise), 2 * reach}};
+    const double reach = 1.5 * way.norm();
+    std::vector<double> heights;
     for (std::size_t row = 0; row < kSamples; ++row)
         for (std::size_t column = 0; column < kSamples; ++column) {
-            const Vector3d at(steps.size.x() * (static_cast<double>(column) / (kSamples - 1) - 0.5), 0,
-                              steps.size.z() * (static_cast<double>(row) / (kSamples - 1) - 0.5));
-            const double step = std::floor(at.dot(way.normalized()) / tread) / count / 2 * (rise > 0 ? 1 : -1) + 0.5;
-            steps.samples.push_back(static_cast<std::uint16_t>(65535 * std::clamp(step, 0.0, 1.0)));
+            const auto place = [&](std::size_t n) { return reach * (2 * static_cast<double>(n) / (kSamples - 1) - 1); };
+            heights.push_back(height(Vector3d(place(column), 0, place(row)).dot(way.normalized())));
         }
-    return steps;
+    const auto [low, high] = std::ranges::minmax(heights);
+    Hills ground{kSamples, kSamples, {}, {2 * reach, high - low, 2 * reach}};
+    for (const double each : heights)
+        ground.samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * (each - low) / (high - low))));
+    return ground;
 }
 
 void write_png(const fs::path& path, const Hills& hills, int bits)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 
 #include "tests/plain_motion.h"
@@ -61,8 +62,9 @@ struct Hills {
     double height(double x, double z) const;
 };
 Hills random_hills(const Eigen::Vector3d& size);
-// Steps up along a way from the world's origin, or down if rise is below 0. An edge is three samples wide.
-Hills steps_along(const Eigen::Vector3d& way, double rise, double tread);
+// Ground whose height changes along a way from the world's origin alone. height: where one is so far along it, both in
+// the clip's unit. An edge of it is three samples wide.
+Hills ground_along(const Eigen::Vector3d& way, const std::function<double(double)>& height);
 // bits: 8 or 16; of 8 the upper ones.
 void write_png(const fs::path& path, const Hills& hills, int bits);
 

@@ -50,7 +50,7 @@ struct GlidingLeg {
         std::array<Float3, 4> places = kOffsets;
         for (Float3& place : places)
             for (float& number : place) number *= stretch;
-        pose.translations = {places.data(), sizeof places, sizeof places[0], nullptr};
+        if (stretch != 1) pose.translations = {places.data(), sizeof places, sizeof places[0], nullptr};
         pose.root_position = {&root, 0};
         pose.root_scale = {&scale, 0};
         pose.support_position = {&support, 0};

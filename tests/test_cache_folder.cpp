@@ -4,12 +4,10 @@
 // it ask for no more memory than is given. Nothing is removed but what a cache writes.
 #include <catch2/catch.hpp>
 
-#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include "tests/cache_stage.h"
 #include "tools/cache/cache_attributes.h"
-#include "tools/cache/cache_maker.h"
 #include "tools/cache/digest.h"
 
 using namespace swivel;
@@ -134,23 +132,4 @@ TEST_CASE("Attributes that are long or deep are refused")
     spill(stage.at(".zattrs"), "{\"swivel_cache\": 1}");
     stage.require_refused({"check", "cache"},
                           "the cache has format 1, this swivel reads format 9; make it anew by swivel store");
-}
-
-TEST_CASE("strides that leave the clip are refused, though their digests are right")
-{
-    const CacheStage stage;
-    const Cache good(stage.folder / "cache");
-    constexpr std::uint32_t kFar = 1000;
-    int made = 0;
-    for (const goal_stride& bad : {goal_stride{kFar, 0, 0, 0}, goal_stride{0, kFar, kFar, 0},
-                                   goal_stride{0, 0, 0, kFar}, goal_stride{0, 1, 0, 0}}) {
-        CachedCrowd crowd = good.crowd();
-        crowd.limbs[0].sources[1].stride = bad;
-        const std::string name = fmt::format("bad{}", ++made);
-        CacheMaker maker(stage.folder / name, crowd);
-        for (std::uint32_t column = 0; column < crowd.column_count(); ++column)
-            maker.write_characters(column, good.characters(column));
-        maker.commit();
-        stage.require_refused({"check", name}, "has strides that are not within the clip");
-    }
 }

@@ -81,18 +81,26 @@ TEST_CASE("explain warns of what is in another unit or from another origin")
     CHECK(warning(leg) == "its bones are 0");  // 0.5
 
     GlidingLeg effector(kStands);
-    effector.crowd.write_all(SWIVEL_EFFECTOR, 0, std::array{0.0f, 0.0f, 11.0f});
-    CHECK(warning(effector) == "its effector is 11 from the wrist joint, but its bones are 0");  // 0.9
-    GlidingLeg target;
-    target.crowd.write_all(SWIVEL_TARGET, 0, std::array{0.0f, 100.0f, 0.0f});
-    CHECK(has(warning(target), "its target is 1"));  // 109 limb lengths
+    for (const auto& [length, warns] : {std::pair{8.9f, false}, {11.0f, true}}) {
+        effector.crowd.write_all(SWIVEL_EFFECTOR, 0, std::array{0.0f, 0.0f, length});
+        CHECK(has(warning(effector) + ".", warns ? "its effector is 12" : "."));
+    }
+    GlidingLeg target(kPlants | SWIVEL_WITH_WEIGHTS);
+    for (const auto& [weight, warns] : {std::pair{1.0f, true}, {0.0f, false}}) {
+        target.crowd.write_all(SWIVEL_TARGET, 0, std::array{0.0f, 13.0f, 0.0f});
+        target.crowd.write_all(SWIVEL_WEIGHTS, 0, std::array{weight, 1.0f, 1.0f});
+        CHECK(warning(target).starts_with(warns ? "its target is 1" : ""));
+        CHECK(warning(target).empty() == !warns);
+    }
     GlidingLeg ground(kStands);
-    ground.crowd.write_all(SWIVEL_GROUND, 0, std::array{0.0f, 50.0f, 0.0f});
-    ground.crowd.write_all(SWIVEL_GROUND_NORMAL, 0, std::array{0.0f, 1.0f, 0.0f});
-    CHECK(has(warning(ground), "the ground below it is 50 from the root's level"));
+    for (const auto& [height, warns] : {std::pair{8.0f, false}, {50.0f, true}}) {
+        ground.crowd.write_all(SWIVEL_GROUND, 0, std::array{0.0f, height, 0.0f});
+        ground.crowd.write_all(SWIVEL_GROUND_NORMAL, 0, std::array{0.0f, 1.0f, 0.0f});
+        CHECK((ground.glide(1, 0, 30), has(ground.text() + ".", "the ground below it is 55")) == warns);
+    }
     GlidingLeg far;
     far.root[0] = 1e5f;
-    CHECK(has(warning(far), "it is planted 1e+05 away from its support, where floats are good to 0"));
+    CHECK(has(warning(far), "its point is 1e+05 from the support that it is planted on"));
     GlidingLeg near;
     near.root[0] = near.support[0] = 1e5f;
     CHECK(warning(near).empty());

@@ -19,6 +19,8 @@
 #include "tests/pose_rows.h"
 #include "tests/run_command.h"
 #include "tests/shared_figures.h"
+#include "tools/cache/cache_maker.h"
+#include "tools/crowd/stands.h"
 
 using namespace swivel::test;
 using Catch::Matchers::Contains;
@@ -200,44 +202,84 @@ double jump_of(const PlainLegs& legs, std::span<const std::vector<Vector3d>* con
     return most / legs.frame_time / legs.leg_length(0);
 }
 
+// Ground by the way along it, in millimetres.
+struct Profile {
+    const char* name;
+    double edge;  // the highest
+    double (*height)(double);
+};
+constexpr Profile kProfiles[] = {
+    {"18 cm up", 180, [](double way) { return 180 * std::floor(way / 280); }},
+    {"10 cm up", 100, [](double way) { return 100 * std::floor(way / 280); }},
+    {"18 cm down", 180, [](double way) { return -180 * std::floor(way / 280); }},
+    {"10 cm down", 100, [](double way) { return -100 * std::floor(way / 280); }},
+    {"a kerb of 15 cm", 150, [](double way) { return way > 700 ? 150.0 : 0.0; }},
+    {"a gap of 10 cm", 340, [](double way) { return way > 700 && way < 800 ? -340.0 : 0.0; }}};
+
 TEST_CASE("a crowd climbs steps without a jump, and its feet stand on them")
 {
-    const std::size_t every = GENERATE(2, 4);
-    const double rise = GENERATE(180.0, 100.0, -180.0);  // mm
-    HillStage stage({.every = every});
+    const std::size_t every = GENERATE(1, 2, 4);
+    const HillStage stage({.every = every});
     const PlainLegs before = stage.legs_of("walk.bvh");
-    const Hills steps = steps_along(before.body.back() - before.body.front(), rise / kMillimetres, 280 / kMillimetres);
-    write_png(stage.folder / "steps.png", steps, 16);
-    stage.solved(fmt::format("[crowd]\nlimbs = \"all\"\n[ground]\nheights = \"steps.png\"\nsize = [{}, {}, {}]\n",
-                             steps.size.x(), steps.size.y(), steps.size.z()),
-                 {"--out", "out.bvh", "--quiet"});
-    const PlainLegs after = stage.legs_of("out.bvh");
     const auto jumps = [](const PlainLegs& legs) {
         return std::array{jump_of(legs, std::array{&legs.body}),
                           jump_of(legs, std::array{&legs.legs[0].toe, &legs.legs[1].toe})};
     };
-    double gap = 0, depth = 0;
-    for (std::size_t side = 0; side < 2; ++side) {
-        const auto [least, most] = stage.clearance(side);
-        std::size_t since = 0;
-        for (std::size_t frame = 0; frame < after.frame_count(); ++frame) {
-            const Vector3d& toe = after.legs[side].toe[frame];
-            const double height = toe.y() - stage.floor - steps.height(toe.x(), toe.z());
-            depth = std::max(depth, least - height);
-            since = stage.contacts[side][frame] ? since + 1 : 0;
-            if (static_cast<double>(since) * stage.frame_time > 0.1)
-                gap = std::max(gap, std::fabs(height - std::clamp(height, least, most)));
+    for (const Profile& profile : kProfiles) {
+        const Hills ground = ground_along(before.body.back() - before.body.front(), [&](double way) {
+            return profile.height(kMillimetres * way) / kMillimetres;
+        });
+        write_png(stage.folder / "steps.png", ground, 16);
+        stage.solved(fmt::format("[crowd]\nlimbs = \"all\"\n[ground]\nheights = \"steps.png\"\nsize = [{}, {}, {}]\n",
+                                 ground.size.x(), ground.size.y(), ground.size.z()),
+                     {"--out", "out.bvh", "--quiet"});
+        const PlainLegs after = stage.legs_of("out.bvh");
+        double gap = 0, depth = 0;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const auto [least, most] = stage.clearance(side);
+            std::size_t since = 0;
+            for (std::size_t frame = 0; frame < after.frame_count(); ++frame) {
+                const Vector3d& toe = after.legs[side].toe[frame];
+                const double height = toe.y() - stage.floor - ground.height(toe.x(), toe.z());
+                depth = std::max(depth, least - height);
+                since = stage.contacts[side][frame] ? since + 1 : 0;
+                if (static_cast<double>(since) * stage.frame_time > 0.1)
+                    gap = std::max(gap, std::fabs(height - std::clamp(height, least, most)));
+            }
         }
+        const auto [hips, toes] = jumps(after);
+        const auto [own_hips, own_toes] = jumps(before);
+        std::printf("%s, %.0f fps: jumps %.2f (hips) and %.2f (toes) of the clip's; gap %.2f mm, depth %.2f mm\n",
+                    profile.name, 1 / stage.frame_time, hips / own_hips, toes / own_toes, kMillimetres * gap,
+                    kMillimetres * depth);
+        CHECK(hips < 2 * own_hips);
+        CHECK(toes < 2 * own_toes);
+        CHECK(kMillimetres * gap < 5);
+        CHECK(kMillimetres * depth < 0.5 * profile.edge);  // of a toe in the air, at an edge that it has just passed
     }
-    const auto [hips, toes] = jumps(after);
-    const auto [own_hips, own_toes] = jumps(before);
-    std::printf(
-        "steps of %.0f mm, %.0f fps: jumps %.2f (hips) and %.2f (toes) of the clip's; gap %.2f mm, depth %.2f mm\n",
-        rise, 1 / stage.frame_time, hips / own_hips, toes / own_toes, kMillimetres * gap, kMillimetres * depth);
-    CHECK(hips < 2 * own_hips);
-    CHECK(toes < 2 * own_toes);
-    CHECK(kMillimetres * gap < 10);
-    CHECK(kMillimetres * depth < 0.5 * std::fabs(rise));  // of a toe in the air, at an edge that it has just passed
+}
+
+TEST_CASE("a leg's stands are its contacts, and frames between that no swing is longer than a second")
+{
+    const auto frames = [](std::initializer_list<std::pair<int, bool>> runs) {
+        std::vector<bool> contact;
+        for (const auto& [count, is_down] : runs)
+            contact.insert(contact.end(), static_cast<std::size_t>(count), is_down);
+        return contact;
+    };
+    const auto stands = [](const std::vector<bool>& contact, double frame_time) {
+        std::string text;
+        for (const swivel::tools::Contact& stand : swivel::tools::stands_of(contact, frame_time))
+            text += fmt::format("{}-{} ", stand.first, stand.end);
+        return text;
+    };
+    CHECK(stands(frames({{3, true}, {4, false}, {2, true}}), 0.1) == "0-3 7-9 ");
+    CHECK(stands(frames({{1, false}}), 0.1) == "0-1 ");                                  // no contact
+    CHECK(stands(frames({{1, true}}), 0.1) == "0-1 ");                                   // one frame
+    CHECK(stands(frames({{3, false}, {2, true}, {3, false}}), 0.03) == "3-5 ");          // 0.09 s
+    CHECK(stands(frames({{3, false}, {2, true}, {3, false}}), 0.04) == "0-1 3-5 7-8 ");  // 0.12 s
+    CHECK(stands(frames({{1, true}, {25, false}, {1, true}}), 0.1) == "0-1 9-10 17-18 26-27 ");
+    CHECK(stands(frames({{1, true}, {2, false}, {1, true}}), 5) == "0-1 1-2 2-3 3-4 ");  // frames of 5 s
 }
 
 TEST_CASE("a clip that is written stands as its table says, and threads change nothing")
@@ -277,6 +319,31 @@ TEST_CASE("a cache of a crowd on hills has the table's bits, whoever fills it")
     const std::vector<std::string> all = sorted_lines(slurp(stage.folder / "out.csv"));
     for (const std::string& line : sorted_lines(slurp(stage.folder / "later.csv")))
         CHECK(std::ranges::binary_search(all, line));
+}
+
+TEST_CASE("strides that leave the clip of a cache are refused, though their digests are right")
+{
+    const HillStage stage;
+    spill(stage.folder / "c.toml", "[crowd]\nlimbs = \"all\"\n[ground]\n");
+    const auto run = [&](const Words& words) { return run_command(stage.folder.path, words); };
+    REQUIRE(run({"store", "walk.bvh", "--crowd", "c.toml", "good", "--quiet"}).exit_code == 0);
+    const swivel::tools::Cache good(stage.folder / "good");
+    const auto is_leg = [](const swivel::tools::CachedLimb& limb) { return limb.setup.has(SWIVEL_WITH_GROUND); };
+    constexpr std::uint32_t kFar = 1000;
+    int made = 0;
+    for (const goal_stride& bad : {goal_stride{kFar, 2, 3, 3}, goal_stride{0, kFar, kFar, 0},
+                                   goal_stride{0, 2, 3, kFar}, goal_stride{0, 1, 1, 0}, goal_stride{0, 0, 0, 0}}) {
+        swivel::tools::CachedCrowd crowd = good.crowd();
+        std::ranges::find_if(crowd.limbs, is_leg)->sources[1].stride = bad;
+        const std::string name = fmt::format("bad{}", ++made);
+        swivel::tools::CacheMaker maker(stage.folder / name, crowd);
+        for (std::uint32_t column = 0; column < crowd.column_count(); ++column)
+            maker.write_characters(column, good.characters(column));
+        maker.commit();
+        const Outcome outcome = run({"check", name});
+        CHECK(outcome.exit_code == 1);
+        CHECK_THAT(outcome.err, Contains("has strides that are not within the clip"));
+    }
 }
 
 TEST_CASE("a foot stands on the point that the file says, and arms that go along are in no table of targets")

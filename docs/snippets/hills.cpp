@@ -36,13 +36,14 @@ struct Character {
 };
 
 struct Terrain {
-    float height(float x, float z) const
+    float height(double x, double z) const
     {
-        return 0.15f * std::sin(0.9f * x) + 0.1f * std::sin(0.7f * z);
+        return static_cast<float>(0.15 * std::sin(0.9 * x) + 0.1 * std::sin(0.7 * z));
     }
-    Float3 normal(float x, float z) const  // of any length
+    Float3 normal(double x, double z) const  // of any length
     {
-        return {-0.135f * std::cos(0.9f * x), 1, -0.07f * std::cos(0.7f * z)};
+        return {static_cast<float>(-0.135 * std::cos(0.9 * x)), 1,
+                static_cast<float>(-0.07 * std::cos(0.7 * z))};
     }
 };
 const Terrain terrain;
@@ -208,8 +209,7 @@ TEST_CASE("docs: feet on hills")
             for (std::size_t foot = 0; foot < probes.places.size(); ++foot) {
                 const auto& at = probes.places[foot];              // from the root
                 const Double3& root = roots[probes.bodies[foot]];  // in the world
-                const auto x = static_cast<float>(root[0] + double{at[0]}),
-                           z = static_cast<float>(root[2] + double{at[2]});
+                const double x = root[0] + double{at[0]}, z = root[2] + double{at[2]};
                 const double height = double{terrain.height(x, z)} - root[1];
                 probes.grounds[foot][0] = at[0];
                 probes.grounds[foot][1] = static_cast<float>(height);

@@ -1287,8 +1287,8 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // is upright. Of a group that is no limb it needs none, and says how the body is shifted, where the prop is and why, or
 // by how much a line of sight misses. With the hands' records it says how far the prop moved, and how far each hand is
 // from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body `limb`, with a line for each that begins
-// "group 0: ". A text begins with warnings of what no solve refuses and hardly anybody means: another
-// unit, another origin, a time in milliseconds, a pose that is solved twice. Takes up to a millisecond for a limb; no
+// "group 0: ". It warns of what no solve refuses and hardly anybody means: another unit, another
+// origin, a time in milliseconds, a pose that is solved twice. A warning of the last solve is a line of its own there. Takes up to a millisecond for a limb; no
 // allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);

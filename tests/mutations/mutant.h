@@ -52,9 +52,9 @@ struct Left {
 };
 #define SWIVEL_MUTANTS(op, other)                                  \
     template <class A>                                             \
-    constexpr Left<A> operator op(const A& a, Other of)            \
+    constexpr Left<A> operator op(const A& a, Other fault)         \
     {                                                              \
-        return {a, of.number};                                     \
+        return {a, fault.number};                                  \
     }                                                              \
     template <class A, class B>                                    \
     constexpr auto operator op(Left<A> left, const B& b)           \
@@ -75,14 +75,14 @@ SWIVEL_MUTANTS(&, |)
 SWIVEL_MUTANTS(|, &)
 #undef SWIVEL_MUTANTS
 
-// Stands before a condition: Never{7} & mask is the mask, or false in every lane if mutant 7 is alive.
+// Stands before a condition: Never{7} && mask is the mask, or false in every lane if mutant 7 is alive.
 struct Never {
     int number;
 };
 template <class Mask>
-constexpr Mask operator&(Never of, const Mask& mask)
+constexpr Mask operator&&(Never fault, const Mask& mask)
 {
-    if (is_alive(of.number)) return Mask(mask & !mask);
+    if (is_alive(fault.number)) return Mask(mask & !mask);
     return mask;
 }
 

@@ -19,10 +19,11 @@ import sys
 import time
 from pathlib import Path
 
-from run import SOURCE, Build, Failure, copy_tree
+from run import SOURCE, Build, Failure, copy_tree, locked
 
 AREAS = {"library": (("core", "simd", "batch"), 400), "tools": (("tools/rig", "tools/feet", "tools/formats", "tools/crowd"), 100)}
 SEED = 20261129
+MOST = 4096  # as mutant.h has it
 OPERATOR = re.compile(r"(?<=[\w)\]]) (\+|-|<=|>=|<|>|==|!=|&|\|) (?=[\w(-])")
 STATEMENT = re.compile(r"^\s*(?!return\b|using\b|throw\b|delete\b|goto\b|else\b)(?:[\w.\[\]]|->|::)+(?: [-+*/|&^]?= [^;]*|\([^;]*\));$")
 NO_CODE = re.compile(r"^\s*(#|template\b|using\b|static_assert\b|requires\b|friend\b|constexpr\b|inline constexpr\b|static constexpr\b)|operator")
@@ -43,9 +44,9 @@ def sites_in(path, text):
                 op = found.group(1)
                 yield path, number, found.start(1), len(op), f"{op} swivel_mutants::Other{{{{{{}}}}}} {op}"
             for found in re.finditer(r"(?<![\w:])select\((?!const\b)", line):
-                yield path, number, found.end(), 0, "swivel_mutants::Never{{{}}} & "
+                yield path, number, found.end(), 0, "swivel_mutants::Never{{{}}} && "
             if STATEMENT.match(line) and before[-1] in ";{})":
-                yield path, number, len(line) - len(line.lstrip()), 0, "if (!swivel_mutants::is_alive({})) "
+                yield path, number, len(line) - len(line.lstrip()), 0, "if (swivel_mutants::is_alive({})) {{}} else "
         before = line.strip() or before
 
 
@@ -72,6 +73,8 @@ def drawn(options):
         sites = [site for name in files for site in sites_in(name, (SOURCE / name).read_text()) if changed is None or site[1] in changed[name]]
         wanted = min(len(sites), options.count or (count if changed is None else len(sites)))
         faults += random.Random(options.seed).sample(sites, wanted)
+    if len(faults) > MOST:
+        raise Failure(f"{len(faults)} faults are more than mutant.h has room for, {MOST}; give --count")
     return sorted(faults)
 
 
@@ -157,7 +160,11 @@ def main():
     parser.add_argument("--work", type=Path, default=SOURCE / "build" / "mutations", help="the folder to work in (%(default)s)")
     options = parser.parse_args()
     begin = time.monotonic()
-    faults = drawn(options)
+    try:
+        faults = drawn(options)
+    except Failure as failure:
+        print(f"operators.py: {failure}", file=sys.stderr)
+        return 1
     name = lambda number: f"{faults[number][0]}:{faults[number][1]}:{faults[number][2] + 1} {faults[number][4].format('')}"  # noqa: E731
     if options.list:
         print(*map(name, range(len(faults))), sep="\n")
@@ -166,6 +173,7 @@ def main():
         work = options.work.resolve() / "operators"
         tree = work / "tree"
         tree.mkdir(parents=True, exist_ok=True)
+        lock = locked(work)  # noqa: F841
         copy_tree(tree)
         build = Build(work / "scalar", tree, "scalar", False)
         dropped = build_all(build, tree, faults)

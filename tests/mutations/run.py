@@ -24,6 +24,16 @@ class Failure(Exception):
     """Nothing can be said of any mutation."""
 
 
+def locked(work):
+    """A file that keeps others out of the folder as long as it is open."""
+    lock = open(work / "lock", "w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        raise Failure(f"another run is at work in {work}; wait for it, or give --work another folder") from None
+    return lock
+
+
 def copy_tree(tree):
     """Makes the tree what git tracks, and will track, as it is now. Files that are right stay untouched, so little is rebuilt."""
     listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=SOURCE,
@@ -142,11 +152,7 @@ def run_all(mutations, work):
     """Yields each mutation with its verdict and the seconds it took."""
     tree = work / "tree"
     tree.mkdir(parents=True, exist_ok=True)
-    lock = open(work / "lock", "w")
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        raise Failure(f"another run is at work in {work}; wait for it, or give --work another folder") from None
+    lock = locked(work)  # noqa: F841
     copy_tree(tree)
     number = 0
     for isa in dict.fromkeys(mutation.get("isa", "scalar") for mutation in mutations):

@@ -52,6 +52,18 @@ std::uint64_t state_digest(const Results& results)
     return digest_of(of_fields);
 }
 
+// Whether a limb that stands on ground goes from frame to frame of the clip, and any other limb nowhere.
+bool has_strides(std::span<const goal_source> sources, bool stands)
+{
+    for (std::size_t frame = 0; frame < sources.size(); ++frame) {
+        const auto& [stand, leaves, lands, next] = sources[frame].stride;
+        const bool is_in_clip = stand < sources.size() && next < sources.size() && lands < sources.size() &&
+                                (frame < leaves || frame < lands);
+        if (stands ? leaves == 0 || !is_in_clip : leaves != 0) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Cache::Cache(const fs::path& folder) : Cache(PlainFolder(folder_name(folder), kNoCache)) {}
@@ -69,19 +81,6 @@ Cache::Cache(PlainFolder files) : crowd_(read_crowd(files)), arrays_(crowd_), st
     read_clip();
 }
 
-// Frames that a foot goes from and to are frames of the clip.
-void Cache::require_strides(std::span<const goal_source> sources) const
-{
-    for (std::size_t frame = 0; frame < sources.size(); ++frame) {
-        const auto& [stand, leaves, lands, next] = sources[frame].stride;
-        if (stand < sources.size() && next < sources.size() && lands < sources.size() &&
-            (leaves == 0 || frame < leaves || leaves <= lands))
-            continue;
-        throw InputError(folder() / "clip",
-                         "has strides that are not within the clip; make the cache anew by swivel store");
-    }
-}
-
 void Cache::read_clip()
 {
     std::vector<std::vector<goal_source>*> sources;  // of each limb
@@ -95,7 +94,11 @@ void Cache::read_clip()
         for (std::size_t limb = 0; limb < sources.size(); ++limb)
             scatter(std::span(bytes).subspan(limb * of_limb, of_limb), kSourceMembers[n], std::span(*sources[limb]));
     }
-    for (const std::vector<goal_source>* of_limb : sources) require_strides(*of_limb);
+    for (std::size_t limb = 0; limb < sources.size(); ++limb)
+        if (!has_strides(*sources[limb],
+                         limb < crowd_.limbs.size() && crowd_.limbs[limb].setup.has(SWIVEL_WITH_GROUND)))
+            throw InputError(folder() / "clip",
+                             "has strides that are not within the clip; make the cache anew by swivel store");
     crowd_.positions.resize(arrays_.clip.back().chunk_bytes() / sizeof(float));
     require_made(arrays_.clip.back(), {}, std::as_writable_bytes(std::span(crowd_.positions)));
     if (arrays_.ground.empty()) return;

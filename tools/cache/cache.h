@@ -64,7 +64,6 @@ public:
 private:
     explicit Cache(PlainFolder folder);
     void read_clip();
-    void require_strides(std::span<const goal_source> sources) const;
     bool read_made(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
     void require_made(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
     std::optional<Results> read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place, bool is_state) const;

@@ -114,7 +114,7 @@ void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, cons
 // Where a foot goes in this frame of its stride.
 void put_foot(const Stride& stride, goal_input& input)
 {
-    input.target[0] += stride.aside[0], input.target[2] += stride.aside[1];
+    input.target[0] = stride.plane[0], input.target[2] = stride.plane[2];
     copy(stride.plane, input.plane);
     copy(stride.slopes, input.slopes);
     input.room = static_cast<float>(stride.room);
@@ -133,25 +133,31 @@ struct Standing {
     const goal_input* inputs;
     uint32_t limb_count;
 };
+// The plane that a foot has below a probe at x and z in the world: that of its stride, or the ground as it lies where
+// somebody has given it another target.
+GroundPoint plane_below(const Standing& on, const goal_root& root, const goal_input& foot, double x, double z)
+{
+    constexpr double kMostRaised = 0.01;  // leg lengths: a man's centimetre, which nobody sees as a jump
+    const GroundPoint below = ground_at(*on.ground, on.heights, x, z);
+    if (foot.target[0] != foot.plane[0] || foot.target[2] != foot.plane[2]) return below;
+    const double slope_x{foot.slopes[0]}, slope_z{foot.slopes[1]};
+    const double level = foot.plane[1] + slope_x * (x - foot.plane[0]) + slope_z * (z - foot.plane[2]);
+    // No toe is in the ground, except where it would jump up an edge.
+    const double lacks = below.height - level - double{foot.room},
+                 most = kMostRaised * double{root.size} * (length_of(foot.places[2]) + length_of(foot.places[3]));
+    return {level + (lacks < 0 ? 0 : lacks < most ? lacks : most), slope_x, slope_z};
+}
 void sample(const swivel_probes* probes, void* user)
 {
-    constexpr double kMostRaised = 0.01;  // leg lengths
     const Standing& on = *static_cast<const Standing*>(user);
     for (uint32_t n = 0; n < probes->count; ++n) {
-        const uint32_t body = probes->bodies[n];
-        const goal_input& foot = on.inputs[body * on.limb_count + probes->group];
-        const double x = on.roots[body].place[0] + double{probes->places[n][0]},
-                     z = on.roots[body].place[2] + double{probes->places[n][2]};
-        const double level =
-            foot.plane[1] + double{foot.slopes[0]} * (x - foot.plane[0]) + double{foot.slopes[1]} * (z - foot.plane[2]);
-        // No toe is in the ground, except where it would jump up an edge.
-        const double above = ground_at(*on.ground, on.heights, x, z).height - level - double{foot.room};
-        const double most =
-            kMostRaised * double{on.roots[body].size} * (length_of(foot.places[2]) + length_of(foot.places[3]));
-        const double raised = above < 0 ? 0 : above < most ? above : most;
-        store({double{probes->places[n][0]}, level + raised - on.roots[body].place[1], double{probes->places[n][2]}},
-              probes->grounds[n]);
-        store({-double{foot.slopes[0]}, 1, -double{foot.slopes[1]}}, probes->normals[n]);
+        const float(&probe)[3] = probes->places[n];
+        const goal_root& root = on.roots[probes->bodies[n]];
+        const goal_input& foot = on.inputs[probes->bodies[n] * on.limb_count + probes->group];
+        const GroundPoint plane =
+            plane_below(on, root, foot, root.place[0] + double{probe[0]}, root.place[2] + double{probe[2]});
+        store({double{probe[0]}, plane.height - root.place[1], double{probe[2]}}, probes->grounds[n]);
+        store({-plane.slope_x, 1, -plane.slope_z}, probes->normals[n]);
     }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The goals of a crowd that performs a clip: what each character's pose is, and what its limbs are asked for in a
-// frame. One source for the command and the page: only + - * /, floor and plain structures, so both get the same bits.
-// No Eigen, whose vector code adds in another order. The structures have one layout on all little-endian machines, so a
-// page holds them as bytes.
+// frame. One source for the command and the page: only + - * /, floor, sqrt and plain structures, so both get the same
+// bits. No Eigen, whose vector code adds in another order. The structures have one layout on all little-endian
+// machines, so a page holds them as bytes.
 #pragma once
 
 #include <stdint.h>
@@ -131,7 +131,7 @@ inline bool swivel_goal_carries(const goal_source* source, const goal_character*
 goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 
 // Fills what count characters are asked for.
-// plans: of each limb. sources: of each limb, one for each frame of all clips.
+// plans: of each limb, at most GOAL_MOST_LIMBS. sources: of each limb, one for each frame of all clips.
 // ground, heights: null, or feet that stand do so on it, and each character is raised to its lower foot's ground.
 // roots: count of them. inputs: [character][limb].
 // Any thread; no allocation.

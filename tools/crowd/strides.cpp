@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "tools/crowd/ground.h"
 
@@ -10,7 +11,7 @@ namespace swivel::tools {
 
 namespace {
 
-constexpr std::uint32_t kLooks = 6;  // at the ground below a swing
+constexpr std::uint32_t kSamples = 6;  // of the ground below a swing
 
 // A leg of a character, and its ground.
 struct Leg {
@@ -35,7 +36,16 @@ Toe toe_at(const Leg& leg, std::uint32_t frame)
     return {toe.target[0], toe.target[2], std::max(0.0, toe.target[1] - lowest)};
 }
 
-// What a foot stands on.
+// From ankle to toe, or a tenth of the leg where the ankle itself stands.
+double foot_length(const Leg& leg, std::uint32_t frame)
+{
+    const double(&toe)[3] = leg.plan.effector;
+    const double(&bones)[2] = leg.sources[frame].lengths;
+    const double length = std::sqrt(toe[0] * toe[0] + toe[1] * toe[1] + toe[2] * toe[2]);
+    return leg.character.size * std::max(length, 0.1 * (bones[0] + bones[1]));
+}
+
+// The ground that a foot stands on.
 struct Tread {
     double x, z;              // of the toe in the middle of the stand
     double aside_x, aside_z;  // to where the ground is
@@ -48,34 +58,39 @@ struct Tread {
     double level_at(const Toe& toe) const { return level_at(toe.x, toe.z); }
 };
 
-// The nearest place below the toe, up or down the slope there, with no ground steeper than 45 degrees below the ball of
-// the foot: a quarter of the way from ankle to toe. If none is as near as the ankle, it is below the toe.
+// Whether no ground is steeper than 45 degrees below the middle of the ball of a foot, and around it.
+bool is_tread(const Leg& leg, double x, double z, double ball)
+{
+    constexpr double kAround[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    return std::all_of(std::begin(kAround), std::end(kAround), [&](const double(&way)[2]) {
+        const GroundPoint below = leg.ground_below(x + ball * way[0], z + ball * way[1]);
+        return below.slope_x * below.slope_x + below.slope_z * below.slope_z <= 1;
+    });
+}
+
+// The foot stands below its toe, or if there is an edge, on the nearest of eight ways to where there is none. If none
+// is within a foot's length, it stands below its toe all the same.
 Tread tread_at(const Leg& leg, std::uint32_t frame)
 {
-    constexpr int kParts = 8, kBall = 2;
+    constexpr int kRings = 8;
+    constexpr double kAcross = 0.70710678118654752;  // 1 / sqrt(2)
+    constexpr double kWays[8][2] = {{1, 0},
+                                    {-1, 0},
+                                    {0, 1},
+                                    {0, -1},
+                                    {kAcross, kAcross},
+                                    {kAcross, -kAcross},
+                                    {-kAcross, kAcross},
+                                    {-kAcross, -kAcross}};
     const Toe toe = toe_at(leg, frame);
-    const GroundPoint below = leg.ground_below(toe.x, toe.z);
-    const double(&foot)[3] = leg.plan.effector;
-    const double part =
-                     leg.character.size * std::sqrt(foot[0] * foot[0] + foot[1] * foot[1] + foot[2] * foot[2]) / kParts,
-                 slope = std::sqrt(below.slope_x * below.slope_x + below.slope_z * below.slope_z);
-    const auto aside = [&](int parts) {
-        return Tread{toe.x, toe.z, parts * part * below.slope_x / slope, parts * part * below.slope_z / slope, {}};
-    };
-    const auto is_steep = [](const GroundPoint& at) { return at.slope_x * at.slope_x + at.slope_z * at.slope_z > 1; };
-    for (int n = 0; slope > 0 && n <= 2 * kParts; ++n) {
-        const int parts = n % 2 == 0 ? n / 2 : -(n + 1) / 2;
-        bool can_stand = true;
-        for (int ball = -kBall; ball <= kBall; ++ball) {
-            const Tread at = aside(parts + ball);
-            can_stand = can_stand && !is_steep(leg.ground_below(toe.x + at.aside_x, toe.z + at.aside_z));
+    const double foot = foot_length(leg, frame);
+    for (int ring = 0; ring <= kRings; ++ring)
+        for (const double(&way)[2] : kWays) {
+            const double aside_x = foot * ring / kRings * way[0], aside_z = foot * ring / kRings * way[1];
+            const double x = toe.x + aside_x, z = toe.z + aside_z;
+            if (is_tread(leg, x, z, foot / 4)) return {toe.x, toe.z, aside_x, aside_z, leg.ground_below(x, z)};
         }
-        if (!can_stand) continue;
-        Tread tread = aside(parts);
-        tread.ground = leg.ground_below(toe.x + tread.aside_x, toe.z + tread.aside_z);
-        return tread;
-    }
-    return {toe.x, toe.z, 0, 0, below};
+    return {toe.x, toe.z, 0, 0, leg.ground_below(toe.x, toe.z)};
 }
 
 // Below the ankle in the middle of the stand: a foot that points up a slope has it lower than the toe.
@@ -93,7 +108,7 @@ struct Swing {
     std::uint32_t leaves, lands;
     Tread from, next;
     double left, landed;  // heights of the treads' planes below the toe as it leaves the one and lands on the other
-    double levels[2];     // and below the ankle
+    double levels[2];     // heights of the same planes below the ankle in the middle of the stands
 
     double time_at(std::uint32_t frame) const { return (1.0 + frame - leaves) / (1.0 + lands - leaves); }
 };
@@ -112,15 +127,14 @@ Swing swing_from(const Leg& leg, const goal_stride& way)
 
 double between(double from, double to, double share) { return from + share * (to - from); }
 
-// Without an arc.
+// The stride at a time of the swing, without an arc.
 Stride stride_in(const Swing& swing, const Toe& toe, double time)
 {
     const auto& [leaves, lands, from, next, left, landed, levels] = swing;
     const double share = time * time * (3 - 2 * time);
     const double aside_x = between(from.aside_x, next.aside_x, share),
                  aside_z = between(from.aside_z, next.aside_z, share);
-    return {{aside_x, aside_z},
-            {toe.x + aside_x, between(left, landed, share), toe.z + aside_z},
+    return {{toe.x + aside_x, between(left, landed, share), toe.z + aside_z},
             {between(from.ground.slope_x, next.ground.slope_x, share),
              between(from.ground.slope_z, next.ground.slope_z, share)},
             share * toe.room,
@@ -135,9 +149,9 @@ double arc_at(double time) { return 4 * time * (1 - time); }
 double arc_over(const Leg& leg, const Swing& swing)
 {
     double arc = 0;
-    for (std::uint32_t look = 1; look <= kLooks; ++look) {
+    for (std::uint32_t n = 1; n <= kSamples; ++n) {
         const std::uint64_t way = swing.lands - swing.leaves;
-        const std::uint32_t frame = swing.leaves + static_cast<std::uint32_t>(way * look / (kLooks + 1));
+        const std::uint32_t frame = swing.leaves + static_cast<std::uint32_t>(way * n / (kSamples + 1));
         const double time = swing.time_at(frame);
         const Stride stride = stride_in(swing, toe_at(leg, frame), time);
         const double lacks = leg.ground_below(stride.plane[0], stride.plane[2]).height - stride.plane[1] - stride.room;
@@ -157,8 +171,7 @@ Stride stride_at(const goal_plan& plan, const goal_source* sources, uint32_t fra
     if (frame < way.leaves) {
         const Tread tread = tread_at(leg, way.stand);
         const double level = ankle_level(leg, tread, way.stand);
-        return {{tread.aside_x, tread.aside_z},
-                {toe.x + tread.aside_x, tread.level_at(toe), toe.z + tread.aside_z},
+        return {{toe.x + tread.aside_x, tread.level_at(toe), toe.z + tread.aside_z},
                 {tread.ground.slope_x, tread.ground.slope_z},
                 0,
                 {level, level},

@@ -13,8 +13,7 @@ namespace swivel::tools {
 
 // Heights and positions are in the world.
 struct Stride {
-    double aside[2];   // how far the foot is moved along x and z, away from an edge that it cannot stand on
-    double plane[3];   // a point of its plane, below the moved toe
+    double plane[3];   // a point of its plane: below the toe, which is moved aside from an edge that it cannot stand on
     double slopes[2];  // of the plane, along x and z
     double room;       // how far the toe is above its clearance over the clip's floor; at least 0
     double levels[2];  // heights of the stand that it comes from, and of the next one
