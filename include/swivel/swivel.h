@@ -1288,8 +1288,8 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // by how much a line of sight misses. With the hands' records it says how far the prop moved, and how far each hand is
 // from its grip. With SWIVEL_EVERY_GROUP it says so of all groups of body `limb`, with a line for each that begins
 // "group 0: ". It warns of what no solve refuses and hardly anybody means: another unit, another
-// origin, a time in milliseconds, a pose that is solved twice. A warning of the last solve is a line of its own there. Takes up to a millisecond for a limb; no
-// allocation.
+// origin, a time in milliseconds, a pose that is solved twice. A warning of the last solve is a line of its own there.
+// Takes up to a millisecond for a limb; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 

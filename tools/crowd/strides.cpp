@@ -58,13 +58,17 @@ struct Tread {
     double level_at(const Toe& toe) const { return level_at(toe.x, toe.z); }
 };
 
-// Whether no ground is steeper than 45 degrees below the middle of the ball of a foot, and around it.
+// Whether no ground is steeper than 45 degrees below the middle of the ball of a foot, and around it; nor on the way
+// from there to the middle, where an edge may be.
 bool is_tread(const Leg& leg, double x, double z, double ball)
 {
-    constexpr double kAround[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    constexpr double kAround[9][2] = {{0, 0}, {0.5, 0}, {-0.5, 0}, {0, 0.5}, {0, -0.5},
+                                      {1, 0}, {-1, 0},  {0, 1},    {0, -1}};
+    const double middle = leg.ground_below(x, z).height;
     return std::all_of(std::begin(kAround), std::end(kAround), [&](const double(&way)[2]) {
         const GroundPoint below = leg.ground_below(x + ball * way[0], z + ball * way[1]);
-        return below.slope_x * below.slope_x + below.slope_z * below.slope_z <= 1;
+        const double rise = below.height - middle, far2 = ball * ball * (way[0] * way[0] + way[1] * way[1]);
+        return below.slope_x * below.slope_x + below.slope_z * below.slope_z <= 1 && rise * rise <= far2;
     });
 }
 
