@@ -28,8 +28,11 @@ public:
         for (const Run& run : runs) {
             const bool alone = run.run_type == Run::RT_Iteration && run.repetitions <= 1;
             if (!alone && run.aggregate_name != "median") continue;
-            std::printf("%-40s %10.2f ns an arm, +- %.1f %%", run.run_name.function_name.c_str(),
-                        run.counters.at("time/arm") * 1e9, spread);
+            const std::string& name = run.run_name.function_name;
+            const auto is_of = [&](const char* row) { return name.starts_with(row); };
+            const bool is_body = is_of("bodies") || is_of("character") || is_of("feet") || is_of("looks");
+            std::printf("%-40s %10.2f ns %s, +- %.1f %%", name.c_str(), run.counters.at("time/arm") * 1e9,
+                        is_body ? "a body" : "an arm", spread);
             for (const auto& [note, value] : run.counters)
                 if (note != "time/arm" && note != "arms") std::printf(", %s %.3g", note.c_str(), value.value);
             std::puts("");

@@ -116,12 +116,17 @@ struct HillStage {
     }
 };
 
+std::vector<std::string> parts_of(const std::string& text, char between)
+{
+    std::istringstream in(text);
+    std::vector<std::string> parts;
+    for (std::string part; std::getline(in, part, between);) parts.push_back(part);
+    return parts;
+}
 // A cache has its characters column by column.
 std::vector<std::string> sorted_lines(const std::string& text)
 {
-    std::istringstream in(text);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    std::vector<std::string> lines = parts_of(text, '\n');
     std::ranges::sort(lines);
     return lines;
 }
@@ -282,6 +287,30 @@ TEST_CASE("a leg's stands are its contacts, and frames between that no swing is 
     CHECK(stands(frames({{1, true}, {2, false}, {1, true}}), 5) == "0-1 1-2 2-3 3-4 ");  // frames of 5 s
 }
 
+TEST_CASE("a foot that a table sends beside its clip stands on the ground there")
+{
+    const HillStage stage;
+    stage.solved(crowd_on_hills(), {"--export-targets", "t.csv", "--quiet"});
+    std::string beside;
+    for (const std::string& line : parts_of(slurp(stage.folder / "t.csv"), '\n')) {
+        std::vector<std::string> cells = parts_of(line, ',');
+        if (line.find("left_leg") != std::string::npos) cells[3] = fmt::format("{}", std::stod(cells[3]) + 4);
+        beside += fmt::format("{}\n", fmt::join(cells, ","));
+    }
+    spill(stage.folder / "beside.csv", beside);
+    stage.solved(crowd_on_hills(), {"--targets", "beside.csv", "--out", "out.bvh", "--quiet"});
+    const PlainLegs legs = stage.legs_of("out.bvh"), own = stage.legs_of("walk.bvh");
+    const auto [least, most] = stage.clearance(0);
+    double aside = 0, below = 0;
+    for (std::size_t frame = 12; frame < legs.frame_count(); ++frame) {
+        const Vector3d& toe = legs.legs[0].toe[frame];
+        aside = std::max(aside, toe.x() - own.legs[0].toe[frame].x());
+        below = std::max(below, least - (toe.y() - stage.ground(toe)));
+    }
+    CHECK(aside > 3);
+    CHECK(kMillimetres * below < 0.1);
+}
+
 TEST_CASE("a clip that is written stands as its table says, and threads change nothing")
 {
     const HillStage stage;
@@ -431,6 +460,15 @@ TEST_CASE("a table says when feet are down: of the file's frames, however the cl
     CHECK(over.exit_code == 2);
     CHECK_THAT(over.err, Contains("c.csv: is the table of contacts, too"));
     CHECK(slurp(stage.folder / "c.csv") == good);
+}
+
+TEST_CASE("the report says who walks beside the picture of the ground")
+{
+    const HillStage stage;
+    CHECK(stage.solved(crowd_on_hills("characters = 2"), {"--frames", "2"}).find("beside the picture") ==
+          std::string::npos);
+    CHECK_THAT(stage.solved(crowd_on_hills("characters = 200"), {"--frames", "2"}),
+               Contains("of 200 characters walk beside the picture, which lies from -110 to 290 along x"));
 }
 
 TEST_CASE("a ground that cannot be is refused, by the line")

@@ -166,8 +166,10 @@ def main():
         print(f"operators.py: {failure}", file=sys.stderr)
         return 1
     name = lambda number: f"{faults[number][0]}:{faults[number][1]}:{faults[number][2] + 1} {faults[number][4].format('')}"  # noqa: E731
-    if options.list:
-        print(*map(name, range(len(faults))), sep="\n")
+    if options.list or not faults:
+        print(*map(name, range(len(faults))), sep="\n", end="\n" if faults else "")
+        if not faults:
+            print("no fault can be made on these lines", file=sys.stderr)
         return 0
     try:
         work = options.work.resolve() / "operators"

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -48,6 +49,40 @@ std::vector<std::string> loop_notes(const CrowdJob& job)
                             number_of_clip(job, n), job.loops[n].gap * 180 / std::numbers::pi,
                             job.further.empty() ? "name [first, last], or " : ""));
     return notes;
+}
+
+// Who walks beside the picture of heights, where the ground goes on level: a line, or nothing.
+std::vector<std::string> ground_notes(const formats::Clip& clip, const CrowdJob& job)
+{
+    if (job.heights.empty()) return {};
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    std::vector<Eigen::AlignedBox2d> ways(clip.frame_count);  // from each frame that a clip begins with
+    std::vector<ClipPart> parts = job.plan.clips;
+    if (parts.empty()) parts = {{0, clip.frame_count}};
+    for (const ClipPart& part : parts)
+        for (std::size_t frame = part.first; frame < part.first + part.count; ++frame) {
+            formats::world_pose(clip, frame, pose_w);
+            const Eigen::Vector3d& at = pose_w[static_cast<std::size_t>(job.limbs[0].upper())].position;
+            ways[part.first].extend(Eigen::Vector2d(at.x(), at.z()));
+        }
+    const goal_ground& grid = job.plan.ground->grid;
+    const Eigen::Vector2d middle(grid.place[0], grid.place[2]), half(grid.size[0] / 2, grid.size[2] / 2);
+    const Eigen::AlignedBox2d picture(middle - half, middle + half);
+    const std::vector<goal_character> characters = characters_of(job.plan, job.limbs, clip.frame_count);
+    const auto leaves = [&](const goal_character& who) {
+        const Eigen::AlignedBox2d& way = ways[who.first];
+        const Eigen::Vector2d place(who.place[0], who.place[2]);
+        return !picture.contains(Eigen::AlignedBox2d(place + who.size * way.min(), place + who.size * way.max()));
+    };
+    const auto first = std::ranges::find_if(characters, leaves);
+    if (first == characters.end()) return {};
+    return {fmt::format(
+        "{} of {} characters walk beside the picture, which lies from {:.4g} to {:.4g} along x and from {:.4g} to "
+        "{:.4g} "
+        "along z, and where the ground goes on level: character {} is the first. Give a larger picture, or a smaller "
+        "crowd.spacing",
+        std::ranges::count_if(characters, leaves), characters.size(), picture.min().x(), picture.max().x(),
+        picture.min().y(), picture.max().y(), first - characters.begin())};
 }
 
 }  // namespace
@@ -99,6 +134,7 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
                 ? "level"
                 : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
             job.contacts.empty() ? "" : " when " + shown_file(job.contacts) + " says", -job.plan.shift_wish);
+    for (const std::string& note : ground_notes(clip, job)) say(to, "note     {}\n", note);
     if (job.builds.size() > 1) {
         const auto factors = [&](double Proportions::*of) {
             const auto [least, most] = std::ranges::minmax(job.builds, {}, of);
