@@ -76,6 +76,7 @@ swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, 
     for (const FieldRow& row : kFields)
         if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(of.features, row.field) > 0)
             copy_in(rows_of(of, row.field), first, limb_count, {zeros, 0});
+    crowd->reset_limbs.fetch_add(limb_count, std::memory_order_relaxed);
     return SWIVEL_OK;
 }
 

@@ -216,9 +216,14 @@ std::optional<std::uint32_t> first_body(const Work& work)
             return block * SWIVEL_LANES + static_cast<std::uint32_t>(std::countr_zero(bits));
     return std::nullopt;
 }
-// Keeps the time of a pose, if explanations doubt it.
-void note_time(swivel_crowd& crowd, const Work& work)
+// Keeps what explanations doubt of a solve: resets of all bodies, and the time of its pose.
+void note_solve(swivel_crowd& crowd, const Work& work)
 {
+    const std::uint32_t reset = crowd.reset_limbs.exchange(0, std::memory_order_relaxed);
+    if (reset >= crowd.groups[0].limb_count)
+        crowd.solves_anew.fetch_add(1, std::memory_order_relaxed);
+    else
+        crowd.solves_anew.store(0, std::memory_order_relaxed);
     const swivel_pose pose = full_pose(work.pose);
     const std::optional<std::uint32_t> body = first_body(work);
     if (!body || !pose.time.data) return crowd.doubted_time.store(kNoDoubt, std::memory_order_relaxed);
@@ -289,7 +294,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
                     job.probes_only != 0,
                     job.sample,
                     job.sample_user};
-    if (work.pose && !work.probes_only) note_time(*crowd, work);
+    if (work.pose && !work.probes_only) note_solve(*crowd, work);
     if (job.on_this_thread)
         solve_here(work);
     else

@@ -64,6 +64,9 @@ struct swivel_crowd {
     // Below 0, or what swivel_explain() warns of: the time in s of the first body of the last solve, if that is above
     // 1, or if it is 0 and the solve wrote its results over the pose.
     std::atomic<float> doubted_time;
+    // The limbs that were reset since the last solve of poses, and how many solves in a row began with all bodies
+    // reset.
+    std::atomic<std::uint32_t> reset_limbs, solves_anew;
 };
 
 namespace swivel {

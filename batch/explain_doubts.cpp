@@ -53,8 +53,15 @@ void doubt_support(const Group& group, std::uint32_t limb, const PosedLengths& p
 bool doubt_solve(const swivel_crowd& crowd, Text& text)
 {
     const float time = crowd.doubted_time.load(std::memory_order_relaxed);
-    if (time == kNoDoubt) return false;
-    if (time > 0)
+    const std::uint32_t anew = crowd.solves_anew.load(std::memory_order_relaxed);
+    if (time == kNoDoubt && anew < 2) return false;
+    if (anew >= 2)
+        text.add(
+            "Warning: all bodies were reset before each of the last %u solves, so plants, looks and shifts begin anew "
+            "in "
+            "each. swivel_reset() is for teleports.",
+            anew);
+    else if (time > 0)
         text.add("Warning: the last solve had a time of %g seconds. If that is in milliseconds, divide it by 1000.",
                  double{time});
     else

@@ -108,6 +108,18 @@ TEST_CASE("explain warns of what is in another unit or from another origin")
     CHECK(warning(near) == "the last solve had a time of 16 seconds");
 }
 
+TEST_CASE("explain warns where all bodies are reset before each solve")
+{
+    GlidingLeg leg;
+    for (const bool warns : {false, true, true}) {
+        leg.crowd.reset(0);
+        leg.glide(1, 0.5);
+        CHECK(leg.text().starts_with("Warning: all bodies were reset before each of the last ") == warns);
+    }
+    leg.glide(1, 0.5);
+    CHECK(!leg.text().starts_with("Warning: all"));
+}
+
 TEST_CASE(
     "explain warns of a solve without time that writes over the pose, which a pause would correct again and again")
 {
