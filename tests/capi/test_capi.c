@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * The promise: swivel.h is C11, and a C program can make a crowd, solve an arm and find its wrist on the target. */
+ * The promise: swivel.h is C11, and a C program can make crowds of limbs and of bodies from the defaults, and solve
+ * them. */
 #include <math.h>
 #include <stdio.h>
 
@@ -42,6 +43,65 @@ static int head_of_header(void)
     return !(shoulder[0][3] >= 0 && shoulder[1][0] < 0 && shoulder[0][0] != shoulder[1][0]);
 }
 
+/* A group of each kind that bodies have, from the defaults: an arm that holds a prop, a leg that stands, their shift,
+ * and a head that looks. */
+enum { ARM, LEG, SHIFT, THING, HEAD, GROUP_COUNT };
+static void bodies(void)
+{
+    static const int32_t parents[] = {-1, 0, 1, 2, 0, 4, 5, 0};
+    static const float places[][3] = {{0, 1, 0},    {0.2f, 0.5f, 0}, {0.3f, 0, 0},  {0.25f, 0, 0},
+                                      {0.1f, 0, 0}, {0, -0.45f, 0},  {0, -0.4f, 0}, {0, 0.6f, 0}};
+    static float rotations[3][8][4];
+    const float grip[7] = {0, 0, 0.1f, 0, 0, 0, 1}, thing[3] = {0.3f, 1.4f, 0.3f}, ball[3] = {1, 1.5f, 2}, contact = 1,
+                time = 0.02f;
+    swivel_limb_joints arm = swivel_default_limb_joints(1, 2, 3), leg = swivel_default_limb_joints(4, 5, 6);
+    swivel_group_def groups[GROUP_COUNT];
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    swivel_crowd_def def = swivel_default_crowd_def();
+    swivel_pose pose = swivel_default_pose();
+    swivel_job job = swivel_default_job();
+    swivel_crowd* crowd = NULL;
+    uint32_t flags[3], solved = 0, n, joint, group;
+
+    arm.bend[2] = 1, leg.bend[2] = -1;
+    groups[ARM] = swivel_default_body_group_def(&arm);
+    groups[ARM].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK;
+    groups[ARM].link = THING;
+    groups[LEG] = swivel_default_body_group_def(&leg);
+    groups[LEG].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT;
+    groups[SHIFT] = swivel_default_fit_group_def();
+    groups[THING] = swivel_default_prop_group_def();
+    groups[HEAD] = swivel_default_look_group_def();
+    groups[HEAD].look.joint_count = 1, groups[HEAD].look.joints[0] = 7;
+    skeleton.parents.data = parents, skeleton.parents.stride = sizeof parents[0];
+    skeleton.translations.data = places, skeleton.translations.stride = sizeof places[0];
+    skeleton.joint_count = 8;
+    def.skeleton = &skeleton, def.body_count = 3, def.groups = groups, def.group_count = GROUP_COUNT;
+    check(swivel_crowd_create(&def, &crowd) == SWIVEL_OK, "bodies");
+    if (crowd == NULL) return;
+    for (n = 0; n < 3; ++n)
+        for (joint = 0; joint < 8; ++joint) rotations[n][joint][3] = 1;
+    pose.rotations.data = rotations;
+    pose.rotations.body_stride = sizeof rotations[0], pose.rotations.joint_stride = sizeof rotations[0][0];
+    job.pose = &pose, job.solved_count = &solved;
+    check(swivel_write(crowd, SWIVEL_GRIP, ARM, 0, 3, (swivel_in){grip, 0}) == SWIVEL_OK, "grips");
+    check(swivel_write(crowd, SWIVEL_CONTACT, LEG, 0, 3, (swivel_in){&contact, 0}) == SWIVEL_OK, "contacts");
+    check(swivel_write(crowd, SWIVEL_PROP_PLACE, THING, 0, 3, (swivel_in){thing, 0}) == SWIVEL_OK, "places");
+    check(swivel_write(crowd, SWIVEL_LOOK_TARGET, HEAD, 0, 3, (swivel_in){ball, 0}) == SWIVEL_OK, "balls");
+    check(swivel_solve(crowd, &job) == SWIVEL_INVALID_ARGUMENT, "a pose without time is refused");
+    pose.time.data = &time;
+    check(swivel_solve(crowd, &job) == SWIVEL_OK && solved == 3, "a frame of bodies");
+    for (group = 0; group < GROUP_COUNT; ++group) {
+        const swivel_out to = {flags, sizeof flags[0]};
+        check(swivel_read(crowd, SWIVEL_FLAGS, group, 0, 3, to) == SWIVEL_OK, "flags of bodies");
+        for (n = 0; n < 3; ++n) check(!(flags[n] & SWIVEL_BAD_INPUT), "no bad input");
+    }
+    check(rotations[2][1][3] != 1 && rotations[2][7][3] != 1, "arm and head are turned");
+    swivel_crowd_destroy(crowd);
+    groups[ARM].link = UINT32_MAX;
+    check(swivel_crowd_create(&def, &crowd) == SWIVEL_INVALID_ARGUMENT, "a hand that holds nothing is refused");
+}
+
 int main(void)
 {
     const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
@@ -62,6 +122,7 @@ int main(void)
     int lines = 0, c;
 
     check(head_of_header() == 0, "the head of swivel.h is a program");
+    bodies();
 
     def.group_count = 1;
     def.groups = &group;

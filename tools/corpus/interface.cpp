@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "tools/corpus/bodies.h"
 
@@ -267,7 +269,8 @@ swivel_features library_features(const Recipe& recipe, std::uint32_t group)
 std::uint32_t prop_group(bool has_shift) { return kGroupCount + (has_shift ? 1 : 0); }
 std::uint32_t look_group(bool has_shift, bool has_prop) { return prop_group(has_shift) + (has_prop ? 1 : 0); }
 
-Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swivel_group_def> groups)
+void define_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swivel_group_def> groups,
+                   const std::function<void(const swivel_crowd_def&)>& take)
 {
     const Skeleton own = skeleton_of(recipe);
     swivel_skeleton skeleton = swivel_default_skeleton();
@@ -317,7 +320,7 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
     def.groups = all;
     def.group_count = static_cast<std::uint32_t>(end - all);
     def.up[0] = 1, def.up[1] = 3, def.up[2] = -2;
-    return Crowd(def);
+    take(def);
 }
 
 // The first group with a feature, which one has.
@@ -365,9 +368,8 @@ swivel_pose library_pose(Poses& poses)
     return pose;
 }
 
-}  // namespace
-
-Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
+void with_library_definition(const Recipe& recipe, const LimbCounts& limb_counts,
+                             const std::function<void(const swivel_crowd_def&)>& take)
 {
     swivel_group_def groups[kGroupCount];
     for (std::uint32_t g = 0; g < kGroupCount; ++g) {
@@ -376,8 +378,25 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
         groups[g].wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
         if (groups[g].features & SWIVEL_WITH_REGION) groups[g].region = &kUpperArms;
     }
-    if (is_of_bodies(recipe.part)) return create_bodies(recipe, limb_counts[0], groups);
-    return Crowd(groups);
+    if (is_of_bodies(recipe.part)) return define_bodies(recipe, limb_counts[0], groups, take);
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = groups;
+    def.group_count = kGroupCount;
+    take(def);
+}
+
+}  // namespace
+
+void with_definition(const Recipe& recipe, const LimbCounts& limb_counts, const std::function<void(const void*)>& take)
+{
+    with_library_definition(recipe, limb_counts, [&](const swivel_crowd_def& def) { take(&def); });
+}
+
+Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
+{
+    std::optional<Crowd> crowd;
+    with_library_definition(recipe, limb_counts, [&](const swivel_crowd_def& def) { crowd.emplace(def); });
+    return std::move(*crowd);
 }
 
 std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, false); }

@@ -21,6 +21,10 @@ using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
 // An empty crowd of three groups with the bindings of bindings.h, or of bodies, of which each group has a limb.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
+// Calls take(definition) with what create_crowd() makes that crowd of: the library's own definition of a crowd, by a
+// pointer that says nothing, because interface.cpp alone names it here.
+void with_definition(const Recipe& recipe, const LimbCounts& limb_counts,
+                     const std::function<void(const void* definition)>& take);
 LimbCounts limb_counts(const Crowd& crowd);
 
 // The fields that the features of a group bring, in the order of enum Field: inputs, which are written, and results,

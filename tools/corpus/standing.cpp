@@ -251,13 +251,19 @@ void Standing::change_carried(std::uint32_t frame, std::uint32_t n, Crowd& crowd
     Mover& mover = movers_[n];
     const std::uint32_t group_count = kGroupCount + (poses_.has_shift ? 1 : 0) + (looking_ ? kLookCount : 0);
     const bool resets = mover.random.below(256) == 0, changes = mover.random.below(64) == 0;
-    if (resets) reset_limb(crowd, mover.random.below(group_count), n);
+    if (resets) {
+        carried_.push_back({mover.random.below(group_count), n, {}});
+        reset_limb(crowd, carried_.back().group, n);
+    }
     if (!changes || !(recipe_.pose & kSupports)) return;
     const double swing = swing_of(mover.starts[2] + frame * mover.speeds[2]);
     const Support was = support_of(n, mover.stands_on, swing), is = support_of(n, 1 - mover.stands_on, swing);
     mover.stands_on = 1 - mover.stands_on;
-    for (std::uint32_t group = 0; group < kGroupCount; ++group)
-        if (features_of(recipe_, group) & kPlant) change_support(crowd, group, n, was, is);
+    for (std::uint32_t group = 0; group < kGroupCount; ++group) {
+        if (!(features_of(recipe_, group) & kPlant)) continue;
+        carried_.push_back({group, n, {{was, is}}});
+        change_support(crowd, group, n, was, is);
+    }
 }
 
 // Leaves out some bodies in every fourth frame.
@@ -272,6 +278,7 @@ void Standing::choose(std::uint32_t frame)
 
 void Standing::go_to(std::uint32_t frame, Crowd& crowd)
 {
+    carried_.clear();
     for (std::uint32_t n = 0; n < movers_.size(); ++n) {
         change_carried(frame, n, crowd);
         move_body(frame, n);

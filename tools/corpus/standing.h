@@ -38,6 +38,12 @@ public:
     // Brings a crowd and the poses to a frame. Frames come in order, from 0 on.
     void go_to(std::uint32_t frame, Crowd& crowd);
     Poses& poses() { return poses_; }
+    // What go_to() did to what the crowd carries, in order: a limb's reset, or other supports of a body.
+    struct Carried {
+        std::uint32_t group, body;
+        std::optional<std::array<Support, 2>> supports;
+    };
+    const std::vector<Carried>& carried() const { return carried_; }
 
 private:
     struct Changes {  // of the crowd's rows in a frame, limb by limb of each group
@@ -61,6 +67,7 @@ private:
     std::vector<Mover> movers_;
     Poses poses_;
     Changes rows_;
+    std::vector<Carried> carried_;    // of the last frame
     std::optional<Holding> holding_;  // where feet are on ground or something is held
     std::optional<Looking> looking_;
 };

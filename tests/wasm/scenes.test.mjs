@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// The promise: what goes in by the package's names goes to the library as it is, and what comes out is the library's. Crowds of the
+// corpus are played frame by frame; their digests, poses and answers are those of C++.
+//   SCENES: what tools/digest/print_scenes.cpp wrote
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { Feature, Field, Flag } from 'swivel-wasm';
+import { swivel } from './common.mjs';
+
+const scenes = JSON.parse(readFileSync(process.env.SCENES, 'utf8'));
+const numbers = (values) => values.map((x) => x ?? NaN);  // null is NaN
+const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+// An object with names as the package has them. The fields of a structure's own members, too.
+const named = (given) => (given?.constructor === Object ? Object.fromEntries(Object.entries(given).map(([name, value]) => [camel(name), named(value)])) : given);
+
+function regionOf({ axes, angles, corners, directions, margin, most_cones, forbidden }) {
+  const cones = axes.map((axis, n) => ({ axis, angle: angles[n] }));
+  return swivel.region().addCones(cones, true).addPolygon(corners).addDirections(directions, margin, most_cones).forbid(forbidden).mirrored();
+}
+function groupOf({ features, region, twist_bones, ...given }) {
+  const options = named(given);
+  if (features) options.features = features.reduce((all, name) => all | Feature[name], BigInt(twist_bones ?? 0) * Feature.WITH_TWIST_BONES);
+  return region ? { ...options, region: regionOf(region) } : options;
+}
+function crowdOf({ groups, skeleton, body_count, up, form, space, root_is_double }) {
+  const all = groups.map(groupOf);
+  return skeleton ? swivel.bodies({ skeleton, bodyCount: body_count, groups: all, up, form, space, rootIsDouble: Boolean(root_is_double) }) : swivel.crowd(all);
+}
+
+function give(crowd, { carried = [], inputs, doubles = [], pose = {} }, outputs) {
+  for (const { group, body, was, now } of carried) {
+    const limbs = { group, first: body, count: 1 };
+    if (was) crowd.changeSupport(was, now, limbs); else crowd.reset(limbs);
+  }
+  inputs.forEach((fields, group) => Object.entries(fields).forEach(([name, values]) => crowd.write(Field[name.toUpperCase()], numbers(values), { group })));
+  doubles.forEach((fields, group) => Object.entries(fields).forEach(([name, values]) => crowd.positions(Field[name.toUpperCase()], group).set(numbers(values))));
+  for (const [part, values] of Object.entries(pose)) crowd.pose(camel(part)).set(numbers(values));
+  for (const part of outputs) crowd.pose(camel(part)).fill(0);
+}
+
+// FNV-1a of words, in which all NaN are one.
+function digestOf(parts) {
+  let hash = 0x811c9dc5;
+  for (const values of parts) {
+    const words = new Uint32Array(values.buffer, values.byteOffset, values.length);
+    values.forEach((x, n) => (hash = Math.imul(hash ^ (Number.isNaN(x) ? 0x7fc00000 : words[n]), 0x01000193)));
+  }
+  return hash >>> 0;
+}
+function writtenParts({ space, outputs, frames }) {
+  const has = (part) => outputs.includes(part) || part in frames[0].pose;
+  const chosen = [['results', 'rotations'], space ? ['translation_results', 'translations'] : [], ['joint_rotations'], ['joint_places']];
+  return chosen.map((parts) => parts.find(has)).filter(Boolean).map(camel);
+}
+
+function* play(scene, crowd) {
+  const written = scene.skeleton ? writtenParts(scene) : [];
+  for (const frame of scene.frames) {
+    give(crowd, frame, scene.outputs ?? []);
+    const mask = Array.from({ length: Math.ceil(crowd.blockCount / 2) }, (_, word) => (word ? 0 : frame.mask));
+    const solved = crowd.solve(frame.mask === undefined ? {} : { mask });
+    yield { solved, digest: crowd.digest().toString(16), poses: digestOf(written.map((part) => crowd.pose(part))).toString(16) };
+  }
+}
+const wanted = ({ solved, digest, poses }) => ({ solved, digest, poses });
+
+test('frames have the digests of C++', () => {
+  for (const scene of scenes) {
+    const crowd = crowdOf(scene);
+    let n = 0;
+    for (const found of play(scene, crowd)) assert.deepEqual(found, wanted(scene.frames[n]), `${scene.name}, frame ${n++}`);
+    scene.answers.forEach(({ explain, allowed_arcs, joint_angles, ...answers }, group) => {
+      const { shoulder_order, wrist_order } = scene.groups[group], place = { group };
+      // The angles' last bits are the platform's own mathematical functions'.
+      const same = (found, wanted) => {
+        assert.equal(found.length, wanted.length);
+        numbers(wanted).forEach((x, n) => assert.ok(Object.is(found[n], x) || Math.abs(found[n] - x) <= 1e-14 * Math.abs(x), `${scene.name}, group ${group}: ${found}`));
+      };
+      assert.equal(crowd.explain(0, group), explain);
+      for (const [name, values] of Object.entries(answers)) same(crowd[name](place), values);
+      same(crowd.jointAngles({ group, shoulderOrder: wrist_order, wristOrder: shoulder_order, family: 1 }), joint_angles);
+      same(crowd.allowedArcs(0, group).flatMap(({ from, to }) => [...from, ...to]), allowed_arcs.map(Math.fround));
+    });
+    crowd.dispose();
+  }
+});
+
+test('what is carried can be saved and set back in another crowd, views too', () => {
+  const carried = ['NORMAL', 'PLANT', 'PLANT_TURN', 'MOTION', 'SHIFT', 'LIFT', 'LOOK_TURNS'].map((name) => Field[name]), same = { true: [], false: [] };
+  for (const scene of scenes.filter(({ name }) => name.startsWith('standing'))) {
+    const [crowd, set, unset] = [0, 1, 2].map(() => crowdOf(scene)), last = scene.frames.at(-1), frames = scene.frames.slice(0, -1);
+    for (const _ of play({ ...scene, frames }, crowd));
+    for (const frame of frames) for (const other of [set, unset]) give(other, frame, scene.outputs);
+    for (let group = 0; group < crowd.groupCount; ++group)
+      for (const field of carried.filter((field) => crowd.componentCount(field, group))) {
+        const view = set.values(field, group), saved = crowd.read(field, { group });
+        set.write(field, saved, { group });
+        assert.deepEqual(view, saved);
+      }
+    for (const each of [crowd, set, unset]) give(each, last, scene.outputs), each.solve();
+    if (crowd.find(Flag.BAD_INPUT) === undefined)  // which keeps the results of frames before
+      for (const each of [set, unset]) same[each === set].push(each.digest() === crowd.digest());
+    set.reset({ first: 1, count: 2 });
+    const plant = set.values(Field.PLANT), each = set.componentCount(Field.PLANT);
+    assert.ok([...plant.slice(each, 3 * each)].every((x) => x === 0) && plant.some((x) => x !== 0));
+    for (const each of [crowd, set, unset]) each.dispose();
+  }
+  assert.ok(same.true.length > 5 && same.true.every(Boolean) && !same.false.every(Boolean));
+});
+
+test('probesOnly finds probes and changes nothing else, in views too', () => {
+  const scene = scenes.find(({ name }) => name === 'standing ground'), crowd = crowdOf(scene), [first, second] = scene.frames;
+  const bitsOf = (values) => [...new Uint32Array(values.buffer, values.byteOffset, values.length)];
+  give(crowd, first, []), crowd.solve(), give(crowd, second, []);
+  const fields = Object.values(Field).filter((field) => crowd.componentCount(field) > 0), views = fields.map((field) => crowd.values(field));
+  const before = views.map(bitsOf), posed = bitsOf(crowd.pose('rotations'));
+  assert.equal(crowd.solve({ probesOnly: true, groups: [0] }), scene.body_count);
+  assert.deepEqual(fields.filter((_, n) => bitsOf(views[n]).some((bits, k) => bits !== before[n][k])), [Field.PROBE]);
+  assert.deepEqual(bitsOf(crowd.pose('rotations')), posed);
+  crowd.dispose();
+});
+
+test('regions have the room of C++', () => {
+  const { probes, rooms, ...given } = scenes.flatMap(({ groups }) => groups).find(({ region }) => region).region, region = regionOf(given);
+  assert.deepEqual(rooms.map((_, n) => region.room(probes.slice(3 * n, 3 * n + 3))), rooms.map(Math.fround));
+});
+
+// Where the objects of a scene have members, from the scene on: names with dots between them.
+function keysOf(value, path = '') {
+  if (Array.isArray(value)) return value[0]?.constructor === Object ? value.flatMap((each) => keysOf(each, path)) : [];
+  if (value?.constructor !== Object) return [];
+  return Object.entries(value).flatMap(([name, member]) => [path + name, ...keysOf(member, `${path}${name}.`)]);
+}
+function without(value, [name, ...names]) {
+  if (Array.isArray(value)) return value[0]?.constructor === Object ? value.map((each) => without(each, [name, ...names])) : value;
+  const { [name]: member, ...rest } = value;
+  return member === undefined || names.length === 0 ? rest : { ...rest, [name]: without(member, names) };
+}
+
+test('every argument counts: whatever is left out, some scene goes another way, or is refused', () => {
+  const of = new Map();
+  for (const scene of scenes) for (const path of new Set(keysOf(scene))) of.set(path, [...(of.get(path) ?? []), scene]);
+  const given = [...of.keys()].filter((path) => /^(groups|skeleton|up$|frames.(inputs|pose|doubles|carried)\.)/.test(path) && !/probes|rooms/.test(path));
+  assert.ok(given.length > 100);
+  const counts = (scene, path) => {
+    let crowd;
+    try {
+      const less = without(scene, path.split('.'));
+      crowd = crowdOf(less);
+      let n = 0;
+      for (const found of play(less, crowd)) if (JSON.stringify(found) !== JSON.stringify(wanted(scene.frames[n++]))) return true;
+      return false;
+    } catch (error) {
+      return true;
+    } finally {
+      crowd?.dispose();
+    }
+  };
+  assert.deepEqual(given.filter((path) => !of.get(path).some((scene) => counts(scene, path))), []);
+});
+
+test('every feature, input and part of a pose is in some scene', () => {
+  let features = 0n;
+  const fields = new Set(), parts = new Set();
+  for (const scene of scenes) {
+    const crowd = crowdOf(scene);
+    scene.groups.forEach((_, group) => (features |= crowd.features(group)));
+    crowd.dispose();
+    for (const { inputs, doubles = [], pose = {} } of scene.frames) {
+      [...inputs, ...doubles].forEach((given) => Object.keys(given).forEach((name) => fields.add(name.toUpperCase())));
+      [...Object.keys(pose), ...(scene.outputs ?? [])].forEach((name) => parts.add(camel(name)));
+    }
+  }
+  assert.deepEqual(Object.keys(Feature).filter((name) => !(features & Feature[name])), ['JOINTS']);  // bindings' own: answers.test.mjs
+  assert.deepEqual(Object.keys(Field).filter((name) => Field[name] < Field.SHOULDER && !fields.has(name)), []);
+  const has = 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPlaces, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, weight';
+  assert.deepEqual([...parts].sort(), has.replace('poses have ', '').split(', ').sort());
+});
