@@ -259,7 +259,7 @@ TEST_CASE("a crowd climbs steps without a jump, and its feet stand on them")
                     kMillimetres * depth);
         CHECK(hips < 2 * own_hips);
         CHECK(toes < 2 * own_toes);
-        CHECK(kMillimetres * gap < 5);
+        CHECK(kMillimetres * gap < 3);
         CHECK(kMillimetres * depth < 0.6 * profile.edge);  // of a toe in the air, at an edge that it has just passed
     }
 }

@@ -2,6 +2,7 @@
 #include "tools/crowd/strides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -22,6 +23,11 @@ struct Leg {
     const float* heights;
 
     GroundPoint ground_below(double x, double z) const { return ground_at(ground, heights, x, z); }
+    // The ankle in the world, on an axis.
+    double ankle(std::uint32_t frame, int axis) const
+    {
+        return character.place[axis] + character.size * (sources[frame].origin[axis] + sources[frame].wrist[axis]);
+    }
 };
 
 struct Toe {
@@ -72,39 +78,40 @@ bool is_tread(const Leg& leg, double x, double z, double ball)
     });
 }
 
-// The foot stands below its toe, or if there is an edge, on the nearest of eight ways to where there is none. If none
-// is within a foot's length, it stands below its toe all the same.
+// Which way a foot points, level and of unit length, on x and z.
+std::array<double, 2> ahead_of(const Leg& leg, const Toe& toe, std::uint32_t frame)
+{
+    const double x = toe.x - leg.ankle(frame, 0), z = toe.z - leg.ankle(frame, 2), length = std::sqrt(x * x + z * z);
+    return length > 0 ? std::array{x / length, z / length} : std::array{1.0, 0.0};
+}
+
+// The foot stands below its toe, or if there is an edge, where none is: at the nearest place ahead or beside, because a
+// leg that is left behind is stretched already. If there is none within a foot's length, it stands below its toe all
+// the same.
 Tread tread_at(const Leg& leg, std::uint32_t frame)
 {
-    constexpr int kRings = 8;
-    constexpr double kAcross = 0.70710678118654752;  // 1 / sqrt(2)
-    constexpr double kWays[8][2] = {{1, 0},
-                                    {-1, 0},
-                                    {0, 1},
-                                    {0, -1},
-                                    {kAcross, kAcross},
-                                    {kAcross, -kAcross},
-                                    {-kAcross, kAcross},
-                                    {-kAcross, -kAcross}};
+    constexpr int kRings = 16;
+    constexpr double kAcross = 0.70710678118654752;                                                     // 1 / sqrt(2)
+    constexpr double kWays[5][2] = {{1, 0}, {kAcross, kAcross}, {kAcross, -kAcross}, {0, 1}, {0, -1}};  // ahead, aside
     const Toe toe = toe_at(leg, frame);
+    const auto [ahead_x, ahead_z] = ahead_of(leg, toe, frame);
     const double foot = foot_length(leg, frame);
     for (int ring = 0; ring <= kRings; ++ring)
         for (const double(&way)[2] : kWays) {
-            const double aside_x = foot * ring / kRings * way[0], aside_z = foot * ring / kRings * way[1];
+            const double far = foot * ring / kRings;
+            const double aside_x = far * (way[0] * ahead_x - way[1] * ahead_z),
+                         aside_z = far * (way[0] * ahead_z + way[1] * ahead_x);
             const double x = toe.x + aside_x, z = toe.z + aside_z;
             if (is_tread(leg, x, z, foot / 4)) return {toe.x, toe.z, aside_x, aside_z, leg.ground_below(x, z)};
         }
     return {toe.x, toe.z, 0, 0, leg.ground_below(toe.x, toe.z)};
 }
 
-// Below the ankle in the middle of the stand: a foot that points up a slope has it lower than the toe.
+// The height of a tread's plane below the ankle in the middle of the stand: of a foot that points up a slope it is
+// lower than below the toe.
 double ankle_level(const Leg& leg, const Tread& tread, std::uint32_t stand)
 {
-    const goal_source& source = leg.sources[stand];
-    const auto at = [&](int axis) {
-        return leg.character.place[axis] + leg.character.size * (source.origin[axis] + source.wrist[axis]);
-    };
-    return tread.level_at(at(0), at(2));
+    return tread.level_at(leg.ankle(stand, 0), leg.ankle(stand, 2));
 }
 
 // The way of a foot through the air.
