@@ -17,10 +17,9 @@ inline std::size_t middle_of(const Contact& contact) { return (contact.first + c
 // A leg's contacts, in order.
 std::vector<Contact> contacts_of(const std::vector<bool>& frames);
 
-// The same and, where the leg is in the air for longer, stands of one frame: at the clip's first and last frame, if a
-// contact is further away than a tenth of a second, and evenly so often that no swing is longer than a second. There is
-// one stand or more.
-// frame_time: s. contact: of each frame, one or more.
+// A leg's contacts, and stands of one frame where it is in the air for longer. Such a stand is at the clip's first
+// frame, and at its last, if no contact is within a tenth of a second. Others divide swings evenly, so that none is
+// longer than a second. There is one stand or more. frame_time: s. contact: of each frame, one or more.
 std::vector<Contact> stands_of(const std::vector<bool>& contact, double frame_time);
 
 }  // namespace swivel::tools
