@@ -47,7 +47,7 @@ private:
         const bool is_split = body_.between && limb == 0;
         const int above = is_split ? add_between(nodes[0], bone) : nodes[0];
         nodes[1] = rig_.add(name(names[1]), above, is_split ? Vector3d(bone / 2) : bone, turn(body_.rest[limb]));
-        nodes[2] = rig_.add(name(names[2]), nodes[1], bone);
+        nodes[2] = rig_.add(name(names[2]), nodes[1], bone, turn(-body_.rest[limb]));  // feet lie level
         if (!is_arm && body_.toe_step) {
             const Vector3d& step = *body_.toe_step;
             const int toe = rig_.add(name(body_.toe), nodes[2], {x * step.x(), step.y(), step.z()});
@@ -55,9 +55,10 @@ private:
         }
         for (std::size_t part = 0; part < 3; ++part) say(part + (is_arm ? 0 : 3), is_left, nodes[part]);
         if (body_.clip.empty()) return;
+        const AngleAxisd aside(body_.aside[limb] * kDegree, bone.normalized());
         std::vector<double> degrees;
         for (const Bends& frame : body_.clip) degrees.push_back(frame[limb]);
-        rig_.add_keys(animation_, nodes[1], "rotation", times(degrees.size()), turns(axis, degrees));
+        rig_.add_keys(animation_, nodes[1], "rotation", times(degrees.size()), turns(aside * axis, degrees));
     }
     int add_between(int upper, const Vector3d& bone)
     {

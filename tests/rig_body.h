@@ -31,6 +31,8 @@ struct Body {
     Eigen::Vector3d arm_bone = {0.3, 0, 0}, leg_bone = {0, -0.45, 0};          // on the left
     Bends rest = {};                                                           // in the rest pose
     std::vector<Bends> clip = {};                                              // in each frame; empty: no clip
+    Bends aside = {};                                                          // by which the clip's axes are turned
+                                                                               // about the upper bones from rest's
     std::optional<Eigen::Vector3d> toe_step = Eigen::Vector3d(0, -0.05, 0.1);  // from the foot, on the left
     Eigen::Vector3d scale = {1, 1, 1};                                         // of what is above the figure
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();                  // of the figure
