@@ -36,6 +36,12 @@ struct PlainPose {  // in the world: x_w = position + rotation * x_joint
     Eigen::Matrix3d rotation;
 };
 
+// A joint's, of all joints' poses.
+inline const PlainPose& at(const std::vector<PlainPose>& pose, int joint)
+{
+    return pose[static_cast<std::size_t>(joint)];
+}
+
 PlainMotion plain_motion(const std::string& text);
 
 inline PlainMotion plain_motion_of(const fs::path& path) { return plain_motion(slurp(path)); }

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise of `swivel feet` on recorded motion: feet that it finds in contact stand, on the ground, and neither
-// knees nor velocities pay for it. Tests' own readers and formulas judge. It prints what it measures:
-// test_feet -# "[#test_feet]".
+// knees nor velocities pay for it. Tests' own readers and formulas judge.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 
 #include "tests/feet_motion.h"
+#include "tests/made_body.h"
 #include "tests/plain_gltf.h"
 #include "tests/run_command.h"
 #include "tests/shared_figures.h"
@@ -29,8 +28,6 @@ using Eigen::Vector3d;
 using nlohmann::json;
 
 namespace {
-
-constexpr double kMetre = 0.0254 / 0.45;  // a unit of the CMU library's skeletons
 
 void feet_done(const TempFolder& folder, Words words)
 {
@@ -61,13 +58,6 @@ std::string refused_feet(const TempFolder& folder, Words words, int exit_code = 
 
 PlainLegs legs_in(const fs::path& path) { return legs_path(plain_motion_of(path), kCarriedTime); }
 
-// Those by which the prototype's figures are measured: slower than 0.5 m/s and lower than 6 cm.
-PlainContacts prototypes_contacts(const PlainLegs& source)
-{
-    const double leg = kMetre * source.leg_length(0);
-    return plain_contacts(source, 0.5 / leg, 0.06 / leg);
-}
-
 double agreement(const PlainContacts& a, const PlainContacts& b)
 {
     double same = 0, all = 0;
@@ -76,26 +66,10 @@ double agreement(const PlainContacts& a, const PlainContacts& b)
     return same / all;
 }
 
-void print_skating(const char* words, const PlainSkating& is)
-{
-    std::printf("%-22s %6.4f  %6.4f  %6.2f  %6.2f  %7.4f\n", words, kMetre * is.mean, kMetre * is.most,
-                1e3 * kMetre * is.step, is.knee, kMetre * is.jump);
-}
-
-struct FeetCase {
-    const char* words;
-    const char* file;
-    Carried to;
-    // What the prototype's least squares leaves: m/s, mean and most; mm a step; a knee, degrees a frame.
-    double mean, most, step, knee;
-};
-// 0 in its table is less than half of the last digit.
-const FeetCase kFeetCases[] = {
-    {"walk, legs x 0.8", "cmu_02_01_walk.bvh", {.legs = 0.8}, .020, .334, 12, 13.1},
-    {"dance, legs x 0.8", "cmu_05_06_dance.bvh", {.legs = 0.8}, .0005, .0005, 0.5, 10.2},
-    {"jump, legs x 0.8", "cmu_01_01_forward_jump.bvh", {.legs = 0.8}, .0005, .009, 0.5, 17.3},
-    {"walk, root x 1.25", "cmu_02_01_walk.bvh", {.way = 1.25}, .030, .454, 18, 15.4},
-};
+// What the prototype's least squares leaves of each of kSkatingClips. 0 in its table is less than half of the last
+// digit.
+constexpr Skates kAfter[] = {
+    {.020, .334, 12, 13.1}, {.0005, .0005, 0.5, 10.2}, {.0005, .009, 0.5, 17.3}, {.030, .454, 18, 15.4}};
 
 // The first jump of the clip that every machine has.
 std::string first_jump(const Carried& to)
@@ -134,10 +108,8 @@ Words tokens_of(const std::string& line)
 
 TEST_CASE("feet: recorded feet stand where legs or way do not fit the clip")
 {
-    std::printf(
-        "Toes in contact: m/s, mean and most; mm a step. A knee, degrees a frame; a toe's velocity, m/s a "
-        "frame.\n");
-    for (const FeetCase& each : kFeetCases) {
+    for (std::size_t clip = 0; clip < std::size(kSkatingClips); ++clip) {
+        const SkatingClip& each = kSkatingClips[clip];
         const fs::path path = find_or_warn(each.file);
         if (path.empty()) continue;
         INFO(each.words);
@@ -153,12 +125,11 @@ TEST_CASE("feet: recorded feet stand where legs or way do not fit the clip")
         const json report = feet_report(folder, {"skates.bvh", "--contacts", "c.csv", "--out", "stands.bvh"}).at(0);
         const PlainLegs stands = legs_in(folder / "stands.bvh");
         const PlainSkating before = plain_skating(skates, contacts), after = plain_skating(stands, contacts);
-        print_skating(each.words, before);
-        print_skating("  after", after);
-        CHECK(kMetre * after.mean <= each.mean);
-        CHECK(kMetre * after.most <= each.most);
-        CHECK(1e3 * kMetre * after.step <= each.step);
-        CHECK(after.knee <= each.knee + 0.05);  // half of the last digit
+        const Skates is = in_metres(after), &wanted = kAfter[clip];
+        CHECK(is.mean <= wanted.mean);
+        CHECK(is.most <= wanted.most);
+        CHECK(is.step <= wanted.step);
+        CHECK(is.knee <= wanted.knee + 0.05);  // half of the last digit
         CHECK(after.jump <= before.jump);
         CHECK(after.body_jump <= before.body_jump);
         // On the ground, which is level.
@@ -191,9 +162,7 @@ TEST_CASE("feet: a clip that skates tells its own contacts, and all else of its 
     CHECK(kMetre * plain_skating(legs_path(is, kCarriedTime), found).most < 1e-3);
     const PlainContacts true_ones = prototypes_contacts(legs_path(plain_motion(carried(recorded, {})), kCarriedTime));
     CHECK(agreement(found, true_ones) > 0.95);
-    const PlainSkating left = plain_skating(legs_path(is, kCarriedTime), true_ones);
-    print_skating("walk, by its own", left);
-    CHECK(1e3 * kMetre * left.step < 12);
+    CHECK(in_metres(plain_skating(legs_path(is, kCarriedTime), true_ones)).step < 12);
     CHECK(is.header == was.header);
     std::vector<bool> may_change(was.values[0].size());
     for (const PlainJoint& joint : was.joints)
@@ -388,7 +357,6 @@ TEST_CASE("feet: on hills they stand on the ground as it lies, and on one side o
         CHECK(now[0] < 2 * own[0]);
         CHECK(now[1] < 2 * own[1]);
         const PlainSkating before = plain_skating(flat, contacts), after = plain_skating(stands, contacts);
-        print_skating("walk on ground", after);
         CHECK(kMetre * after.most < 1e-3);
         CHECK(after.knee < 13.1);
         CHECK(after.jump < 1.5 * before.jump);
@@ -474,19 +442,12 @@ TEST_CASE("feet: a glTF's feet stand, and a foot without a toe joint stands on i
     const std::vector<double> times = key_times(is, is.node_named("DEF-hips"), "translation");
     REQUIRE(times.size() == frame_count);
     const PlainContacts contacts = contacts_in_table(slurp(folder / "c.csv"), frame_count);
-    int held = 0;
-    for (std::size_t side = 0; side < 2; ++side) {
-        const int toe = is.node_named(side == 0 ? "DEF-toe.L" : "DEF-toe.R");
-        for (std::size_t n = 1; n < frame_count; ++n) {
-            if (!contacts[side][n] || !contacts[side][n - 1]) continue;
-            const auto at = [&](std::size_t frame) {
-                return Vector3d(plain_world(is, 0, toe, times[frame]).translation());
-            };
-            CHECK((at(n) - at(n - 1)).norm() < 1e-5);
-            ++held;
-        }
-    }
-    CHECK(held > 100);
+    const PlainLegs legs =
+        legs_path(is, {"DEF-hips", "DEF-thigh.*", "DEF-shin.*", "DEF-foot.*", "DEF-toe.*"}, {"L", "R"}, times);
+    CHECK(std::ranges::count(contacts[0], true) + std::ranges::count(contacts[1], true) > 100);
+    const PlainSkating skating = plain_skating(legs, contacts);
+    CHECK(skating.most / 60 < 1e-5);
+    CHECK(skating.sink < 1e-5);
     const fs::path man = find_or_warn("cesium_man.gltf");
     if (man.empty()) return;
     const Words walk = {man.string(), "--fps", "60", "--leg", "left:#7,#8,#9", "--leg", "right:#3,#4,#5"};
@@ -500,27 +461,12 @@ TEST_CASE("feet: a glTF's feet stand, and a foot without a toe joint stands on i
 
 TEST_CASE("feet: a body that glides along with both feet is told so")
 {
-    const auto leg = [](const std::string& side, int left) {
-        std::string text;
-        for (const auto& [name, offset] :
-             {std::pair("UpLeg", fmt::format("{} 0 0", left)), std::pair("Leg", std::string("0 -4 0")),
-              std::pair("Foot", std::string("0 -4 0")), std::pair("ToeBase", std::string("0 0 1"))})
-            text += fmt::format("JOINT {}{}\n{{\nOFFSET {}\nCHANNELS 3 Zrotation Yrotation Xrotation\n", side, name,
-                                offset);
-        return text + "End Site\n{\nOFFSET 0 0 1\n}\n}\n}\n}\n}\n";
-    };
-    std::string frames;
-    for (int n = 0; n < 60; ++n) {
-        frames += fmt::format("0 8 {}", 0.4 * n);
-        for (int value = 3; value < 6 + 2 * 4 * 3; ++value) frames += " 0";
-        frames += "\n";
-    }
+    const MadeBody body;
+    std::vector<std::vector<double>> rows(60, body.rest_row());
+    for (std::size_t n = 0; n < rows.size(); ++n) rows[n][2] = 0.0261 * static_cast<double>(n);
     const TempFolder folder;
-    spill(folder / "glides.bvh",
-          "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation "
-          "Xrotation\n" +
-              leg("Left", 1) + leg("Right", -1) + "}\nMOTION\nFrames: 60\nFrame Time: 0.0333333\n" + frames);
-    // 12 units a second, of legs of 8
+    spill(folder / "glides.bvh", body.text(rows));
+    // 1.305 a second, of legs of 0.87
     CHECK_THAT(refused_feet(folder, {"glides.bvh"}),
                Contains("glides.bvh: its feet slide with the body, by 1.5 leg lengths a second"));
 }

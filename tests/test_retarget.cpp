@@ -12,6 +12,7 @@
 #include <random>
 
 #include "tests/gltf_rig.h"
+#include "tests/made_body.h"
 #include "tests/plain_gltf.h"
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
@@ -24,69 +25,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180;
-
-Matrix3d about(const Vector3d& axis, double angle_deg)
-{
-    return Eigen::AngleAxisd(angle_deg * kRad, axis).toRotationMatrix();
-}
-
-// A body that faces +Z and stands along +Y before `world` turns it.
-struct MadeBody {
-    int spine = 3;
-    double size = 1;
-    double arms_down_deg = 0, legs_out_deg = 0, toes_out_deg = 0;  // of its rest
-    double forearm = 0.26, shin = 0.42, foot = 0.13;
-    Matrix3d world = Matrix3d::Identity();
-
-    std::string joint(const std::string& name, const Vector3d& offset, const std::string& below) const
-    {
-        const Vector3d at = size * (world * offset);
-        const std::string kind = name == "Hips" ? "ROOT " : "JOINT ";
-        const std::string channels = name == "Hips" ? "CHANNELS 6 Xposition Yposition Zposition " : "CHANNELS 3 ";
-        return kind + name + fmt::format("\n{{\nOFFSET {} {} {}\n", at.x(), at.y(), at.z()) + channels +
-               "Zrotation Xrotation Yrotation\n" + below + "}\n";
-    }
-    std::string arm(const std::string& name, double left) const
-    {
-        const Vector3d way = about(Vector3d::UnitZ(), -left * arms_down_deg) * Vector3d(left, 0, 0);
-        const std::string hand = joint(name + "Hand", forearm * way, "End Site\n{\nOFFSET 0 0 0\n}\n");
-        return joint(name + "Shoulder", {0.03 * left, 0.02, 0},
-                     joint(name + "Arm", {0.12 * left, 0, 0}, joint(name + "ForeArm", 0.3 * way, hand)));
-    }
-    std::string leg(const std::string& name, double left) const
-    {
-        const Vector3d way = about(Vector3d::UnitZ(), left * legs_out_deg) * Vector3d(0, -1, 0);
-        const Vector3d toe = about(Vector3d::UnitY(), left * toes_out_deg) * Vector3d(0, -0.06, foot);
-        const std::string toes = joint(name + "ToeBase", toe, "End Site\n{\nOFFSET 0 0 0\n}\n");
-        return joint(name + "UpLeg", {0.1 * left, -0.05, 0},
-                     joint(name + "Leg", 0.45 * way, joint(name + "Foot", shin * way, toes)));
-    }
-    std::string hierarchy() const
-    {
-        std::string above = joint("Neck", {0, 0.06, 0}, joint("Head", {0, 0.1, 0}, "End Site\n{\nOFFSET 0 0 0\n}\n")) +
-                            arm("Left", 1) + arm("Right", -1);
-        for (int n = spine; n > 0; --n) above = joint(fmt::format("Spine{}", n), {0, 0.5 / spine, 0}, above);
-        return "HIERARCHY\n" + joint("Hips", Vector3d::Zero(), leg("Left", 1) + leg("Right", -1) + above) + "MOTION\n";
-    }
-    // With these rows of values; none: one frame at rest.
-    std::string text(const std::vector<std::vector<double>>& rows = {}) const
-    {
-        const std::string rest = hierarchy() + "Frames: 1\nFrame Time: 0.01\n";
-        std::string frames;
-        for (const std::vector<double>& row : rows) frames += fmt::format("{}\n", fmt::join(row, " "));
-        if (rows.empty()) return rest + zeros(rest);
-        return hierarchy() + fmt::format("Frames: {}\nFrame Time: 0.02\n{}", rows.size(), frames);
-    }
-    static std::string zeros(const std::string& header)
-    {
-        std::string line;
-        for (const PlainJoint& joint : plain_motion(header).joints)
-            for (std::size_t n = 0; n < joint.channels.size(); ++n) line += line.empty() ? "0" : " 0";
-        return line + "\n";
-    }
-};
-
 // Any pose that its legs can stand in: knees are bent by 30 to 60 degrees.
 std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, double least_elbow = 20,
                                              double most_elbow = 70)
@@ -96,7 +34,7 @@ std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, do
     const PlainMotion motion = plain_motion(body.text());
     std::vector<std::vector<double>> rows;
     for (int n = 0; n < count; ++n) {
-        std::vector<double>& row = rows.emplace_back(motion.values[0]);
+        std::vector<double>& row = rows.emplace_back(body.rest_row());
         for (const PlainJoint& joint : motion.joints)
             for (std::size_t c = 0; c < joint.channels.size(); ++c) {
                 double& value = row[joint.first_channel + c];
@@ -120,11 +58,10 @@ struct Made {
     PlainMotion source{}, out{};
     std::string report{};
 
-    Made(const MadeBody& from, const MadeBody& to, const std::vector<std::vector<double>>& rows,
-         const Words& options = {})
+    Made(const std::string& from, const std::string& to, const Words& options = {})
     {
-        spill(folder / "source.bvh", from.text(rows));
-        spill(folder / "target.bvh", to.text());
+        spill(folder / "source.bvh", from);
+        spill(folder / "target.bvh", to);
         Words words = {"retarget", "source.bvh", "target.bvh", "--out", "out.bvh"};
         words.insert(words.end(), options.begin(), options.end());
         const Outcome outcome = run_command(folder.path, words);
@@ -165,7 +102,7 @@ TEST_CASE("retarget: the same body in another rest, size and world takes every p
     target.legs_out_deg = 15;
     target.toes_out_deg = 20;
     target.world << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // z is up, x ahead, y left
-    const Made made(source, target, random_rows(source, 50));
+    const Made made(source.text(random_rows(source, 50)), target.text());
     for (const PlainJoint& joint : made.out.joints) {
         INFO(joint.name);
         CHECK(made.off(joint.name, [&](std::size_t frame) {
@@ -188,7 +125,8 @@ TEST_CASE(
     const double by_leg = (0.45 + 0.36) / (0.45 + 0.42), by_arm = (0.3 + 0.32) / (0.3 + 0.26);
     for (const bool is_bent : {true, false}) {
         INFO(is_bent);
-        const Made made(source, target, is_bent ? random_rows(source, 50, 95, 120) : random_rows(source, 50, 10, 35));
+        const auto rows = is_bent ? random_rows(source, 50, 95, 120) : random_rows(source, 50, 10, 35);
+        const Made made(source.text(rows), target.text());
         for (const std::string side : {"Left", "Right"}) {
             INFO(side);
             CHECK(made.off(side + "ToeBase", [&](std::size_t frame) {
@@ -217,17 +155,17 @@ TEST_CASE("retarget: knees bend as the source's, whatever its bones")
     MadeBody target;
     target.shin = 0.15;  // at the source's places its knees would bend by up to 16 degrees more
     target.foot = 0.19;
+    const PlainMotion motion = plain_motion(source.text());
     std::vector<std::vector<double>> rows;
     for (const double knee : {0.0, 5.0, 20.0, 45.0, 80.0}) {
-        const PlainMotion motion = plain_motion(source.text());
-        std::vector<double>& row = rows.emplace_back(motion.values[0]);
+        std::vector<double>& row = rows.emplace_back(source.rest_row());
         for (const std::string side : {"Left", "Right"}) {
             row[motion.joint(joint_named(motion, side + "UpLeg")).first_channel + 1] = -knee / 2;
             row[motion.joint(joint_named(motion, side + "Leg")).first_channel + 1] = knee;
             row[motion.joint(joint_named(motion, side + "Foot")).first_channel + 1] = -knee / 2;
         }
     }
-    const Made made(source, target, rows);
+    const Made made(source.text(rows), target.text());
     const PlainArm leg = legs_of(made.source)[0], to = legs_of(made.out)[0];
     for (std::size_t frame = 0; frame < rows.size(); ++frame)
         CHECK(std::abs(arm_pose(made.source, leg, frame).bend() - arm_pose(made.out, to, frame).bend()) < 3 * kRad);
@@ -240,13 +178,13 @@ TEST_CASE("retarget: spines of other counts divide the turns of the source's eve
         MadeBody source, target;
         target.spine = count;
         const PlainMotion rest = plain_motion(source.text());
-        std::vector<double> row = rest.values[0];
+        std::vector<double> row = source.rest_row();
         const double turns[] = {10, -30, 25};
         for (int n = 0; n < 3; ++n) {
             const PlainJoint& joint = rest.joint(joint_named(rest, fmt::format("Spine{}", n + 1)));
             row[joint.first_channel + 1] = turns[n];  // about x
         }
-        const Made made(source, target, {row});
+        const Made made(source.text({row}), target.text());
         for (int n = 1; n <= count; ++n) {
             const double place = 3.0 * n / count;  // of the three turns
             double turn = 0;
@@ -265,16 +203,10 @@ TEST_CASE("retarget: feet that rest near height 0 stand there again, however the
     std::string text = target.text();
     const double toe = 0.5 * (0.05 + 0.45 + 0.42 + 0.06);                           // below the hips
     text = edited(text, "OFFSET 0 0 0", fmt::format("OFFSET 0 {} 0", toe + 0.01));  // toes 0.01 over the ground
-    std::vector<double> row(plain_motion(source.text()).values[0].size());
+    std::vector<double> row = source.rest_row();
     row[1] = 7;  // the source's ground is anywhere
-    const TempFolder folder;
-    spill(folder / "source.bvh", source.text({row, row}));
-    spill(folder / "target.bvh", text);
-    const Outcome outcome = run_command(folder.path, {"retarget", "source.bvh", "target.bvh", "--out", "out.bvh"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    const PlainMotion out = plain_motion_of(folder / "out.bvh");
-    CHECK(std::abs(Made::at(out, "LeftToeBase", 1).position.y() - 0.01) < 1e-6);
+    const Made made(source.text({row, row}), text);
+    CHECK(std::abs(Made::at(made.out, "LeftToeBase", 1).position.y() - 0.01) < 1e-6);
 }
 
 TEST_CASE("retarget: the animation of a glTF target tells its ground")
@@ -286,7 +218,7 @@ TEST_CASE("retarget: the animation of a glTF target tells its ground")
     const double toe = 0.05 + 0.45 + 0.42 + 0.06;  // below the hips
     const auto y = static_cast<float>(toe + 0.2);  // so the ground is at 0.2
     rig.add_keys(rig.add_animation("Stand"), 0, "translation", {0, 1}, {0, y, 0, 0, y, 0});
-    std::vector<double> row(rest.values[0].size());
+    std::vector<double> row = body.rest_row();
     row[1] = 7;  // the source's ground is elsewhere
     const TempFolder folder;
     rig.write(folder / "target.glb");
@@ -314,7 +246,7 @@ TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
     MadeBody source, target;
     source.spine = 2;
     const auto rows = random_rows(source, 5);
-    const Made found(source, target, rows, {"--export-map", "map.csv"});
+    const Made found(source.text(rows), target.text(), {"--export-map", "map.csv"});
     const std::string map = slurp(found.folder / "map.csv");
     CHECK_THAT(map, Contains("part,source,target\nhips,Hips,Hips\nspine,Spine1,Spine1\nspine,Spine2,Spine2\n"
                              "spine,,Spine3\n"));
@@ -351,7 +283,7 @@ TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
 TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, of either body")
 {
     const MadeBody body;
-    const Made known(body, body, random_rows(body, 5));
+    const Made known(body.text(random_rows(body, 5)), body.text());
     const TempFolder folder;
     // Every name says another thing, or nothing; a number says the same.
     const auto unnamed = [](std::string text) {
