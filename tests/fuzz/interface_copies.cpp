@@ -41,8 +41,7 @@ void require_equal_rows(const Session& session, swivel_field field, const Limbs&
     const std::size_t first_row = swivel_field_first_row(session.crowd, limbs.group, field);
     for (std::size_t n = 0; n < limbs.count; ++n)
         for (std::size_t c = 0; c < values.value_bytes() / sizeof(float); ++c) {
-            const std::size_t limb = limbs.first + n, row = limb / SWIVEL_LANES * rows.row_count + first_row + c;
-            const float* const at = rows.base + row * SWIVEL_LANES + limb % SWIVEL_LANES;
+            const float* const at = &number_at(rows, limbs.first + n, first_row + c);
             SWIVEL_REQUIRE(std::memcmp(at, values.at(n) + c * sizeof(float), sizeof(float)) == 0);
         }
 }
