@@ -11,7 +11,6 @@
 #include "swivel/swivel.hpp"
 #include "tests/plain_gltf.h"
 #include "tests/random_figure.h"
-#include "tests/rig_body.h"
 #include "tests/run_command.h"
 
 using namespace swivel::test;

@@ -10,7 +10,7 @@
 #include <regex>
 #include <string>
 
-#include "tests/rig_body.h"
+#include "tests/random_figure.h"
 #include "tests/test_random.h"
 
 using namespace swivel::test;
@@ -251,12 +251,11 @@ void judge(const std::vector<Row>& rows)
 {
     const TempFolder folder;
     for (const Row& row : rows) {
-        GltfRig rig;
-        const BodyNodes nodes = add_body(rig, row.body);
-        rig.write(folder / "rig.glb");
+        const Figure figure = figure_of(row.body);
+        figure.rig.write(folder / "rig.glb");
         const PlainGltf plain = plain_gltf_of(folder / "rig.glb");
-        const json report = rig_report(rig);
-        for (std::size_t n = 0; n < 4; ++n) judge(row, n, limb_of(report, kLimbs[n]), plain, nodes[n]);
+        const json report = rig_report(figure.rig);
+        for (std::size_t n = 0; n < 4; ++n) judge(row, n, limb_of(report, kLimbs[n]), plain, figure.limbs[n]);
     }
 }
 
