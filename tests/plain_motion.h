@@ -36,12 +36,6 @@ struct PlainPose {  // in the world: x_w = position + rotation * x_joint
     Eigen::Matrix3d rotation;
 };
 
-// A joint's, of all joints' poses.
-inline const PlainPose& at(const std::vector<PlainPose>& pose, int joint)
-{
-    return pose[static_cast<std::size_t>(joint)];
-}
-
 PlainMotion plain_motion(const std::string& text);
 
 inline PlainMotion plain_motion_of(const fs::path& path) { return plain_motion(slurp(path)); }
@@ -79,6 +73,9 @@ struct PlainArmPose {
 };
 
 PlainArmPose arm_pose(const PlainMotion& motion, const PlainArm& arm, std::size_t frame);
+
+// A frame's line with its words at some channels taken out: blanks, line end and all other words.
+std::string rest_of(const std::string& line, const std::vector<std::size_t>& channels);
 
 // The text of a motion's frames first, first + step, ... and as often as wanted.
 std::string cut(const PlainMotion& motion, std::size_t first, std::size_t step, std::size_t repeats = 1);

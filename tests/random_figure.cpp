@@ -31,8 +31,8 @@ public:
         figure_.is_mirrored = scale.x() < 0;
         if (likely(wish_.uneven)) spoil(scale);
         Eigen::Isometry3d armature = Eigen::Isometry3d::Identity();
-        if (draws_) armature.translation() = Vector3d(any(), any(), any());
         if (wish_.random_axes) armature.rotate(any_turn());
+        if (draws_) armature.translation() = any() * Vector3d(1, -0.5, 0.3);
         const int above = add("Armature", -1, armature, scale),
                   root = add("Root", above, Eigen::Isometry3d(body_.turn), Vector3d::Ones());
         figure_.front = (poses_[1].linear() * Vector3d::UnitZ()).normalized();

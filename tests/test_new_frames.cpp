@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A whole motion written into a file: other frames, all joints, translations. What is written is posed by
-// plain_motion.h and plain_gltf.h, which share no code with readers and writers.
+// A whole motion written into a file: other frames, all joints, translations. What is written to glTF is posed by
+// plain_gltf.h, which shares no code with readers and writers. test_retarget_clips.cpp does so with BVH.
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +11,6 @@
 #include "tests/gltf_clip.h"
 #include "tests/gltf_judges.h"
 #include "tests/plain_gltf.h"
-#include "tests/plain_motion.h"
 #include "tests/shared_figures.h"
 #include "tests/test_data.h"
 #include "tools/formats/bvh.h"
@@ -53,34 +52,6 @@ struct Backwards {
 };
 
 }  // namespace
-
-TEST_CASE("new frames: a BVH file keeps its hierarchy and takes any motion")
-{
-    const TempFolder folder;
-    for (const char* name : kSharedClips) {
-        const fs::path path = find_or_warn(name);
-        if (path.empty()) continue;
-        INFO(name);
-        const BvhFile file = read_bvh(path);
-        const Backwards motion(file.clip);
-        write_bvh(folder / "new.bvh", file,
-                  motion.keys([&](std::size_t joint) { return !file.joints[joint].channels.empty(); }),
-                  motion.new_frames());
-        const PlainMotion before = plain_motion_of(path), after = plain_motion_of(folder / "new.bvh");
-        const auto hierarchy = [](const PlainMotion& of) { return of.header.substr(0, of.header.find("MOTION")); };
-        CHECK(hierarchy(after) == hierarchy(before));
-        CHECK_THAT(after.header, Contains("Frame Time: 0.04\n"));
-        REQUIRE(after.lines.size() == motion.frames.size());
-        double off = 0;
-        for (std::size_t n = 0; n < motion.frames.size(); ++n) {
-            const auto from = pose_of(before, motion.frames[n]), to = pose_of(after, n);
-            for (std::size_t joint = 0; joint < from.size(); ++joint)
-                off = std::max({off, (from[joint].position - to[joint].position).norm(),
-                                (from[joint].rotation - to[joint].rotation).norm()});
-        }
-        CHECK(off < 1e-8);  // nine decimals
-    }
-}
 
 TEST_CASE("new frames: what has no keys rests in BVH; what cannot hold them is refused")
 {

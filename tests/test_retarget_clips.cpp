@@ -76,6 +76,8 @@ TEST_CASE("retarget: a motion on its own figure is the same motion")
         retargeted(folder, path, path, "same.bvh");
         const PlainMotion before = plain_motion_of(path), after = plain_motion_of(folder / "same.bvh");
         REQUIRE(after.lines.size() == before.lines.size());
+        const auto hierarchy = [](const PlainMotion& of) { return of.header.substr(0, of.header.find("MOTION")); };
+        CHECK(hierarchy(after) == hierarchy(before));
         double turn = 0, place = 0;
         for (std::size_t frame = 0; frame < before.lines.size(); ++frame) {
             const auto from = local_turns(before, frame), to = local_turns(after, frame);
