@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// New rotations written into BVH files: accuracy, and continuity of keys. That all other text of real files stays is
-// for tests/test_clip_back.cpp. Written angles are checked by rotation matrices from the bare text as well as by
-// reading the file again.
+// New rotations, positions and frames written into BVH files: accuracy, and continuity of keys. That all other text of
+// real files stays is for tests/test_clip_back.cpp, and whole motions are for tests/test_retarget_clips.cpp. Written
+// angles are checked by rotation matrices from the bare text as well as by reading the file again.
 
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
@@ -182,4 +182,35 @@ TEST_CASE("bvh: overrides that fit no file are the caller's mistake")
          {std::vector<JointKeys>{{3, fit}}, {{-1, fit}}, {{1, less}}, {{1, zero}}, {{1, nan}}, {{1, fit}, {1, fit}}})
         CHECK_THROWS_AS(write_bvh(folder / "w.bvh", file, overrides), std::invalid_argument);
     CHECK_FALSE(fs::exists(folder / "w.bvh"));
+}
+
+TEST_CASE("bvh: new frames: what has no keys rests in BVH; what cannot hold them is refused")
+{
+    const TempFolder folder;
+    const BvhFile file = read(folder, kTiny);
+    const std::vector<Vector3d> place(3, Vector3d(-7, 0.125, 1e-10));
+    const std::vector<Quaterniond> turned(3, Quaterniond(turn('X', 50)));
+    write_bvh(folder / "w.bvh", file, {{{0, {}, place}}}, NewFrames{3, 0.25});
+    const std::string row = "-7.000000000 0.125000000 0.000000000 0 0 0 0 0 0\n";
+    CHECK(slurp(folder / "w.bvh") ==
+          kTiny.substr(0, kTiny.find("Frames:")) + "Frames: 3\nFrame Time: 0.25\n" + row + row + row);
+    write_bvh(folder / "w.bvh", file, {{{1, turned}}}, NewFrames{3, 0.25});
+    CHECK_THAT(slurp(folder / "w.bvh"), Contains("\n1 2 3 0 0 0 0.000000000 50.000000000 0.000000000\n"));
+    CHECK(complaint_of(folder, [&] {
+              write_bvh(folder / "x.bvh", file, {{{1, {}, place}}}, NewFrames{3, 1});
+          }) == "t.bvh:9: joint 'Arm' cannot take a new position: it has fewer than three position channels");
+    CHECK_THROWS_AS(write_bvh(folder / "x.bvh", file, {{{0, {}, place}}}, NewFrames{2, 1}), std::invalid_argument);
+    const std::vector<Vector3d> endless(3, Vector3d(0, HUGE_VAL, 0));
+    CHECK_THROWS_AS(write_bvh(folder / "x.bvh", file, {{{0, {}, endless}}}, NewFrames{3, 1}), std::invalid_argument);
+    CHECK_FALSE(fs::exists(folder / "x.bvh"));
+}
+
+TEST_CASE("bvh: new frames: a position in a clip's own frames leaves its other numbers alone")
+{
+    const TempFolder folder;
+    const BvhFile file = read(folder, kTiny);
+    const std::vector<Vector3d> place = {{1, 2, 3}, {4, 5, 6}};
+    write_bvh(folder / "w.bvh", file, {{{0, {}, place}}});
+    CHECK(slurp(folder / "w.bvh") == edited(edited(kTiny, "\n10 20 30 90", "\n1.000000000 2.000000000 3.000000000 90"),
+                                            "\n10 20 30 0", "\n4.000000000 5.000000000 6.000000000 0"));
 }

@@ -53,6 +53,14 @@ std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, do
     return rows;
 }
 
+Outcome retarget(const TempFolder& folder, const Words& words, const Words& more = {})
+{
+    Words all = {"retarget"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), more.begin(), more.end());
+    return run_command(folder.path, all);
+}
+
 struct Made {
     TempFolder folder{};
     PlainMotion source{}, out{};
@@ -62,9 +70,7 @@ struct Made {
     {
         spill(folder / "source.bvh", from);
         spill(folder / "target.bvh", to);
-        Words words = {"retarget", "source.bvh", "target.bvh", "--out", "out.bvh"};
-        words.insert(words.end(), options.begin(), options.end());
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, {"source.bvh", "target.bvh", "--out", "out.bvh"}, options);
         INFO(outcome.err);
         REQUIRE(outcome.exit_code == 0);
         report = outcome.out;
@@ -223,7 +229,7 @@ TEST_CASE("retarget: the animation of a glTF target tells its ground")
     const TempFolder folder;
     rig.write(folder / "target.glb");
     spill(folder / "source.bvh", body.text({row, row}));
-    const Outcome outcome = run_command(folder.path, {"retarget", "source.bvh", "target.glb", "--out", "out.glb"});
+    const Outcome outcome = retarget(folder, {"source.bvh", "target.glb", "--out", "out.glb"});
     INFO(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     const PlainGltf out = plain_gltf_of(folder / "out.glb");
@@ -235,8 +241,8 @@ TEST_CASE("retarget: a table on standard output has that to itself")
     const TempFolder folder;
     spill(folder / "a.bvh", MadeBody().text());
     spill(folder / "b.bvh", MadeBody().text());
-    REQUIRE(run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
-    const Outcome outcome = run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "-"});
+    REQUIRE(retarget(folder, {"a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
+    const Outcome outcome = retarget(folder, {"a.bvh", "b.bvh", "--export-map", "-"});
     CHECK(outcome.out == slurp(folder / "map.csv"));
     CHECK_THAT(outcome.err, Contains("source    a.bvh") && Contains("written   to standard output\n"));
 }
@@ -253,8 +259,7 @@ TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
     CHECK_THAT(map, Contains("leftShoulder,LeftShoulder,LeftShoulder\nleftUpperArm,LeftArm,LeftArm\n"));
     const auto again = [&](const std::string& table) {
         spill(found.folder / "map.csv", table);
-        return run_command(found.folder.path,
-                           {"retarget", "source.bvh", "target.bvh", "--map", "map.csv", "--out", "again.bvh"});
+        return retarget(found.folder, {"source.bvh", "target.bvh", "--map", "map.csv", "--out", "again.bvh"});
     };
     CHECK(again(map).exit_code == 0);
     CHECK(slurp(found.folder / "again.bvh") == slurp(found.folder / "out.bvh"));
@@ -295,9 +300,7 @@ TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, o
     spill(folder / "plain.bvh", slurp(known.folder / "source.bvh"));
     spill(folder / "unnamed.bvh", unnamed(slurp(known.folder / "source.bvh")));
     const auto lines = [&](const std::string& from, const std::string& to, const Words& more) {
-        Words words = {"retarget", from, to, "--out", "out.bvh"};
-        words.insert(words.end(), more.begin(), more.end());
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, {from, to, "--out", "out.bvh"}, more);
         INFO(outcome.err);
         REQUIRE(outcome.exit_code == 0);
         CHECK_THAT(outcome.out, Contains("at rest   of TARGET: none\nunused    of SOURCE: none\n"));
@@ -310,9 +313,7 @@ TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, o
     CHECK(lines("unnamed.bvh", "plain.bvh", by_hand("source:")) == wanted);
     CHECK(lines("plain.bvh", "unnamed.bvh", by_hand("target:")) == wanted);
     const auto complaint = [&](const Words& more, int exit_code) {
-        Words words = {"retarget", "unnamed.bvh", "plain.bvh"};
-        words.insert(words.end(), more.begin(), more.end());
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, {"unnamed.bvh", "plain.bvh"}, more);
         CHECK(outcome.exit_code == exit_code);
         return outcome.err;
     };
@@ -333,27 +334,21 @@ TEST_CASE("retarget: garbage is said, and written only if it is asked for")
     spill(folder / "a.bvh", body.text(random_rows(body, 1)));
     spill(folder / "b.bvh", body.text());
     // A table that takes the arms for the legs.
-    REQUIRE(run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
+    REQUIRE(retarget(folder, {"a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
     std::string map = slurp(folder / "map.csv");
-    for (const std::string part : {"UpLeg,", "Leg,", "Foot,"}) {
-        const std::string source = "Left" + part, other = part == "UpLeg," ? "LeftArm,"
-                                                          : part == "Leg," ? "LeftForeArm,"
-                                                                           : "LeftHand,";
-        const std::size_t leg = map.find("," + source);
-        map.replace(leg + 1, source.size(), "(");
-        map.replace(map.find("," + other) + 1, other.size(), source);
-        map.replace(map.find("("), 1, other);
+    for (const auto& [leg, arm] :
+         {std::pair("LeftUpLeg", "LeftArm"), {"LeftLeg", "LeftForeArm"}, {"LeftFoot", "LeftHand"}}) {
+        map = edited(map, fmt::format(",{},", leg), ",?,");
+        map = edited(edited(map, fmt::format(",{},", arm), fmt::format(",{},", leg)), ",?,", fmt::format(",{},", arm));
     }
     spill(folder / "wrong.csv", map);
-    const Words words = {"retarget", "a.bvh", "b.bvh", "--map", "wrong.csv", "--out", "c.bvh"};
-    const Outcome garbage = run_command(folder.path, words);
+    const Words words = {"a.bvh", "b.bvh", "--map", "wrong.csv", "--out", "c.bvh"};
+    const Outcome garbage = retarget(folder, words);
     CHECK(garbage.exit_code == 1);
     CHECK_THAT(garbage.out, Contains("garbage   the left "));
     CHECK_THAT(garbage.err, Contains("; the motion is not written; ") && Contains("or give --force"));
     CHECK(!fs::exists(folder / "c.bvh"));
-    Words forced = words;
-    forced.push_back("--force");
-    CHECK(run_command(folder.path, forced).exit_code == 0);
+    CHECK(retarget(folder, words, {"--force"}).exit_code == 0);
     CHECK(fs::exists(folder / "c.bvh"));
 }
 
@@ -365,9 +360,7 @@ TEST_CASE("retarget: rest poses and up are chosen for either body")
     spill(folder / "a.bvh", body.text(rows));
     spill(folder / "b.bvh", body.text(rows));
     const auto report = [&](const Words& options) {
-        Words words = {"retarget", "a.bvh", "b.bvh"};
-        words.insert(words.end(), options.begin(), options.end());
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, {"a.bvh", "b.bvh"}, options);
         return outcome.out.substr(0, outcome.out.find("paired")) + outcome.err;
     };
     const std::string note = "note      frame 1 is taken as the rest pose, and y is up\n";
@@ -392,26 +385,26 @@ TEST_CASE("retarget: what cannot be is refused in one line, and nothing is lost"
     spill(folder / "b.bvh", MadeBody().text());
     spill(folder / "rig.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"name":"Hips"}]})");
     const auto complaint = [&](const Words& words) {
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, words);
         CHECK(outcome.exit_code != 0);
         return outcome.err;
     };
-    CHECK(complaint({"retarget", "a.bvh", "b.bvh", "--out", "c.glb"}) ==
+    CHECK(complaint({"a.bvh", "b.bvh", "--out", "c.glb"}) ==
           "swivel: --out c.glb: TARGET is a BVH file; its poses go to .bvh\n");
-    CHECK_THAT(complaint({"retarget", "a.bvh", "b.bvh", "--out", "b.bvh"}), Contains("b.bvh: is TARGET, too"));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "b.bvh", "--export-map", "a.bvh"}), Contains("a.bvh: is SOURCE, too"));
-    CHECK_THAT(complaint({"retarget", "-", "-"}), Contains("more than one of SOURCE, TARGET and --map is -"));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "rig.gltf"}), Contains("rig.gltf: no leg of it can be told"));
+    CHECK_THAT(complaint({"a.bvh", "b.bvh", "--out", "b.bvh"}), Contains("b.bvh: is TARGET, too"));
+    CHECK_THAT(complaint({"a.bvh", "b.bvh", "--export-map", "a.bvh"}), Contains("a.bvh: is SOURCE, too"));
+    CHECK_THAT(complaint({"-", "-"}), Contains("more than one of SOURCE, TARGET and --map is -"));
+    CHECK_THAT(complaint({"a.bvh", "rig.gltf"}), Contains("rig.gltf: no leg of it can be told"));
     CHECK(folder.file_count() == 3);
     MadeBody no_shin, no_forearm;
     no_shin.shin = no_forearm.forearm = 0;
     spill(folder / "no_shin.bvh", no_shin.text());
     spill(folder / "no_forearm.bvh", no_forearm.text());
     const char* const leg = "no_shin.bvh: the bone from LeftLeg to LeftFoot has no length at rest";
-    CHECK_THAT(complaint({"retarget", "no_shin.bvh", "b.bvh", "--out", "c.bvh"}), Contains(leg));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "no_shin.bvh", "--out", "c.bvh"}), Contains(leg));
+    CHECK_THAT(complaint({"no_shin.bvh", "b.bvh", "--out", "c.bvh"}), Contains(leg));
+    CHECK_THAT(complaint({"a.bvh", "no_shin.bvh", "--out", "c.bvh"}), Contains(leg));
     const char* const arm = "no_forearm.bvh: the bone from LeftForeArm to LeftHand has no length at rest";
-    CHECK_THAT(complaint({"retarget", "no_forearm.bvh", "b.bvh", "--out", "c.bvh"}), Contains(arm));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "no_forearm.bvh", "--out", "c.bvh"}), Contains(arm));
+    CHECK_THAT(complaint({"no_forearm.bvh", "b.bvh", "--out", "c.bvh"}), Contains(arm));
+    CHECK_THAT(complaint({"a.bvh", "no_forearm.bvh", "--out", "c.bvh"}), Contains(arm));
     CHECK(!fs::exists(folder / "c.bvh"));
 }

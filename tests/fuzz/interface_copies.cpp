@@ -58,7 +58,7 @@ void call_write(Session& session)
     const bool is_there =
         (field < SWIVEL_SHOULDER || is_carried(field)) && component_count(session, limbs.group, field) > 0;
     values.fill([&](std::size_t, char* at) {
-        std::array<float, 12> value{};
+        std::array<float, 28> value{};  // of seven twist bones, the most that a field has
         const std::size_t count = values.value_bytes() / sizeof(float);
         if (is_there) make_value(random, field, kind, std::span(value).first(count));
         if (is_there) std::memcpy(at, value.data(), values.value_bytes());
