@@ -1,16 +1,13 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Small BVH files for tests, and their numbers read by means other than the reader's.
+// Small BVH files for tests.
 
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "tests/test_data.h"
 #include "tools/formats/bvh.h"
@@ -57,23 +54,9 @@ inline std::string one_joint(const std::string& channels, const std::string& val
                        channels, frame_count, values);
 }
 
-// All motion values of a text, by strtod and blanks alone.
-inline std::vector<double> motion_values(const std::string& text)
-{
-    std::istringstream in(text.substr(text.find('\n', text.find("Frame Time"))));
-    std::vector<double> values;
-    for (std::string word; in >> word;) values.push_back(std::strtod(word.c_str(), nullptr));
-    return values;
-}
-
 inline Eigen::Matrix3d turn(char axis, double angle_deg)
 {
     return Eigen::AngleAxisd(angle_deg * std::numbers::pi / 180, Eigen::Vector3d::Unit(axis - 'X')).toRotationMatrix();
-}
-
-inline double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b)
-{
-    return a.angularDistance(b);  // by atan2, exact for small angles
 }
 
 }  // namespace swivel::test

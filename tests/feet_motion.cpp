@@ -41,6 +41,27 @@ PlainLegs legs_path(const PlainMotion& motion, double frame_time)
     return path;
 }
 
+PlainLegs legs_path(const PlainGltf& gltf, const std::array<std::string, 5>& names,
+                    const std::array<std::string, 2>& sides, const std::vector<double>& times)
+{
+    PlainLegs path{times[1] - times[0], {}, {}};
+    for (const double time : times) {
+        const auto place = [&](std::string name, std::size_t side) {
+            if (name.find('*') != name.npos) name.replace(name.find('*'), 1, sides[side]);
+            return Vector3d(plain_world(gltf, 0, gltf.node_named(name), time).translation());
+        };
+        path.body.push_back(place(names[0], 0));
+        for (std::size_t side = 0; side < 2; ++side) {
+            PlainLegPath& leg = path.legs[side];
+            leg.hip.push_back(place(names[1], side));
+            leg.knee.push_back(place(names[2], side));
+            leg.ankle.push_back(place(names[3], side));
+            leg.toe.push_back(place(names[4], side));
+        }
+    }
+    return path;
+}
+
 std::string carried(const PlainMotion& motion, const Carried& to)
 {
     std::istringstream in(motion.header);
@@ -104,6 +125,12 @@ PlainContacts plain_contacts(const PlainLegs& legs, double speed, double height)
     return contacts;
 }
 
+PlainContacts prototypes_contacts(const PlainLegs& source)
+{
+    const double leg = kMetre * source.leg_length(0);
+    return plain_contacts(source, 0.5 / leg, 0.06 / leg);
+}
+
 PlainContacts contacts_in_table(const std::string& csv, std::size_t frame_count)
 {
     PlainContacts contacts{std::vector<bool>(frame_count), std::vector<bool>(frame_count)};
@@ -138,6 +165,7 @@ PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts)
             if (!contacts[side][n] || !contacts[side][n - 1]) continue;
             const double slide = std::hypot(step.x(), step.z());
             skating.most = std::max(skating.most, slide / legs.frame_time);
+            skating.sink = std::max(skating.sink, std::abs(step.y()));
             way += slide;
             ++frames;
         }

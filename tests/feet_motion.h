@@ -8,6 +8,7 @@
 #include <functional>
 #include <span>
 
+#include "tests/plain_gltf.h"
 #include "tests/plain_motion.h"
 
 namespace swivel::test {
@@ -26,6 +27,9 @@ struct PlainLegs {
 
 // Of a skeleton with the names of the CMU library.
 PlainLegs legs_path(const PlainMotion& motion, double frame_time);
+// Of a glTF's first animation, at even times. names: hips, thigh, shin, foot and toe; * is the side, left first.
+PlainLegs legs_path(const PlainGltf& gltf, const std::array<std::string, 5>& names,
+                    const std::array<std::string, 2>& sides, const std::vector<double>& times);
 
 inline constexpr double kCarriedTime = 1.0 / 60;  // seconds from frame to frame of a clip that is carried
 
@@ -44,14 +48,41 @@ std::string carried(const PlainMotion& motion, const Carried& to);
 using PlainContacts = std::array<std::vector<bool>, 2>;
 PlainContacts plain_contacts(const PlainLegs& legs, double speed = 0.8, double height = 0.085);
 
+// Those of the prototype that the figures of kSkatingClips come from: slower than 0.5 m/s and lower than 6 cm.
+PlainContacts prototypes_contacts(const PlainLegs& source);
+
 // The rows of a table, frame by frame.
 PlainContacts contacts_in_table(const std::string& csv, std::size_t frame_count);
 
 // In lengths of the file a second, in lengths, in degrees: between two frames of contact.
 struct PlainSkating {
     double mean = 0, most = 0, step = 0, knee = 0, jump = 0, body_jump = 0;
+    double sink = 0;  // the most that a toe in contact goes up or down in a frame
 };
 PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts);
+
+inline constexpr double kMetre = 0.0254 / 0.45;  // a unit of the CMU library's skeletons
+
+// Recorded clips that skate because legs or way are another's, and how much: m/s, mean and most; mm a step; the most
+// that a knee turns in a frame, degrees.
+struct Skates {
+    double mean, most, step, knee;
+};
+struct SkatingClip {
+    const char *words, *file;
+    Carried to;
+    Skates before;
+};
+inline constexpr SkatingClip kSkatingClips[] = {
+    {"walk, legs x 0.8", "cmu_02_01_walk.bvh", {.legs = 0.8}, {.272, .598, 158, 6.3}},
+    {"dance, legs x 0.8", "cmu_05_06_dance.bvh", {.legs = 0.8}, {.142, .752, 63, 10.1}},
+    {"jump, legs x 0.8", "cmu_01_01_forward_jump.bvh", {.legs = 0.8}, {.088, .679, 112, 26.5}},
+    {"walk, root x 1.25", "cmu_02_01_walk.bvh", {.way = 1.25}, {.383, .870, 222, 6.3}},
+};
+inline Skates in_metres(const PlainSkating& is)
+{
+    return {kMetre * is.mean, kMetre * is.most, 1e3 * kMetre * is.step, is.knee};
+}
 
 // Height and slopes of hills at a place, by the recursion of de Boor and Cox for splines of degree 2. size: x, y, z.
 struct Hills {

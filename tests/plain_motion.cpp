@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <cstdlib>
 #include <numbers>
 #include <sstream>
@@ -140,6 +141,22 @@ PlainArmPose arm_pose(const PlainMotion& motion, const PlainArm& arm, std::size_
     const auto at = [&](int joint) -> const PlainPose& { return pose[static_cast<std::size_t>(joint)]; };
     return {at(arm.shoulder).position, at(arm.elbow).position, at(arm.wrist).position,
             at(motion.joint(arm.shoulder).parent).rotation, at(arm.wrist).rotation};
+}
+
+std::string rest_of(const std::string& line, const std::vector<std::size_t>& channels)
+{
+    std::string rest;
+    std::size_t word = 0;
+    for (std::size_t at = 0; at < line.size();) {
+        const bool is_blank = std::isspace(static_cast<unsigned char>(line[at])) != 0;
+        std::size_t end = at;
+        while (end < line.size() && (std::isspace(static_cast<unsigned char>(line[end])) != 0) == is_blank) ++end;
+        const bool is_solved = !is_blank && std::find(channels.begin(), channels.end(), word) != channels.end();
+        rest += is_solved ? "*" : line.substr(at, end - at);
+        word += !is_blank;
+        at = end;
+    }
+    return rest;
 }
 
 std::string cut(const PlainMotion& motion, std::size_t first, std::size_t step, std::size_t repeats)

@@ -74,6 +74,9 @@ struct PlainArmPose {
 
 PlainArmPose arm_pose(const PlainMotion& motion, const PlainArm& arm, std::size_t frame);
 
+// A frame's line with its words at some channels taken out: blanks, line end and all other words.
+std::string rest_of(const std::string& line, const std::vector<std::size_t>& channels);
+
 // The text of a motion's frames first, first + step, ... and as often as wanted.
 std::string cut(const PlainMotion& motion, std::size_t first, std::size_t step, std::size_t repeats = 1);
 

@@ -8,24 +8,40 @@ namespace swivel::test {
 
 namespace {
 
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr std::array<const char*, 7> kVrmNames = {"UpperArm", "LowerArm", "Hand", "UpperLeg",
+                                                  "LowerLeg", "Foot",     "Toes"};
+
 class FigureMaker {
 public:
-    FigureMaker(std::mt19937& random, const FigureWish& wish) : random_(random), wish_(wish) {}
+    // draws: the bones' lengths and bends are random, too.
+    FigureMaker(std::mt19937& random, const FigureWish& wish, const Body& body, bool draws)
+        : random_(random), wish_(wish), body_(body), draws_(draws)
+    {
+    }
 
-    Figure make(const FigureNames& names)
+    Figure make()
     {
         const double size = wish_.scales > 0 ? std::pow(10.0, 2 * any()) : 1;
-        Eigen::Vector3d scale = Eigen::Vector3d::Constant(size);
+        Vector3d scale = size * body_.scale;
         if (likely(wish_.mirrors)) scale.x() = -size;
         figure_.is_mirrored = scale.x() < 0;
         if (likely(wish_.uneven)) spoil(scale);
-        const Eigen::Quaterniond turn = wish_.random_axes ? any_turn() : Eigen::Quaterniond::Identity();
-        const int armature =
-            add("Armature", -1, Eigen::Isometry3d(Eigen::Translation3d(any(), any(), any()) * turn), scale);
-        figure_.front = (poses_[0].linear() * Eigen::Vector3d::UnitZ()).normalized();
-        const int hips = joint("hips", armature, {0, 1, 0}, Part::trunk),
+        Eigen::Isometry3d armature = Eigen::Isometry3d::Identity();
+        if (wish_.random_axes) armature.rotate(any_turn());
+        if (draws_) armature.translation() = any() * Vector3d(1, -0.5, 0.3);
+        const int above = add("Armature", -1, armature, scale),
+                  root = add("Root", above, Eigen::Isometry3d(body_.turn), Vector3d::Ones());
+        figure_.front = (poses_[1].linear() * Vector3d::UnitZ()).normalized();
+        const int hips = joint("hips", root, {0, 1, 0}, Part::trunk),
                   chest = joint("chest", hips, {0, 1.5, 0}, Part::trunk);
-        for (std::size_t limb = 0; limb < 4; ++limb) add_limb(names, limb, limb < 2 ? chest : hips);
+        if (!body_.clip.empty() || body_.between) clip_ = figure_.rig.add_animation("clip");
+        for (LimbNodes& limb : figure_.limbs) limb = {-1, -1, -1};
+        for (const std::size_t limb : body_.limbs) add_limb(limb, limb < 2 ? chest : hips);
+        if (body_.vrm > 0) write_vrm();
         if (wish_.moves) move();
         return figure_;
     }
@@ -33,14 +49,13 @@ public:
 private:
     double any() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
     bool likely(double share) { return std::uniform_real_distribution<double>(0, 1)(random_) < share; }
-    Eigen::Quaterniond any_turn() { return Eigen::Quaterniond(any(), any(), any(), any()).normalized(); }
-    void spoil(Eigen::Vector3d& scale) { scale.y() *= 1 + wish_.uneven_by; }
+    Quaterniond any_turn() { return Quaterniond(any(), any(), any(), any()).normalized(); }
+    void spoil(Vector3d& scale) { scale.y() *= 1 + wish_.uneven_by; }
 
     // A node whose axes lie as `frame` has it in its parent's.
-    int add(const std::string& name, int parent, const Eigen::Isometry3d& frame, const Eigen::Vector3d& scale)
+    int add(const std::string& name, int parent, const Eigen::Isometry3d& frame, const Vector3d& scale)
     {
-        const int node =
-            figure_.rig.add(name, parent, frame.translation(), Eigen::Quaterniond(frame.rotation()), scale);
+        const int node = figure_.rig.add(name, parent, frame.translation(), Quaterniond(frame.rotation()), scale);
         const Eigen::Affine3d above =
             parent < 0 ? Eigen::Affine3d::Identity() : poses_[static_cast<std::size_t>(parent)];
         poses_.push_back(above * frame * Eigen::Scaling(scale));
@@ -48,22 +63,24 @@ private:
     }
     enum class Part { trunk, bone, tip };
 
-    // A joint at a place in the armature's space, with any axes. A bone may have a mirror of its own; the scale of a
-    // tip moves no limb.
-    int joint(const std::string& name, int parent, const Eigen::Vector3d& place, Part part)
+    // A joint at a place in the figure's space, turned against its parent, or with any axes. A bone may have a mirror
+    // of its own; the scale of a tip moves no limb.
+    int joint(const std::string& name, int parent, const Vector3d& place, Part part,
+              Quaterniond turn = Quaterniond::Identity())
     {
         const Eigen::Affine3d& above = poses_[static_cast<std::size_t>(parent)];
-        const Eigen::Vector3d local = above.inverse() * (poses_[0] * place);
-        double size = likely(wish_.scales) ? std::exp(any()) : 1;
-        Eigen::Vector3d scale = Eigen::Vector3d::Constant(size);
+        const Vector3d local = above.inverse() * (poses_[1] * place);
+        const double size = likely(wish_.scales) ? std::exp(any()) : 1;
+        Vector3d scale = Vector3d::Constant(size);
         if (part != Part::trunk && likely(wish_.mirrors / 3)) scale[static_cast<int>(random_() % 3)] = -size;
         if (part != Part::trunk && likely(wish_.mirrors / 3)) scale = -scale;
         if (part != Part::tip && likely(wish_.uneven / 10)) spoil(scale);
         if (part == Part::tip && likely(wish_.uneven)) scale.z() *= 1.3;
-        const Eigen::Quaterniond turn = wish_.random_axes ? any_turn() : Eigen::Quaterniond::Identity();
+        if (wish_.random_axes) turn = any_turn();
         return add(name, parent, Eigen::Isometry3d(Eigen::Translation3d(local) * turn), scale);
     }
-    int twists(const std::string& base, int parent, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+    // Joints on the way from one of a limb's to the next. The last of them.
+    int twists(const std::string& base, int parent, const Vector3d& from, const Vector3d& to)
     {
         if (likely(wish_.twist_bones))
             joint(base + "_twist_01", parent, from + 0.3 * (to - from), Part::tip);  // beside
@@ -77,40 +94,92 @@ private:
         }
         return parent;
     }
-    void add_limb(const FigureNames& names, std::size_t limb, int parent)
+    int between(int upper, const Vector3d& from, const Vector3d& to)
     {
-        const bool is_arm = limb < 2;
-        const double side = limb % 2 == 0 ? 1 : -1;  // a figure that faces +Z has its left at +X
-        const auto name = [&](std::size_t part) {
-            std::string text = is_arm ? names.arm[part] : names.leg[part];
-            return text.replace(text.find('*'), 1, side > 0 ? names.left : names.right);
-        };
-        const double bend = figure_.bend[limb] = wish_.bent ? 0.2 + std::abs(any()) : 0;
-        const Eigen::Vector3d top = is_arm ? Eigen::Vector3d(0.2 * side, 1.5, 0) : Eigen::Vector3d(0.1 * side, 1, 0);
-        const Eigen::Vector3d along =
-            is_arm ? Eigen::Vector3d(side, 0.3 * any(), 0).normalized() : Eigen::Vector3d(0, -1, 0);
-        const Eigen::Vector3d flexed = is_arm ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(0, 0, -1);
-        const Eigen::Vector3d elbow = top + (0.3 + 0.1 * any()) * along;
-        const Eigen::Vector3d wrist = elbow + (0.3 + 0.1 * any()) * (std::cos(bend) * along + std::sin(bend) * flexed);
-        LimbNodes& nodes = figure_.limbs[limb];
-        nodes[0] = joint(name(0), parent, top, Part::bone);
-        nodes[1] = joint(name(1), twists(name(0), nodes[0], top, elbow), elbow, Part::bone);
-        nodes[2] = joint(name(2), twists(name(1), nodes[1], elbow, wrist), wrist, Part::tip);
-        if (!is_arm && wish_.toes)
-            joint(names.leg[2] + std::string("Toe") + (side > 0 ? "L" : "R"), nodes[2],
-                  wrist + Eigen::Vector3d(0, -0.05, 0.15), Part::tip);
-        figure_.upper[limb] = (poses_[0].linear() * (elbow - top)).norm();
-        figure_.lower[limb] = (poses_[0].linear() * (wrist - elbow)).norm();
+        const int node = joint(body_.between->name, upper, (from + to) / 2, Part::bone);
+        figure_.rig.add_keys(clip_, node, "rotation", times(2),
+                             turns(body_.between->axis, {0, body_.between->degrees}));
+        return node;
     }
+    void add_limb(std::size_t limb, int parent)
+    {
+        const bool is_arm = limb < 2, is_left = limb % 2 == 0;
+        const double x = is_left ? body_.left_at : -body_.left_at;
+        const auto name = [&](std::string text) {
+            return text.replace(text.find('*'), 1, is_left ? body_.left : body_.right);
+        };
+        const auto& names = is_arm ? body_.arm : body_.leg;
+        const Vector3d of_left = is_arm ? body_.arm_bone : body_.leg_bone,
+                       top = is_arm ? Vector3d(0.2 * x, 1.5, 0) : Vector3d(0.1 * x, 1, 0);
+        Vector3d bone(x * of_left.x(), of_left.y(), of_left.z());
+        double lower = bone.norm(), bend = body_.rest[limb] * kDegree;
+        if (draws_) {
+            if (is_arm) bone.y() += 0.3 * bone.norm() * any();
+            bone = (0.3 + 0.1 * any()) * bone.normalized();
+            lower = 0.3 + 0.1 * any();
+            bend = wish_.bent ? 0.2 + std::abs(any()) : 0;
+        }
+        const Vector3d across = bone.cross(is_arm ? Vector3d(kZ) : Vector3d(-kZ));
+        const Vector3d axis = across.norm() < 1e-9 ? Vector3d(kX) : Vector3d(across.normalized());
+        const Quaterniond turn(AngleAxisd(bend, axis));
+        const Vector3d elbow = top + bone, wrist = elbow + turn * (lower * bone.normalized());
+        LimbNodes& nodes = figure_.limbs[limb];
+        nodes[0] = joint(name(names[0]), parent, top, Part::bone);
+        const int above =
+            body_.between && limb == 0 ? between(nodes[0], top, elbow) : twists(name(names[0]), nodes[0], top, elbow);
+        nodes[1] = joint(name(names[1]), above, elbow, Part::bone, turn);
+        nodes[2] =
+            joint(name(names[2]), twists(name(names[1]), nodes[1], elbow, wrist), wrist, Part::tip, turn.conjugate());
+        for (std::size_t part = 0; part < 3; ++part) say(part + (is_arm ? 0 : 3), is_left, nodes[part]);
+        if (!is_arm && body_.toe_step) {
+            const Vector3d& step = *body_.toe_step;
+            say(6, is_left,
+                joint(name(body_.toe), nodes[2], wrist + Vector3d(x * step.x(), step.y(), step.z()), Part::tip));
+        }
+        figure_.upper[limb] = (poses_[1].linear() * (elbow - top)).norm();
+        figure_.lower[limb] = (poses_[1].linear() * (wrist - elbow)).norm();
+        if (body_.clip.empty()) return;
+        const AngleAxisd aside(body_.aside[limb] * kDegree, bone.normalized());
+        std::vector<double> degrees;
+        for (const Bends& frame : body_.clip) degrees.push_back(frame[limb]);
+        figure_.rig.add_keys(clip_, nodes[1], "rotation", times(degrees.size()), turns(aside * axis, degrees));
+    }
+    static std::vector<float> times(std::size_t count)
+    {
+        std::vector<float> seconds;
+        for (std::size_t n = 0; n < count; ++n) seconds.push_back(static_cast<float>(n) / 30);
+        return seconds;
+    }
+
+    void say(std::size_t part, bool is_left, int node)
+    {
+        human_.emplace_back((is_left ? "left" : "right") + std::string(kVrmNames[part]), node);
+    }
+    void write_vrm()
+    {
+        const bool is_old = body_.vrm < 1;
+        nlohmann::json bones = is_old ? nlohmann::json::array() : nlohmann::json::object();
+        for (const auto& [bone, node] : human_)
+            if (is_old)
+                bones.push_back({{"bone", bone}, {"node", node}, {"useDefaultValues", true}});
+            else
+                bones[bone] = {{"node", node}};
+        nlohmann::json vrm = {{"humanoid", {{"humanBones", bones}}}};
+        vrm["specVersion"] = is_old ? "0.0" : "1.0";
+        const char* const key = is_old ? "VRM" : "VRMC_vrm";
+        figure_.rig.json["extensionsUsed"] = {key};
+        figure_.rig.json["extensions"][key] = vrm;
+    }
+
     bool is_between(int node) const { return std::find(twists_.begin(), twists_.end(), node) != twists_.end(); }
     // A turn of a joint; what lies between two of a limb's turns about the bone.
-    Eigen::Quaterniond turn_of(int node)
+    Quaterniond turn_of(int node)
     {
         if (!is_between(node)) return any_turn();
         const auto& at = figure_.rig.json["nodes"][static_cast<std::size_t>(node)];
         const std::vector<double> along = at["translation"], rest = at["rotation"];
-        const Eigen::Vector3d bone = Eigen::Vector3d(along[0], along[1], along[2]).normalized();
-        return Eigen::AngleAxisd(2 * any(), bone) * Eigen::Quaterniond(rest[3], rest[0], rest[1], rest[2]);
+        const Vector3d bone = Vector3d(along[0], along[1], along[2]).normalized();
+        return AngleAxisd(2 * any(), bone) * Quaterniond(rest[3], rest[0], rest[1], rest[2]);
     }
     // Five keys for every joint; now and then a bone stretches.
     void move()
@@ -135,9 +204,13 @@ private:
 
     std::mt19937& random_;
     FigureWish wish_;
+    Body body_;
+    bool draws_;
     Figure figure_;
-    std::vector<Eigen::Affine3d> poses_;  // of each node, in the world
-    std::vector<int> twists_;             // nodes
+    int clip_ = -1;
+    std::vector<Eigen::Affine3d> poses_;              // of each node, in the world; 1: the figure
+    std::vector<int> twists_;                         // nodes
+    std::vector<std::pair<std::string, int>> human_;  // VRM's name of a bone, and its node
 };
 
 }  // namespace
@@ -170,9 +243,19 @@ const std::vector<FigureNames>& figure_names()
     return names;
 }
 
+Figure figure_of(const Body& body)
+{
+    std::mt19937 unused;
+    return FigureMaker(unused, {.random_axes = false, .moves = false}, body, false).make();
+}
+
 Figure random_figure(std::mt19937& random, const FigureWish& wish, const FigureNames& names)
 {
-    return FigureMaker(random, wish).make(names);
+    Body body{.left = names.left, .right = names.right};
+    std::ranges::copy(names.arm, body.arm.begin());
+    std::ranges::copy(names.leg, body.leg.begin());
+    if (!wish.toes) body.toe_step = {};
+    return FigureMaker(random, wish, body, true).make();
 }
 
 }  // namespace swivel::test

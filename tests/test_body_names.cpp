@@ -6,6 +6,7 @@
 
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "tests/named_skeleton.h"
 #include "tools/retarget/joint_pairs.h"
@@ -21,15 +22,10 @@ using test::Names;
 
 namespace {
 
-// A tool's names of a figure; * is the side. The last three of an arm are its limb, as the three before the toe are of
-// a leg.
+// A tool's names of a figure, each list with commas; * is the side. The last three of an arm are its limb, as the three
+// before the toe are of a leg.
 struct Convention {
-    std::string tool;
-    Names trunk;  // from the hips to the chest
-    Names neck;
-    std::string head;
-    Names arm, leg;
-    std::string left, right;
+    std::string tool, trunk, neck, head, arm, leg, left, right;  // the trunk: from the hips to the chest
 };
 
 // As public pages and files have them: avastar.online/knowledge/the-sl-skeleton;
@@ -37,107 +33,49 @@ struct Convention {
 // the lists of joints of SOMA, SMPL, AMASS and Kinect (JointType); BVH files of iPi; figures of the others. AccuRig
 // names joints as Character Creator does.
 const std::vector<Convention> kConventions = {
-    {"SOMA",
-     {"Hips", "Spine1", "Spine2", "Chest"},
-     {"Neck1", "Neck2"},
-     "Head",
-     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"},
-     {"*Leg", "*Shin", "*Foot", "*ToeBase"},
-     "Left",
-     "Right"},
-    {"iPi",
-     {"Hip", "LowerSpine", "MiddleSpine", "Chest"},
-     {"Neck"},
-     "Head",
-     {"*Clavicle", "*Shoulder", "*Forearm", "*Hand"},
-     {"*Thigh", "*Shin", "*Foot", "*Toe"},
-     "L",
-     "R"},
-    {"Character Creator",
-     {"CC_Base_Hip", "CC_Base_Waist", "CC_Base_Spine01", "CC_Base_Spine02"},
-     {"CC_Base_NeckTwist01", "CC_Base_NeckTwist02"},
-     "CC_Base_Head",
-     {"CC_Base_*_Clavicle", "CC_Base_*_Upperarm", "CC_Base_*_Forearm", "CC_Base_*_Hand"},
-     {"CC_Base_*_Thigh", "CC_Base_*_Calf", "CC_Base_*_Foot", "CC_Base_*_ToeBase"},
-     "L",
-     "R"},
-    {"Auto-Rig Pro",
-     {"root.x", "spine_01.x", "spine_02.x"},
-     {"neck.x"},
-     "head.x",
-     {"shoulder.*", "arm_stretch.*", "forearm_stretch.*", "hand.*"},
-     {"thigh_stretch.*", "leg_stretch.*", "foot.*", "toes_01.*"},
-     "l",
+    {"SOMA", "Hips, Spine1, Spine2, Chest", "Neck1, Neck2", "Head", "*Shoulder, *Arm, *ForeArm, *Hand",
+     "*Leg, *Shin, *Foot, *ToeBase", "Left", "Right"},
+    {"iPi", "Hip, LowerSpine, MiddleSpine, Chest", "Neck", "Head", "*Clavicle, *Shoulder, *Forearm, *Hand",
+     "*Thigh, *Shin, *Foot, *Toe", "L", "R"},
+    {"Character Creator", "CC_Base_Hip, CC_Base_Waist, CC_Base_Spine01, CC_Base_Spine02",
+     "CC_Base_NeckTwist01, CC_Base_NeckTwist02", "CC_Base_Head",
+     "CC_Base_*_Clavicle, CC_Base_*_Upperarm, CC_Base_*_Forearm, CC_Base_*_Hand",
+     "CC_Base_*_Thigh, CC_Base_*_Calf, CC_Base_*_Foot, CC_Base_*_ToeBase", "L", "R"},
+    {"Auto-Rig Pro", "root.x, spine_01.x, spine_02.x", "neck.x", "head.x",
+     "shoulder.*, arm_stretch.*, forearm_stretch.*, hand.*", "thigh_stretch.*, leg_stretch.*, foot.*, toes_01.*", "l",
      "r"},
-    {"Advanced Skeleton",
-     {"Root_M", "Spine1_M", "Chest_M"},
-     {"Neck_M"},
-     "Head_M",
-     {"Scapula_*", "Shoulder_*", "Elbow_*", "Wrist_*"},
-     {"Hip_*", "Knee_*", "Ankle_*", "Toes_*"},
-     "L",
-     "R"},
-    {"Second Life",
-     {"mPelvis", "mTorso", "mChest"},
-     {"mNeck"},
-     "mHead",
-     {"mCollar*", "mShoulder*", "mElbow*", "mWrist*"},
-     {"mHip*", "mKnee*", "mAnkle*", "mFoot*"},
-     "Left",
-     "Right"},
-    {"Valve",
-     {"ValveBiped.Bip01_Pelvis", "ValveBiped.Bip01_Spine", "ValveBiped.Bip01_Spine2"},
-     {"ValveBiped.Bip01_Neck1"},
+    {"Advanced Skeleton", "Root_M, Spine1_M, Chest_M", "Neck_M", "Head_M", "Scapula_*, Shoulder_*, Elbow_*, Wrist_*",
+     "Hip_*, Knee_*, Ankle_*, Toes_*", "L", "R"},
+    {"Second Life", "mPelvis, mTorso, mChest", "mNeck", "mHead", "mCollar*, mShoulder*, mElbow*, mWrist*",
+     "mHip*, mKnee*, mAnkle*, mFoot*", "Left", "Right"},
+    {"Valve", "ValveBiped.Bip01_Pelvis, ValveBiped.Bip01_Spine, ValveBiped.Bip01_Spine2", "ValveBiped.Bip01_Neck1",
      "ValveBiped.Bip01_Head1",
-     {"ValveBiped.Bip01_*_Clavicle", "ValveBiped.Bip01_*_UpperArm", "ValveBiped.Bip01_*_Forearm",
-      "ValveBiped.Bip01_*_Hand"},
-     {"ValveBiped.Bip01_*_Thigh", "ValveBiped.Bip01_*_Calf", "ValveBiped.Bip01_*_Foot", "ValveBiped.Bip01_*_Toe0"},
-     "L",
-     "R"},
-    {"Rigify",
-     {"DEF-spine", "DEF-spine.001", "DEF-spine.002", "DEF-spine.003"},
-     {"DEF-spine.004", "DEF-spine.005"},
-     "DEF-spine.006",
-     {"DEF-shoulder.*", "DEF-upper_arm.*", "DEF-forearm.*", "DEF-hand.*"},
-     {"DEF-thigh.*", "DEF-shin.*", "DEF-foot.*", "DEF-toe.*"},
-     "L",
-     "R"},
-    {"XNALara",
-     {"root hips", "spine lower", "spine upper"},
-     {"head neck lower"},
-     "head neck upper",
-     {"arm * shoulder 1", "arm * shoulder 2", "arm * elbow", "arm * wrist"},
-     {"leg * thigh", "leg * knee", "leg * ankle", "leg * toes"},
-     "left",
-     "right"},
-    {"SMPL",
-     {"Pelvis", "Spine1", "Spine2", "Spine3"},
-     {"Neck"},
-     "Head",
-     {"*_Collar", "*_Shoulder", "*_Elbow", "*_Wrist"},
-     {"*_Hip", "*_Knee", "*_Ankle", "*_Foot"},
-     "L",
-     "R"},
-    {"AMASS",
-     {"pelvis", "spine1", "spine2", "spine3"},
-     {"neck"},
-     "head",
-     {"*_collar", "*_shoulder", "*_elbow", "*_wrist"},
-     {"*_hip", "*_knee", "*_ankle", "*_foot"},
-     "left",
-     "right"},
-    {"Kinect",
-     {"SpineBase", "SpineMid", "SpineShoulder"},
-     {"Neck"},
-     "Head",
-     {"Shoulder*", "Elbow*", "Wrist*"},
-     {"Hip*", "Knee*", "Ankle*", "Foot*"},
-     "Left",
-     "Right"},
+     "ValveBiped.Bip01_*_Clavicle, ValveBiped.Bip01_*_UpperArm, ValveBiped.Bip01_*_Forearm, ValveBiped.Bip01_*_Hand",
+     "ValveBiped.Bip01_*_Thigh, ValveBiped.Bip01_*_Calf, ValveBiped.Bip01_*_Foot, ValveBiped.Bip01_*_Toe0", "L", "R"},
+    {"Rigify", "DEF-spine, DEF-spine.001, DEF-spine.002, DEF-spine.003", "DEF-spine.004, DEF-spine.005",
+     "DEF-spine.006", "DEF-shoulder.*, DEF-upper_arm.*, DEF-forearm.*, DEF-hand.*",
+     "DEF-thigh.*, DEF-shin.*, DEF-foot.*, DEF-toe.*", "L", "R"},
+    {"XNALara", "root hips, spine lower, spine upper", "head neck lower", "head neck upper",
+     "arm * shoulder 1, arm * shoulder 2, arm * elbow, arm * wrist", "leg * thigh, leg * knee, leg * ankle, leg * toes",
+     "left", "right"},
+    {"SMPL", "Pelvis, Spine1, Spine2, Spine3", "Neck", "Head", "*_Collar, *_Shoulder, *_Elbow, *_Wrist",
+     "*_Hip, *_Knee, *_Ankle, *_Foot", "L", "R"},
+    {"AMASS", "pelvis, spine1, spine2, spine3", "neck", "head", "*_collar, *_shoulder, *_elbow, *_wrist",
+     "*_hip, *_knee, *_ankle, *_foot", "left", "right"},
+    {"Kinect", "SpineBase, SpineMid, SpineShoulder", "Neck", "Head", "Shoulder*, Elbow*, Wrist*",
+     "Hip*, Knee*, Ankle*, Foot*", "Left", "Right"},
 };
 
-Names sided(Names names, const std::string& side)
+Names split(const std::string& list)
 {
+    Names names;
+    std::istringstream in(list);
+    for (std::string name; std::getline(in >> std::ws, name, ',');) names.push_back(name);
+    return names;
+}
+Names sided(const std::string& list, const std::string& side)
+{
+    Names names = split(list);
     for (std::string& name : names) name = tools::with_side(name, side);
     return names;
 }
@@ -145,12 +83,12 @@ Names sided(Names names, const std::string& side)
 Clip figure(const Convention& of)
 {
     Clip clip;
-    const int chest = add_chain(clip, -1, of.trunk);
+    const int chest = add_chain(clip, -1, split(of.trunk));
     for (const std::string& side : {of.left, of.right}) {
         add_chain(clip, chest, sided(of.arm, side));
         add_chain(clip, 0, sided(of.leg, side));
     }
-    const int head = add_chain(clip, add_chain(clip, chest, of.neck), {of.head});
+    const int head = add_chain(clip, add_chain(clip, chest, split(of.neck)), {of.head});
     add_chain(clip, head, {"jaw"});
     return clip;
 }
@@ -171,18 +109,18 @@ std::map<std::string, Names> named_parts(const Clip& clip)
 
 std::map<std::string, Names> expected_parts(const Convention& of)
 {
-    std::map<std::string, Names> parts = {{"hips", {of.trunk[0]}},
-                                          {"spine", Names(of.trunk.begin() + 1, of.trunk.end())},
-                                          {"neck", of.neck},
+    const Names trunk = split(of.trunk);
+    std::map<std::string, Names> parts = {{"hips", {trunk[0]}},
+                                          {"spine", {trunk.begin() + 1, trunk.end()}},
+                                          {"neck", split(of.neck)},
                                           {"head", {of.head}}};
     for (const auto& [word, side] : {std::pair("left", of.left), std::pair("right", of.right)}) {
-        const auto add = [&](const char* part, const std::string& name) {
-            parts[std::string(word) + part] = {tools::with_side(name, side)};
+        const auto add = [&](const Names& of_side, const Names& to) {
+            for (std::size_t n = 1; n <= std::min(of_side.size(), to.size()); ++n)  // from the end
+                parts[word + to[to.size() - n]] = {of_side[of_side.size() - n]};
         };
-        if (of.arm.size() == 4) add("Shoulder", of.arm[0]);
-        const std::size_t arm = of.arm.size() - 3;
-        add("UpperArm", of.arm[arm]), add("LowerArm", of.arm[arm + 1]), add("Hand", of.arm[arm + 2]);
-        add("UpperLeg", of.leg[0]), add("LowerLeg", of.leg[1]), add("Foot", of.leg[2]), add("Toes", of.leg[3]);
+        add(sided(of.arm, side), {"Shoulder", "UpperArm", "LowerArm", "Hand"});
+        add(sided(of.leg, side), {"UpperLeg", "LowerLeg", "Foot", "Toes"});
     }
     return parts;
 }
@@ -193,8 +131,8 @@ std::string head_of(const std::vector<Names>& chains, const Names& no_bones = {}
     Clip clip;
     const int chest = add_chain(clip, -1, {"Hips", "Chest"});
     for (const char* const side : {"Left", "Right"}) {
-        add_chain(clip, chest, sided({"*Arm", "*ForeArm", "*Hand"}, side));
-        add_chain(clip, 0, sided({"*UpLeg", "*Leg", "*Foot"}, side));
+        add_chain(clip, chest, sided("*Arm, *ForeArm, *Hand", side));
+        add_chain(clip, 0, sided("*UpLeg, *Leg, *Foot", side));
     }
     for (const Names& chain : chains) add_chain(clip, chest, chain);
     for (formats::Joint& joint : clip.joints)

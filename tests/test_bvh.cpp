@@ -120,7 +120,7 @@ TEST_CASE("bvh: unusual channels, names and roots are read")
         const std::string mixed = "6 Xrotation Zposition Yrotation Xposition Zrotation Yposition";
         const Clip clip = read(folder, one_joint(mixed, "90 3 0 1 90 2\n", 1)).clip;
         CHECK(local_translation(clip, 0, 0) == Vector3d(1, 2, 3));
-        CHECK(angle_between(clip.rotation[0], Quaterniond(turn('X', 90) * turn('Z', 90))) < 1e-15);
+        CHECK(clip.rotation[0].angularDistance(Quaterniond(turn('X', 90) * turn('Z', 90))) < 1e-15);
         const std::string text = edited(one_joint("1 Yposition", "7\n", 1), "OFFSET 0 0 0", "OFFSET 1 2 3");
         CHECK(local_translation(read(folder, text).clip, 0, 0) == Vector3d(1, 7, 3));
     }

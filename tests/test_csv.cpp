@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The two tables: targets read, poses written. Reading is checked against hand-made rows and against damaged ones,
-// writing of poses by the text of known rows. That written targets read the same is for tests/fuzz/fuzz_targets.cpp.
+// writing of poses by the text of known rows. That written targets read the same is for tests/fuzz/fuzz_formats.cpp.
 
 #include <catch2/catch.hpp>
 

@@ -85,9 +85,10 @@ class Readme(unittest.TestCase):
         text = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
         for program in re.findall(r"`((?:tools|tests)/[\w/]+)", text):
             self.assertTrue((ROOT / program).exists(), program)
+        fuzzer = (ROOT / "tests/fuzz/fuzz_formats.cpp").read_text(encoding="utf-8")
         for reader in re.search(r"\*\*Files of motion and tables: (.*?)\.\*\*", text)[1].split(", "):
-            name = {"crowd files (TOML)": "crowd_file", "targets (CSV)": "targets", "contacts (CSV)": "contacts", "heights (PNG)": "heights", "GLB": "gltf"}.get(reader, reader.lower())
-            self.assertTrue((ROOT / f"tests/fuzz/fuzz_{name}.cpp").exists(), f"no fuzzer of {reader}")
+            name = {"crowd files (TOML)": "crowd", "targets (CSV)": "targets", "contacts (CSV)": "contacts", "heights (PNG)": "heights", "GLB": "gltf"}.get(reader, reader.lower())
+            self.assertRegex(fuzzer, rf"case '.':\s+check_{name}|default:\s+check_{name}", f"nothing tries {reader}")
         self.assertIn("sha256sum -- * >SHA256SUMS", (ROOT / "tools/release/build").read_text(encoding="utf-8"))
 
     def test_the_files_to_the_elbow_have_what_it_says(self):

@@ -12,6 +12,7 @@
 #include "tests/gltf_judges.h"
 #include "tests/gltf_rig.h"
 #include "tests/plain_gltf.h"
+#include "tests/shared_figures.h"
 #include "tools/formats/error.h"
 #include "tools/formats/gltf.h"
 
@@ -77,6 +78,28 @@ std::vector<Quaterniond> turns(std::size_t count, double step)
 
 int joint_of(const GltfFile& file, int node) { return find_joints(file.clip, "#" + std::to_string(node)).at(0); }
 
+// Every third frame of a clip, last one first, as new keys of all nodes but skinned meshes, which do not follow theirs.
+struct Backwards {
+    std::vector<std::size_t> frames = {};  // of the clip
+    std::vector<std::vector<Quaterniond>> rotation;
+    std::vector<std::vector<Eigen::Vector3d>> translation;
+    std::vector<JointKeys> keys = {};
+
+    Backwards(const Clip& clip, const json& nodes) : rotation(clip.joints.size()), translation(clip.joints.size())
+    {
+        for (std::size_t n = clip.frame_count; n-- > 0;)
+            if (n % 3 == 0) frames.push_back(n);
+        for (std::size_t joint = 0; joint < clip.joints.size(); ++joint) {
+            if (nodes[static_cast<std::size_t>(clip.joints[joint].number)].contains("skin")) continue;
+            for (const std::size_t frame : frames) {
+                rotation[joint].push_back(clip.rotation[frame * clip.joints.size() + joint]);
+                if (clip.joints[joint].track >= 0) translation[joint].push_back(local_translation(clip, frame, joint));
+            }
+            keys.push_back({static_cast<int>(joint), rotation[joint], translation[joint]});
+        }
+    }
+};
+
 // What must survive of a file: its JSON without what the writer owns.
 json kept(json whole, std::size_t accessors, std::size_t views)
 {
@@ -117,6 +140,10 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
             CHECK(after.json["animations"][1] == before.json["animations"][1]);
             CHECK(after.json["animations"][0]["channels"].size() == 4);
 
+            for (const int node : {1, 2, 3}) {
+                const std::vector<double> keys = key_times(after, node);
+                CHECK(std::vector<float>(keys.begin(), keys.end()) == file.times);
+            }
             const auto poses = three_poses(folder / to, 0, {0.5});
             for (std::size_t n = 0; n < 3; ++n) {
                 const double time = static_cast<double>(file.times[n]);
@@ -138,27 +165,6 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
                     CHECK(after.json["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()]
                                     ["interpolation"] == "STEP");
         }
-}
-
-TEST_CASE("gltf write: successive keys lie on one side, and move evenly unless all went by steps")
-{
-    const TempFolder folder;
-    GltfRig rig = furnished_rig();
-    rig.write(folder / "rig.glb");
-    const GltfFile file = read_clip(folder / "rig.glb", {"rest", 2});
-    const auto arm = turns(3, 2.0);
-    const JointKeys change[] = {{joint_of(file, 1), arm}};
-    write_gltf(folder / "rig.glb", file, change);  // onto itself
-    const PlainGltf plain = plain_gltf_of(folder / "rig.glb");
-    const json& sampler = plain.json["animations"][1]["samplers"][0];
-    CHECK(sampler["interpolation"] == "LINEAR");
-    const auto keys = plain_numbers(plain, sampler["output"]);
-    REQUIRE(keys.size() == 12);
-    for (std::size_t n = 4; n < 12; n += 4) {
-        double dot = 0;
-        for (std::size_t c = 0; c < 4; ++c) dot += keys[n + c] * keys[n + c - 4];
-        CHECK(dot >= 0);
-    }
 }
 
 // Skeletons with so few or so many members that one more makes their list of members move in memory.
@@ -213,4 +219,40 @@ TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
     const JointKeys change[] = {{1, good}};
     CHECK_THROWS_AS(write_gltf(folder / "new.glb", sheared, change), InputError);
     CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("gltf write: a whole motion in other frames leaves all but the chosen animation as it was")
+{
+    const TempFolder folder;
+    for (const SharedFigure& figure : kSharedFigures) {
+        const fs::path path = find_or_warn(figure.name);
+        if (path.empty()) continue;
+        for (const char* to : {"new.glb", "new.gltf"}) {
+            INFO(figure.name << " to " << to);
+            const GltfFile file = read_clip(path);
+            const PlainGltf before = plain_gltf_of(path);
+            const Backwards motion(file.clip, before.nodes());
+            write_gltf(folder / to, file, motion.keys, NewFrames{motion.frames.size(), 0.04, "walk \"home\""});
+            const PlainGltf after = plain_gltf_of(folder / to);
+            for (const char* list : {"meshes", "skins", "materials", "scenes"})
+                CHECK(after.json.value(list, json()) == before.json.value(list, json()));
+            const std::size_t count = before.json.value("animations", json::array()).size();
+            REQUIRE(after.json["animations"].size() == std::max<std::size_t>(count, 1));
+            for (std::size_t n = 1; n < count; ++n) CHECK(after.json["animations"][n] == before.json["animations"][n]);
+            CHECK(after.json["animations"][0]["name"] == "walk \"home\"");
+            double off = 0, size = 0;
+            for (std::size_t n = 0; n < motion.frames.size(); ++n)
+                for (const Joint& joint : file.clip.joints) {
+                    const Eigen::Affine3d from = plain_world(before, file.animation, joint.number,
+                                                             static_cast<double>(file.times[motion.frames[n]]));
+                    const Eigen::Affine3d is = plain_world(after, 0, joint.number, 0.04 * static_cast<double>(n));
+                    off = std::max(off, (from.matrix() - is.matrix()).norm());
+                    size = std::max(size, from.matrix().norm());
+                }
+            CHECK(off < 1e-5 * size);  // keys are floats
+            std::multiset<std::string> messages = new_gltf_messages(path, folder / to);
+            messages.erase("DATA_URI_GLB /images/0/uri");  // of a .gltf, kept in the .glb
+            CHECK(messages == std::multiset<std::string>());
+        }
+    }
 }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Arms and legs are found by the names that exporters give joints. Each exporter's names appear once, as its files
-// spell them; test_rig_table.cpp has more. On each skeleton, the joints of every limb stand among others.
+// Arms and legs are found by the names that exporters give joints: those of the table in docs/rigs.md, with what
+// exporters add to them. test_body_names.cpp has whole figures.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <iterator>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/named_skeleton.h"
+#include "tests/test_data.h"
 #include "tools/rig/joint_names.h"
 #include "tools/rig/limb_joints.h"
 #include "tools/rig/limbs.h"
@@ -50,92 +55,84 @@ std::string problem(const std::vector<Names>& chains)
     return arm.problem;
 }
 
-// Two chains, in which `*` stands for the side: their last three joints are these limbs, and there are no others.
+// Both limbs of a name for each joint, in which `*` stands for the side, are found, right before left: their last three
+// joints.
 void require_pair(bool are_arms, const Names& names, const std::string& left, const std::string& right)
 {
-    INFO(names[0] << " of " << left);
     std::vector<Names> chains;
     std::array<Names, 4> wanted;
-    for (const std::string& side : {left, right}) {
+    for (const std::string& side : {right, left}) {
         Names& chain = chains.emplace_back(names);
-        for (std::string& name : chain) name.replace(name.find('*'), 1, side);
+        for (std::string& name : chain) name = tools::with_side(name, side);
         wanted[(are_arms ? 0 : 2) + (side == right)] = Names(chain.end() - 3, chain.end());
     }
-    std::swap(chains[0], chains[1]);
+    INFO(names[0] << " of " << left);
     CHECK((found(skeleton(chains)) == wanted));
 }
-void arms(const Names& names, const char* left, const char* right) { require_pair(true, names, left, right); }
-void legs(const Names& names, const char* left, const char* right) { require_pair(false, names, left, right); }
+
+// The limbs that a cell of the page's table names: three joints in one piece of code, or one in each of three. A piece
+// without a side is another word for the last joint.
+std::vector<Names> limbs_in_cell(const std::string& cell)
+{
+    static const std::regex code("`([^`]*)`"), ending("[A-Za-z0-9]+(?=.\\*$)");
+    std::vector<Names> limbs;
+    Names alone;
+    for (std::sregex_iterator at(cell.begin(), cell.end(), code), end; at != end; ++at) {
+        const std::string piece = (*at)[1];
+        if (const auto sides = std::ranges::count(piece, '*'); sides == 3) {
+            std::istringstream words(piece);
+            limbs.emplace_back(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>());
+        } else if (sides == 1) {
+            alone.push_back(piece);
+        } else {
+            limbs.push_back(limbs[0]);
+            limbs.back().back() = std::regex_replace(limbs[0].back(), ending, piece);
+        }
+    }
+    if (!alone.empty()) limbs.push_back(alone);
+    return limbs;
+}
 
 }  // namespace
 
-TEST_CASE("limb joints: legs by the names in use")
+TEST_CASE("limb joints: every row of the page's table is found, with every word for a side")
 {
-    legs({"*UpLeg", "*Leg", "*Foot"}, "Left", "Right");
-    legs({"mixamorig:*UpLeg", "mixamorig:*Leg", "mixamorig:*Foot"}, "Left", "Right");
-    legs({"mixamorig*UpLeg", "mixamorig*Leg", "mixamorig*Foot"}, "Left", "Right");
-    legs({"thigh_*", "calf_*", "foot_*"}, "l", "r");
-    legs({"*UpperLeg", "*LowerLeg", "*Foot"}, "Left", "Right");
-    legs({"*UpperLeg", "*LowerLeg", "*Foot"}, "left", "right");
-    legs({"J_Bip_*_UpperLeg", "J_Bip_*_LowerLeg", "J_Bip_*_Foot"}, "L", "R");
-    legs({"thigh.*", "shin.*", "foot.*"}, "L", "R");
-    legs({"DEF-thigh.*", "DEF-shin.*", "DEF-foot.*"}, "L", "R");
-    legs({"UpperLeg.*", "LowerLeg.*", "Foot.*"}, "L", "R");
-    legs({"*Hip", "*Knee", "*Ankle"}, "Left", "Right");
-    legs({"*UpLeg", "*LowLeg", "*Foot"}, "Left", "Right");
-    legs({"*Thigh", "*Shin", "*Foot"}, "l", "r");
-    legs({"Bip01 * Thigh", "Bip01 * Calf", "Bip01 * Foot"}, "L", "R");
-    legs({"CC_Base_*_Thigh", "CC_Base_*_Calf", "CC_Base_*_Foot"}, "L", "R");
-    legs({"ValveBiped.Bip01_*_Thigh", "ValveBiped.Bip01_*_Calf", "ValveBiped.Bip01_*_Foot"}, "L", "R");
-    legs({"*_Hip", "*_Knee", "*_Ankle"}, "L", "R");
-    legs({"mHip*", "mKnee*", "mAnkle*"}, "Left", "Right");
-    legs({"*足", "*ひざ", "*足首"}, "左", "右");
-    legs({"* leg", "* knee", "* ankle"}, "Left", "Right");
-    legs({"leg_*", "knee_*", "ankle_*"}, "L", "R");
-    legs({"thigh_stretch.*", "leg_stretch.*", "foot.*"}, "l", "r");
-    legs({"leg_upper_*", "leg_lower_*", "ankle_*"}, "L", "R");
-    legs({"UpperLeg_*", "LowerLeg_*", "Ankle_*"}, "L", "R");
-    legs({"leg * thigh", "leg * knee", "leg * ankle"}, "left", "right");
-    legs({"*hipjoint", "*femur", "*tibia", "*foot"}, "l", "r");
-    legs({"Character1_*UpLeg", "Character1_*Leg", "Character1_*Foot"}, "Left", "Right");
-    legs({"足.*", "ひざ.*", "足首.*"}, "L", "R");
-    legs({"bip_hip_*", "bip_knee_*", "bip_foot_*"}, "L", "R");
-    legs({"UpLeg.*", "Leg.*", "Foot.*"}, "L", "R");
-    legs({"*Leg", "*Shin", "*Foot"}, "Left", "Right");
+    std::istringstream page(test::slurp(std::string(SWIVEL_SOURCE_DIR) + "/docs/rigs.md"));
+    std::string line, arm, leg;
+    while (line != "| arm | leg | from |") REQUIRE(std::getline(page, line));
+    std::getline(page, line);
+    int limb_count = 0;
+    while (std::getline(page, line) && line.starts_with('|')) {
+        std::istringstream cells(line.substr(1));
+        std::getline(std::getline(cells, arm, '|'), leg, '|');
+        for (const bool are_arms : {true, false})
+            for (const Names& names : limbs_in_cell(are_arms ? arm : leg)) {
+                for (const auto& [left, right] : {std::pair("left", "right"), {"L", "R"}})
+                    require_pair(are_arms, names, left, right);
+                if (names[0].find(' ') == std::string::npos) require_pair(are_arms, names, "左", "右");
+                ++limb_count;
+            }
+    }
+    CHECK(limb_count > 50);
 }
 
-TEST_CASE("limb joints: arms by the names in use")
+TEST_CASE("limb joints: what exporters add to every name does not count")
 {
-    arms({"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, "Left", "Right");
-    arms({"mixamorig:*Arm", "mixamorig:*ForeArm", "mixamorig:*Hand"}, "Left", "Right");
-    arms({"clavicle_*", "upperarm_*", "lowerarm_*", "hand_*"}, "l", "r");
-    arms({"*UpperArm", "*LowerArm", "*Hand"}, "Left", "Right");
-    arms({"J_Bip_*_UpperArm", "J_Bip_*_LowerArm", "J_Bip_*_Hand"}, "L", "R");
-    arms({"DEF-upper_arm.*", "DEF-forearm.*", "DEF-hand.*"}, "L", "R");
-    arms({"*Collar", "*Shoulder", "*Elbow", "*Wrist"}, "Left", "Right");
-    arms({"*Collar", "*Shldr", "*ForeArm", "*Hand"}, "l", "r");
-    arms({"Bip01 * UpperArm", "Bip01 * Forearm", "Bip01 * Hand"}, "L", "R");
-    arms({"* shoulder", "* arm", "* elbow", "* wrist"}, "Left", "Right");
-    arms({"shoulder_*", "arm_*", "elbow_*", "wrist_*"}, "L", "R");
-    arms({"shoulder.*", "arm_stretch.*", "forearm_stretch.*", "hand.*"}, "l", "r");
-    arms({"clavicle_*", "arm_upper_*", "arm_lower_*", "hand_*"}, "L", "R");
-    arms({"Clavicle_*", "Shoulder_*", "Elbow_*", "Hand_*"}, "L", "R");
-    arms({"arm * shoulder 1", "arm * shoulder 2", "arm * elbow", "arm * wrist"}, "left", "right");
-    arms({"*clavicle", "*humerus", "*radius", "*wrist"}, "l", "r");
-    arms({"Character1_*Shoulder", "Character1_*Arm", "Character1_*ForeArm", "Character1_*Hand"}, "Left", "Right");
-    arms({"腕.*", "ひじ.*", "手首.*"}, "L", "R");
-    arms({"upperarm.*", "lowerarm.*", "wrist.*"}, "l", "r");
-    arms({"bip_upperArm_*", "bip_lowerArm_*", "bip_hand_*"}, "L", "R");
-    arms({"mixamorig:*Shoulder_08", "mixamorig:*Arm_09", "mixamorig:*ForeArm_010", "mixamorig:*Hand_011"}, "Left",
-         "Right");
-    arms({"shoulder_*_012", "arm_stretch_*_013", "forearm_stretch_*_016", "hand_*_019"}, "l", "r");
-    arms({"CC_Base_*_Upperarm_050", "CC_Base_*_Forearm_051", "CC_Base_*_Hand_055"}, "L", "R");
-    arms({"*Arm_09_21", "*ForeArm_010_22", "*Hand_011_23"}, "Left", "Right");
-    arms({"*_Shoulder_JNT", "*_Elbow_JNT", "*_Wrist_JNT"}, "L", "R");
-    arms({"armFBXASC046*", "forearmFBXASC046*", "handFBXASC046*"}, "L", "R");
-    arms({"*Clavicle", "*Shoulder", "*Forearm", "*Hand"}, "L", "R");
-    for (const std::string prefix : {"jnt_", "joint_", "QuickRigCharacter_", "Bip01 ", "Bip001 "})
-        arms({prefix + "*Arm", prefix + "*ForeArm", prefix + "*Hand"}, "Left", "Right");
+    const Names known = {"",       "mixamorig:", "mixamorig",          "DEF-",   "Character1_", "jnt_",
+                         "joint_", "rig|Tool:",  "QuickRigCharacter_", "Bip01 ", "Bip001 ",     "bip_"};
+    const Names any = {"J_Bip_", "CC_Base_", "Hero_"};  // before a side that is a word of its own
+    for (const std::string after : {"", "_08", "_012", "_09_21", "_jnt", "_JNT", "_joint"}) {
+        const auto arm = [&](const std::string& before) {
+            return Names{before + "UpperArm" + after, before + "LowerArm" + after, before + "Hand" + after};
+        };
+        for (const std::string& before : known) require_pair(true, arm(before + "*"), "Left", "Right");
+        for (const Names& all : {known, any})
+            for (const std::string& before : all) require_pair(true, arm(before + "*_"), "L", "R");
+    }
+    require_pair(true, {"armFBXASC046*", "forearmFBXASC046*", "handFBXASC046*"}, "L", "R");
+    require_pair(true, {"shoulder_*_012", "arm_stretch_*_013", "forearm_stretch_*_016", "hand_*_019"}, "l", "r");
+    require_pair(false, {"*hipjoint", "*femur", "*tibia", "*foot"}, "l", "r");
+    require_pair(false, {"ValveBiped.Bip01_*_Thigh", "ValveBiped.Bip01_*_Calf", "ValveBiped.Bip01_*_Foot"}, "L", "R");
 }
 
 TEST_CASE("limb joints: what lies between may have any name but that of another upper or lower joint")

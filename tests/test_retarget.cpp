@@ -12,6 +12,7 @@
 #include <random>
 
 #include "tests/gltf_rig.h"
+#include "tests/made_body.h"
 #include "tests/plain_gltf.h"
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
@@ -24,69 +25,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180;
-
-Matrix3d about(const Vector3d& axis, double angle_deg)
-{
-    return Eigen::AngleAxisd(angle_deg * kRad, axis).toRotationMatrix();
-}
-
-// A body that faces +Z and stands along +Y before `world` turns it.
-struct MadeBody {
-    int spine = 3;
-    double size = 1;
-    double arms_down_deg = 0, legs_out_deg = 0, toes_out_deg = 0;  // of its rest
-    double forearm = 0.26, shin = 0.42, foot = 0.13;
-    Matrix3d world = Matrix3d::Identity();
-
-    std::string joint(const std::string& name, const Vector3d& offset, const std::string& below) const
-    {
-        const Vector3d at = size * (world * offset);
-        const std::string kind = name == "Hips" ? "ROOT " : "JOINT ";
-        const std::string channels = name == "Hips" ? "CHANNELS 6 Xposition Yposition Zposition " : "CHANNELS 3 ";
-        return kind + name + fmt::format("\n{{\nOFFSET {} {} {}\n", at.x(), at.y(), at.z()) + channels +
-               "Zrotation Xrotation Yrotation\n" + below + "}\n";
-    }
-    std::string arm(const std::string& name, double left) const
-    {
-        const Vector3d way = about(Vector3d::UnitZ(), -left * arms_down_deg) * Vector3d(left, 0, 0);
-        const std::string hand = joint(name + "Hand", forearm * way, "End Site\n{\nOFFSET 0 0 0\n}\n");
-        return joint(name + "Shoulder", {0.03 * left, 0.02, 0},
-                     joint(name + "Arm", {0.12 * left, 0, 0}, joint(name + "ForeArm", 0.3 * way, hand)));
-    }
-    std::string leg(const std::string& name, double left) const
-    {
-        const Vector3d way = about(Vector3d::UnitZ(), left * legs_out_deg) * Vector3d(0, -1, 0);
-        const Vector3d toe = about(Vector3d::UnitY(), left * toes_out_deg) * Vector3d(0, -0.06, foot);
-        const std::string toes = joint(name + "ToeBase", toe, "End Site\n{\nOFFSET 0 0 0\n}\n");
-        return joint(name + "UpLeg", {0.1 * left, -0.05, 0},
-                     joint(name + "Leg", 0.45 * way, joint(name + "Foot", shin * way, toes)));
-    }
-    std::string hierarchy() const
-    {
-        std::string above = joint("Neck", {0, 0.06, 0}, joint("Head", {0, 0.1, 0}, "End Site\n{\nOFFSET 0 0 0\n}\n")) +
-                            arm("Left", 1) + arm("Right", -1);
-        for (int n = spine; n > 0; --n) above = joint(fmt::format("Spine{}", n), {0, 0.5 / spine, 0}, above);
-        return "HIERARCHY\n" + joint("Hips", Vector3d::Zero(), leg("Left", 1) + leg("Right", -1) + above) + "MOTION\n";
-    }
-    // With these rows of values; none: one frame at rest.
-    std::string text(const std::vector<std::vector<double>>& rows = {}) const
-    {
-        const std::string rest = hierarchy() + "Frames: 1\nFrame Time: 0.01\n";
-        std::string frames;
-        for (const std::vector<double>& row : rows) frames += fmt::format("{}\n", fmt::join(row, " "));
-        if (rows.empty()) return rest + zeros(rest);
-        return hierarchy() + fmt::format("Frames: {}\nFrame Time: 0.02\n{}", rows.size(), frames);
-    }
-    static std::string zeros(const std::string& header)
-    {
-        std::string line;
-        for (const PlainJoint& joint : plain_motion(header).joints)
-            for (std::size_t n = 0; n < joint.channels.size(); ++n) line += line.empty() ? "0" : " 0";
-        return line + "\n";
-    }
-};
-
 // Any pose that its legs can stand in: knees are bent by 30 to 60 degrees.
 std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, double least_elbow = 20,
                                              double most_elbow = 70)
@@ -96,7 +34,7 @@ std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, do
     const PlainMotion motion = plain_motion(body.text());
     std::vector<std::vector<double>> rows;
     for (int n = 0; n < count; ++n) {
-        std::vector<double>& row = rows.emplace_back(motion.values[0]);
+        std::vector<double>& row = rows.emplace_back(body.rest_row());
         for (const PlainJoint& joint : motion.joints)
             for (std::size_t c = 0; c < joint.channels.size(); ++c) {
                 double& value = row[joint.first_channel + c];
@@ -115,19 +53,24 @@ std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, do
     return rows;
 }
 
+Outcome retarget(const TempFolder& folder, const Words& words, const Words& more = {})
+{
+    Words all = {"retarget"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), more.begin(), more.end());
+    return run_command(folder.path, all);
+}
+
 struct Made {
     TempFolder folder{};
     PlainMotion source{}, out{};
     std::string report{};
 
-    Made(const MadeBody& from, const MadeBody& to, const std::vector<std::vector<double>>& rows,
-         const Words& options = {})
+    Made(const std::string& from, const std::string& to, const Words& options = {})
     {
-        spill(folder / "source.bvh", from.text(rows));
-        spill(folder / "target.bvh", to.text());
-        Words words = {"retarget", "source.bvh", "target.bvh", "--out", "out.bvh"};
-        words.insert(words.end(), options.begin(), options.end());
-        const Outcome outcome = run_command(folder.path, words);
+        spill(folder / "source.bvh", from);
+        spill(folder / "target.bvh", to);
+        const Outcome outcome = retarget(folder, {"source.bvh", "target.bvh", "--out", "out.bvh"}, options);
         INFO(outcome.err);
         REQUIRE(outcome.exit_code == 0);
         report = outcome.out;
@@ -165,7 +108,7 @@ TEST_CASE("retarget: the same body in another rest, size and world takes every p
     target.legs_out_deg = 15;
     target.toes_out_deg = 20;
     target.world << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // z is up, x ahead, y left
-    const Made made(source, target, random_rows(source, 50));
+    const Made made(source.text(random_rows(source, 50)), target.text());
     for (const PlainJoint& joint : made.out.joints) {
         INFO(joint.name);
         CHECK(made.off(joint.name, [&](std::size_t frame) {
@@ -188,7 +131,8 @@ TEST_CASE(
     const double by_leg = (0.45 + 0.36) / (0.45 + 0.42), by_arm = (0.3 + 0.32) / (0.3 + 0.26);
     for (const bool is_bent : {true, false}) {
         INFO(is_bent);
-        const Made made(source, target, is_bent ? random_rows(source, 50, 95, 120) : random_rows(source, 50, 10, 35));
+        const auto rows = is_bent ? random_rows(source, 50, 95, 120) : random_rows(source, 50, 10, 35);
+        const Made made(source.text(rows), target.text());
         for (const std::string side : {"Left", "Right"}) {
             INFO(side);
             CHECK(made.off(side + "ToeBase", [&](std::size_t frame) {
@@ -217,17 +161,17 @@ TEST_CASE("retarget: knees bend as the source's, whatever its bones")
     MadeBody target;
     target.shin = 0.15;  // at the source's places its knees would bend by up to 16 degrees more
     target.foot = 0.19;
+    const PlainMotion motion = plain_motion(source.text());
     std::vector<std::vector<double>> rows;
     for (const double knee : {0.0, 5.0, 20.0, 45.0, 80.0}) {
-        const PlainMotion motion = plain_motion(source.text());
-        std::vector<double>& row = rows.emplace_back(motion.values[0]);
+        std::vector<double>& row = rows.emplace_back(source.rest_row());
         for (const std::string side : {"Left", "Right"}) {
             row[motion.joint(joint_named(motion, side + "UpLeg")).first_channel + 1] = -knee / 2;
             row[motion.joint(joint_named(motion, side + "Leg")).first_channel + 1] = knee;
             row[motion.joint(joint_named(motion, side + "Foot")).first_channel + 1] = -knee / 2;
         }
     }
-    const Made made(source, target, rows);
+    const Made made(source.text(rows), target.text());
     const PlainArm leg = legs_of(made.source)[0], to = legs_of(made.out)[0];
     for (std::size_t frame = 0; frame < rows.size(); ++frame)
         CHECK(std::abs(arm_pose(made.source, leg, frame).bend() - arm_pose(made.out, to, frame).bend()) < 3 * kRad);
@@ -240,13 +184,13 @@ TEST_CASE("retarget: spines of other counts divide the turns of the source's eve
         MadeBody source, target;
         target.spine = count;
         const PlainMotion rest = plain_motion(source.text());
-        std::vector<double> row = rest.values[0];
+        std::vector<double> row = source.rest_row();
         const double turns[] = {10, -30, 25};
         for (int n = 0; n < 3; ++n) {
             const PlainJoint& joint = rest.joint(joint_named(rest, fmt::format("Spine{}", n + 1)));
             row[joint.first_channel + 1] = turns[n];  // about x
         }
-        const Made made(source, target, {row});
+        const Made made(source.text({row}), target.text());
         for (int n = 1; n <= count; ++n) {
             const double place = 3.0 * n / count;  // of the three turns
             double turn = 0;
@@ -265,16 +209,10 @@ TEST_CASE("retarget: feet that rest near height 0 stand there again, however the
     std::string text = target.text();
     const double toe = 0.5 * (0.05 + 0.45 + 0.42 + 0.06);                           // below the hips
     text = edited(text, "OFFSET 0 0 0", fmt::format("OFFSET 0 {} 0", toe + 0.01));  // toes 0.01 over the ground
-    std::vector<double> row(plain_motion(source.text()).values[0].size());
+    std::vector<double> row = source.rest_row();
     row[1] = 7;  // the source's ground is anywhere
-    const TempFolder folder;
-    spill(folder / "source.bvh", source.text({row, row}));
-    spill(folder / "target.bvh", text);
-    const Outcome outcome = run_command(folder.path, {"retarget", "source.bvh", "target.bvh", "--out", "out.bvh"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    const PlainMotion out = plain_motion_of(folder / "out.bvh");
-    CHECK(std::abs(Made::at(out, "LeftToeBase", 1).position.y() - 0.01) < 1e-6);
+    const Made made(source.text({row, row}), text);
+    CHECK(std::abs(Made::at(made.out, "LeftToeBase", 1).position.y() - 0.01) < 1e-6);
 }
 
 TEST_CASE("retarget: the animation of a glTF target tells its ground")
@@ -286,12 +224,12 @@ TEST_CASE("retarget: the animation of a glTF target tells its ground")
     const double toe = 0.05 + 0.45 + 0.42 + 0.06;  // below the hips
     const auto y = static_cast<float>(toe + 0.2);  // so the ground is at 0.2
     rig.add_keys(rig.add_animation("Stand"), 0, "translation", {0, 1}, {0, y, 0, 0, y, 0});
-    std::vector<double> row(rest.values[0].size());
+    std::vector<double> row = body.rest_row();
     row[1] = 7;  // the source's ground is elsewhere
     const TempFolder folder;
     rig.write(folder / "target.glb");
     spill(folder / "source.bvh", body.text({row, row}));
-    const Outcome outcome = run_command(folder.path, {"retarget", "source.bvh", "target.glb", "--out", "out.glb"});
+    const Outcome outcome = retarget(folder, {"source.bvh", "target.glb", "--out", "out.glb"});
     INFO(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     const PlainGltf out = plain_gltf_of(folder / "out.glb");
@@ -303,8 +241,8 @@ TEST_CASE("retarget: a table on standard output has that to itself")
     const TempFolder folder;
     spill(folder / "a.bvh", MadeBody().text());
     spill(folder / "b.bvh", MadeBody().text());
-    REQUIRE(run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
-    const Outcome outcome = run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "-"});
+    REQUIRE(retarget(folder, {"a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
+    const Outcome outcome = retarget(folder, {"a.bvh", "b.bvh", "--export-map", "-"});
     CHECK(outcome.out == slurp(folder / "map.csv"));
     CHECK_THAT(outcome.err, Contains("source    a.bvh") && Contains("written   to standard output\n"));
 }
@@ -314,15 +252,14 @@ TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
     MadeBody source, target;
     source.spine = 2;
     const auto rows = random_rows(source, 5);
-    const Made found(source, target, rows, {"--export-map", "map.csv"});
+    const Made found(source.text(rows), target.text(), {"--export-map", "map.csv"});
     const std::string map = slurp(found.folder / "map.csv");
     CHECK_THAT(map, Contains("part,source,target\nhips,Hips,Hips\nspine,Spine1,Spine1\nspine,Spine2,Spine2\n"
                              "spine,,Spine3\n"));
     CHECK_THAT(map, Contains("leftShoulder,LeftShoulder,LeftShoulder\nleftUpperArm,LeftArm,LeftArm\n"));
     const auto again = [&](const std::string& table) {
         spill(found.folder / "map.csv", table);
-        return run_command(found.folder.path,
-                           {"retarget", "source.bvh", "target.bvh", "--map", "map.csv", "--out", "again.bvh"});
+        return retarget(found.folder, {"source.bvh", "target.bvh", "--map", "map.csv", "--out", "again.bvh"});
     };
     CHECK(again(map).exit_code == 0);
     CHECK(slurp(found.folder / "again.bvh") == slurp(found.folder / "out.bvh"));
@@ -351,7 +288,7 @@ TEST_CASE("retarget: the table of pairs says who follows whom, and comes back")
 TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, of either body")
 {
     const MadeBody body;
-    const Made known(body, body, random_rows(body, 5));
+    const Made known(body.text(random_rows(body, 5)), body.text());
     const TempFolder folder;
     // Every name says another thing, or nothing; a number says the same.
     const auto unnamed = [](std::string text) {
@@ -363,9 +300,7 @@ TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, o
     spill(folder / "plain.bvh", slurp(known.folder / "source.bvh"));
     spill(folder / "unnamed.bvh", unnamed(slurp(known.folder / "source.bvh")));
     const auto lines = [&](const std::string& from, const std::string& to, const Words& more) {
-        Words words = {"retarget", from, to, "--out", "out.bvh"};
-        words.insert(words.end(), more.begin(), more.end());
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, {from, to, "--out", "out.bvh"}, more);
         INFO(outcome.err);
         REQUIRE(outcome.exit_code == 0);
         CHECK_THAT(outcome.out, Contains("at rest   of TARGET: none\nunused    of SOURCE: none\n"));
@@ -378,9 +313,7 @@ TEST_CASE("retarget: limbs and heads that names do not tell are named by hand, o
     CHECK(lines("unnamed.bvh", "plain.bvh", by_hand("source:")) == wanted);
     CHECK(lines("plain.bvh", "unnamed.bvh", by_hand("target:")) == wanted);
     const auto complaint = [&](const Words& more, int exit_code) {
-        Words words = {"retarget", "unnamed.bvh", "plain.bvh"};
-        words.insert(words.end(), more.begin(), more.end());
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, {"unnamed.bvh", "plain.bvh"}, more);
         CHECK(outcome.exit_code == exit_code);
         return outcome.err;
     };
@@ -401,27 +334,21 @@ TEST_CASE("retarget: garbage is said, and written only if it is asked for")
     spill(folder / "a.bvh", body.text(random_rows(body, 1)));
     spill(folder / "b.bvh", body.text());
     // A table that takes the arms for the legs.
-    REQUIRE(run_command(folder.path, {"retarget", "a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
+    REQUIRE(retarget(folder, {"a.bvh", "b.bvh", "--export-map", "map.csv"}).exit_code == 0);
     std::string map = slurp(folder / "map.csv");
-    for (const std::string part : {"UpLeg,", "Leg,", "Foot,"}) {
-        const std::string source = "Left" + part, other = part == "UpLeg," ? "LeftArm,"
-                                                          : part == "Leg," ? "LeftForeArm,"
-                                                                           : "LeftHand,";
-        const std::size_t leg = map.find("," + source);
-        map.replace(leg + 1, source.size(), "(");
-        map.replace(map.find("," + other) + 1, other.size(), source);
-        map.replace(map.find("("), 1, other);
+    for (const auto& [leg, arm] :
+         {std::pair("LeftUpLeg", "LeftArm"), {"LeftLeg", "LeftForeArm"}, {"LeftFoot", "LeftHand"}}) {
+        map = edited(map, fmt::format(",{},", leg), ",?,");
+        map = edited(edited(map, fmt::format(",{},", arm), fmt::format(",{},", leg)), ",?,", fmt::format(",{},", arm));
     }
     spill(folder / "wrong.csv", map);
-    const Words words = {"retarget", "a.bvh", "b.bvh", "--map", "wrong.csv", "--out", "c.bvh"};
-    const Outcome garbage = run_command(folder.path, words);
+    const Words words = {"a.bvh", "b.bvh", "--map", "wrong.csv", "--out", "c.bvh"};
+    const Outcome garbage = retarget(folder, words);
     CHECK(garbage.exit_code == 1);
     CHECK_THAT(garbage.out, Contains("garbage   the left "));
     CHECK_THAT(garbage.err, Contains("; the motion is not written; ") && Contains("or give --force"));
     CHECK(!fs::exists(folder / "c.bvh"));
-    Words forced = words;
-    forced.push_back("--force");
-    CHECK(run_command(folder.path, forced).exit_code == 0);
+    CHECK(retarget(folder, words, {"--force"}).exit_code == 0);
     CHECK(fs::exists(folder / "c.bvh"));
 }
 
@@ -433,9 +360,7 @@ TEST_CASE("retarget: rest poses and up are chosen for either body")
     spill(folder / "a.bvh", body.text(rows));
     spill(folder / "b.bvh", body.text(rows));
     const auto report = [&](const Words& options) {
-        Words words = {"retarget", "a.bvh", "b.bvh"};
-        words.insert(words.end(), options.begin(), options.end());
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, {"a.bvh", "b.bvh"}, options);
         return outcome.out.substr(0, outcome.out.find("paired")) + outcome.err;
     };
     const std::string note = "note      frame 1 is taken as the rest pose, and y is up\n";
@@ -460,26 +385,26 @@ TEST_CASE("retarget: what cannot be is refused in one line, and nothing is lost"
     spill(folder / "b.bvh", MadeBody().text());
     spill(folder / "rig.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"name":"Hips"}]})");
     const auto complaint = [&](const Words& words) {
-        const Outcome outcome = run_command(folder.path, words);
+        const Outcome outcome = retarget(folder, words);
         CHECK(outcome.exit_code != 0);
         return outcome.err;
     };
-    CHECK(complaint({"retarget", "a.bvh", "b.bvh", "--out", "c.glb"}) ==
+    CHECK(complaint({"a.bvh", "b.bvh", "--out", "c.glb"}) ==
           "swivel: --out c.glb: TARGET is a BVH file; its poses go to .bvh\n");
-    CHECK_THAT(complaint({"retarget", "a.bvh", "b.bvh", "--out", "b.bvh"}), Contains("b.bvh: is TARGET, too"));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "b.bvh", "--export-map", "a.bvh"}), Contains("a.bvh: is SOURCE, too"));
-    CHECK_THAT(complaint({"retarget", "-", "-"}), Contains("more than one of SOURCE, TARGET and --map is -"));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "rig.gltf"}), Contains("rig.gltf: no leg of it can be told"));
+    CHECK_THAT(complaint({"a.bvh", "b.bvh", "--out", "b.bvh"}), Contains("b.bvh: is TARGET, too"));
+    CHECK_THAT(complaint({"a.bvh", "b.bvh", "--export-map", "a.bvh"}), Contains("a.bvh: is SOURCE, too"));
+    CHECK_THAT(complaint({"-", "-"}), Contains("more than one of SOURCE, TARGET and --map is -"));
+    CHECK_THAT(complaint({"a.bvh", "rig.gltf"}), Contains("rig.gltf: no leg of it can be told"));
     CHECK(folder.file_count() == 3);
     MadeBody no_shin, no_forearm;
     no_shin.shin = no_forearm.forearm = 0;
     spill(folder / "no_shin.bvh", no_shin.text());
     spill(folder / "no_forearm.bvh", no_forearm.text());
     const char* const leg = "no_shin.bvh: the bone from LeftLeg to LeftFoot has no length at rest";
-    CHECK_THAT(complaint({"retarget", "no_shin.bvh", "b.bvh", "--out", "c.bvh"}), Contains(leg));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "no_shin.bvh", "--out", "c.bvh"}), Contains(leg));
+    CHECK_THAT(complaint({"no_shin.bvh", "b.bvh", "--out", "c.bvh"}), Contains(leg));
+    CHECK_THAT(complaint({"a.bvh", "no_shin.bvh", "--out", "c.bvh"}), Contains(leg));
     const char* const arm = "no_forearm.bvh: the bone from LeftForeArm to LeftHand has no length at rest";
-    CHECK_THAT(complaint({"retarget", "no_forearm.bvh", "b.bvh", "--out", "c.bvh"}), Contains(arm));
-    CHECK_THAT(complaint({"retarget", "a.bvh", "no_forearm.bvh", "--out", "c.bvh"}), Contains(arm));
+    CHECK_THAT(complaint({"no_forearm.bvh", "b.bvh", "--out", "c.bvh"}), Contains(arm));
+    CHECK_THAT(complaint({"a.bvh", "no_forearm.bvh", "--out", "c.bvh"}), Contains(arm));
     CHECK(!fs::exists(folder / "c.bvh"));
 }

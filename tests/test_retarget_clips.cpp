@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/feet_motion.h"
 #include "tests/plain_gltf.h"
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
@@ -54,81 +55,6 @@ std::string retargeted(const TempFolder& folder, const fs::path& source, const f
     return outcome.out;
 }
 
-using Way = std::vector<Vector3d>;  // of a toe, in leg lengths, y up
-
-struct Toes {
-    std::array<Way, 2> ways;
-    double frame_time = 0;
-};
-
-Toes toes_of(const PlainMotion& motion, double frame_time)
-{
-    Toes toes{{}, frame_time};
-    const std::vector<PlainArm> legs = legs_of(motion);
-    const double leg = (legs[0].length() + legs[1].length()) / 2;
-    for (std::size_t side = 0; side < 2; ++side)
-        for (std::size_t frame = 0; frame < motion.lines.size(); ++frame)
-            toes.ways[side].push_back(
-                pose_of(motion,
-                        frame)[static_cast<std::size_t>(joint_named(motion, side ? "RightToeBase" : "LeftToeBase"))]
-                    .position /
-                leg);
-    return toes;
-}
-
-// The same of a figure by Mesh2Motion.
-Toes toes_of(const PlainGltf& gltf, std::size_t frames, double frame_time)
-{
-    const auto place = [&](const std::string& name, double time) {
-        return Vector3d(plain_world(gltf, 0, gltf.node_named(name), time).translation());
-    };
-    double leg = 0;
-    for (const std::string side : {"_l", "_r"})
-        leg += ((place("thigh" + side, 0) - place("calf" + side, 0)).norm() +
-                (place("calf" + side, 0) - place("foot" + side, 0)).norm()) /
-               2;
-    Toes toes{{}, frame_time};
-    for (std::size_t side = 0; side < 2; ++side)
-        for (std::size_t frame = 0; frame < frames; ++frame)
-            toes.ways[side].push_back(place(side ? "ball_r" : "ball_l", frame_time * static_cast<double>(frame)) / leg);
-    return toes;
-}
-
-// The frames in which a toe stands, in the source: slower than half a leg a second, and less than a fifteenth of a leg
-// above the lowest of its frames but for a twentieth.
-std::vector<bool> standing(const Toes& toes, std::size_t side)
-{
-    const Way& way = toes.ways[side];
-    std::vector<double> heights;
-    for (const Vector3d& place : way) heights.push_back(place.y());
-    std::ranges::nth_element(heights, heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20));
-    const double floor = heights[heights.size() / 20];
-    std::vector<bool> stands(way.size());
-    for (std::size_t n = 1; n < way.size(); ++n)
-        stands[n] = (way[n] - way[n - 1]).norm() < 0.5 * toes.frame_time && way[n].y() < floor + 1.0 / 15;
-    return stands;
-}
-
-// How far the toes slide over the ground in those frames, in all, and the highest that they float or sink from frame to
-// frame, in leg lengths.
-struct Slide {
-    double way = 0, height = 0;
-};
-Slide slide_of(const Toes& toes, const Toes& source)
-{
-    Slide slide;
-    for (std::size_t side = 0; side < 2; ++side) {
-        const std::vector<bool> stands = standing(source, side);
-        for (std::size_t n = 1; n < stands.size(); ++n) {
-            if (!stands[n]) continue;
-            const Vector3d step = toes.ways[side][n] - toes.ways[side][n - 1];
-            slide.way += std::hypot(step.x(), step.z());
-            slide.height = std::max(slide.height, std::abs(step.y()));
-        }
-    }
-    return slide;
-}
-
 // The most keys that a channel of the first animation has: in these figures all others have keys at some of the same.
 std::vector<double> key_times(const PlainGltf& gltf)
 {
@@ -150,6 +76,8 @@ TEST_CASE("retarget: a motion on its own figure is the same motion")
         retargeted(folder, path, path, "same.bvh");
         const PlainMotion before = plain_motion_of(path), after = plain_motion_of(folder / "same.bvh");
         REQUIRE(after.lines.size() == before.lines.size());
+        const auto hierarchy = [](const PlainMotion& of) { return of.header.substr(0, of.header.find("MOTION")); };
+        CHECK(hierarchy(after) == hierarchy(before));
         double turn = 0, place = 0;
         for (std::size_t frame = 0; frame < before.lines.size(); ++frame) {
             const auto from = local_turns(before, frame), to = local_turns(after, frame);
@@ -201,14 +129,19 @@ TEST_CASE("retarget: a walk goes to a figure and comes back, and its feet slide 
     }
     CHECK(sum / static_cast<double>(count) < 3);
     CHECK(most < 10);
-    const Toes source = toes_of(before, 1.0 / 120);
-    const Toes there = toes_of(plain_gltf_of(folder / "figure.glb"), before.lines.size(), 0.008333);
-    const Toes back = toes_of(after, 1.0 / 120);
-    const Slide was = slide_of(source, source);
-    REQUIRE(was.way > 0.05);
-    for (const Toes& toes : {there, back}) {
-        const Slide is = slide_of(toes, source);
-        CHECK(is.way < 1.001 * was.way);
-        CHECK(is.height < 1.001 * was.height);
+    const PlainLegs source = legs_path(before, 1.0 / 120), back = legs_path(after, 1.0 / 120);
+    const PlainGltf figures = plain_gltf_of(folder / "figure.glb");
+    const PlainLegs there =
+        legs_path(figures, {"pelvis", "thigh_*", "calf_*", "foot_*", "ball_*"}, {"l", "r"}, key_times(figures));
+    const PlainContacts contacts = plain_contacts(source, 0.5, 1.0 / 15);
+    const auto in_legs = [&](const PlainLegs& legs) {
+        const PlainSkating skating = plain_skating(legs, contacts);
+        return std::array{skating.mean / legs.leg_length(0), skating.sink / legs.leg_length(0)};
+    };
+    const auto was = in_legs(source);
+    REQUIRE(was[0] > 0.05);
+    for (const PlainLegs& legs : {there, back}) {
+        CHECK(in_legs(legs)[0] < 1.001 * was[0]);
+        CHECK(in_legs(legs)[1] < 1.001 * was[1]);
     }
 }

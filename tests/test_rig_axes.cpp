@@ -11,7 +11,6 @@
 #include "swivel/swivel.hpp"
 #include "tests/plain_gltf.h"
 #include "tests/random_figure.h"
-#include "tests/rig_body.h"
 #include "tests/run_command.h"
 
 using namespace swivel::test;
@@ -35,6 +34,23 @@ std::vector<std::array<std::string, 3>> words_of(const Vector3d& arm, const Vect
         words.push_back({axes["x"]["points"], axes["y"]["points"], axes["z"]["points"]});
     }
     return words;
+}
+
+// What the library makes of a limb's chain as the report has it.
+swivel_binding bound_as_printed(const json& from)
+{
+    swivel_chain chain = swivel_default_chain();
+    const auto numbers = [&](const char* key, auto& to) {
+        REQUIRE(from.at(key).size() == std::size(to));
+        for (std::size_t n = 0; n < std::size(to); ++n) to[n] = from.at(key)[n].get<float>();
+    };
+    numbers("shoulder_rotation", chain.shoulder_rotation);
+    numbers("elbow_rotation", chain.elbow_rotation);
+    numbers("wrist_rotation", chain.wrist_rotation);
+    numbers("elbow_offset", chain.elbow_offset);
+    numbers("wrist_offset", chain.wrist_offset);
+    numbers("bend", chain.bend);
+    return swivel::bind(chain);
 }
 
 // The lines for a crowd file that the report for people has of one limb; empty without any.
@@ -74,7 +90,7 @@ void add_turn(GltfRig& rig, int animation, int node, const Vector3d& axis, const
 
 }  // namespace
 
-TEST_CASE("rig axes: joints and lengths are the figure's, z runs along the resting limb, y where it bends to")
+TEST_CASE("rig axes: a limb's joints, lengths and chain are the figure's, z runs along it at rest, y where it bends to")
 {
     const TempFolder folder;
     std::mt19937 random(11);
@@ -97,9 +113,14 @@ TEST_CASE("rig axes: joints and lengths are the figure's, z runs along the resti
             };
             const auto axis = [&](const char* name) { return vector_of(limb.at("axes").at(name).at("world")); };
             const Vector3d x = axis("x"), y = axis("y"), z = axis("z");
+            const swivel_binding bound = bound_as_printed(limb.at("chain"));
+            const double lengths[] = {figure.upper[n], figure.lower[n]}, scale = limb.at("scale");
             CHECK(limb.at("numbers") == json(figure.limbs[n]));
-            CHECK(limb["lengths"][0].get<double>() == Approx(figure.upper[n]).epsilon(1e-5));
-            CHECK(limb["lengths"][1].get<double>() == Approx(figure.lower[n]).epsilon(1e-5));
+            for (std::size_t bone = 0; bone < 2; ++bone) {
+                CHECK(limb["lengths"][bone].get<double>() == Approx(lengths[bone]).epsilon(1e-5));
+                CHECK(scale * static_cast<double>(bound.lengths[bone]) == Approx(lengths[bone]).epsilon(1e-5));
+            }
+            CHECK(limb["chain"]["bend"][0].get<double>() == Approx(limb["bend"][0].get<double>()).margin(1e-6));
             CHECK((z - (place(1) - place(0)).normalized()).norm() < 1e-5);
             CHECK(y.dot(n < 2 ? figure.front : Vector3d(-figure.front)) > 0.9);
             CHECK((x - y.cross(z)).norm() < 1e-6);
@@ -192,34 +213,4 @@ TEST_CASE("rig axes: what tells which way is up")
     CHECK(told_by({0, 1, 2, 3}) == "hips to shoulders");
     CHECK(told_by({2, 3}) == "the file's +Y");
     CHECK(told_by({0, 1}) == "the file's +Y");
-}
-
-TEST_CASE("rig axes: a limb's chain is what bind() takes")
-{
-    const TempFolder folder;
-    std::mt19937 random(14);
-    FigureWish wish;
-    wish.scales = 0.4;
-    random_figure(random, wish, figure_names()[0]).rig.write(folder / "rig.glb");
-    const json report = rig_report(folder);
-    for (const json& limb : report.at("limbs")) {
-        const json& from = limb.at("chain");
-        const auto numbers = [&](const char* key, auto& to) {
-            REQUIRE(from.at(key).size() == std::size(to));
-            for (std::size_t n = 0; n < std::size(to); ++n) to[n] = from.at(key)[n].get<float>();
-        };
-        swivel_chain chain = swivel_default_chain();
-        numbers("shoulder_rotation", chain.shoulder_rotation);
-        numbers("elbow_rotation", chain.elbow_rotation);
-        numbers("wrist_rotation", chain.wrist_rotation);
-        numbers("elbow_offset", chain.elbow_offset);
-        numbers("wrist_offset", chain.wrist_offset);
-        numbers("bend", chain.bend);
-        const swivel_binding bound = swivel::bind(chain);
-        const double scale = limb.at("scale");
-        for (std::size_t n = 0; n < 2; ++n)
-            CHECK(scale * static_cast<double>(bound.lengths[n]) ==
-                  Approx(limb.at("lengths")[n].get<double>()).epsilon(1e-6));
-        CHECK(from.at("bend")[0].get<double>() == Approx(limb.at("bend")[0].get<double>()).margin(1e-6));
-    }
 }

@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "tests/rig_body.h"
+#include "tests/random_figure.h"
 
 using namespace swivel::test;
 using Eigen::Vector3d;

@@ -172,106 +172,60 @@ void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swive
     joints.back().twist_bone_count = static_cast<std::uint32_t>(bones.size());
 }
 
+// Puts any bits, or the number of a joint or of none, into one of the words up to the end.
+void BodyDef::spoil_word(Bytes& bytes, void* begin, const void* end) const
+{
+    const auto size = static_cast<const char*>(end) - static_cast<char*>(begin);
+    const std::uint32_t any = bytes.one_in(2) ? bytes.take<std::uint32_t>() : bytes.below(joint_count() + 3) - 1;
+    std::memcpy(static_cast<char*>(begin) + sizeof any * bytes.below(static_cast<std::uint32_t>(size / 4)), &any,
+                sizeof any);
+}
+
 void BodyDef::spoil(Bytes& bytes)
 {
-    const std::uint32_t joint = bytes.below(joint_count()), any_joint = bytes.below(joint_count() + 2);
     const std::size_t g = bytes.below(static_cast<std::uint32_t>(joints.size()));
     swivel_limb_joints& limb = joints[g];
-    switch (bytes.take<std::uint8_t>() % 17) {
+    swivel_group_def& group = groups[bytes.below(static_cast<std::uint32_t>(groups.size()))];
+    switch (bytes.take<std::uint8_t>() % 14) {
         case 0:  // also in a circle
-            parents[joint] = static_cast<std::int32_t>(any_joint) - 1;
+            spoil_word(bytes, parents.data(), parents.data() + parents.size());
             break;
         case 1:
-            parents[joint] = bytes.take<std::int32_t>();
+            spoil_word(bytes, translations.data(), translations.data() + translations.size());
             break;
         case 2:
-            *std::array{&limb.shoulder, &limb.elbow, &limb.wrist}[bytes.below(3)] = any_joint;
-            break;
-        case 3:  // the limb of another group
-            limb = joints[bytes.below(static_cast<std::uint32_t>(joints.size()))];
-            break;
-        case 4:
-            translations[std::size_t{3} * joint + bytes.below(3)] = bytes.any_float();
-            break;
-        case 5:
-            rotations[std::size_t{4} * joint + bytes.below(4)] = bytes.any_float();
-            break;
-        case 6:
-            limb.bend[bytes.below(3)] = bytes.any_float();
-            break;
-        case 7:
-            groups[g].features ^= swivel_features{1} << bytes.below(64);
-            break;
-        case 8:  // 0 and the bodies' count are right
-            groups[g].limb_count = bytes.below(body_count + 2);
-            break;
-        case 9:
-            (bytes.one_in(2) ? skeleton.size : limb.size) = bytes.below(sizeof(swivel_limb_joints) + 9);
-            break;
-        case 10:
-            (bytes.one_in(2) ? skeleton.joint_count : skeleton.reserved) = joint;
-            break;
-        case 11:
-            *std::array{&groups[g].plant.lock, &groups[g].plant.run, &groups[g].plant.longest,
-                        &groups[g].plant.height[1], &groups.back().fit.half}[bytes.below(5)] = bytes.any_float();
-            break;
-        case 12:
-            up[1] = bytes.any_float();
-            break;
-        case 13:  // also a second shift
-            groups.push_back(swivel_default_fit_group_def());
-            break;
-        case 14:
-            spoil_link(bytes, groups[g]);
-            break;
-        case 15:
-            spoil_look(bytes, groups.back().look);
-            break;
-        default:
-            groups[g].joints = nullptr;
-    }
-}
-
-// Also of a group that has none, which does not matter.
-void BodyDef::spoil_link(Bytes& bytes, swivel_group_def& group)
-{
-    swivel_group_def& last = groups.back();
-    switch (bytes.below(6)) {
-        case 0:  // also to itself, to a later one, or to none
-            group.link = bytes.below(static_cast<std::uint32_t>(groups.size()) + 2);
-            break;
-        case 1:
-            group.features ^= SWIVEL_WITH_LINK;
-            break;
-        case 2:  // also one that a limb turns
-            last.prop.joint = static_cast<std::int32_t>(bytes.below(joint_count() + 2)) - 1;
+            spoil_word(bytes, rotations.data(), rotations.data() + rotations.size());
             break;
         case 3:
-            last.prop.joint = bytes.take<std::int32_t>();
+            spoil_word(bytes, &limb.shoulder, &limb.twist_bone_count);
             break;
         case 4:
-            *std::array{&group.ground.heel[1], &group.ground.toe_clearance, &group.ground.cos_most, &group.ground.half,
-                        &last.prop.most_move}[bytes.below(5)] = bytes.any_float();
+            spoil_word(bytes, limb.bend, &limb + 1);
             break;
-        default:  // that nobody holds
-            groups.push_back(swivel_default_prop_group_def());
-    }
-}
-
-// Also of a group that has none.
-void BodyDef::spoil_look(Bytes& bytes, swivel_look& look)
-{
-    switch (bytes.below(3)) {
-        case 0:
-            look.joint_count = bytes.below(12);
+        case 5:  // the limb of another group
+            limb = joints[bytes.below(static_cast<std::uint32_t>(joints.size()))];
             break;
-        case 1:
-            look.joints[bytes.below(2)] = bytes.one_in(2) ? bytes.below(12) : bytes.take<std::uint32_t>();
+        case 6:
+        case 7:  // how it stands, fits, links and looks, also of a group that does not
+            spoil_word(bytes, &group.plant, &group.region);
+            break;
+        case 8:
+            group.features ^= bytes.one_in(2) ? SWIVEL_WITH_LINK : swivel_features{1} << bytes.below(64);
+            break;
+        case 9:  // 0 and the bodies' count are right
+            group.limb_count = bytes.below(body_count + 2);
+            break;
+        case 10:
+            (bytes.one_in(2) ? skeleton.size : limb.size) = bytes.below(sizeof(swivel_limb_joints) + 9);
+            break;
+        case 11:
+            (bytes.one_in(2) ? skeleton.joint_count : skeleton.reserved) = bytes.below(joint_count());
+            break;
+        case 12:  // also a second shift, and a prop that nobody holds
+            groups.push_back(bytes.one_in(2) ? swivel_default_fit_group_def() : swivel_default_prop_group_def());
             break;
         default:
-            *std::array{&look.share[0], &look.cos_most[0], &look.eye[1],        &look.axis[1],
-                        &look.cos_full, &look.cos_none,    &look.fade_distance, &look.rate}[bytes.below(8)] =
-                bytes.any_float();
+            bytes.one_in(2) ? void(up[1] = bytes.any_float()) : void(groups[g].joints = nullptr);
     }
 }
 

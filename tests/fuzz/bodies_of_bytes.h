@@ -47,9 +47,8 @@ private:
     void take_looks(Bytes& bytes, std::uint32_t trunk);
     void add_look(Bytes& bytes, const std::uint32_t* joints, std::size_t count);
     void take_constants(Bytes& bytes);
+    void spoil_word(Bytes& bytes, void* begin, const void* end) const;
     void spoil(Bytes& bytes);
-    void spoil_link(Bytes& bytes, swivel_group_def& group);
-    static void spoil_look(Bytes& bytes, swivel_look& look);
 };
 
 }  // namespace swivel::fuzz

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "tests/fuzz/require.h"
@@ -18,6 +19,18 @@ inline void check_message(const formats::InputError& error)
     const std::string_view text = error.what();
     SWIVEL_REQUIRE(!text.empty());
     SWIVEL_REQUIRE(text.find_first_of("\n\r") == std::string_view::npos);
+}
+
+// What `read` returns; nothing if it refuses the file, in one line.
+template <class Read>
+auto read_or_refuse(const Read& read) -> std::optional<decltype(read())>
+{
+    try {
+        return read();
+    } catch (const formats::InputError& error) {
+        check_message(error);
+        return std::nullopt;
+    }
 }
 
 inline bool is_unit(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1) < 1e-6; }

@@ -110,12 +110,6 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
     }
 }
 
-// A row of a group, and where in it.
-float& input_at(const swivel_rows& rows, std::uint32_t limb, std::uint32_t row)
-{
-    return rows.base[(std::size_t{limb / SWIVEL_LANES} * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES];
-}
-
 void turn_at_random(Random& random, float (&q)[4])
 {
     float length2 = 0;
@@ -263,12 +257,12 @@ void fill_inputs(Bytes& bytes, swivel_crowd& crowd)
             std::array<float, 12> value{};
             for (std::uint32_t limb = 0; limb < limbs; ++limb) {
                 make_value(random, field, kind, std::span(value).first(count));
-                for (std::uint32_t c = 0; c < count; ++c) input_at(rows, limb, first_row + c) = value[c];
+                for (std::uint32_t c = 0; c < count; ++c) number_at(rows, limb, first_row + c) = value[c];
             }
         }
         for (std::uint32_t n = bytes.take<std::uint8_t>() % 32; n > 0; --n) {
             const std::uint32_t limb = bytes.take<std::uint8_t>() % limbs;
-            input_at(rows, limb, bytes.take<std::uint8_t>() % rows.row_count) = bytes.any_float();
+            number_at(rows, limb, bytes.take<std::uint8_t>() % rows.row_count) = bytes.any_float();
         }
     }
 }

@@ -22,6 +22,12 @@ void give_region(Bytes& bytes, swivel_group_def& group);
 // Each group has features and a sound binding of its own, and 1 to most_limbs limbs.
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs);
 
+// A limb's number in a row of a group.
+inline float& number_at(const swivel_rows& rows, std::size_t limb, std::size_t row)
+{
+    return rows.base[(limb / SWIVEL_LANES * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES];
+}
+
 // SplitMix64 (Steele, Lea, Flood, 2014): many numbers from a few bytes.
 struct Random {
     std::uint64_t state;

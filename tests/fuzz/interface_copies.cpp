@@ -41,8 +41,7 @@ void require_equal_rows(const Session& session, swivel_field field, const Limbs&
     const std::size_t first_row = swivel_field_first_row(session.crowd, limbs.group, field);
     for (std::size_t n = 0; n < limbs.count; ++n)
         for (std::size_t c = 0; c < values.value_bytes() / sizeof(float); ++c) {
-            const std::size_t limb = limbs.first + n, row = limb / SWIVEL_LANES * rows.row_count + first_row + c;
-            const float* const at = rows.base + row * SWIVEL_LANES + limb % SWIVEL_LANES;
+            const float* const at = &number_at(rows, limbs.first + n, first_row + c);
             SWIVEL_REQUIRE(std::memcmp(at, values.at(n) + c * sizeof(float), sizeof(float)) == 0);
         }
 }
@@ -59,7 +58,7 @@ void call_write(Session& session)
     const bool is_there =
         (field < SWIVEL_SHOULDER || is_carried(field)) && component_count(session, limbs.group, field) > 0;
     values.fill([&](std::size_t, char* at) {
-        std::array<float, 12> value{};
+        std::array<float, 28> value{};  // of seven twist bones, the most that a field has
         const std::size_t count = values.value_bytes() / sizeof(float);
         if (is_there) make_value(random, field, kind, std::span(value).first(count));
         if (is_there) std::memcpy(at, value.data(), values.value_bytes());

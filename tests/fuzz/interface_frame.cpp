@@ -121,9 +121,7 @@ void Frame::check_inputs(const Session& session, std::uint32_t group, std::uint3
             if (is_wide) std::memcpy(&wide, inputs[n].at(limb) + c * sizeof wide, sizeof wide);
             std::memcpy(&wanted, inputs[n].at(limb) + c * sizeof wanted, sizeof wanted);
             if (is_wide) wanted = static_cast<float>(wide - from(session, group, input_fields[n], limb, c));
-            const float& got =
-                rows.base[(std::size_t{limb / SWIVEL_LANES} * rows.row_count + first_row + c) * SWIVEL_LANES +
-                          limb % SWIVEL_LANES];
+            const float got = number_at(rows, limb, first_row + c);
             SWIVEL_REQUIRE(std::memcmp(&got, &wanted, sizeof got) == 0 || (is_wide && wanted != wanted && got != got));
         }
     }

@@ -260,7 +260,7 @@ private:
             ground = {session.bytes.take<std::uint16_t>(), &session};
             job.sample = sample_ground, job.sample_user = &ground;
         }
-        if ((job.probes_only || job.sample) && (!has_ground || kind == 15)) is_valid = false;
+        if (kind == 15 || (job.probes_only && !has_ground)) is_valid = false;
     }
     void take_workspace()
     {

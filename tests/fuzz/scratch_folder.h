@@ -48,9 +48,4 @@ inline std::string slurp(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-inline std::string_view text_of(const std::uint8_t* data, std::size_t size)
-{
-    return {reinterpret_cast<const char*>(data), size};
-}
-
 }  // namespace swivel::fuzz
