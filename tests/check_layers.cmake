@@ -133,7 +133,7 @@ foreach(folder tools bench)
   must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h, swivel.hpp and lecture.h")
 endforeach()
 may_include(tools/corpus "" "${standard}|\"swivel/swivel[.]hpp\"|\"tools/corpus/[a-z_]+[.]h\"")
-must_not_say(tools/corpus "[^a-zA-Z_](SWIVEL|swivel)_[a-zA-Z_]+" "tools/corpus/interface[.]cpp$" "the library's names are known to interface.cpp alone")
+must_not_say(tools/corpus "[^a-zA-Z_](SWIVEL|swivel)_[a-zA-Z_]+" "tools/corpus/(interface[.]cpp|recipe[.]h)$" "the library's names are known to recipe.h and interface.cpp alone")
 must_not_say(tools/corpus "[^a-zA-Z_](std::)?(a?(sin|cos|tan)h?|atan2|sincos|exp2?|log(2|10)?|pow|cbrt|hypot|fma)f?[ \t]*[(]" ${nowhere}
              "the corpus's numbers are the same everywhere: + - * / and sqrt")
 must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/(rig|crowd|feet|retarget|cli|swivel))[^\n]*" ${nowhere} "a format knows no solver")

@@ -259,6 +259,8 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.features |= SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL; }},
         {"shoulder_order is 6, not a number from 0 to 5",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.shoulder_order = static_cast<swivel_euler_order>(6); }},
+        {"there is no such field",
+         [](CachedCrowd& crowd) { crowd.limbs[0].setup.fields[0].field = static_cast<swivel_field>(200); }},
         {"field is ", [](CachedCrowd& crowd) { crowd.limbs[0].setup.fields[0].field = SWIVEL_RESULT_END; }},
         {"shoulder is a result", [](CachedCrowd& crowd) { crowd.limbs[0].setup.fields[0].field = SWIVEL_SHOULDER; }},
         {"pole is 3", [](CachedCrowd& crowd) { crowd.limbs[0].setup.goals.pole = 3; }},

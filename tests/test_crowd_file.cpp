@@ -71,7 +71,7 @@ TEST_CASE("crowd file: the special table goes before the general one, and says w
         "[limb.arms]\nweights.hand = 0.2\ntwist_bones = 2\n[limb.right]\nweights.hand = 0.3\n"
         "[limb.all.limits]\nhumeral_twist_deg = [0, 10]\nforearm_twist_deg = [0, 10]\n"
         "[limb.right_arm.limits]\nforearm_twist_deg = [0, 20]\n[limb.right.pole]\nangle_deg = 4\n");
-    const auto weight = [&](LimbName limb) { return settings_of(file, limb).hand_weight->value; };
+    const auto weight = [&](LimbName limb) { return settings_of(file, limb).weights[1]->value; };
     CHECK(weight(kLeftArm) == 0.9);
     CHECK(weight(kRightArm) == 0.3);
     CHECK(weight(kLeftLeg) == 0.1);
@@ -79,19 +79,23 @@ TEST_CASE("crowd file: the special table goes before the general one, and says w
     CHECK(settings_of(file, kRightArm).twist_bones->value == 2);
     CHECK(settings_of(file, kRightLeg).twist_bones->value == 1);
     CHECK(settings_of(file, kRightArm).hand->line == 6);
-    CHECK(settings_of(file, kRightArm).humeral_twist_deg->mirrored);
-    CHECK_FALSE(settings_of(file, kLeftArm).humeral_twist_deg->mirrored);
-    CHECK_FALSE(settings_of(file, kRightArm).forearm_twist_deg->mirrored);
-    CHECK(settings_of(file, kRightArm).forearm_twist_deg->value.most == 20);
-    CHECK(settings_of(file, kRightLeg).forearm_twist_deg->mirrored);
+    const auto limit = [&](LimbName limb, std::string_view key) {
+        return *settings_of(file, limb)
+                    .limits[static_cast<std::size_t>(std::ranges::find(kLimitKeys, key) - kLimitKeys.begin())];
+    };
+    CHECK(limit(kRightArm, "humeral_twist_deg").mirrored);
+    CHECK_FALSE(limit(kLeftArm, "humeral_twist_deg").mirrored);
+    CHECK_FALSE(limit(kRightArm, "forearm_twist_deg").mirrored);
+    CHECK(std::get<NumberRange>(limit(kRightArm, "forearm_twist_deg").value).most == 20);
+    CHECK(limit(kRightLeg, "forearm_twist_deg").mirrored);
     CHECK_FALSE(settings_of(file, kRightLeg).pole_angle_deg->mirrored);
     CHECK_FALSE(settings_of(file, kLeftLeg).pole_angle_deg);
 
     const CrowdFile steps =
         read("[limb.all.swivel]\nmost_deg_per_frame = 3\n[limb.legs.swivel]\nmost_deg_per_second = 90\n");
-    CHECK(settings_of(steps, kLeftArm).most_swivel_deg_per_frame);
-    CHECK_FALSE(settings_of(steps, kLeftLeg).most_swivel_deg_per_frame);
-    CHECK(settings_of(steps, kLeftLeg).most_swivel_deg_per_second->value == 90);
+    CHECK(settings_of(steps, kLeftArm).step_deg_per_frame);
+    CHECK_FALSE(settings_of(steps, kLeftLeg).step_deg_per_frame);
+    CHECK(settings_of(steps, kLeftLeg).step_deg_per_second->value == 90);
 }
 
 TEST_CASE("crowd file: wrong keys, types and values, with what to write")

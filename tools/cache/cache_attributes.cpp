@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "tools/cache/digest.h"
@@ -22,20 +23,66 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 9;
 constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
-constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
+constexpr std::uint32_t kMostLimbs = 4;          // of a character: formats::LimbName has no more
 constexpr double kMostLength = 1e15;             // as swivel.h has it
 constexpr std::uint32_t kMostHeights = 16'384;   // along a side: formats::read_height_picture() has no more
 constexpr std::int64_t kMostJoints = 1'000'000;  // more than the attributes have room for
 
-// The numbers of a chain, by the names of swivel_chain.
-constexpr std::pair<const char*, float (swivel_chain::*)[4]> kChainRotations[] = {
-    {"shoulder_rotation", &swivel_chain::shoulder_rotation},
-    {"elbow_rotation", &swivel_chain::elbow_rotation},
-    {"wrist_rotation", &swivel_chain::wrist_rotation}};
-constexpr std::pair<const char*, float (swivel_chain::*)[3]> kChainVectors[] = {
-    {"elbow_offset", &swivel_chain::elbow_offset},
-    {"wrist_offset", &swivel_chain::wrist_offset},
-    {"bend", &swivel_chain::bend}};
+// A member of a structure by its name in JSON. Whole numbers are within a range.
+template <class Struct, class Value>
+struct Member {
+    const char* name;
+    Value Struct::*at;
+    std::uint32_t least = 0, most = 1;
+};
+constexpr std::tuple kChain{Member{"shoulder_rotation", &swivel_chain::shoulder_rotation},
+                            Member{"elbow_rotation", &swivel_chain::elbow_rotation},
+                            Member{"wrist_rotation", &swivel_chain::wrist_rotation},
+                            Member{"elbow_offset", &swivel_chain::elbow_offset},
+                            Member{"wrist_offset", &swivel_chain::wrist_offset},
+                            Member{"bend", &swivel_chain::bend}};
+constexpr std::tuple kGoals{Member{"target_point", &goal_plan::target_point},
+                            Member{"target_offset", &goal_plan::target_offset},
+                            Member{"effector", &goal_plan::effector},
+                            Member{"pole_fixed", &goal_plan::pole_fixed},
+                            Member{"shoulder_place", &goal_plan::shoulder_place},
+                            Member{"bones", &goal_plan::bones},
+                            Member{"weights", &goal_plan::weights},
+                            Member{"has_target_point", &goal_plan::has_target_point},
+                            Member{"has_pole_fixed", &goal_plan::has_pole_fixed},
+                            Member{"pole", &goal_plan::pole, 0, GOAL_POLE_NORMAL},
+                            Member{"holds_pole", &goal_plan::holds_pole},
+                            Member{"hand_is_local", &goal_plan::hand_is_local},
+                            Member{"goes_along", &goal_plan::goes_along},
+                            Member{"holds", &goal_plan::holds, 0, kMostLimbs}};
+constexpr std::tuple kHalfSpace{Member{"axis", &swivel_half_space::axis}, Member{"cosine", &swivel_half_space::cosine},
+                                Member{"is_edge", &swivel_half_space::is_edge}};
+constexpr std::tuple kGround{Member{"size", &goal_ground::size}, Member{"place", &goal_ground::place},
+                             Member{"columns", &goal_ground::columns, 0, kMostHeights},
+                             Member{"rows", &goal_ground::rows, 0, kMostHeights}};
+// What a crowd is, around how it is cut.
+constexpr std::tuple kCrowd{Member{"has_poses", &CachedCrowd::has_poses},
+                            Member{"frames", &CachedCrowd::frame_count, 1, kMost},
+                            Member{"characters", &CachedCrowd::character_count, 1, kMost}};
+constexpr std::tuple kChunk{Member{"chunk_frames", &ChunkShape::frames, 1, kMostFramesInChunk},
+                            Member{"chunk_characters", &ChunkShape::characters, SWIVEL_LANES, kMostCharactersInChunk}};
+constexpr std::tuple kClip{Member{"has_given", &CachedCrowd::has_given}, Member{"title", &CachedCrowd::title},
+                           Member{"clip", &CachedCrowd::clip},
+                           Member{"clip_frames", &CachedCrowd::clip_frames, 1, kMost},
+                           Member{"frame_seconds", &CachedCrowd::frame_seconds}};
+
+template <class Struct, class... Members>
+void put(const Struct& from, const std::tuple<Members...>& members, Json& to)
+{
+    std::apply([&](const Members&... each) { ((to[each.name] = from.*each.at), ...); }, members);
+}
+template <class Struct, class... Members>
+Json json_of(const Struct& from, const std::tuple<Members...>& members)
+{
+    Json out;
+    put(from, members, out);
+    return out;
+}
 
 // A number within its range. JSON's own conversions would wrap, cut or round others.
 std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std::uint32_t most)
@@ -63,14 +110,6 @@ int place_of(const Json& json)
     return json.get<int>();
 }
 
-Json json_of(const swivel_chain& chain)
-{
-    Json out;
-    for (const auto& [name, rotation] : kChainRotations) out[name] = chain.*rotation;
-    for (const auto& [name, vector] : kChainVectors) out[name] = chain.*vector;
-    return out;
-}
-
 // A number, or what JSON has in place of one that is not finite.
 float number_of(const Json& json)
 {
@@ -89,59 +128,49 @@ void get(const Json& json, Number (&to)[Count])
             json[n].get_to(to[n]);  // throws for what is no number
 }
 
+template <class Struct, class... Members>
+void take(const Json& json, const std::tuple<Members...>& members, Struct& to)
+{
+    const auto take_one = [&]<class Value>(const Member<Struct, Value>& each) {
+        if constexpr (std::is_same_v<Value, std::uint32_t>)
+            to.*each.at = whole(json, each.name, each.least, each.most);
+        else if constexpr (std::is_array_v<Value>)
+            get(json.at(each.name), to.*each.at);
+        else
+            json.at(each.name).get_to(to.*each.at);
+    };
+    std::apply([&](const Members&... each) { (take_one(each), ...); }, members);
+}
+
 swivel_chain chain_of(const Json& json)
 {
     swivel_chain chain = swivel_default_chain();
-    for (const auto& [name, rotation] : kChainRotations) get(json.at(name), chain.*rotation);
-    for (const auto& [name, vector] : kChainVectors) get(json.at(name), chain.*vector);
+    take(json, kChain, chain);
     return chain;
-}
-
-Json json_of(const goal_plan& goals)
-{
-    return {{"target_point", goals.target_point},
-            {"target_offset", goals.target_offset},
-            {"effector", goals.effector},
-            {"pole_fixed", goals.pole_fixed},
-            {"shoulder_place", goals.shoulder_place},
-            {"bones", goals.bones},
-            {"weights", goals.weights},
-            {"has_target_point", goals.has_target_point},
-            {"has_pole_fixed", goals.has_pole_fixed},
-            {"pole", goals.pole},
-            {"holds_pole", goals.holds_pole},
-            {"hand_is_local", goals.hand_is_local},
-            {"goes_along", goals.goes_along},
-            {"holds", goals.holds}};
 }
 
 goal_plan goals_of(const Json& json)
 {
     goal_plan goals{};
-    get(json.at("target_point"), goals.target_point);
-    get(json.at("target_offset"), goals.target_offset);
-    get(json.at("effector"), goals.effector);
-    get(json.at("pole_fixed"), goals.pole_fixed);
-    get(json.at("shoulder_place"), goals.shoulder_place);
-    get(json.at("bones"), goals.bones);
-    get(json.at("weights"), goals.weights);
-    goals.has_target_point = yes_or_no(json, "has_target_point");
-    goals.has_pole_fixed = yes_or_no(json, "has_pole_fixed");
-    goals.pole = one_of(json, "pole", GOAL_POLE_NORMAL);
-    goals.holds_pole = yes_or_no(json, "holds_pole");
-    goals.hand_is_local = yes_or_no(json, "hand_is_local");
-    goals.goes_along = yes_or_no(json, "goes_along");
-    goals.holds = whole(json, "holds", 0, kMostLimbs);
+    take(json, kGoals, goals);
     return goals;
+}
+
+// A field of the solver, which says by itself what it takes.
+swivel_field field_of(const Json& json)
+{
+    swivel_field_info info{};
+    const std::uint32_t field = whole(json, "field", 0, SWIVEL_RESULT_END);
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info) && info.field != field;) ++n;
+    if (info.field != field) throw std::invalid_argument(fmt::format("field is {}, and there is no such field", field));
+    return info.field;
 }
 
 Json json_of(const swivel_region& region)
 {
     Json half_spaces = Json::array();
-    for (std::uint32_t n = 0; n < region.first[region.part_count]; ++n) {
-        const swivel_half_space& half = region.half_space[n];
-        half_spaces.push_back({{"axis", half.axis}, {"cosine", half.cosine}, {"is_edge", half.is_edge}});
-    }
+    for (std::uint32_t n = 0; n < region.first[region.part_count]; ++n)
+        half_spaces.push_back(json_of(region.half_space[n], kHalfSpace));
     return {{"first", std::vector(region.first, region.first + region.part_count + 1)},
             {"half_spaces", std::move(half_spaces)}};
 }
@@ -161,32 +190,19 @@ swivel_region region_of(const Json& json)
         region.first[n] = static_cast<std::uint32_t>(at);
     }
     region.cut_count = region.first[0];
-    for (std::size_t n = 0; n < half_spaces.size(); ++n) {
-        swivel_half_space& half = region.half_space[n];
-        get(half_spaces[n].at("axis"), half.axis);
-        half_spaces[n].at("cosine").get_to(half.cosine);
-        half.is_edge = yes_or_no(half_spaces[n], "is_edge");
-    }
+    for (std::size_t n = 0; n < half_spaces.size(); ++n) take(half_spaces[n], kHalfSpace, region.half_space[n]);
     return region;
-}
-
-Json json_of(const goal_ground& grid)
-{
-    return {{"size", grid.size}, {"place", grid.place}, {"columns", grid.columns}, {"rows", grid.rows}};
 }
 
 // Without its heights.
 Ground ground_of(const Json& json)
 {
     Ground ground{};
-    get(json.at("size"), ground.grid.size);
-    get(json.at("place"), ground.grid.place);
+    take(json, kGround, ground.grid);
     const auto is_length = [](double length) { return length > 0 && length <= kMostLength; };
     const auto is_place = [](double place) { return std::fabs(place) <= kMostLength; };
     if (!std::ranges::all_of(ground.grid.size, is_length) || !std::ranges::all_of(ground.grid.place, is_place))
         throw std::invalid_argument("a ground's size or place is out of range");
-    ground.grid.columns = whole(json, "columns", 0, kMostHeights);
-    ground.grid.rows = whole(json, "rows", 0, kMostHeights);
     if (std::min(ground.grid.columns, ground.grid.rows) < 2 && ground.grid.columns + ground.grid.rows > 0)
         throw std::invalid_argument("a ground has one row or column");
     return ground;
@@ -203,8 +219,8 @@ Json json_of(const CachedLimb& limb)
               {"shoulder_order", setup.shoulder_order},
               {"wrist_order", setup.wrist_order},
               {"mirrored", setup.mirrored ? 1 : 0},
-              {"chain", json_of(setup.chain)},
-              {"goals", json_of(setup.goals)},
+              {"chain", json_of(setup.chain, kChain)},
+              {"goals", json_of(setup.goals, kGoals)},
               {"fixed", std::move(fixed)}};
     if (setup.region) json["region"] = json_of(*setup.region);
     if (setup.has(SWIVEL_WITH_GROUND)) json["clearances"] = {setup.ground.toe_clearance, setup.ground.heel_clearance};
@@ -228,7 +244,7 @@ CachedLimb limb_of(const Json& json)
     setup.goals = goals_of(json.at("goals"));
     for (const Json& each : json.at("fixed")) {
         FixedField& fixed = setup.fields.emplace_back();
-        fixed.field = one_of(each, "field", SWIVEL_CLAVICLE_TURN);
+        fixed.field = field_of(each);
         each.at("value").get_to(fixed.value);
     }
     if (json.contains("region")) setup.region = region_of(json.at("region"));
@@ -256,8 +272,8 @@ std::array<double, 4> box_of(const Json& json)
 Json json_of(const CachedLook& look)
 {
     const swivel_look& how = *look.setup.look;
-    return {{"chain", json_of(look.setup.chain)},
-            {"goals", json_of(look.setup.goals)},
+    return {{"chain", json_of(look.setup.chain, kChain)},
+            {"goals", json_of(look.setup.goals, kGoals)},
             {"joint_count", how.joint_count},
             {"axis", how.axis},
             {"cos_most", how.cos_most[0]}};
@@ -340,21 +356,14 @@ Json attributes_of(const CachedCrowd& crowd)
     Json joints = Json::array(), limbs = Json::array();
     for (const CachedJoint& joint : crowd.joints) joints.push_back({{"name", joint.name}, {"parent", joint.parent}});
     for (const CachedLimb& limb : crowd.limbs) limbs.push_back(json_of(limb));
-    Json out{{"swivel_cache", kFormat},
-             {"has_poses", crowd.has_poses},
-             {"frames", crowd.frame_count},
-             {"characters", crowd.character_count},
-             {"chunk_frames", crowd.chunk.frames},
-             {"chunk_characters", crowd.chunk.characters},
-             {"has_given", crowd.has_given},
-             {"title", crowd.title},
-             {"clip", crowd.clip},
-             {"clip_frames", crowd.clip_frames},
-             {"frame_seconds", crowd.frame_seconds},
-             {"goals_digest", fmt::format("{:016x}", crowd.goals_digest)},
-             {"joints", std::move(joints)},
-             {"limbs", std::move(limbs)}};
-    if (crowd.ground) out["ground"] = json_of(crowd.ground->grid);
+    Json out{{"swivel_cache", kFormat}};
+    put(crowd, kCrowd, out);
+    put(crowd.chunk, kChunk, out);
+    put(crowd, kClip, out);
+    out["goals_digest"] = fmt::format("{:016x}", crowd.goals_digest);
+    out["joints"] = std::move(joints);
+    out["limbs"] = std::move(limbs);
+    if (crowd.ground) out["ground"] = json_of(crowd.ground->grid, kGround);
     if (crowd.look) out["look"] = json_of(*crowd.look);
     if (crowd.box) out["box"] = *crowd.box;
     out["digest"] = digest_text(out);
@@ -376,18 +385,11 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         refuse("was changed: its digest is another; take it from a copy, or make the cache anew");
     CachedCrowd crowd;
     try {
-        attributes.at("has_poses").get_to(crowd.has_poses);
-        crowd.frame_count = whole(attributes, "frames", 1, kMost);
-        crowd.character_count = whole(attributes, "characters", 1, kMost);
-        crowd.chunk.frames = whole(attributes, "chunk_frames", 1, kMostFramesInChunk);
-        crowd.chunk.characters = whole(attributes, "chunk_characters", SWIVEL_LANES, kMostCharactersInChunk);
+        take(attributes, kCrowd, crowd);
+        take(attributes, kChunk, crowd.chunk);
+        take(attributes, kClip, crowd);
         if (crowd.chunk.characters % SWIVEL_LANES != 0)
             throw std::invalid_argument("chunk_characters is no multiple of 16");
-        attributes.at("has_given").get_to(crowd.has_given);
-        attributes.at("title").get_to(crowd.title);
-        attributes.at("clip").get_to(crowd.clip);
-        crowd.clip_frames = whole(attributes, "clip_frames", 1, kMost);
-        attributes.at("frame_seconds").get_to(crowd.frame_seconds);
         if (!(crowd.frame_seconds >= 0 && crowd.frame_seconds <= kMostLength))
             throw std::invalid_argument("frame_seconds is out of range");
         crowd.goals_digest = std::stoull(attributes.at("goals_digest").get<std::string>(), nullptr, 16);

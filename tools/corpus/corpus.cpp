@@ -131,8 +131,8 @@ void check_rows(const Recipe& recipe, const Crowd& crowd)
     };
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
         std::uint32_t inputs = 0, results = 0;
-        for (const Field field : inputs_of(recipe, group)) inputs += component_count(recipe, field);
-        for (const Field field : results_of(recipe, group)) results += component_count(recipe, field);
+        for (const Field field : inputs_of(recipe, group)) inputs += component_count(recipe, field, group);
+        for (const Field field : results_of(recipe, group)) results += component_count(recipe, field, group);
         require(inputs, input_row_count(crowd, group), "inputs");
         require(results, result_row_count(crowd, group), "results");
     }
@@ -249,19 +249,12 @@ std::uint64_t fold(const std::vector<std::uint64_t>& digests)
     return hash;
 }
 
-std::uint64_t golden_of(const Recipe& recipe)
-{
-    for (const GoldenCrowd& golden : kGoldenCrowds)
-        if (golden.part == recipe.part && golden.name == std::string_view(recipe.name)) return golden.digest;
-    return 0;
-}
-
 std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t>& digests)
 {
     std::vector<std::string> names;
     const std::span<const Recipe> recipes = recipes_of(part);
     for (std::size_t n = 0; n < recipes.size(); ++n)
-        if (digests.at(n) != golden_of(recipes[n])) names.push_back(full_name(recipes[n]));
+        if (digests.at(n) != kGoldenCrowds[static_cast<std::size_t>(part)][n]) names.push_back(full_name(recipes[n]));
     return names;
 }
 std::string shortened(const std::vector<std::string>& names)

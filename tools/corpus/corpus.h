@@ -117,8 +117,6 @@ std::uint64_t digest_of_start(Solve&& solve)
     return fold(digests);
 }
 
-// What golden.h says of a crowd at its own size; 0 where it says nothing.
-std::uint64_t golden_of(const Recipe& recipe);
 // The names of a part's crowds whose digests, at their own sizes, are not the golden ones.
 std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t>& digests);
 

@@ -15,165 +15,48 @@ namespace swivel::corpus {
 
 namespace {
 
-struct FeatureName {
-    Feature feature;
-    swivel_features library;
-};
-constexpr FeatureName kFeatures[] = {
-    {kWorld, SWIVEL_WORLD},
-    {kJoints, SWIVEL_JOINTS},
-    {kHand, SWIVEL_WITH_HAND},
-    {kPoleDirection, SWIVEL_POLE_DIRECTION},
-    {kEffector, SWIVEL_WITH_EFFECTOR},
-    {kAngle, SWIVEL_WITH_ANGLE},
-    {kPoleNormal, SWIVEL_POLE_NORMAL},
-    {kIncoming, SWIVEL_WITH_INCOMING},
-    {kPoleIncoming, SWIVEL_POLE_INCOMING},
-    {kWeights, SWIVEL_WITH_WEIGHTS},
-    {kReach, SWIVEL_WITH_REACH},
-    {kStep, SWIVEL_WITH_MOST_SWIVEL},
-    {kFlexion, SWIVEL_WITH_FLEXION_LIMIT},
-    {kShoulderCone, SWIVEL_WITH_SHOULDER_CONE},
-    {kHumeralTwist, SWIVEL_WITH_HUMERAL_TWIST},
-    {kShoulderBox, SWIVEL_WITH_SHOULDER_BOX},
-    {kHandCone, SWIVEL_WITH_HAND_CONE},
-    {kForearmTwist, SWIVEL_WITH_FOREARM_TWIST},
-    {kHandTwist, SWIVEL_WITH_HAND_TWIST},
-    {kWristBox, SWIVEL_WITH_WRIST_BOX},
-    {kAim, SWIVEL_WITH_AIM},
-    {kClavicle, SWIVEL_WITH_CLAVICLE},
-    {kRecord, SWIVEL_WITH_RECORD},
-    {kPlant, SWIVEL_WITH_PLANT},
-    {kPlantTurn, SWIVEL_WITH_PLANT_TURN},
-    {kByMotion, SWIVEL_PLANT_BY_MOTION},
-    {kCap, SWIVEL_WITH_CAP},
-    {kFit, SWIVEL_WITH_FIT},
-    {kComing, SWIVEL_WITH_COMING},
-    {kYields, SWIVEL_HAND_YIELDS},
-    {kGround, SWIVEL_WITH_GROUND},
-    {kLink, SWIVEL_WITH_LINK},
-    {kHandFrame, SWIVEL_WITH_HAND_FRAME},
-    {kRegion, SWIVEL_WITH_REGION},
-    {kStepWins, SWIVEL_STEP_WINS},
-    {kPoleHand, SWIVEL_POLE_HAND},
-};
+// In the order in which they are digested.
+// clang-format off
+constexpr auto kResults = [] {
+    using enum Field;
+    return std::to_array({
+        shoulder, elbow, wrist, flags, stretch, normal, twist, clavicle_turn, record, plant, plant_turn, plant_motion,
+        goal, probe, lift, hand_frame});
+}();
+// clang-format on
+// In the order of the bits that are digested for them.
+// clang-format off
+constexpr std::uint32_t kFlags[] = {
+    SWIVEL_REACHED, SWIVEL_SOFTENED, SWIVEL_STRETCHED, SWIVEL_CLAMPED_FAR, SWIVEL_CLAMPED_NEAR,
+    SWIVEL_SWIVEL_UNDEFINED, SWIVEL_LIMITED_FLEXION, SWIVEL_LIMITED_SHOULDER_CONE, SWIVEL_LIMITED_HUMERAL_TWIST,
+    SWIVEL_LIMITED_SHOULDER_BOX, SWIVEL_LIMITED_HAND_CONE, SWIVEL_LIMITED_FOREARM_TWIST, SWIVEL_LIMITED_HAND_TWIST,
+    SWIVEL_LIMITED_WRIST_BOX, SWIVEL_LIMITED_STEP, SWIVEL_INFEASIBLE, SWIVEL_JUMPED, SWIVEL_BAD_INPUT, SWIVEL_PLANTED,
+    SWIVEL_RELEASED, SWIVEL_BROKE_AWAY, SWIVEL_CUT, SWIVEL_LIMITED_LOOK, SWIVEL_FADED, SWIVEL_LIMITED_REGION};
+// clang-format on
 
-struct FieldName {
-    Field field;
-    swivel_field library;
-    std::uint32_t components;
-    std::uint64_t needs = 0, excludes = 0;  // the features that bring it, and those that take it away
-};
-// In the order of enum Field.
-constexpr FieldName kFields[] = {
-    {Field::target, SWIVEL_TARGET, 3},
-    {Field::pole, SWIVEL_POLE, 3, 0, kPoleIncoming | kPoleHand},
-    {Field::lengths, SWIVEL_LENGTHS, 2},
-    {Field::parent_position, SWIVEL_SHOULDER_POSITION, 3, kWorld},
-    {Field::parent_rotation, SWIVEL_PARENT_ROTATION, 4, kWorld},
-    {Field::parent_scale, SWIVEL_PARENT_SCALE, 1, kWorld},
-    {Field::hand, SWIVEL_HAND, 4, kHand},
-    {Field::effector, SWIVEL_EFFECTOR, 3, kEffector},
-    {Field::angle, SWIVEL_ANGLE, 2, kAngle},
-    {Field::incoming_shoulder, SWIVEL_INCOMING_SHOULDER, 4, kIncoming},
-    {Field::incoming_elbow, SWIVEL_INCOMING_ELBOW, 4, kIncoming},
-    {Field::incoming_wrist, SWIVEL_INCOMING_WRIST, 4, kIncoming | kHand},
-    {Field::weights, SWIVEL_WEIGHTS, 3, kWeights},
-    {Field::reach, SWIVEL_REACH, 4, kReach},
-    {Field::most_swivel, SWIVEL_MOST_SWIVEL, 2, kStep},
-    {Field::flexion_limit, SWIVEL_FLEXION_LIMIT, 2, kFlexion},
-    {Field::shoulder_cone, SWIVEL_SHOULDER_CONE, 4, kShoulderCone},
-    {Field::humeral_twist, SWIVEL_HUMERAL_TWIST, 4, kHumeralTwist},
-    {Field::shoulder_box, SWIVEL_SHOULDER_BOX, 12, kShoulderBox},
-    {Field::hand_cone, SWIVEL_HAND_CONE, 4, kHandCone},
-    {Field::forearm_twist, SWIVEL_FOREARM_TWIST, 4, kForearmTwist},
-    {Field::hand_twist, SWIVEL_HAND_TWIST, 7, kHandTwist},
-    {Field::wrist_box, SWIVEL_WRIST_BOX, 12, kWristBox},
-    {Field::aim, SWIVEL_AIM, 5, kAim},
-    {Field::clavicle, SWIVEL_CLAVICLE, 4, kClavicle},  // 1 of bodies
-    {Field::contact, SWIVEL_CONTACT, 1, kPlant, kByMotion},
-    {Field::cap, SWIVEL_CAP, 3, kCap},
-    {Field::fit_weight, SWIVEL_FIT_WEIGHT, 1, kFit},
-    {Field::coming, SWIVEL_COMING, 3, kComing},
-    {Field::coming_time, SWIVEL_COMING_TIME, 1, kComing},
-    {Field::ground, SWIVEL_GROUND, 3, kGround},
-    {Field::ground_normal, SWIVEL_GROUND_NORMAL, 3, kGround},
-    {Field::ground_weight, SWIVEL_GROUND_WEIGHT, 1, kGround},
-    {Field::grip, SWIVEL_GRIP, 7, kLink},
-    {Field::shoulder, SWIVEL_SHOULDER, 4},
-    {Field::elbow, SWIVEL_ELBOW, 2},  // 4 with joints
-    {Field::wrist, SWIVEL_WRIST, 4, kHand},
-    {Field::flags, SWIVEL_FLAGS, 1},
-    {Field::stretch, SWIVEL_STRETCH, 1, kReach},
-    {Field::normal, SWIVEL_NORMAL, 3, kStep},
-    {Field::twist, SWIVEL_TWIST_BONES, 4},  // for each bone
-    {Field::clavicle_turn, SWIVEL_CLAVICLE_TURN, 4, kClavicle},
-    {Field::record, SWIVEL_RECORD, 22, kRecord},
-    {Field::plant, SWIVEL_PLANT, 11, kPlant},
-    {Field::plant_turn, SWIVEL_PLANT_TURN, 10, kPlantTurn},
-    {Field::plant_motion, SWIVEL_MOTION, 4, kByMotion},
-    {Field::goal, SWIVEL_GOAL, 7, kPlant | kRecord},
-    {Field::goal, SWIVEL_GOAL, 7, kLink | kRecord},  // the two features exclude each other
-    {Field::probe, SWIVEL_PROBE, 3, kGround},
-    {Field::lift, SWIVEL_LIFT, 9, kGround},
-    {Field::hand_frame, SWIVEL_HAND_FRAME, 7, kHandFrame},
-};
+swivel_field library_field(Field field) { return static_cast<swivel_field>(field); }
 
-struct FlagName {
-    Flag flag;
-    std::uint32_t library;
-};
-constexpr FlagName kFlags[] = {
-    {kReached, SWIVEL_REACHED},
-    {kSoftened, SWIVEL_SOFTENED},
-    {kStretched, SWIVEL_STRETCHED},
-    {kClampedFar, SWIVEL_CLAMPED_FAR},
-    {kClampedNear, SWIVEL_CLAMPED_NEAR},
-    {kSwivelUndefined, SWIVEL_SWIVEL_UNDEFINED},
-    {kLimitedFlexion, SWIVEL_LIMITED_FLEXION},
-    {kLimitedShoulderCone, SWIVEL_LIMITED_SHOULDER_CONE},
-    {kLimitedHumeralTwist, SWIVEL_LIMITED_HUMERAL_TWIST},
-    {kLimitedShoulderBox, SWIVEL_LIMITED_SHOULDER_BOX},
-    {kLimitedHandCone, SWIVEL_LIMITED_HAND_CONE},
-    {kLimitedForearmTwist, SWIVEL_LIMITED_FOREARM_TWIST},
-    {kLimitedHandTwist, SWIVEL_LIMITED_HAND_TWIST},
-    {kLimitedWristBox, SWIVEL_LIMITED_WRIST_BOX},
-    {kLimitedStep, SWIVEL_LIMITED_STEP},
-    {kInfeasible, SWIVEL_INFEASIBLE},
-    {kJumped, SWIVEL_JUMPED},
-    {kBadInput, SWIVEL_BAD_INPUT},
-    {kPlanted, SWIVEL_PLANTED},
-    {kReleased, SWIVEL_RELEASED},
-    {kBrokeAway, SWIVEL_BROKE_AWAY},
-    {kCut, SWIVEL_CUT},
-    {kLimitedLook, SWIVEL_LIMITED_LOOK},
-    {kFaded, SWIVEL_FADED},
-    {kLimitedRegion, SWIVEL_LIMITED_REGION},
-};
-
-// In the order of enum Order.
-constexpr swivel_euler_order kOrders[] = {SWIVEL_XYZ, SWIVEL_XZY, SWIVEL_YZX, SWIVEL_YXZ, SWIVEL_ZXY, SWIVEL_ZYX};
-// In the order of enum Form.
-constexpr swivel_pose_form kForms[] = {SWIVEL_ROTATIONS, SWIVEL_MATRIX_ROWS, SWIVEL_MATRIX_COLUMNS,
-                                       SWIVEL_MATRIX_COLUMNS3};
-
-const FieldName& name_of(Field field)
+// All that a group of the library has for these.
+swivel_features library_features(const Recipe& recipe, std::uint32_t group)
 {
-    for (const FieldName& name : kFields)
-        if (name.field == field) return name;
-    throw std::logic_error("corpus: interface.cpp has no row for field " + std::to_string(static_cast<int>(field)));
+    const swivel_features named = features_of(recipe, group) & ~kCompact;
+    return named | recipe.twist_bones * SWIVEL_WITH_TWIST_BONES;
 }
 
-std::vector<Field> fields_of(const Recipe& recipe, std::uint32_t group, bool are_results)
+// With those that it adds to bodies.
+swivel_features all_features(const Recipe& recipe, std::uint32_t group)
 {
-    const std::uint64_t features = features_of(recipe, group);
+    constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
+    const swivel_features features = library_features(recipe, group);
+    if (!is_of_bodies(recipe.part)) return features;
+    return features | kOfBodies | (features & (kPlant | kLink) ? SWIVEL_SENT : 0);
+}
+
+std::vector<Field> fields_of(const Recipe& recipe, std::uint32_t group, std::span<const Field> all)
+{
     std::vector<Field> fields;
-    for (const FieldName& name : kFields) {
-        if ((name.field >= Field::shoulder) != are_results || (features & name.needs) != name.needs) continue;
-        if (features & name.excludes) continue;
-        if (name.field == Field::twist && recipe.twist_bones == 0) continue;
-        fields.push_back(name.field);
-    }
+    std::copy_if(all.begin(), all.end(), std::back_inserter(fields),
+                 [&](Field field) { return component_count(recipe, field, group) > 0; });
     return fields;
 }
 
@@ -181,7 +64,7 @@ std::vector<Field> fields_of(const Recipe& recipe, std::uint32_t group, bool are
 std::vector<std::uint32_t> packed_field(const Crowd& crowd, Field field, std::uint32_t group)
 {
     const swivel_features features = swivel_group_features(crowd.get(), group);
-    const swivel_field of = name_of(field).library, next = static_cast<swivel_field>(of + 1);
+    const swivel_field of = library_field(field), next = static_cast<swivel_field>(of + 1);
     const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group), first = swivel_packed_row(features, of),
                         end = swivel_packed_row(features, next), rows = swivel_packed_row(features, SWIVEL_RESULT_END);
     std::vector<std::uint16_t> packed(std::size_t{(limbs + 15) / 16} * 16 * rows);
@@ -196,11 +79,11 @@ std::vector<std::uint32_t> packed_field(const Crowd& crowd, Field field, std::ui
 std::uint32_t own_flags(std::uint32_t library)
 {
     std::uint32_t flags = 0;
-    for (const FlagName& name : kFlags) {
-        if (library & name.library) flags |= name.flag;
-        library &= ~name.library;
+    for (std::uint32_t n = 0; n < std::size(kFlags); ++n) {
+        if (library & kFlags[n]) flags |= 1u << n;
+        library &= ~kFlags[n];
     }
-    return library == 0 ? flags : flags | kUnknownFlag;
+    return library == 0 ? flags : flags | 1u << 31;  // a bit that the corpus does not know
 }
 
 void copy(const Quaternion& q, float (&to)[4]) { to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w; }
@@ -258,13 +141,6 @@ constexpr swivel_region kUpperArms = {sizeof(swivel_region),
                                        {{1, 0, 0}, -0.2f, 1},
                                        {{0, -0.8f, -0.6f}, -0.6f, 1}}};
 
-swivel_features library_features(const Recipe& recipe, std::uint32_t group)
-{
-    swivel_features features = recipe.twist_bones * SWIVEL_WITH_TWIST_BONES;
-    for (const FeatureName& name : kFeatures)
-        if (features_of(recipe, group) & name.feature) features |= name.library;
-    return features;
-}
 // The groups after the limbs': the shift, the prop, and the looks.
 std::uint32_t prop_group(bool has_shift) { return kGroupCount + (has_shift ? 1 : 0); }
 std::uint32_t look_group(bool has_shift, bool has_prop) { return prop_group(has_shift) + (has_prop ? 1 : 0); }
@@ -347,7 +223,7 @@ swivel_joint_values joint_values(const Poses& poses, std::vector<float>& values,
 swivel_pose library_pose(Poses& poses)
 {
     swivel_pose pose = swivel_default_pose();
-    pose.form = kForms[static_cast<std::size_t>(poses.form)];
+    pose.form = static_cast<swivel_pose_form>(poses.form);
     pose.rotations = joint_values(poses, poses.rotations, poses.offsets);
     pose.translations = joint_values(poses, poses.translations, {});
     pose.scales = joint_values(poses, poses.scales, {});
@@ -374,8 +250,8 @@ void with_library_definition(const Recipe& recipe, const LimbCounts& limb_counts
     swivel_group_def groups[kGroupCount];
     for (std::uint32_t g = 0; g < kGroupCount; ++g) {
         groups[g] = group(limb_counts[g], library_binding(kBindings[g]), library_features(recipe, g));
-        groups[g].shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
-        groups[g].wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
+        groups[g].shoulder_order = static_cast<swivel_euler_order>(recipe.shoulder_order);
+        groups[g].wrist_order = static_cast<swivel_euler_order>(recipe.wrist_order);
         if (groups[g].features & SWIVEL_WITH_REGION) groups[g].region = &kUpperArms;
     }
     if (is_of_bodies(recipe.part)) return define_bodies(recipe, limb_counts[0], groups, take);
@@ -399,8 +275,8 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
     return std::move(*crowd);
 }
 
-std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, false); }
-std::vector<Field> results_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, true); }
+std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, kDrawn); }
+std::vector<Field> results_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, kResults); }
 
 LimbCounts limb_counts(const Crowd& crowd)
 {
@@ -419,19 +295,16 @@ std::uint32_t result_row_count(const Crowd& crowd, std::uint32_t group)
     return swivel_result_rows(crowd.get(), group).row_count;
 }
 
-std::uint32_t component_count(const Recipe& recipe, Field field)
+std::uint32_t component_count(const Recipe& recipe, Field field, std::uint32_t group)
 {
-    const std::uint32_t components = name_of(field).components;
-    if (field == Field::elbow && (recipe.features & kJoints)) return 4;
-    if (field == Field::clavicle && is_of_bodies(recipe.part)) return 1;
-    return field == Field::twist ? components * recipe.twist_bones : components;
+    return swivel_component_count(library_field(field), all_features(recipe, group));
 }
 
 void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values)
 {
     const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
     const swivel_in in{values.data(), values.size() / count * sizeof(float)};
-    check(swivel_write(crowd.get(), name_of(field).library, group, 0, count, in));
+    check(swivel_write(crowd.get(), library_field(field), group, 0, count, in));
 }
 
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group)
@@ -439,9 +312,9 @@ std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, 
     if ((recipe.features & kCompact) && field >= Field::shoulder && field != Field::flags)
         return packed_field(crowd, field, group);
     const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group);
-    std::vector<std::uint32_t> words(std::size_t{limbs} * component_count(recipe, field));
+    std::vector<std::uint32_t> words(std::size_t{limbs} * component_count(recipe, field, group));
     const swivel_out out{words.data(), words.size() / limbs * sizeof(std::uint32_t)};
-    check(swivel_read(crowd.get(), name_of(field).library, group, 0, limbs, out));
+    check(swivel_read(crowd.get(), library_field(field), group, 0, limbs, out));
     if (field == Field::flags)
         for (std::uint32_t& word : words) word = own_flags(word);
     return words;

@@ -33,7 +33,7 @@ std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group = 0);
 std::vector<Field> results_of(const Recipe& recipe, std::uint32_t group = 0);
 
 // Floats of a field's value, or the one word of flags.
-std::uint32_t component_count(const Recipe& recipe, Field field);
+std::uint32_t component_count(const Recipe& recipe, Field field, std::uint32_t group = 0);
 
 // A group's own numbers of rows: what the fields of a recipe must add up to.
 std::uint32_t input_row_count(const Crowd& crowd, std::uint32_t group);

@@ -113,7 +113,7 @@ std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t 
 {
     Random random = stream(recipe.seed, group, field, Use::value, 0),
            spoiling = stream(recipe.seed, group, field, Use::spoil, 0);
-    const std::uint32_t components = component_count(recipe, field);
+    const std::uint32_t components = component_count(recipe, field, group);
     std::vector<float> values;
     values.reserve(components * arms.size());
     std::vector<double> value(components);

@@ -15,7 +15,7 @@ using enum Part;
 struct PlainCrowd {
     const char* name;
     std::uint64_t ordinary_seed, hard_seed;
-    std::uint32_t features;
+    std::uint64_t features;
 };
 
 // clang-format off

@@ -3,7 +3,10 @@
 // Random numbers of the corpus: integers and exact conversions, so the same numbers on every machine.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <iterator>
 
 #include "tools/corpus/recipe.h"
 
@@ -35,6 +38,19 @@ struct Random {
     }
 };
 
+// What limbs and bodies are given. Random numbers of a field depend on its place here: further ones come last.
+// clang-format off
+inline constexpr auto kDrawn = [] {
+    using enum Field;
+    return std::to_array({
+        target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, effector, angle,
+        incoming_shoulder, incoming_elbow, incoming_wrist, weights, reach, most_swivel, flexion_limit, shoulder_cone,
+        humeral_twist, shoulder_box, hand_cone, forearm_twist, hand_twist, wrist_box, aim, clavicle, contact, cap,
+        fit_weight, coming, coming_time, ground, skeleton, joint_rotation, joint_translation, joint_scale, bend,
+        root_position, root_rotation, root_scale, motion, ground_normal, ground_weight, grip});
+}();
+// clang-format on
+
 // What the numbers of a field are drawn for.
 enum class Use : std::uint32_t { value = 0, spoil = 1 };
 
@@ -42,8 +58,9 @@ enum class Use : std::uint32_t { value = 0, spoil = 1 };
 // frame: 0, except for values that are new in each frame.
 inline Random stream(std::uint64_t seed, std::uint32_t group, Field field, Use use, std::uint32_t frame)
 {
+    const auto number = static_cast<std::uint64_t>(std::ranges::find(kDrawn, field) - std::begin(kDrawn)) + 1;
     Random key{(std::uint64_t{frame} << 32) | (static_cast<std::uint64_t>(use) << 24) | (std::uint64_t{group} << 8) |
-               static_cast<std::uint64_t>(field)};
+               number};
     return {Random{seed ^ key.bits()}.bits()};
 }
 

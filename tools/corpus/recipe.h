@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Describes a crowd of the corpus, in words of the corpus alone. Features, fields and flags have numbers of their own
-// here. These never change, whatever the library calls them. interface.cpp knows the library's.
+// Describes a crowd of the corpus, in words of the corpus alone. This header and interface.cpp know the library's.
 #pragma once
 
 #include <cstdint>
+
+#include "swivel/swivel.hpp"
 
 namespace swivel::corpus {
 
@@ -19,149 +20,51 @@ enum class Part : std::uint8_t {
 inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs, Part::bodies, Part::standing};
 constexpr bool is_of_bodies(Part part) { return part == Part::bodies || part == Part::standing; }
 
-enum Feature : std::uint64_t {
-    kWorld = 1u << 0,
-    kJoints = 1u << 1,
-    kHand = 1u << 2,
-    kPoleDirection = 1u << 3,
-    kCompact = 1u << 4,  // results are digested as they are packed
-    kEffector = 1u << 5,
-    kAngle = 1u << 6,
-    kPoleNormal = 1u << 7,
-    kIncoming = 1u << 8,
-    kPoleIncoming = 1u << 9,
-    kWeights = 1u << 10,
-    kReach = 1u << 11,
-    kStep = 1u << 12,
-    kFlexion = 1u << 13,
-    kShoulderCone = 1u << 14,
-    kHumeralTwist = 1u << 15,
-    kShoulderBox = 1u << 16,
-    kHandCone = 1u << 17,
-    kForearmTwist = 1u << 18,
-    kHandTwist = 1u << 19,
-    kWristBox = 1u << 20,
-    kAim = 1u << 21,
-    kClavicle = 1u << 22,
-    kRecord = 1u << 23,
-    kPlant = 1u << 24,
-    kPlantTurn = 1u << 25,
-    kByMotion = 1u << 26,
-    kCap = 1u << 27,
-    kFit = 1u << 28,  // and a group more, which is the shift
-    kComing = 1u << 29,
-    kYields = 1u << 30,
-    kGround = 1ull << 31,
-    kLink = 1ull << 32,
-    kHandFrame = 1ull << 33,
-    kRegion = 1ull << 34,
-    kStepWins = 1ull << 35,
-    kPoleHand = 1ull << 36,
+// ---- the library's names, by names of the corpus; none of their numbers is in a digest
+// clang-format off
+inline constexpr std::uint64_t
+    kWorld = SWIVEL_WORLD, kJoints = SWIVEL_JOINTS, kHand = SWIVEL_WITH_HAND, kPoleDirection = SWIVEL_POLE_DIRECTION,
+    kEffector = SWIVEL_WITH_EFFECTOR, kAngle = SWIVEL_WITH_ANGLE, kPoleNormal = SWIVEL_POLE_NORMAL,
+    kIncoming = SWIVEL_WITH_INCOMING, kPoleIncoming = SWIVEL_POLE_INCOMING, kWeights = SWIVEL_WITH_WEIGHTS,
+    kReach = SWIVEL_WITH_REACH, kStep = SWIVEL_WITH_MOST_SWIVEL, kFlexion = SWIVEL_WITH_FLEXION_LIMIT,
+    kShoulderCone = SWIVEL_WITH_SHOULDER_CONE, kHumeralTwist = SWIVEL_WITH_HUMERAL_TWIST,
+    kShoulderBox = SWIVEL_WITH_SHOULDER_BOX, kHandCone = SWIVEL_WITH_HAND_CONE,
+    kForearmTwist = SWIVEL_WITH_FOREARM_TWIST, kHandTwist = SWIVEL_WITH_HAND_TWIST,
+    kWristBox = SWIVEL_WITH_WRIST_BOX, kAim = SWIVEL_WITH_AIM, kClavicle = SWIVEL_WITH_CLAVICLE,
+    kRecord = SWIVEL_WITH_RECORD, kPlant = SWIVEL_WITH_PLANT, kPlantTurn = SWIVEL_WITH_PLANT_TURN,
+    kByMotion = SWIVEL_PLANT_BY_MOTION, kCap = SWIVEL_WITH_CAP, kFit = SWIVEL_WITH_FIT, kComing = SWIVEL_WITH_COMING,
+    kYields = SWIVEL_HAND_YIELDS, kGround = SWIVEL_WITH_GROUND, kLink = SWIVEL_WITH_LINK,
+    kHandFrame = SWIVEL_WITH_HAND_FRAME, kRegion = SWIVEL_WITH_REGION, kStepWins = SWIVEL_STEP_WINS,
+    kPoleHand = SWIVEL_POLE_HAND,
+    kCompact = 1ull << 63;  // the corpus's own: results are digested as they are packed
+enum class Field : std::uint16_t {
+    target = SWIVEL_TARGET, pole = SWIVEL_POLE, lengths = SWIVEL_LENGTHS, parent_position = SWIVEL_SHOULDER_POSITION,
+    parent_rotation = SWIVEL_PARENT_ROTATION, parent_scale = SWIVEL_PARENT_SCALE, hand = SWIVEL_HAND,
+    effector = SWIVEL_EFFECTOR, angle = SWIVEL_ANGLE, incoming_shoulder = SWIVEL_INCOMING_SHOULDER,
+    incoming_elbow = SWIVEL_INCOMING_ELBOW, incoming_wrist = SWIVEL_INCOMING_WRIST, weights = SWIVEL_WEIGHTS,
+    reach = SWIVEL_REACH, most_swivel = SWIVEL_MOST_SWIVEL, flexion_limit = SWIVEL_FLEXION_LIMIT,
+    shoulder_cone = SWIVEL_SHOULDER_CONE, humeral_twist = SWIVEL_HUMERAL_TWIST, shoulder_box = SWIVEL_SHOULDER_BOX,
+    hand_cone = SWIVEL_HAND_CONE, forearm_twist = SWIVEL_FOREARM_TWIST, hand_twist = SWIVEL_HAND_TWIST,
+    wrist_box = SWIVEL_WRIST_BOX, aim = SWIVEL_AIM, clavicle = SWIVEL_CLAVICLE, contact = SWIVEL_CONTACT,
+    cap = SWIVEL_CAP, fit_weight = SWIVEL_FIT_WEIGHT, coming = SWIVEL_COMING, coming_time = SWIVEL_COMING_TIME,
+    ground = SWIVEL_GROUND, ground_normal = SWIVEL_GROUND_NORMAL, ground_weight = SWIVEL_GROUND_WEIGHT,
+    grip = SWIVEL_GRIP, shoulder = SWIVEL_SHOULDER, elbow = SWIVEL_ELBOW, wrist = SWIVEL_WRIST, flags = SWIVEL_FLAGS,
+    stretch = SWIVEL_STRETCH, normal = SWIVEL_NORMAL, twist = SWIVEL_TWIST_BONES,
+    clavicle_turn = SWIVEL_CLAVICLE_TURN, record = SWIVEL_RECORD, plant = SWIVEL_PLANT,
+    plant_turn = SWIVEL_PLANT_TURN, plant_motion = SWIVEL_MOTION, goal = SWIVEL_GOAL, probe = SWIVEL_PROBE,
+    lift = SWIVEL_LIFT, hand_frame = SWIVEL_HAND_FRAME,
+    // of bodies, which have no rows of them; motion: all that changes from frame to frame
+    skeleton = 0x8000, joint_rotation, joint_translation, joint_scale, bend, root_position, root_rotation, root_scale,
+    motion
 };
-
-// Random numbers of a field depend on its number here.
-enum class Field : std::uint8_t {
-    none = 0,
-    target = 1,
-    pole = 2,
-    lengths = 3,
-    parent_position = 4,
-    parent_rotation = 5,
-    parent_scale = 6,
-    hand = 7,
-    effector = 8,
-    angle = 9,
-    incoming_shoulder = 10,
-    incoming_elbow = 11,
-    incoming_wrist = 12,
-    weights = 13,
-    reach = 14,
-    most_swivel = 15,
-    flexion_limit = 16,
-    shoulder_cone = 17,
-    humeral_twist = 18,
-    shoulder_box = 19,
-    hand_cone = 20,
-    forearm_twist = 21,
-    hand_twist = 22,
-    wrist_box = 23,
-    aim = 24,
-    clavicle = 25,
-    contact = 26,
-    cap = 27,
-    fit_weight = 28,
-    coming = 29,
-    coming_time = 30,
-    ground = 31,
-    // of bodies, which have no rows of them
-    skeleton = 32,
-    joint_rotation = 33,
-    joint_translation = 34,
-    joint_scale = 35,
-    bend = 36,
-    root_position = 37,
-    root_rotation = 38,
-    root_scale = 39,
-    motion = 40,  // all that changes from frame to frame
-    // inputs again
-    ground_normal = 41,
-    ground_weight = 42,
-    grip = 43,
-    // results
-    shoulder = 64,
-    elbow = 65,
-    wrist = 66,
-    flags = 67,
-    stretch = 68,
-    normal = 69,
-    twist = 70,
-    clavicle_turn = 71,
-    record = 72,
-    plant = 73,
-    plant_turn = 74,
-    plant_motion = 75,
-    goal = 76,
-    probe = 77,
-    lift = 78,
-    hand_frame = 79,
+enum class Order : std::uint8_t {
+    xyz = SWIVEL_XYZ, xzy = SWIVEL_XZY, yzx = SWIVEL_YZX, yxz = SWIVEL_YXZ, zxy = SWIVEL_ZXY, zyx = SWIVEL_ZYX
 };
-
-// Bits of the flag words that are digested.
-enum Flag : std::uint32_t {
-    kReached = 1u << 0,
-    kSoftened = 1u << 1,
-    kStretched = 1u << 2,
-    kClampedFar = 1u << 3,
-    kClampedNear = 1u << 4,
-    kSwivelUndefined = 1u << 5,
-    kLimitedFlexion = 1u << 6,
-    kLimitedShoulderCone = 1u << 7,
-    kLimitedHumeralTwist = 1u << 8,
-    kLimitedShoulderBox = 1u << 9,
-    kLimitedHandCone = 1u << 10,
-    kLimitedForearmTwist = 1u << 11,
-    kLimitedHandTwist = 1u << 12,
-    kLimitedWristBox = 1u << 13,
-    kLimitedStep = 1u << 14,
-    kInfeasible = 1u << 15,
-    kJumped = 1u << 16,
-    kBadInput = 1u << 17,
-    kPlanted = 1u << 18,
-    kReleased = 1u << 19,
-    kBrokeAway = 1u << 20,
-    kCut = 1u << 21,
-    kLimitedLook = 1u << 22,
-    kFaded = 1u << 23,
-    kLimitedRegion = 1u << 24,
-    kUnknownFlag = 1u << 31,  // the library set a bit that the corpus does not know
-};
-inline constexpr std::uint32_t kPlantFlags = kPlanted | kReleased | kBrokeAway | kCut,
-                               kLookFlags = kLimitedLook | kFaded, kEveryFlag = (1u << 25) - 1;
-
-enum class Order : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
-
 // What bodies' poses hold of a joint: a rotation, or all of it in a matrix.
-enum class Form : std::uint8_t { rotations, rows, columns, columns3 };
+enum class Form : std::uint8_t {
+    rotations = SWIVEL_ROTATIONS, rows = SWIVEL_MATRIX_ROWS, columns = SWIVEL_MATRIX_COLUMNS, columns3 = SWIVEL_MATRIX_COLUMNS3
+};
+// clang-format on
 
 // What else the poses have, and where results go.
 enum PoseFeature : std::uint32_t {
@@ -192,7 +95,7 @@ struct Recipe {
     Part part;
     const char* name;
     std::uint64_t seed;
-    std::uint64_t features;  // of enum Feature
+    std::uint64_t features;  // and kCompact
     std::uint32_t twist_bones = 0;
     Order shoulder_order = Order::xyz, wrist_order = Order::xyz;
     Form form = Form::rotations;

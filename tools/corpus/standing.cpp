@@ -121,7 +121,7 @@ void Standing::write_constants(Crowd& crowd) const
             if (std::find(fields.begin(), fields.end(), field) == fields.end()) continue;
             if (field == Field::weights && !is_holding(recipe_, group)) continue;  // theirs stay as at the start
             Random random = stream(recipe_.seed, group, field, Use::value, 0);
-            std::vector<float> values(std::size_t{body_count} * component_count(recipe_, field));
+            std::vector<float> values(std::size_t{body_count} * component_count(recipe_, field, group));
             for (float& x : values) {
                 const std::uint32_t kind = random.below(4);
                 const double share = random.unit();

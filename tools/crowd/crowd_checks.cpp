@@ -25,13 +25,27 @@ template <class T>
     throw InputError(file.path, given.line, fmt::format("{}: {}", given.key, cause));
 }
 
-// Refuses the first of them that is given.
+// Refuses the first of them that is given. There may be lists among them.
 void refuse_given(const CrowdFile& file, std::string_view cause, const auto&... given)
 {
     const auto check = [&](const auto& each) {
         if (each) refuse(file, *each, cause);
     };
-    (check(given), ...);
+    const auto check_all = [&](const auto& one_or_many) {
+        if constexpr (requires { one_or_many.begin(); })
+            std::ranges::for_each(one_or_many, check);
+        else
+            check(one_or_many);
+    };
+    (check_all(given), ...);
+}
+
+std::vector<formats::Maybe<formats::Limit>> hand_limits(const LimbSettings& settings)
+{
+    std::vector<formats::Maybe<formats::Limit>> limits;
+    for (std::size_t n = 0; n < settings.limits.size(); ++n)
+        if (limit_info(n).is_of_hand) limits.push_back(settings.limits[n]);
+    return limits;
 }
 
 }  // namespace
@@ -51,32 +65,36 @@ std::string checked_targets(const CrowdFile& file)
     return path.string();
 }
 
+LimitInfo limit_info(std::size_t limit)
+{
+    std::string name(formats::kLimitKeys[limit]);
+    if (name.ends_with("_deg")) name.resize(name.size() - 4);
+    swivel_field_info info{};
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info) && info.name != name && info.name != name + "_limit";)
+        ++n;
+    swivel_feature_info brings{};
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &brings) && brings.feature != info.needs;) ++n;
+    return {info.field, info.needs, (brings.needs & SWIVEL_WITH_HAND) != 0};
+}
+
 void require_sense(const CrowdFile& file, const LimbSettings& s)
 {
     // None of these is given beside what makes it mean nothing.
     const auto refuse_beside = [&](const auto& what, std::string_view value, const auto&... useless) {
-        const auto check = [&](const auto& given) {
-            if (given)
-                refuse(file, *given,
-                       fmt::format("means nothing beside {}{} in line {}; take one of them out", what->key, value,
-                                   what->line));
-        };
-        (check(useless), ...);
+        const std::string cause =
+            fmt::format("means nothing beside {}{} in line {}; take one of them out", what->key, value, what->line);
+        refuse_given(file, cause, useless...);
     };
     if (s.hand && !s.hand->value)
-        refuse_beside(s.hand, " = false", s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
-                      s.wrist_box, s.twist_bones, s.aim);
+        refuse_beside(s.hand, " = false", s.effector, s.weights[1], hand_limits(s), s.twist_bones, s.aim);
     const bool by_hand = s.pole_kind && s.pole_kind->value == PoleKind::hand;
     if (by_hand) refuse_beside(s.pole_kind, " = \"hand\"", s.pole_fixed, s.aim);
     if (by_hand && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.pole_kind);
     if (s.hold) refuse_beside(s.hold, "", s.aim, s.target_point, s.target_offset);
     if (s.hold && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.hold);
-    if (s.aim)
-        refuse_beside(s.aim, "", s.position_weight, s.hand_weight, s.pole_weight, s.soft_far, s.soft_near,
-                      s.least_distance, s.most_stretch, s.flexion_deg, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
-                      s.wrist_box);
+    if (s.aim) refuse_beside(s.aim, "", s.weights, s.reach, s.limits[0], hand_limits(s));
     if (s.pole_kind && s.pole_kind->value == PoleKind::incoming)
-        refuse_beside(s.pole_kind, " = \"incoming\"", s.pole_fixed, s.pole_weight);
+        refuse_beside(s.pole_kind, " = \"incoming\"", s.pole_fixed, s.weights[2]);
     const bool points =
         s.pole_kind && (s.pole_kind->value == PoleKind::direction || s.pole_kind->value == PoleKind::normal);
     if (points && s.pole_fixed && !(s.pole_fixed->value.stableNorm() > 1e-15))
@@ -84,7 +102,7 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
                fmt::format("has no length, so no direction, and {} in line {} wants one; write [x, y, z], not all of "
                            "them 0",
                            s.pole_kind->key, s.pole_kind->line));
-    if (s.step_wins && s.step_wins->value && !s.most_swivel_deg_per_frame && !s.most_swivel_deg_per_second)
+    if (s.step_wins && s.step_wins->value && !s.step_deg_per_frame && !s.step_deg_per_second)
         refuse(file, *s.step_wins,
                "means nothing without most_deg_per_second or most_deg_per_frame; give that, or take this out");
 }
@@ -93,7 +111,7 @@ void require_can_stand(const CrowdFile& file, const LimbSettings& s)
 {
     const std::string cause =
         fmt::format("keeps a leg from standing on the ground of line {}; take one of them out", file.ground->line);
-    refuse_given(file, cause, s.hold, s.aim, s.target_point, s.soft_far, s.soft_near, s.most_stretch, s.least_distance);
+    refuse_given(file, cause, s.hold, s.aim, s.target_point, s.reach);
     if (s.hand && !s.hand->value) refuse_given(file, cause, s.hand);
 }
 
@@ -105,8 +123,7 @@ void require_can_carry(const CrowdFile& file, const LimbSettings& s)
         file.carry->line);
     if (s.hand && s.hand->value) refuse_given(file, cause, s.hand);
     if (s.pole_kind && s.pole_kind->value == PoleKind::hand) refuse_given(file, cause, s.pole_kind);
-    refuse_given(file, cause, s.aim, s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
-                 s.wrist_box, s.twist_bones);
+    refuse_given(file, cause, s.aim, s.effector, s.weights[1], hand_limits(s), s.twist_bones);
 }
 
 void require_can_hold(const CrowdFile& file, std::span<const Limb> limbs)
@@ -148,9 +165,8 @@ void require_solved(const CrowdFile& file, std::span<const Limb> limbs)
 
 void require_even_frames(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip)
 {
-    if (s.most_swivel_deg_per_second && clip.frame_time == 0)
-        refuse(file, *s.most_swivel_deg_per_second,
-               "needs even frames, and the clip's keys lie at uneven times; give --fps");
+    if (s.step_deg_per_second && clip.frame_time == 0)
+        refuse(file, *s.step_deg_per_second, "needs even frames, and the clip's keys lie at uneven times; give --fps");
 }
 
 void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip, const Limb& limb)
@@ -178,9 +194,9 @@ void require_fits_motion(const CrowdFile& file, std::span<const Limb> limbs)
 {
     for (const Limb& limb : limbs) {
         const LimbSettings settings = settings_of(file, limb.name);
-        if (settings.most_stretch && settings.most_stretch->value > 1)
+        if (const auto& stretch = settings.reach[2]; stretch && stretch->value > 1)
             refuse(
-                file, *settings.most_stretch,
+                file, *stretch,
                 "the bones of a written clip keep their length; write a .csv, which has the stretch, or take this out");
         if (settings.twist_bones && settings.twist_bones->value > 0)
             refuse(file, *settings.twist_bones,

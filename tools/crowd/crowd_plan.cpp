@@ -29,17 +29,38 @@ static_assert(static_cast<int>(formats::EulerOrder::zyx) == SWIVEL_ZYX &&
               static_cast<int>(formats::EulerOrder::yxz) == SWIVEL_YXZ);
 swivel_euler_order order_of(const formats::BoxLimit& box) { return static_cast<swivel_euler_order>(box.order); }
 
-// Ranges about x, y and z in the order's own sequence.
-std::array<float, 12> ranges_of(const formats::BoxLimit& box)
-{
-    constexpr int kAxes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
+// A limit as the solver takes it, from its front on.
+struct LimitValue {
+    swivel_field field;
     std::array<float, 12> value{};
-    for (std::size_t n = 0; n < 3; ++n) {
-        const formats::NumberRange& range = box.about_deg[static_cast<std::size_t>(kAxes[order_of(box)][n])];
-        check(swivel_range(kRadians * range.least, kRadians * range.most, &value[4 * n]));
+
+    void put_range(const formats::NumberRange& deg, std::size_t at)
+    {
+        check(swivel_range(kRadians * deg.least, kRadians * deg.most, &value[at]));
     }
-    return value;
-}
+    void operator()(const formats::NumberRange& deg)
+    {
+        if (field == SWIVEL_FLEXION_LIMIT)
+            check(swivel_flexion(kRadians * deg.least, kRadians * deg.most, value.data()));
+        else
+            put_range(deg, 0);
+    }
+    void operator()(const formats::ConeLimit& cone)
+    {
+        check(swivel_cone(cone.axis.data(), kRadians * cone.opening_deg, value.data()));
+    }
+    void operator()(const formats::TwistLimit& twist)
+    {
+        for (int n = 0; n < 3; ++n) value[static_cast<std::size_t>(n)] = static_cast<float>(twist.axis[n]);
+        put_range(twist.range_deg, 3);
+    }
+    // Ranges about x, y and z in the order's own sequence.
+    void operator()(const formats::BoxLimit& box)
+    {
+        constexpr std::size_t kAxes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
+        for (std::size_t n = 0; n < 3; ++n) put_range(box.about_deg[kAxes[order_of(box)][n]], 4 * n);
+    }
+};
 
 // The plan as the formula of goals takes it.
 goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
@@ -140,31 +161,25 @@ struct Planner {
 
     void weights()
     {
-        std::size_t n = 0;
-        for (const Maybe<double>* given : {&from.position_weight, &from.hand_weight, &from.pole_weight}) {
-            if (*given) plan.weights[n] = static_cast<float>((*given)->value);
-            ++n;
-        }
+        for (std::size_t n = 0; n < plan.weights.size(); ++n)
+            if (from.weights[n]) plan.weights[n] = static_cast<float>(from.weights[n]->value);
     }
 
     void reach()
     {
-        if (!from.soft_far && !from.soft_near && !from.most_stretch && !from.least_distance) return;
-        const auto number = [](const Maybe<double>& given, float otherwise) {
-            return given ? static_cast<float>(given->value) : otherwise;
-        };
-        put(SWIVEL_WITH_REACH, SWIVEL_REACH,
-            std::array{number(from.soft_far, 0), number(from.soft_near, 0), number(from.most_stretch, 1),
-                       number(from.least_distance, 0)});
+        std::array<float, 4> value{0, 0, 1, 0};
+        if (std::ranges::none_of(from.reach, [](const auto& given) { return given.has_value(); })) return;
+        for (std::size_t n = 0; n < value.size(); ++n)
+            if (from.reach[n]) value[n] = static_cast<float>(from.reach[n]->value);
+        put(SWIVEL_WITH_REACH, SWIVEL_REACH, value);
     }
 
     void swivel()
     {
         double most_deg = 180;
-        if (from.most_swivel_deg_per_frame) most_deg = from.most_swivel_deg_per_frame->value;
-        if (from.most_swivel_deg_per_second)
-            most_deg = std::min(180.0, clip.frame_time * from.most_swivel_deg_per_second->value);
-        if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)
+        if (from.step_deg_per_frame) most_deg = from.step_deg_per_frame->value;
+        if (from.step_deg_per_second) most_deg = std::min(180.0, clip.frame_time * from.step_deg_per_second->value);
+        if (from.step_deg_per_frame || from.step_deg_per_second)
             put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(in_a_60th(kRadians * most_deg)));
         if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
     }
@@ -178,40 +193,16 @@ struct Planner {
 
     void limits()
     {
-        const auto put_range = [&](swivel_features feature, swivel_field field,
-                                   const Maybe<formats::NumberRange>& given) {
-            if (given)
-                put(feature, field, range(kRadians * given->value.least, kRadians * given->value.most),
-                    given->mirrored);
-        };
-        const auto put_cone = [&](swivel_features feature, swivel_field field, const Maybe<formats::ConeLimit>& given) {
-            if (!given) return;
-            const Eigen::Vector3d& axis = given->value.axis;
-            put(feature, field, cone({axis.x(), axis.y(), axis.z()}, kRadians * given->value.opening_deg),
-                given->mirrored);
-        };
-        const auto put_box = [&](swivel_features feature, swivel_field field, const Maybe<formats::BoxLimit>& given,
-                                 swivel_euler_order& order) {
-            if (!given) return;
-            order = order_of(given->value);
-            put(feature, field, ranges_of(given->value), given->mirrored, order);
-        };
-        if (from.flexion_deg)
-            put(SWIVEL_WITH_FLEXION_LIMIT, SWIVEL_FLEXION_LIMIT,
-                flexion(kRadians * from.flexion_deg->value.least, kRadians * from.flexion_deg->value.most));
-        put_cone(SWIVEL_WITH_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, from.shoulder_cone);
-        put_range(SWIVEL_WITH_HUMERAL_TWIST, SWIVEL_HUMERAL_TWIST, from.humeral_twist_deg);
-        put_box(SWIVEL_WITH_SHOULDER_BOX, SWIVEL_SHOULDER_BOX, from.shoulder_box, plan.shoulder_order);
-        put_cone(SWIVEL_WITH_HAND_CONE, SWIVEL_HAND_CONE, from.hand_cone);
-        put_range(SWIVEL_WITH_FOREARM_TWIST, SWIVEL_FOREARM_TWIST, from.forearm_twist_deg);
-        put_box(SWIVEL_WITH_WRIST_BOX, SWIVEL_WRIST_BOX, from.wrist_box, plan.wrist_order);
-        if (from.hand_twist) {
-            const Eigen::Vector3f axis = from.hand_twist->value.axis.cast<float>();
-            const formats::NumberRange& deg = from.hand_twist->value.range_deg;
-            const std::array<float, 4> about = range(kRadians * deg.least, kRadians * deg.most);
-            put(SWIVEL_WITH_HAND_TWIST, SWIVEL_HAND_TWIST,
-                std::array{axis.x(), axis.y(), axis.z(), about[0], about[1], about[2], about[3]},
-                from.hand_twist->mirrored);
+        for (std::size_t n = 0; n < from.limits.size(); ++n) {
+            const Maybe<formats::Limit>& given = from.limits[n];
+            if (!given) continue;
+            const LimitInfo info = limit_info(n);
+            LimitValue limit{info.field};
+            std::visit(limit, given->value);
+            swivel_euler_order order = SWIVEL_XYZ;
+            if (const auto* const box = std::get_if<formats::BoxLimit>(&given->value))
+                order = (info.is_of_hand ? plan.wrist_order : plan.shoulder_order) = order_of(*box);
+            put(info.feature, info.field, limit.value, given->mirrored, order);
         }
     }
 };

@@ -24,10 +24,12 @@ void print_golden()
     for (const Part part : kParts)
         std::printf("    0x%016llxu,  // %s\n", static_cast<unsigned long long>(digest_of(part, solve)), name_of(part));
     std::printf("    0x%016llxu, the start\n", static_cast<unsigned long long>(digest_of_start(solve)));
-    for (const Part part : kParts)
-        for (const Recipe& recipe : recipes_of(part))
-            std::printf("    {Part::%s, \"%s\", 0x%016llxu},\n", name_of(part), recipe.name,
-                        static_cast<unsigned long long>(digest_of(recipe, solve)));
+    for (const Part part : kParts) {
+        std::printf("%s:\n", name_of(part));
+        for (std::size_t n = 0; const std::uint64_t digest : digests_of(part, solve))
+            std::printf("0x%016llxu,%s", static_cast<unsigned long long>(digest), ++n % 5 == 0 ? "\n" : " ");
+        std::printf("\n");
+    }
 }
 
 enum class Frames { all, start };

@@ -136,41 +136,44 @@ void read_pole(TomlTable table, LimbSettings& to)
 
 void read_weights(TomlTable table, LimbSettings& to)
 {
-    to.position_weight = table.number("position", 0, 1);
-    to.hand_weight = table.number("hand", 0, 1);
-    to.pole_weight = table.number("pole", 0, 1);
+    constexpr std::array keys{"position", "hand", "pole"};
+    for (std::size_t n = 0; n < keys.size(); ++n) to.weights[n] = table.number(keys[n], 0, 1);
     table.finish();
 }
 
 void read_reach(TomlTable table, LimbSettings& to)
 {
-    to.soft_far = table.number("soft_far", 0, 1);
-    to.soft_near = table.number("soft_near", 0, 1);
-    to.most_stretch = table.number("most_stretch", 1, 1000);
-    to.least_distance = table.number("least_distance", 0, 1);
+    for (std::size_t n = 0; n < kReachKeys.size(); ++n) {
+        const bool is_stretch = kReachKeys[n] == "most_stretch";
+        to.reach[n] = table.number(kReachKeys[n], is_stretch ? 1 : 0, is_stretch ? 1000 : 1);
+    }
     table.finish();
 }
 
 void read_swivel(TomlTable table, LimbSettings& to)
 {
-    to.most_swivel_deg_per_frame = table.number("most_deg_per_frame", 0, 180);
-    to.most_swivel_deg_per_second = table.number("most_deg_per_second", 0, 1e6);
-    if (to.most_swivel_deg_per_frame && to.most_swivel_deg_per_second)
+    to.step_deg_per_frame = table.number("most_deg_per_frame", 0, 180);
+    to.step_deg_per_second = table.number("most_deg_per_second", 0, 1e6);
+    if (to.step_deg_per_frame && to.step_deg_per_second)
         table.fail("most_deg_per_second", "most_deg_per_frame is given, too; keep one of them");
     to.step_wins = table.flag("step_wins");
     table.finish();
 }
 
+Maybe<Limit> read_limit(TomlTable& limits, std::string_view key)
+{
+    const auto as_limit = [](const auto& given) {
+        return converted<Limit>(given, [](const auto& value) { return Limit(value); });
+    };
+    if (key.ends_with("_cone")) return as_limit(read_cone(limits.table(key)));
+    if (key.ends_with("_box")) return as_limit(read_box(limits.table(key)));
+    if (key == "hand_twist") return as_limit(read_twist(limits.table(key)));
+    return as_limit(key == "flexion_deg" ? limits.range(key, 0, 180, 180) : angles(limits, key));
+}
+
 void read_limits(TomlTable table, LimbSettings& to)
 {
-    to.flexion_deg = table.range("flexion_deg", 0, 180, 180);
-    to.shoulder_cone = read_cone(table.table("shoulder_cone"));
-    to.humeral_twist_deg = angles(table, "humeral_twist_deg");
-    to.shoulder_box = read_box(table.table("shoulder_box"));
-    to.hand_cone = read_cone(table.table("hand_cone"));
-    to.forearm_twist_deg = angles(table, "forearm_twist_deg");
-    to.hand_twist = read_twist(table.table("hand_twist"));
-    to.wrist_box = read_box(table.table("wrist_box"));
+    for (std::size_t n = 0; n < kLimitKeys.size(); ++n) to.limits[n] = read_limit(table, kLimitKeys[n]);
     to.region = read_region(table.table("region"));
     table.finish();
 }
@@ -307,30 +310,26 @@ void read_root(TomlTable root, CrowdFile& to)
     root.finish();
 }
 
-// All members, for merging.
-template <class Settings>
-auto members(Settings& s)
-{
-    return std::tie(s.joints, s.bend, s.hold, s.target_point, s.target_offset, s.hand, s.effector, s.aim,
-                    s.clavicle_share, s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight,
-                    s.pole_weight, s.soft_far, s.soft_near, s.least_distance, s.most_stretch,
-                    s.most_swivel_deg_per_frame, s.most_swivel_deg_per_second, s.step_wins, s.flexion_deg,
-                    s.humeral_twist_deg, s.forearm_twist_deg, s.shoulder_cone, s.hand_cone, s.hand_twist,
-                    s.shoulder_box, s.wrist_box, s.region, s.twist_bones);
-}
-
 void merge(LimbSettings& to, const LimbSettings& from, bool mirrored)
 {
-    if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)  // one says what the other does
-        to.most_swivel_deg_per_frame.reset(), to.most_swivel_deg_per_second.reset();
-    const auto take = [mirrored](auto& into, const auto& value) {
-        if (!value) return;
-        into = value;
+    using S = LimbSettings;
+    if (from.step_deg_per_frame || from.step_deg_per_second)  // one says what the other does
+        to.step_deg_per_frame.reset(), to.step_deg_per_second.reset();
+    const auto take = [mirrored](auto& into, const auto& given) {
+        if (!given) return;
+        into = given;
         into->mirrored = mirrored;
     };
-    std::apply(
-        [&](auto&... into) { std::apply([&](const auto&... values) { (take(into, values), ...); }, members(from)); },
-        members(to));
+    const auto take_each = [&](auto... member) { (take(to.*member, from.*member), ...); };
+    const auto take_all = [&](auto& into, const auto& given) {
+        for (std::size_t n = 0; n < given.size(); ++n) take(into[n], given[n]);
+    };
+    take_each(&S::joints, &S::bend, &S::hold, &S::target_point, &S::target_offset, &S::hand, &S::effector, &S::aim,
+              &S::clavicle_share, &S::pole_kind, &S::pole_fixed, &S::pole_angle_deg, &S::step_deg_per_frame,
+              &S::step_deg_per_second, &S::step_wins, &S::region, &S::twist_bones);
+    take_all(to.weights, from.weights);
+    take_all(to.reach, from.reach);
+    take_all(to.limits, from.limits);
 }
 
 }  // namespace

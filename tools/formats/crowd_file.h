@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "tools/formats/limb_name.h"
@@ -31,6 +33,12 @@ struct BoxLimit {
     EulerOrder order = EulerOrder::xyz;
     std::array<NumberRange, 3> about_deg;  // x, y, z, whatever the order
 };
+using Limit = std::variant<NumberRange, ConeLimit, TwistLimit, BoxLimit>;
+// The keys of limits, which are the solver's names for them. Ranges are in degrees and end in _deg.
+constexpr std::array<std::string_view, 8> kLimitKeys = {"flexion_deg",  "shoulder_cone", "humeral_twist_deg",
+                                                        "shoulder_box", "hand_cone",     "forearm_twist_deg",
+                                                        "hand_twist",   "wrist_box"};
+constexpr std::array<std::string_view, 4> kReachKeys = {"soft_far", "soft_near", "most_stretch", "least_distance"};
 
 // Where an upper bone may point, in the frame of the resting limb.
 struct RegionLimit {
@@ -64,18 +72,13 @@ struct LimbSettings {
     Maybe<Eigen::Vector3d> pole_fixed;
     Maybe<double> pole_angle_deg;
 
-    Maybe<double> position_weight, hand_weight, pole_weight;              // 0 to 1
-    Maybe<double> soft_far, soft_near, least_distance;                    // shares of the limb's length
-    Maybe<double> most_stretch;                                           // 1 to 1000
-    Maybe<double> most_swivel_deg_per_frame, most_swivel_deg_per_second;  // at most one of them
+    std::array<Maybe<double>, 3> weights;  // of position, hand and pole, 0 to 1
+    // As kReachKeys has them: shares of the limb's length, 0 to 1; the stretch is from 1 to 1000.
+    std::array<Maybe<double>, 4> reach;
+    Maybe<double> step_deg_per_frame, step_deg_per_second;  // of the swivel; at most one of them
     Maybe<bool> step_wins;
-
-    Maybe<NumberRange> flexion_deg, humeral_twist_deg, forearm_twist_deg;
-    Maybe<ConeLimit> shoulder_cone, hand_cone;
-    Maybe<TwistLimit> hand_twist;
-    Maybe<BoxLimit> shoulder_box, wrist_box;
+    std::array<Maybe<Limit>, kLimitKeys.size()> limits;
     Maybe<RegionLimit> region;
-
     Maybe<std::int64_t> twist_bones;  // 0 to 7
 };
 

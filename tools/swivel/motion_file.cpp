@@ -184,11 +184,11 @@ void MotionFile::write(const std::filesystem::path& out, std::span<const formats
         formats::write_bvh(out, std::get<BvhFile>(file_), keys, frames);
 }
 
-void MotionFile::write_whole(const std::filesystem::path& out, std::span<const formats::GltfCharacter> characters,
-                             const formats::NewFrames& frames) const
+void MotionFile::write(const std::filesystem::path& out, std::span<const formats::GltfCharacter> characters,
+                       const std::optional<formats::NewFrames>& frames) const
 {
     if (characters.size() > 1)
-        formats::write_gltf_crowd(out, std::get<GltfFile>(file_), characters, frames);
+        formats::write_gltf_crowd(out, std::get<GltfFile>(file_), characters, *frames);
     else
         write(out, characters.front().keys, frames);
 }

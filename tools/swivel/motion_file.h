@@ -60,9 +60,9 @@ public:
     // In the format that the suffix of `out` says; as write_bvh() and write_gltf() do.
     void write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
                const std::optional<formats::NewFrames>& frames = {}) const;
-    // With new frames of all of its motion: of one character, or of a crowd in a glTF file.
-    void write_whole(const std::filesystem::path& out, std::span<const formats::GltfCharacter> characters,
-                     const formats::NewFrames& frames) const;
+    // One character, or with new frames a crowd in a glTF file.
+    void write(const std::filesystem::path& out, std::span<const formats::GltfCharacter> characters,
+               const std::optional<formats::NewFrames>& frames) const;
 
 private:
     std::variant<formats::BvhFile, formats::GltfFile> file_;

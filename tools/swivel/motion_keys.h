@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The first character's solved rotations, kept for a file of motion that is written at the end.
+// The solved poses, kept for a file of motion that is written at the end: the first character's rotations in the
+// frames that the file has, or whole characters in frames of its own. There limbs are as solved. All else is as the
+// clip has it in the frame that the character shows, raised with its ground.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,34 +14,44 @@
 
 namespace swivel::tools {
 
+inline constexpr std::uint32_t kMostInFile = 200;  // characters
+
 class MotionKeys {
 public:
-    // Of a limb three joints, or two where the hand is not solved, and the joint above one with a clavicle; and those
-    // that look. limbs and plan must outlive it.
-    MotionKeys(std::span<const Limb> limbs, const CrowdPlan& plan)
-        : limbs_(limbs), plans_(plan.limbs), keys_(3 * limbs.size()), clavicles_(limbs.size())
-    {
-        if (plan.look) look_joints_ = plan.look->joints;
-        looking_.resize(look_joints_.size());
-    }
+    // Of the limbs' joints and the look's, and with new frames of all joints that move in the clip. The clip must
+    // outlive it.
+    MotionKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan, bool has_new_frames);
+
+    // Throws, before any work is done, for what write() could not hold: joints that cannot have keys; with new frames
+    // also joints that change their size, more than kMostInFile characters and more than 3 GB of keys, with the size
+    // that the file would have.
+    void require_can_write(const std::filesystem::path& out, const MotionFile& file, std::size_t frame_count) const;
 
     // Takes the frame that the crowd has solved.
     void add(const ClipCrowd& crowd);
 
-    // Throws, before any work is done, for what write() could not hold.
-    void require_can_write(const MotionFile& file) const;
-
-    // Writes the clip's file with them; throws as MotionFile::write() does.
-    void write(const std::filesystem::path& out, const MotionFile& file) const;
+    // Writes the clip's file with the frames that were taken. It throws as MotionFile::write() does.
+    void write(const std::filesystem::path& out, const MotionFile& file,
+               std::span<const goal_character> characters) const;
 
 private:
-    std::vector<formats::JointKeys> overrides(const formats::Clip& clip) const;
+    // A joint that is solved, with the limb and which of its rotations, 3: the joint above. After the limbs comes the
+    // look, whose rotations are counted along it.
+    struct Solved {
+        std::size_t limb, part;
+        int joint;
+        std::size_t turning = 0;  // in turning_
+    };
 
-    std::span<const Limb> limbs_;
-    std::span<const LimbPlan> plans_;
-    std::vector<std::vector<Eigen::Quaterniond>> keys_, clavicles_;  // [3 * limb + joint][frame], [limb][frame]
-    std::vector<int> look_joints_;
-    std::vector<std::vector<Eigen::Quaterniond>> looking_;  // [look joint][frame]
+    const formats::Clip& clip_;
+    bool has_new_frames_;
+    std::uint32_t characters_;
+    std::size_t limb_count_;
+    std::vector<int> turning_, moving_;  // joints that have keys of rotation, of translation
+    int raised_ = -1;                    // the joint that the ground raises, with all that hangs from it; -1: none
+    std::vector<Solved> solved_;
+    std::vector<std::vector<Eigen::Quaterniond>> rotations_;  // [character * turning joints + n][frame]
+    std::vector<std::vector<Eigen::Vector3d>> places_;        // [character * moving joints + n][frame]
 };
 
 }  // namespace swivel::tools

@@ -29,7 +29,6 @@
 #include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"
 #include "tools/swivel/view_page.h"
-#include "tools/swivel/whole_keys.h"
 
 namespace swivel::tools {
 
@@ -47,13 +46,12 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     std::optional<formats::TargetsCsv> exported;
     if (!options.export_targets.empty()) exported.emplace(options.export_targets);
     // New frames where the clip's own do not fit, else the file's own keys of the limbs.
-    const bool is_whole = kind == OutKind::motion && (!job.plan.clips.empty() || job.plan.characters > 1 ||
-                                                      job.frame_count < job.clip_frames || job.plan.ground);
-    MotionKeys keys(job.limbs, job.plan);
-    std::optional<WholeKeys> whole;
-    if (is_whole) whole.emplace(file.clip(), job.limbs, job.plan);
+    const bool has_new_frames =
+        !job.plan.clips.empty() || job.plan.characters > 1 || job.frame_count < job.clip_frames || job.plan.ground;
+    std::optional<MotionKeys> keys;
     if (kind == OutKind::motion) {  // says so before the work, not after
-        whole ? whole->require_can_write(options.out, file, job.frame_count) : keys.require_can_write(file);
+        keys.emplace(file.clip(), job.limbs, job.plan, has_new_frames);
+        keys->require_can_write(options.out, file, job.frame_count);
         const formats::OutputFile can_be_written(options.out);
     }
     Statistics statistics;
@@ -66,16 +64,13 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
             crowd.solve(statistics);
             crowd.measure(statistics);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
-            if (kind == OutKind::motion) whole ? whole->add(crowd) : keys.add(crowd);
+            if (keys) keys->add(crowd);
             if (page) page->add_frame(crowd.goal_crowd(), crowd.given_places());
         }
     }
     if (csv) csv->commit();
     if (exported) exported->commit();
-    if (whole)
-        whole->write(options.out, file, crowd.goal_crowd().characters());
-    else if (kind == OutKind::motion)
-        keys.write(options.out, file);
+    if (keys) keys->write(options.out, file, crowd.goal_crowd().characters());
     if (page)
         page->commit(cached_clip({title_of(options.file), motion_of(file, job)}, file.clip(), job.limbs, job.plan,
                                  crowd.motion()),

@@ -14,11 +14,9 @@
 #define OFFSET(structure, name) printf(" %s: %zu,", #name, offsetof(structure, name))
 #define BEGIN(structure) printf("    %s: { bytes: %zu,", #structure, sizeof(structure))
 #define END() printf(" },\n")
-#define CONSTANT(of, name) printf("    %s: %g,\n", #name, (double)of.name)
-#define RENAMED(of, name, shown) printf("    %s: %g,\n", shown, (double)of.name)
-#define PAIR(of, name) printf("    %s: [%g, %g],\n", #name, (double)of.name[0], (double)of.name[1])
-#define TRIPLE(of, name) \
-    printf("    %s: [%g, %g, %g],\n", #name, (double)of.name[0], (double)of.name[1], (double)of.name[2])
+#define BEGIN_DEFAULT(name) begin_default(#name); const swivel_##name name = swivel_default_##name()
+#define END_DEFAULT() printf("} as const;\n")
+#define VALUES(of, name) print_values(#name, (const float*)&of.name, sizeof(of.name) / sizeof(float))
 
 _Static_assert(sizeof(swivel_frame_field) == 12, "rows.ts writes it as three words");
 _Static_assert(sizeof(swivel_joint_values) == 16, "bodies.ts writes it as four words");
@@ -90,77 +88,44 @@ static void print_enumerations(void)
     printf("} as const;\n");
 }
 
+/* The name as JavaScript writes it. */
+static void print_camel(const char* name)
+{
+    for (; *name; ++name) putchar(*name == '_' ? toupper((unsigned char)*++name) : *name);
+}
+
 /* As short as the header has them; they become floats again. */
+static void print_values(const char* name, const float* values, size_t count)
+{
+    printf("    "), print_camel(name), printf(count > 1 ? ": [" : ": ");
+    for (size_t n = 0; n < count; ++n) printf(n > 0 ? ", %g" : "%g", (double)values[n]);
+    printf(count > 1 ? "],\n" : ",\n");
+}
+
+static void begin_default(const char* name)
+{
+    printf("\nexport const default%c%s = {\n", toupper((unsigned char)*name), name + 1);
+}
+
 static void print_constants(void)
 {
-    const swivel_plant plant = swivel_default_plant();
-    const swivel_fit fit = swivel_default_fit();
-    const swivel_ground ground = swivel_default_ground();
-    const swivel_prop prop = swivel_default_prop();
-    const swivel_look look = swivel_default_look();
-    printf("\nexport const defaultPlant = {\n");
-    CONSTANT(plant, lock), CONSTANT(plant, unlock), CONSTANT(plant, stop), CONSTANT(plant, blend);
-    CONSTANT(plant, again), CONSTANT(plant, run), CONSTANT(plant, longest), PAIR(plant, speed), PAIR(plant, height);
-    printf("} as const;\n\nexport const defaultFit = {\n");
-    CONSTANT(fit, drop), CONSTANT(fit, rise), CONSTANT(fit, half), CONSTANT(fit, ahead);
-    printf("} as const;\n\nexport const defaultGround = {\n");
-    TRIPLE(ground, heel), RENAMED(ground, toe_clearance, "toeClearance");
-    RENAMED(ground, heel_clearance, "heelClearance"), RENAMED(ground, cos_most, "cosMost"), CONSTANT(ground, half);
-    printf("} as const;\n\nexport const defaultProp = {\n");
-    CONSTANT(prop, joint), RENAMED(prop, most_move, "mostMove");
-    printf("} as const;\n\nexport const defaultLook = {\n");
-    RENAMED(look, share[0], "share"), RENAMED(look, cos_most[0], "cosMost"), TRIPLE(look, eye), TRIPLE(look, axis);
-    RENAMED(look, cos_full, "cosFull"), RENAMED(look, cos_none, "cosNone"),
-        RENAMED(look, fade_distance, "fadeDistance"), CONSTANT(look, rate);
-    printf("} as const;\n");
+#include "defaults.inc"
+    BEGIN_DEFAULT(prop);
+    printf("    joint: %" PRId32 ",\n", prop.joint), VALUES(prop, most_move);
+    END_DEFAULT();
+    BEGIN_DEFAULT(look);
+    print_values("share", look.share, 1), print_values("cos_most", look.cos_most, 1);
+    VALUES(look, eye), VALUES(look, axis), VALUES(look, cos_full), VALUES(look, cos_none);
+    VALUES(look, fade_distance), VALUES(look, rate);
+    END_DEFAULT();
 }
 
 static void print_structures(void)
 {
     printf("\n// In bytes: the size of each structure, and where its members start.\nexport const layout = {\n");
-    BEGIN(swivel_rows), OFFSET(swivel_rows, base), OFFSET(swivel_rows, block_count), OFFSET(swivel_rows, row_count);
-    END();
-    BEGIN(swivel_chain), OFFSET(swivel_chain, size), OFFSET(swivel_chain, shoulder_rotation);
-    OFFSET(swivel_chain, elbow_rotation), OFFSET(swivel_chain, wrist_rotation), OFFSET(swivel_chain, elbow_offset);
-    OFFSET(swivel_chain, wrist_offset), OFFSET(swivel_chain, bend), END();
-    BEGIN(swivel_skeleton), OFFSET(swivel_skeleton, size), OFFSET(swivel_skeleton, parents);
-    OFFSET(swivel_skeleton, rotations), OFFSET(swivel_skeleton, translations), OFFSET(swivel_skeleton, joint_count);
-    END();
-    BEGIN(swivel_limb_joints), OFFSET(swivel_limb_joints, size), OFFSET(swivel_limb_joints, shoulder);
-    OFFSET(swivel_limb_joints, elbow), OFFSET(swivel_limb_joints, wrist), OFFSET(swivel_limb_joints, bend);
-    OFFSET(swivel_limb_joints, twist_bone_count), OFFSET(swivel_limb_joints, twist_bones), END();
-    BEGIN(swivel_binding), OFFSET(swivel_binding, size), OFFSET(swivel_binding, parent_from_arm),
-        OFFSET(swivel_binding, upper_from_arm);
-    OFFSET(swivel_binding, elbow_parent_from_arm), OFFSET(swivel_binding, fore_from_arm);
-    OFFSET(swivel_binding, wrist_parent_from_arm), OFFSET(swivel_binding, wrist_rest), OFFSET(swivel_binding, lengths);
-    END();
+#include "structures.inc"
     BEGIN(swivel_entity), OFFSET(swivel_entity, name), OFFSET(swivel_entity, meaning), OFFSET(swivel_entity, step);
     OFFSET(swivel_entity, coefficients), END();
-    BEGIN(swivel_group_def), OFFSET(swivel_group_def, size), OFFSET(swivel_group_def, features);
-    OFFSET(swivel_group_def, limb_count), OFFSET(swivel_group_def, on_bad_input);
-    OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
-    OFFSET(swivel_group_def, binding), OFFSET(swivel_group_def, joints), OFFSET(swivel_group_def, plant);
-    OFFSET(swivel_group_def, fit), OFFSET(swivel_group_def, ground), OFFSET(swivel_group_def, prop);
-    OFFSET(swivel_group_def, link), OFFSET(swivel_group_def, look), OFFSET(swivel_group_def, region), END();
-    BEGIN(swivel_region), END();
-    BEGIN(swivel_look), OFFSET(swivel_look, joints), OFFSET(swivel_look, share), OFFSET(swivel_look, cos_most);
-    OFFSET(swivel_look, eye), OFFSET(swivel_look, axis), OFFSET(swivel_look, cos_full), END();
-    BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);
-    OFFSET(swivel_crowd_def, workspace_count), OFFSET(swivel_crowd_def, groups);
-    OFFSET(swivel_crowd_def, skeleton), OFFSET(swivel_crowd_def, body_count), OFFSET(swivel_crowd_def, up), END();
-    BEGIN(swivel_job), OFFSET(swivel_job, size), OFFSET(swivel_job, blocks), OFFSET(swivel_job, groups);
-    OFFSET(swivel_job, group_word_count), OFFSET(swivel_job, mask), OFFSET(swivel_job, mask_word_count);
-    OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities), OFFSET(swivel_job, urgency);
-    OFFSET(swivel_job, most_blocks), OFFSET(swivel_job, frames), OFFSET(swivel_job, solved_count);
-    OFFSET(swivel_job, pose), OFFSET(swivel_job, probes_only), END();
-    BEGIN(swivel_frame), OFFSET(swivel_frame, size), OFFSET(swivel_frame, fields);
-    OFFSET(swivel_frame, field_count), END();
-    BEGIN(swivel_pose), OFFSET(swivel_pose, size), OFFSET(swivel_pose, form), OFFSET(swivel_pose, root_is_double);
-    OFFSET(swivel_pose, rotations), OFFSET(swivel_pose, translations), OFFSET(swivel_pose, scales);
-    OFFSET(swivel_pose, results), OFFSET(swivel_pose, root_position), OFFSET(swivel_pose, root_rotation);
-    OFFSET(swivel_pose, root_scale), OFFSET(swivel_pose, space), OFFSET(swivel_pose, translation_results);
-    OFFSET(swivel_pose, joint_rotations), OFFSET(swivel_pose, joint_places), OFFSET(swivel_pose, time);
-    OFFSET(swivel_pose, support_position), OFFSET(swivel_pose, support_rotation), OFFSET(swivel_pose, weight), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
     printf("export const MOST_LOOK_JOINTS = %d;\n", SWIVEL_MOST_LOOK_JOINTS);
