@@ -12,7 +12,7 @@
 
 #include <rapidcheck/catch.h>
 
-#include "tests/formula_limb.h"
+#include "tests/formula_arm.h"
 
 namespace {
 
