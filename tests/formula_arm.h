@@ -22,6 +22,11 @@ Vector<T> mv(const Vector3d& v)
     return vector(static_cast<T>(v.x()), static_cast<T>(v.y()), static_cast<T>(v.z()));
 }
 template <class T>
+Rotor<T> mv(const Quaterniond& q)
+{
+    return rotor(static_cast<T>(q.x()), static_cast<T>(q.y()), static_cast<T>(q.z()), static_cast<T>(q.w()));
+}
+template <class T>
 Vector3d eigen(const Vector<T>& v)
 {
     return {v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>()};
@@ -78,10 +83,12 @@ Vector3d wrist_place(const ArmPose<T>& pose, const Arm& arm)
            eigen(pose.shoulder).normalized() * (elbow_rotation(pose).normalized() * Vector3d(0, 0, arm.fore));
 }
 
-inline Arm rounded(const Arm& arm)  // to floats, so that both precisions see the same arm
+// To floats, so that both precisions see the same.
+inline double rounded(double x) { return static_cast<float>(x); }
+inline Vector3d rounded(const Vector3d& v) { return v.cast<float>().cast<double>(); }
+inline Arm rounded(const Arm& arm)
 {
-    return {arm.wrist.cast<float>().cast<double>(), arm.pole.cast<float>().cast<double>(),
-            static_cast<float>(arm.upper), static_cast<float>(arm.fore)};
+    return {rounded(arm.wrist), rounded(arm.pole), rounded(arm.upper), rounded(arm.fore)};
 }
 
 }  // namespace swivel::test

@@ -10,7 +10,7 @@
 
 #include "core/plant_turn.h"
 #include "swivel/swivel.h"
-#include "tests/formula_limb.h"
+#include "tests/formula_arm.h"
 
 namespace swivel::test {
 

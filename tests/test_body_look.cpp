@@ -17,14 +17,18 @@ using namespace swivel::test;
 // `tools/test --full bodies` makes a million: RC_PARAMS=max_success=6000.
 constexpr std::size_t kLookingBodies = 200;
 
-PoseLayout random_look_layout(Random& random, const BodySkeleton* in_body = nullptr)
+PoseLayout random_look_layout(Random& random)
 {
     PoseLayout layout;
     layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
     layout.translates = layout.scales = layout.form != SWIVEL_ROTATIONS || random.below(2);
     layout.roots = random.below(2);
-    layout.in_body = in_body;
     return layout;
+}
+void put_in_body_space(LookingBodies& bodies)
+{
+    bodies.layout.translates = bodies.layout.scales = true;
+    bodies.layout.in_body = &bodies.skeleton;
 }
 
 struct LookCounts {
@@ -84,8 +88,8 @@ struct LookStage {
         counts.faded += !is_whole;
         ++counts.bodies;
     }
-    // Joints before the last turn by their share of the angle that is left, about the axis of the shortest turn. The
-    // eye may pass very near the target on its way, where rounding of places counts most.
+    // Joints before the last turn by their share of the angle that is left. The eye may pass very near the target on
+    // its way, where rounding of places counts most.
     static void check_shares(const TurnedChain& chain, const Vector3d& target, double off_place)
     {
         double left = 0;
@@ -96,11 +100,7 @@ struct LookStage {
             const Vector3d axis = chain.axis_after(n), to = target - chain.eye_after(n);
             const double angle = angle_between(axis, to), most = std::acos(double{chain.look.cos_most[n]}),
                          rounding = 2e-6 + off_place / to.norm();
-            const Quaterniond turn = chain.own_turn(n);
-            RC_ASSERT(std::fabs(angle_of(turn) - std::min(share * angle, most)) <= 1.1e-3 + rounding);
-            if (angle > 0.05 && angle < 3.1 && angle_of(turn) > 0.01)
-                RC_ASSERT(angle_between(turn.w() < 0 ? Vector3d(-turn.vec()) : Vector3d(turn.vec()), axis.cross(to)) <=
-                          (1e-5 + 4 * rounding) / (std::sin(angle) * angle_of(turn)));
+            RC_ASSERT(std::fabs(angle_of(chain.own_turn(n)) - std::min(share * angle, most)) <= 1.1e-3 + rounding);
         }
     }
     void check_limbs(const LinkedBody& body, LookCounts& counts) const
@@ -146,7 +146,8 @@ TEST_CASE("a chain looks at its target, each joint by its share and within its c
     LookCounts counts;
     CHECK(rc::check("by forward kinematics", [&](std::uint64_t seed) {
         Random random{seed};
-        const LookingBodies bodies(random, kLookingBodies, random_look_layout(random));
+        LookingBodies bodies(random, kLookingBodies, random_look_layout(random));
+        if (random.below(3) == 0) put_in_body_space(bodies);
         const LookStage stage(bodies);
         for (std::size_t n = 0; n < kLookingBodies; ++n) {
             const LinkedBody body(stage.solved, n);
@@ -162,22 +163,12 @@ TEST_CASE("a chain looks at its target, each joint by its share and within its c
     CHECK(counts.reached > counts.bodies / 10);
 }
 
-TEST_CASE("a pose in the body's space turns with a look, with the limbs below it and without them")
+TEST_CASE("a pose in the body's space turns with a look whose limbs are not solved")
 {
     CHECK(rc::check("all that is not turned keeps its local rotation", [](std::uint64_t seed) {
         Random random{seed};
         LookingBodies bodies(random, 20, random_look_layout(random));
-        bodies.layout.translates = bodies.layout.scales = true;
-        bodies.layout.in_body = &bodies.skeleton;
-        const LookStage stage(bodies);
-        LookCounts counts;
-        for (std::size_t n = 0; n < 20; ++n) {
-            const LinkedBody body(stage.solved, n);
-            for (const std::uint32_t group : bodies.looks) stage.check_look(body, group, counts);
-            stage.check_limbs(body, counts);
-            stage.check_others(body);
-        }
-        // The looks alone: limbs that are not solved come along as they are.
+        put_in_body_space(bodies);
         PoseBuffer poses(bodies.layout, bodies.bodies);
         Crowd crowd = bodies.crowd();
         const swivel_pose pose = bodies.view(poses);
@@ -203,10 +194,7 @@ TEST_CASE("the joints of bodies that look are where they say")
     CHECK(rc::check("rotations and places", [](std::uint64_t seed) {
         Random random{seed};
         LookingBodies bodies(random, 20, random_look_layout(random));
-        if (random.below(2)) {
-            bodies.layout.translates = bodies.layout.scales = true;
-            bodies.layout.in_body = &bodies.skeleton;
-        }
+        if (random.below(2)) put_in_body_space(bodies);
         PoseBuffer poses(bodies.layout, bodies.bodies);
         Crowd crowd = bodies.crowd();
         std::vector<Float4> rotations(20 * bodies.skeleton.size());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Poses whose joints are all in the body's space, and where a solve says that joints are. What is below a limb's joints
-// moves with them: relative to its parent nothing changes. All is checked by Eigen, in double.
+// moves with them: relative to its parent nothing changes. All is checked by Eigen, in double. That goals are met in
+// this space, too, is in test_bodies.cpp.
 #include <catch2/catch.hpp>
 
 #include <rapidcheck/catch.h>
@@ -29,7 +30,6 @@ struct SolvedPoses {
     BodySkeleton skeleton;
     PoseLayout layout;
     std::vector<Body> was, is;
-    BodyGoals goals;
     PoseBuffer poses;
     std::vector<unsigned char> before;
     std::vector<std::vector<Float4>> joint_rotations;
@@ -44,6 +44,7 @@ struct SolvedPoses {
           poses(layout, was)
     {
         Crowd crowd = body_crowd(skeleton, SWIVEL_WITH_HAND, static_cast<std::uint32_t>(was.size()));
+        BodyGoals goals;
         for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
             goals.emplace_back();
             for (const Body& body : was) goals.back().push_back(random_goal(random, skeleton, body, limb));
@@ -104,19 +105,12 @@ bool is_limb_joint(const BodySkeleton& skeleton, std::uint32_t joint)
 
 TEST_CASE("poses in the body's space")
 {
-    rc::prop("meet their goals, and carry along what hangs below", [](std::uint64_t seed) {
+    rc::prop("carry along what hangs below limbs", [](std::uint64_t seed) {
         Random random{seed};
         const SolvedPoses solved(random, true);
         for (std::size_t n = 0; n < solved.was.size(); ++n) {
             const BodySkeleton& skeleton = solved.skeleton;
             const std::vector<JointAt> at = joints_at(skeleton, solved.is[n]);
-            for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
-                const std::uint32_t wrist = skeleton.limbs[limb].wrist;
-                const BodyGoal& goal = solved.goals[limb][n];
-                const Vector3d target = vec(goal.target) - vec(solved.was[n].root_position);
-                RC_ASSERT((at[wrist].place - target).norm() <= solved.bound(at, n, wrist));
-                RC_ASSERT(at[wrist].rotation.angularDistance(quat(goal.hand).normalized()) <= 5e-6);
-            }
             for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) {
                 const Body &was = solved.was[n], &is = solved.is[n];
                 const double scale = at[joint].scale / is.scales[joint][0];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: what swivel.h says of the whole limb holds in crowds, through skeletons and worlds. Inputs with neutral
-// values change nothing. Weights, stretch, the carried swivel and joint angles mean what swivel.h says.
+// values change nothing. Stretch, flexion, a swivel that is reset and joint angles mean what swivel.h says. Goals of
+// limbs in their own frame are in test_limb_goals.cpp.
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;
@@ -41,45 +42,6 @@ TEST_CASE("whole limbs at rest are the plain arms")
             whole.residuals(0, residuals);
             for (const double residual : residuals) CHECK(residual <= kWristError);
         }
-}
-
-TEST_CASE("each weight blends its own part with the incoming pose")
-{
-    constexpr std::uint32_t count = 100;
-    constexpr swivel_features features = SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
-    Random random{9};
-    Crowd first = crowd_of(SWIVEL_WITH_HAND, count), crowd = crowd_of(features, count);
-    std::vector<Limb> limbs;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        write_limb(first, 0, n, random_limb(random, 0, {1, 0.8f}));
-        limbs.push_back(random_limb(random, 0, {1, 0.8f}));
-        write_limb(crowd, 0, n, limbs[n]);
-    }
-    first.solve();
-    const auto places = [&](const Crowd& of) {
-        const auto shoulders = read<Float4>(of, SWIVEL_SHOULDER), wrists = read<Float4>(of, SWIVEL_WRIST);
-        const auto elbows = read<Float2>(of, SWIVEL_ELBOW);
-        std::vector<Places> at;
-        for (std::uint32_t n = 0; n < count; ++n) at.push_back(places_of(limbs[n], shoulders[n], elbows[n], wrists[n]));
-        return at;
-    };
-    const std::vector<Places> was = places(first);
-    crowd.write(SWIVEL_INCOMING_SHOULDER, 0, read<Float4>(first, SWIVEL_SHOULDER));
-    crowd.write(SWIVEL_INCOMING_WRIST, 0, read<Float4>(first, SWIVEL_WRIST));
-    std::vector<Float4> elbows;
-    for (const Float2& half : read<Float2>(first, SWIVEL_ELBOW)) elbows.push_back({-half[1], 0, 0, half[0]});
-    crowd.write(SWIVEL_INCOMING_ELBOW, 0, elbows);
-    for (const Float3& weights : {Float3{1, 0, 1}, Float3{0, 1, 1}, Float3{1, 0.5f, 1}}) {
-        crowd.write_all(SWIVEL_WEIGHTS, 0, weights);
-        crowd.solve();
-        const std::vector<Places> now = places(crowd);
-        for (std::uint32_t n = 0; n < count; ++n) {
-            INFO("limb " << n << ", weights " << weights[0] << ", " << weights[1]);
-            CHECK((now[n].wrist - (weights[0] > 0 ? vec(limbs[n].target) : was[n].wrist)).norm() <= 3e-6);
-            const Quaterniond hand = was[n].hand.slerp(double{weights[1]}, quat(limbs[n].hand).normalized());
-            CHECK(distance(now[n].hand, hand) <= 1e-5);
-        }
-    }
 }
 
 TEST_CASE("stretched bones reach and give their stretch back; no wrist is nearer than the least distance")
@@ -166,38 +128,6 @@ TEST_CASE("the swivel carried from solve to solve is forgotten on reset")
     CHECK(flags[1] == SWIVEL_REACHED);
     CHECK(std::fabs(normals[1][0] + 1) <= 1e-6);
     CHECK_REFUSED(swivel_reset(crowd.get(), 0, 1, 2), SWIVEL_INVALID_ARGUMENT);
-}
-
-TEST_CASE("a step goes towards the wish, whichever way that is")
-{
-    constexpr std::uint32_t count = 100;
-    Random random{10};
-    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL, count);
-    Float2 most;
-    swivel_turn(0.1, most.data());
-    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, most);
-    std::vector<Limb> limbs;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        limbs.push_back(random_limb(random, 0, {1, 0.8f}));
-        write_limb(crowd, 0, n, limbs[n]);
-    }
-    crowd.solve();
-    const auto before = read<Float3>(crowd, SWIVEL_NORMAL);
-    std::vector<Vector3d> wished;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Vector3d line = vec(limbs[n].target).normalized();
-        const Vector3d pole = Eigen::AngleAxisd(random.between(-3, 3), line) * vec(limbs[n].pole);
-        wished.push_back(line.cross(pole).normalized());
-        put(crowd, SWIVEL_POLE, n, floats(pole));
-    }
-    crowd.solve();
-    const auto after = read<Float3>(crowd, SWIVEL_NORMAL);
-    const auto angle = [](const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); };
-    for (std::uint32_t n = 0; n < count; ++n) {
-        INFO("limb " << n);
-        const double left = std::max(angle(vec(before[n]), wished[n]) - 0.1, 0.0);
-        CHECK(angle(vec(after[n]), wished[n]) == Approx(left).margin(1e-5));
-    }
 }
 
 TEST_CASE("joint angles turn back into the rotations they are of, in every order and both families")

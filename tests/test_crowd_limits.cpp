@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: limits made of angles are kept as angles, through a skeleton. The other side of the body is the mirror
-// image. The allowed arcs are where the limits are kept.
+// image. How limits hold for arms in their own frame is in test_limits.cpp.
 #include <map>
 
 #include "tests/test_whole_limb.h"
@@ -129,76 +129,6 @@ TEST_CASE("the body's other side is the mirror image")
     }
     CHECK(limited > 50);
     CHECK(same == count);
-}
-
-TEST_CASE("allowed arcs are where the limits are kept, and the solver's choice is in one or at its end")
-{
-    constexpr std::uint32_t count = 200;
-    Random random{8};
-    Crowd free = crowd_of(SWIVEL_WITH_ANGLE, count),
-          crowd = crowd_of(
-              SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_ANGLE,
-              count);
-    std::vector<LimbLimits> limits;
-    int some = 0, none = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Limb limb = random_limb(random, 0, {1, 1.2f});
-        write_limb(free, 0, n, limb);
-        write_limb(crowd, 0, n, limb);
-        LimbLimits& l = limits.emplace_back(random);
-        l.shoulder = random.between(0.5, 3);
-        l.humeral = {random.between(-kPi, kPi), random.between(1, 3.14)};
-        if (n % 2)
-            for (AngleRange& range : l.shoulder_box.range)
-                range = {random.between(-kPi, kPi), random.between(1.5, 3.1)};
-        each_limit(l, [&](swivel_field field, const auto& value) {
-            if (swivel_field_row_count(crowd.get(), 0, field)) put(crowd, field, n, value);
-        });
-    }
-    std::vector<std::vector<swivel_arc>> arcs(count);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        std::uint32_t arc_count = 0, again = 0;
-        REQUIRE(swivel_allowed_arcs(crowd.get(), 0, n, nullptr, 0, &arc_count) == SWIVEL_OK);
-        arcs[n].resize(arc_count);
-        REQUIRE(swivel_allowed_arcs(crowd.get(), 0, n, arcs[n].data(), arc_count, &again) == SWIVEL_OK);
-        CHECK(again == arc_count);
-        none += arc_count == 0, some += arc_count > 0;
-    }
-    CHECK(some > 50);
-    CHECK(none > 10);
-    // Wishes all around the circle: one is granted just where an arc has it, and where it keeps the limits.
-    for (int k = 0; k < 90; ++k) {
-        const double angle = -kPi + 2 * kPi * (k + 0.5) / 90;
-        Float2 turn;
-        swivel_turn(angle, turn.data());
-        for (Crowd* each : {&free, &crowd}) {
-            each->write_all(SWIVEL_ANGLE, 0, turn);
-            each->solve();
-        }
-        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-        const auto wished = read<Float4>(free, SWIVEL_SHOULDER);
-        for (std::uint32_t n = 0; n < count; ++n) {
-            const LimbLimits& l = limits[n];
-            const Quaterniond wish = quat(wished[n]).normalized();
-            const Vector3d e3 = Vector3d::UnitZ();
-            const double by = std::max({cone_violation(l.shoulder_axis, std::cos(l.shoulder), wish * e3),
-                                        twist_violation(e3, l.humeral, wish),
-                                        box_violation(l.shoulder_box, wish.toRotationMatrix())});
-            bool inside = false, near_end = false;
-            for (const swivel_arc& arc : arcs[n]) {
-                const double from = std::atan2(arc.from[1], arc.from[0]), to = std::atan2(arc.to[1], arc.to[0]);
-                const auto ahead = [](double a, double b) { return std::fmod(b - a + 4 * kPi, 2 * kPi); };
-                const double width = from == to ? 2 * kPi : ahead(from, to);
-                inside = inside || ahead(from, angle) <= width;
-                for (const double end : {from, to})
-                    near_end = near_end || std::fabs(std::remainder(angle - end, 2 * kPi)) < 2e-3;
-            }
-            if (near_end) continue;
-            INFO("limb " << n << ", wish " << angle << ", broken by " << by);
-            CHECK((flags[n] == SWIVEL_REACHED) == inside);
-            if (std::fabs(by) > 1e-5) CHECK(inside == (by < 0));
-        }
-    }
 }
 
 TEST_CASE("arcs of locked axes are as short as what they allow")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: limbs keep the region of their group with all of its other limits. The elbow is the nearest allowed one,
-// or the one that violates the limits least. Bits are those of the formula, on every instruction set. Regions that
-// cannot be are refused.
+// The promise: groups have a region of their own, also with a step, with aims, straight arms and bad input, and with
+// the same bits on every instruction set. Regions that cannot be are refused. That limbs keep their region, with all
+// other limits, is in test_limits.cpp.
 #include <algorithm>
 #include <cstring>
 
@@ -10,7 +10,8 @@
 
 #include <rapidcheck/catch.h>
 
-#include "tests/region_arms.h"
+#include "tests/limited_arms.h"
+#include "tests/test_crowd.h"
 #include "tests/test_isa_scope.h"
 
 namespace {
@@ -18,108 +19,9 @@ namespace {
 using namespace swivel;
 using namespace swivel::test;
 
-constexpr double kClear = 5e-6;  // more room than rounding takes
 constexpr std::uint32_t kArms = 21;
-constexpr int kSteps = 10'000;  // of a scan
 
-bool has(const SolvedLimb<float>& limb, std::uint32_t flag) { return (limb.arm.flags & flag) != 0; }
-
-// The least turn from the wish at which there is room to spare; more than pi: none. `most` is the most room there is.
-struct Scan {
-    double nearest = 10, most = -4;
-
-    Scan(const RegionArms& of, std::uint32_t n, const SwivelCircle& circle)
-    {
-        const auto room_at = [&](double turn) { return of.room(n, circle.at(turn)); };
-        for (int k = 0; k <= kSteps / 2; ++k)
-            for (const double sign : {1.0, -1.0}) {
-                const double turn = 2 * kPi * k / kSteps, here = room_at(sign * turn);
-                most = std::max(most, here);
-                if (here < kClear || nearest < 10) continue;
-                double in = turn, out = std::max(0.0, turn - 2 * kPi / kSteps);
-                while (in - out > 1e-6) {
-                    const double middle = 0.5 * (in + out);
-                    (room_at(sign * middle) >= kClear ? in : out) = middle;
-                }
-                nearest = in;
-            }
-    }
-};
-
-TEST_CASE("limbs with a region keep all limits, and their elbows are the nearest allowed ones")
-{
-    int granted = 0, moved = 0, infeasible = 0;
-    double worst = 0;
-    rc::prop("against a scan of the circle by other definitions", [&](std::uint64_t seed) {
-        Random random{seed};
-        const RegionArms of(random, kArms);
-        RC_ASSERT(of.region.good);
-        Crowd crowd = of.crowd();
-        crowd.solve();
-        for (std::uint32_t n = 0; n < kArms; ++n) {
-            const SolvedLimb<float> limb = solved_limb(crowd, n);
-            const ArmAt pose = pose_of(limb);
-            RC_ASSERT(has(limb, SWIVEL_REACHED));
-            if (!has(limb, SWIVEL_INFEASIBLE)) {
-                worst = std::min(worst, of.region_room(pose));
-                RC_ASSERT(of.region_room(pose) >= -1e-6);
-                RC_ASSERT(of.region.oracle.room(pose.shoulder * Vector3d::UnitZ()) >= -2e-6);
-                RC_ASSERT(violation(of.arms[n], pose) <= 5e-6);
-            }
-        }
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t n = random.below(kArms);
-            const SolvedLimb<float> limb = solved_limb(crowd, n);
-            const SwivelCircle circle(of.arms[n], limb);
-            if (circle.away < 0.05) continue;  // nearly straight: its swivel is hardly known
-            const ArmAt wish = circle.at(0);
-            if (std::fabs(of.region_room(wish)) > kClear)
-                RC_ASSERT(has(limb, SWIVEL_LIMITED_REGION) == (of.region_room(wish) < 0));
-            const Scan scan(of, n, circle);
-            const bool is_clear = scan.nearest <= kPi;
-            if (is_clear) {
-                RC_ASSERT(!has(limb, SWIVEL_INFEASIBLE));
-                RC_ASSERT(std::fabs(swivel_of(of.arms[n], limb)) <= scan.nearest + 1e-4);
-            }
-            const bool has_box = (of.features & (SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX)) != 0;
-            if (has(limb, SWIVEL_INFEASIBLE) && !has_box)  // outside of a box there is no one way to measure how far
-                RC_ASSERT(of.room(n, pose_of(limb)) >= scan.most - 3e-6);
-            granted += of.room(n, wish) > kClear;
-            moved += is_clear && of.room(n, wish) < 0;
-            infeasible += has(limb, SWIVEL_INFEASIBLE);
-        }
-    });
-    CAPTURE(granted, moved, infeasible, worst);
-    CHECK(granted > 0);
-    CHECK(moved > 0);
-    CHECK(infeasible > 0);
-}
-
-TEST_CASE("a region's limbs have the bits of the whole formula, on every instruction set")
-{
-    const IsaScope scope;
-    const std::vector<std::string> isas = runnable_isas();
-    rc::prop("any further limits", [&](std::uint64_t seed) {
-        Random random{seed};
-        const RegionArms of(random, kArms);
-        std::vector<std::uint32_t> words;
-        for (const std::string& isa : isas) {
-            RC_ASSERT(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
-            Crowd crowd = of.crowd();
-            crowd.solve();
-            if (words.empty()) words = all_words(crowd);
-            RC_ASSERT(words == all_words(crowd));
-            for (std::uint32_t n = 0; n < kArms; ++n) {
-                LimitedArm arm = of.arms[n];
-                arm.use.region = &of.region.region;
-                const SolvedLimb<float> wanted = solve<float>(arm), got = solved_limb(crowd, n);
-                RC_ASSERT(got.arm.flags == wanted.arm.flags);
-                RC_ASSERT(eigen(got.arm.shoulder).coeffs() == eigen(wanted.arm.shoulder).coeffs() ||
-                          eigen(got.arm.shoulder).coeffs() == -eigen(wanted.arm.shoulder).coeffs());
-            }
-        }
-    });
-}
+bool has(const LimbPose& limb, std::uint32_t flag) { return (limb.flags & flag) != 0; }
 
 TEST_CASE("a step, an aim and limbs alone give equal bits on every instruction set")
 {
@@ -128,12 +30,12 @@ TEST_CASE("a step, an aim and limbs alone give equal bits on every instruction s
     int jumped = 0;
     rc::prop("three frames of targets", [&](std::uint64_t seed) {
         Random random{seed};
-        RegionArms of(random, kArms);
+        LimitedArms of(random, kArms, true);
         const bool aims = random.below(2) == 0;
         if (aims) of.features = SWIVEL_WITH_REGION | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_WITH_SHOULDER_CONE;
-        const RegionArms other(random, kArms);
+        const LimitedArms other(random, kArms, true);
         const auto frames = [&](std::uint32_t count) {
-            RegionArms some = of;
+            LimitedArms some = of;
             some.arms.resize(count);
             Crowd crowd = some.crowd(SWIVEL_WITH_MOST_SWIVEL);
             crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.1));
@@ -157,42 +59,18 @@ TEST_CASE("a step, an aim and limbs alone give equal bits on every instruction s
             if (words.empty()) words = all_words(crowd);
             RC_ASSERT(words == all_words(crowd));
             const Crowd alone = frames(1);
-            const SolvedLimb<float> one = solved_limb(alone, 0), same = solved_limb(crowd, 0);
-            RC_ASSERT(one.arm.flags == same.arm.flags);
-            RC_ASSERT(eigen(one.arm.shoulder).coeffs() == eigen(same.arm.shoulder).coeffs());
+            const LimbPose one = pose_of(alone), same = pose_of(crowd);
+            RC_ASSERT(one.flags == same.flags);
+            RC_ASSERT(one.shoulder.coeffs() == same.shoulder.coeffs());
             for (std::uint32_t n = 0; n < kArms; ++n) {
-                const SolvedLimb<float> limb = solved_limb(crowd, n);
+                const LimbPose limb = pose_of(crowd, n);
                 jumped += has(limb, SWIVEL_JUMPED);
-                if (!has(limb, SWIVEL_INFEASIBLE)) RC_ASSERT(of.region_room(pose_of(limb)) >= -1e-6);
+                if (!has(limb, SWIVEL_INFEASIBLE))
+                    RC_ASSERT(room_by_half_spaces(of.region.region, limb.shoulder * Vector3d::UnitZ()) >= -1e-6);
             }
         }
     });
     CHECK(jumped > 0);
-}
-
-TEST_CASE("the mirrored region keeps mirrored arms in mirrored poses")
-{
-    int limited = 0, same = 0, all = 0;
-    rc::prop("in the plane x = 0", [&](std::uint64_t seed) {
-        Random random{seed};
-        RegionArms of(random, kArms);
-        of.features = SWIVEL_WITH_REGION | SWIVEL_WITH_HAND;
-        RegionArms image = of;
-        RC_ASSERT(swivel_region_mirror(&of.region.region, &image.region.region) == SWIVEL_OK);
-        for (LimitedArm& arm : image.arms) arm.arm.wrist.x() *= -1, arm.arm.pole.x() *= -1;
-        Crowd crowd = of.crowd(), other = image.crowd();
-        crowd.solve(), other.solve();
-        for (std::uint32_t n = 0; n < kArms; ++n) {
-            const SolvedLimb<float> one = solved_limb(crowd, n), two = solved_limb(other, n);
-            RC_ASSERT(one.arm.flags == two.arm.flags);
-            const Quaterniond q = eigen(one.arm.shoulder);
-            same += distance(Quaterniond(q.w(), q.x(), -q.y(), -q.z()), eigen(two.arm.shoulder)) < 1e-4;
-            limited += has(one, SWIVEL_LIMITED_REGION);
-            ++all;
-        }
-    });
-    CHECK(limited > 0);
-    CHECK(same == all);
 }
 
 TEST_CASE("straight arms are in their region or infeasible, whatever the pole")
@@ -200,7 +78,7 @@ TEST_CASE("straight arms are in their region or infeasible, whatever the pole")
     int inside = 0, outside = 0;
     rc::prop("targets out of reach", [&](std::uint64_t seed) {
         Random random{seed};
-        RegionArms of(random, kArms);
+        LimitedArms of(random, kArms, true);
         of.features = SWIVEL_WITH_REGION | SWIVEL_WITH_HAND;
         for (LimitedArm& arm : of.arms) {
             arm.arm.wrist = rounded(random.between(2, 9) * arm.arm.wrist.normalized());
@@ -209,7 +87,7 @@ TEST_CASE("straight arms are in their region or infeasible, whatever the pole")
         Crowd crowd = of.crowd();
         crowd.solve();
         for (std::uint32_t n = 0; n < kArms; ++n) {
-            const SolvedLimb<float> limb = solved_limb(crowd, n);
+            const LimbPose limb = pose_of(crowd, n);
             const double room = room_by_half_spaces(of.region.region, of.arms[n].arm.wrist.normalized());
             RC_ASSERT(has(limb, SWIVEL_CLAMPED_FAR));
             if (std::fabs(room) < 1e-3) continue;
@@ -220,34 +98,6 @@ TEST_CASE("straight arms are in their region or infeasible, whatever the pole")
     });
     CHECK(inside > 0);
     CHECK(outside > 0);
-}
-
-TEST_CASE("allowed arcs are where there is room")
-{
-    int some = 0, none = 0;
-    rc::prop("wishes all around the circle", [&](std::uint64_t seed) {
-        Random random{seed};
-        const RegionArms of(random, 3);
-        Crowd crowd = of.crowd();
-        crowd.solve();
-        for (std::uint32_t n = 0; n < 3; ++n) {
-            const std::vector<swivel_arc> arcs = crowd.allowed_arcs(0, n);
-            const SwivelCircle circle(of.arms[n], solved_limb(crowd, n));
-            if (circle.away < 0.05) continue;
-            (arcs.empty() ? none : some) += 1;
-            for (int k = 0; k < 500; ++k) {
-                const double angle = -kPi + 2 * kPi * (k + 0.5) / 500, room = of.room(n, circle.at(angle));
-                const bool inside = std::ranges::any_of(arcs, [&](const swivel_arc& arc) {
-                    const double from = std::atan2(arc.from[1], arc.from[0]), to = std::atan2(arc.to[1], arc.to[0]);
-                    const auto ahead = [](double a, double b) { return std::fmod(b - a + 4 * kPi, 2 * kPi); };
-                    return from == to || ahead(from, angle) <= ahead(from, to);
-                });
-                if (std::fabs(room) > 1e-5) RC_ASSERT(inside == (room > 0));
-            }
-        }
-    });
-    CHECK(some > 0);
-    CHECK(none > 0);
 }
 
 // A cone about +z, and an arm whose wish is far from it.

@@ -1,145 +1,165 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: joint limits hold. Where a swivel is allowed, the result violates no limit by more than 1e-6. It is as
-// near to the wish as a scan of the whole circle finds. Where no swivel is allowed, a flag says so. The judge works in
-// angles (limit_oracle.h).
+// The promise: joint limits and regions hold. Where a swivel is allowed, the result violates none by more than 1e-6,
+// and it is as near to the wish as a scan of the whole circle finds. Where no swivel is allowed, a flag says so.
+// Allowed arcs are where there is room. The judges work in angles and half-spaces (limited_arms.h).
 #include <catch2/catch.hpp>
-#include <vector>
 
-#include "tests/limited_arm.h"
+#include "core/limits.h"
+#include "tests/limited_arms.h"
 
 namespace {
 
 using namespace swivel;
 using namespace swivel::test;
 
-struct Scan {
-    int allowed = 0;
-    double best = kPi;      // the least swivel allowed, without sign
-    double half_width = 0;  // of the arc it belongs to
-    double least = 10;      // violation anywhere
-};
-Scan scan(const LimitedArm& a, const SwivelCircle& circle, int steps)
-{
-    Scan out;
-    std::vector<char> ok(static_cast<std::size_t>(steps));
-    int nearest = -1;
-    for (int n = 0; n < steps; ++n) {
-        const double swivel = 2 * kPi * n / steps;
-        const double by = violation(a, circle.at(swivel));
-        out.least = std::min(out.least, by);
-        ok[static_cast<std::size_t>(n)] = by <= 0;
-        if (!ok[static_cast<std::size_t>(n)]) continue;
-        ++out.allowed;
-        const double size = std::min(swivel, 2 * kPi - swivel);
-        if (nearest < 0 || size < out.best) out.best = size, nearest = n;
-    }
-    if (nearest < 0) return out;
-    int width = 1;
-    for (const int way : {1, -1})
-        for (int n = nearest + way; width < steps && ok[static_cast<std::size_t>((n + steps) % steps)]; n += way)
-            ++width;
-    out.half_width = kPi * width / steps;
-    return out;
-}
-constexpr int kScanSteps = 10000;
+constexpr double kClear = 5e-6;  // more room than rounding takes
+constexpr std::uint32_t kCrowd = 500;
 
-// How much further from the wish than the scan's best a swivel may be.
-double allowance(const Scan& seen)
-{
-    return 1e-5 + (seen.half_width > 5e-4 ? 1e-6 / std::sin(std::min(seen.half_width, kPi / 2)) : 5e-4);
-}
+// The least turn from the wish at which there is room to spare; more than pi: none. `most` is the most room there is.
+struct Scan {
+    static constexpr int kSteps = 10'000;
+    double nearest = 10, most = -4;
+
+    Scan(const LimitedArms& of, std::uint32_t n, const SwivelCircle& circle)
+    {
+        const auto room_at = [&](double turn) { return of.room(n, circle.at(turn)); };
+        for (int k = 0; k <= kSteps / 2; ++k)
+            for (const double sign : {1.0, -1.0}) {
+                const double turn = 2 * kPi * k / kSteps, here = room_at(sign * turn);
+                most = std::max(most, here);
+                if (here < kClear || nearest < 10) continue;
+                double in = turn, out = std::max(0.0, turn - 2 * kPi / kSteps);
+                while (in - out > 1e-6) {
+                    const double middle = 0.5 * (in + out);
+                    (room_at(sign * middle) >= kClear ? in : out) = middle;
+                }
+                nearest = in;
+            }
+    }
+};
 
 struct Tally {
-    int arms = 0, allowed = 0, moved = 0, none = 0, scanned = 0;
-    int violating = 0, too_far = 0, missed = 0, not_least = 0;  // broken promises
-    double worst = -1;
+    int arms = 0, moved = 0, none = 0, scanned = 0, limited_by_region = 0;
+    int violating = 0, too_far = 0, missed = 0, not_least = 0, wrong_flag = 0;  // broken promises
+    double worst = 1;                                                           // room
 };
 
 // Every arm against some places of the circle, and against the whole scan where one of them is nearer to the wish, and
-// for one arm in `often`.
-template <class T>
-Tally judge(std::uint64_t seed, int arms, int often)
+// for one arm in 500.
+void judge(Random& random, const LimitedArms& of, Tally& tally)
 {
-    Random random{seed};
-    Tally tally;
-    for (; tally.arms < arms; ++tally.arms) {
-        const LimitedArm a = random_limited_arm(random);
-        const SwivelCircle circle(a);
-        const SolvedLimb<T> pose = solve<T>(a);
-        const bool allowed = !(pose.arm.flags & SWIVEL_INFEASIBLE);
-        const double swivel = swivel_of(a, pose);
-        const double by = violation(a, pose);
-        tally.allowed += allowed, tally.none += !allowed;
-        tally.moved += allowed && std::fabs(swivel) > 1e-4;
-        if (allowed) tally.worst = std::max(tally.worst, by), tally.violating += by > 1e-6;
+    Crowd crowd = of.crowd();
+    crowd.solve();
+    for (std::uint32_t n = 0; n < of.arms.size(); ++n, ++tally.arms) {
+        const LimbPose pose = pose_of(crowd, n);
+        const SwivelCircle circle(of.arms[n], pose);
+        const bool allowed = !(pose.flags & SWIVEL_INFEASIBLE);
+        const double swivel = swivel_of(of.arms[n], pose), room = of.room(n, pose);
+        tally.none += !allowed, tally.moved += allowed && std::fabs(swivel) > 1e-4;
+        if (allowed) tally.worst = std::min(tally.worst, room), tally.violating += room < -1e-6;
+        const double region = of.region_room(circle.at(0));
+        const bool is_limited = pose.flags & SWIVEL_LIMITED_REGION;
+        tally.limited_by_region += is_limited;
+        if (std::fabs(region) > kClear) tally.wrong_flag += is_limited != (region < 0);
 
-        bool look = tally.arms % often == 0;
+        bool look = tally.arms % 500 == 0;
         const double turn = random.between(0, 0.2);
-        for (int n = 0; n < 32 && !look; ++n) {
-            const double place = std::remainder(turn + n * 2 * kPi / 32, 2 * kPi);
+        for (int k = 0; k < 32 && !look; ++k) {
+            const double place = std::remainder(turn + k * 2 * kPi / 32, 2 * kPi);
             if (allowed && std::fabs(place) >= std::fabs(swivel) - 1e-5) continue;
-            look = violation(a, circle.at(place)) <= 0;
+            look = of.room(n, circle.at(place)) >= kClear;
         }
         if (!look) continue;
         ++tally.scanned;
-        const Scan seen = scan(a, circle, kScanSteps);
-        tally.missed += !allowed && seen.allowed > 1;
+        const Scan scan(of, n, circle);
+        const bool is_clear = scan.nearest <= kPi;
+        tally.missed += is_clear && !allowed;
+        tally.too_far += is_clear && std::fabs(swivel) > scan.nearest + 1e-5;
         // Outside of a box there is no one way to measure how far.
-        if (!allowed && !a.use.shoulder_box && !a.use.wrist_box) {
-            tally.not_least += violation(a, circle.at(swivel)) > seen.least + 1e-6;
-            tally.not_least += by > seen.least + 1e-6 + 2e-7 / circle.away;
-        }
-        tally.too_far += allowed && seen.allowed > 0 && std::fabs(swivel) > seen.best + allowance(seen);
+        if (!allowed && !(of.features & kBoxes)) tally.not_least += room < scan.most - 1.5e-6;
     }
-    return tally;
-}
-
-template <class T>
-void check(std::uint64_t seed, int arms, int often)
-{
-    const Tally tally = judge<T>(seed, arms, often);
-    CAPTURE(tally.allowed, tally.moved, tally.none, tally.scanned, tally.worst);
-    CHECK(tally.violating == 0);
-    CHECK(tally.too_far == 0);
-    CHECK(tally.missed == 0);
-    CHECK(tally.not_least == 0);
-    CHECK(tally.moved > arms / 10);
-    CHECK(tally.none > arms / 10);
-    CHECK(tally.scanned >= arms / often);
 }
 
 #ifdef __SANITIZE_ADDRESS__  // an eighth of the speed
-constexpr int kArms = 10'000;
+constexpr int kCrowds = 20;
 #else
-constexpr int kArms = 1'000'000;
+constexpr int kCrowds = 2000;
 #endif
 
 }  // namespace
 
-TEST_CASE("in double: a scan of the whole circle finds nothing better") { check<double>(1, 2000, 4); }
-
-TEST_CASE("in float, a million arms: limits hold, the nearest swivel is found, and where there is none it is said")
+TEST_CASE("of a million arms limits hold, the nearest swivel is found, and where there is none it is said")
 {
-    check<float>(2, kArms, 500);
+    Random random{2};
+    Tally tally;
+    for (int n = 0; n < kCrowds; ++n) judge(random, LimitedArms(random, kCrowd, n % 4 == 0), tally);
+    CAPTURE(tally.arms, tally.moved, tally.none, tally.scanned, tally.limited_by_region, tally.worst);
+    CHECK(tally.violating == 0);
+    CHECK(tally.too_far == 0);
+    CHECK(tally.missed == 0);
+    CHECK(tally.not_least == 0);
+    CHECK(tally.wrong_flag == 0);
+    CHECK(tally.moved > tally.arms / 10);
+    CHECK(tally.none > tally.arms / 10);
+    CHECK(tally.limited_by_region > tally.arms / 10);
 }
 
 TEST_CASE("limits hold, too, where the wished normal is close to the target's line")
 {
     Random random{3};
     int moved = 0;
-    for (int n = 0; n < 100'000; ++n) {
-        const LimitedArm a = random_limited_arm(random);
-        LimbGoal<float> goal = goal_of<float>(a);
-        const double along = random.spread(1, 900) * (random.below(2) ? 1 : -1);
-        goal.arm.pole = mv<float>(Vector3d(a.arm.normal() + along * a.arm.wrist.normalized()));
-        const SolvedLimb<float> pose = solve(a, goal, Wish::normal);
-        if (pose.arm.flags & SWIVEL_INFEASIBLE) continue;
-        moved += std::fabs(swivel_of(a, pose)) > 1e-2;
-        CAPTURE(n, along);
-        REQUIRE(violation(a, pose) <= 1e-6);
+    for (int crowd_count = 0; crowd_count < 200; ++crowd_count) {
+        const LimitedArms of(random, kCrowd, false);
+        Crowd crowd = of.crowd(SWIVEL_POLE_NORMAL);
+        for (std::uint32_t n = 0; n < kCrowd; ++n) {
+            const double along = random.spread(1, 900) * (random.below(2) ? 1 : -1);
+            const Arm& arm = of.arms[n].arm;
+            const Float3 normal = floats(Vector3d(arm.normal() + along * arm.wrist.normalized()));
+            crowd.write(SWIVEL_POLE, 0, std::span(&normal, 1), n);
+        }
+        crowd.solve();
+        for (std::uint32_t n = 0; n < kCrowd; ++n) {
+            const LimbPose pose = pose_of(crowd, n);
+            if (pose.flags & SWIVEL_INFEASIBLE) continue;
+            moved += std::fabs(swivel_of(of.arms[n], pose)) > 1e-2;
+            REQUIRE(of.room(n, pose) >= -1e-6);
+        }
     }
     CHECK(moved > 10'000);
+}
+
+TEST_CASE("allowed arcs are where there is room, and the solver's choice is in one")
+{
+    Random random{8};
+    int some = 0, none = 0;
+    for (int crowd_count = 0; crowd_count < 200; ++crowd_count) {
+        const LimitedArms of(random, 5, crowd_count % 3 == 0);
+        Crowd crowd = of.crowd();
+        crowd.solve();
+        for (std::uint32_t n = 0; n < of.arms.size(); ++n) {
+            const std::vector<swivel_arc> arcs = crowd.allowed_arcs(0, n);
+            const LimbPose pose = pose_of(crowd, n);
+            const SwivelCircle circle(of.arms[n], pose);
+            if (circle.away < 0.05) continue;  // nearly straight: its swivel is hardly known
+            const auto is_inside = [&](double angle, double wider) {
+                return std::ranges::any_of(arcs, [&](const swivel_arc& arc) {
+                    const double from = std::atan2(arc.from[1], arc.from[0]), to = std::atan2(arc.to[1], arc.to[0]);
+                    const auto ahead = [](double a, double b) { return std::fmod(b - a + 4 * kPi, 2 * kPi); };
+                    return from == to || ahead(from - wider, angle) <= ahead(from, to) + 2 * wider;
+                });
+            };
+            (arcs.empty() ? none : some) += 1;
+            CHECK(arcs.empty() == ((pose.flags & SWIVEL_INFEASIBLE) != 0));
+            if (!arcs.empty()) CHECK(is_inside(swivel_of(of.arms[n], pose), 1e-4));
+            for (int k = 0; k < 500; ++k) {
+                const double angle = -kPi + 2 * kPi * (k + 0.5) / 500, room = of.room(n, circle.at(angle));
+                if (std::fabs(room) > 1e-5) REQUIRE(is_inside(angle, 0) == (room > 0));
+            }
+        }
+    }
+    CHECK(some > 100);
+    CHECK(none > 100);
 }
 
 TEST_CASE("a locked angle does not allow its opposite")
@@ -155,16 +175,13 @@ TEST_CASE("a locked angle does not allow its opposite")
 TEST_CASE("where no middle angle is allowed, the one nearest its range is taken")
 {
     // About -80 degrees, and the target keeps it at +69 and more.
-    LimbUse use;
-    use.limits.shoulder_box = true;
     const Arm arm{Vector3d(1.9, 0, 0.1), Vector3d(0, -1, 0.3), 1, 1};
-    LimbGoal<float> goal = limb_goal<float>(arm);
-    goal.limits.shoulder_box[1] = {turned<float>(-1.3963), turned<float>(0.0873)};
-    const Solved<float> got = solve(use, goal);
-    REQUIRE((got.pose.arm.flags & SWIVEL_INFEASIBLE) != 0);
+    FreeLimb limb(arm, SWIVEL_WITH_SHOULDER_BOX);
+    limb.write(SWIVEL_SHOULDER_BOX, numbers(AngleBox{{0, 1, 2}, {{}, {-1.3963, 0.0873}, {}}}));
+    const LimbPose pose = limb.solve();
+    REQUIRE((pose.flags & SWIVEL_INFEASIBLE) != 0);
     const auto sine_at = [&](double angle) {  // of the middle angle, the swivel turned on by an angle
-        const Quaterniond shoulder = eigen(got.pose.arm.shoulder).normalized();
-        return (Eigen::AngleAxisd(angle, arm.wrist.normalized()) * shoulder).toRotationMatrix()(0, 2);
+        return (Eigen::AngleAxisd(angle, arm.wrist.normalized()) * pose.shoulder).toRotationMatrix()(0, 2);
     };
     double least = 1;
     for (int n = 0; n < 3600; ++n) least = std::min(least, sine_at(n * kPi / 1800));

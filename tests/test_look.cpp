@@ -2,7 +2,7 @@
 //
 // The promise of the look's formulas, in float: the shortest turn carries one direction to the other, a share of it is
 // that share of the angle, a cone holds it, the last joint brings the line of sight to the target, and eased
-// turns change by no more than they may. Eigen judges, by angles.
+// turns change by no more than they may. Eigen judges, by angles. How a look fades is in test_body_look_steps.cpp.
 #include "core/look.h"
 
 #include <catch2/catch.hpp>
@@ -27,11 +27,6 @@ Vector3d beside(Random& random, const Vector3d& direction)
 {
     const double angle = random.below(4) == 0 ? kPi - random.spread(1e-7, 0.1) : random.between(0, kPi);
     return std::cos(angle) * direction.normalized() + std::sin(angle) * random.across(direction.normalized());
-}
-Rotor<float> rotor_of(const Quaterniond& q)
-{
-    const Eigen::Quaternionf turn = q.cast<float>();
-    return rotor(turn.x(), turn.y(), turn.z(), turn.w());
 }
 LookJoint joint_of(double share, double most)
 {
@@ -102,7 +97,7 @@ TEST_CASE("the last joint brings the line of sight to its target")
             const auto rounded = [](const Vector3d& v) { return Vector3d(v.cast<float>().cast<double>()); };
             const Vector3d at = rounded(place), is = at + q * (rounded(eye) - at), to = rounded(target) - is;
             RC_ASSERT(!turn.held);
-            RC_ASSERT(angle_from_to(q * rounded(axis), to) <= 2e-6 + 2e-7 * place.norm() / to.norm());
+            RC_ASSERT(angle_from_to(q * rounded(axis), to) <= 3e-6 + 2e-7 * place.norm() / to.norm());
         }
     });
 }
@@ -117,7 +112,7 @@ TEST_CASE("a carried turn is the turn again, and a part of a way turns by less t
                 return Quaterniond(Eigen::AngleAxisd(cone * (random.below(4) ? random.unit() : 1), random.direction()));
             };
             const Quaterniond was = any_turn(), goal = any_turn();
-            const Rotor<float> from = from_quarter_tangent(quarter_tangent(rotor_of(was))), to = rotor_of(goal);
+            const Rotor<float> from = from_quarter_tangent(quarter_tangent(mv<float>(was))), to = mv<float>(goal);
             RC_ASSERT(eigen(from).angularDistance(was) <= 2e-6);
             const LookWay<float> way = look_way(from, to);
             const double part = random.below(4) ? random.unit() : 1;
@@ -127,27 +122,6 @@ TEST_CASE("a carried turn is the turn again, and a part of a way turns by less t
             RC_ASSERT(turn_angle(is) <= cone + 4e-6);
             // A way of half a turn or more, on which no step is the last, ends before half a turn.
             if (part == 1 && was.dot(goal) > 2e-3) RC_ASSERT(is.angularDistance(goal) <= 4e-6);
-        }
-    });
-}
-
-TEST_CASE("a look counts from none behind to all ahead, and less very near")
-{
-    const LookFade fade{-0.9f, 1 / 0.8f, 0.05f};
-    rc::prop("any target", [&](std::uint64_t seed) {
-        Random random{seed};
-        for (int n = 0; n < kTurns; ++n) {
-            const Vector3d axis = random.direction(), to = random.spread(1e-3, 1e3) * beside(random, axis);
-            const double unit = random.spread(0.1, 10);
-            const auto smooth = [](double x) {
-                x = std::clamp(x, 0.0, 1.0);
-                return x * x * (3 - 2 * x);
-            };
-            const double cosine = axis.dot(to.normalized());
-            const float got = look_weight(LineOfSight<float>{vector(0.0f, 0.0f, 0.0f), mv<float>(axis)}, mv<float>(to),
-                                          fade, float(unit));
-            RC_ASSERT(std::fabs(double{got} - smooth((cosine + 0.9) / 0.8) * smooth(to.norm() / (0.05 * unit))) <=
-                      2e-6);
         }
     });
 }

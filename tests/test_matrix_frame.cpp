@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tests/formula_limb.h"
+#include "tests/formula_arm.h"
 
 namespace {
 

@@ -45,7 +45,8 @@ double random_time(Random& random, double per_second)
     return n == 0 ? 0 : n == 1 ? 0.6 : jittered(random, per_second);
 }
 
-// The worst distance from the machine, in 4 seconds, as long as no decision is a matter of rounding.
+// The worst distance from the machine, in 4 seconds, as long as no decision is a matter of rounding. 1 and more: they
+// decide otherwise, or say otherwise why.
 template <class T>
 double strayed_from_machine(std::uint64_t seed, double clearance)
 {
@@ -62,10 +63,13 @@ double strayed_from_machine(std::uint64_t seed, double clearance)
         t += time;
         const Vector3d x = eigen(mv<T>(way.place(t)));
         const bool label = labels.next(random, time);
+        if (random.below(100) == 0) machine.stands = PlantMachine::Stands::starts, point.state.fresh = true;  // a reset
+        const bool was_locked = machine.stands == PlantMachine::Stands::locked;
         const Vector3d want = machine.step(x, label, time, length), got = point.step(x, label, time, length);
         if (machine.clearance < clearance) break;
         if ((machine.stands == PlantMachine::Stands::locked) != point.state.locked) return 1;
         if (machine.is_cut != point.last.cut) return 2;
+        if ((was_locked && label && machine.stands == PlantMachine::Stands::releases) != point.last.too_far) return 3;
         worst = std::max(worst, (got - want).norm());
     }
     return worst;
@@ -90,14 +94,6 @@ void for_each_step(std::uint64_t seed, const Look& look)
         point.step(x, label, time, length);
         look(before, point, x, label, time, length);
     }
-}
-
-// A point that stands, labelled, on a way that has brought it to a speed.
-PlantedPoint<float> standing(const PlantRules& rules, double speed)
-{
-    PlantedPoint<float> point(rules);
-    for (int n = 0; n < 40; ++n) point.step({speed * n / 60, 0, 0}, n == 39, 1 / 60.0);
-    return point;
 }
 
 }  // namespace
@@ -145,19 +141,6 @@ TEST_CASE("a released point is with the animation again after its time to blend"
     });
 }
 
-TEST_CASE("no decision moves the point in the step that takes it")
-{
-    rc::prop("any label gives the same target", [](std::uint64_t seed) {
-        for_each_step<float>(seed, [](const PlantState<float>& before, const PlantedPoint<float>& point,
-                                      const Vector3d& x, bool label, double time, double length) {
-            PlantedPoint<float> other(point.rules);
-            other.state = before;
-            other.step(x, !label, time, length);
-            RC_ASSERT(is_same(other.last.target, point.last.target));
-        });
-    });
-}
-
 TEST_CASE("without time nothing that is carried changes")
 {
     rc::prop("whatever the label", [](std::uint64_t seed) {
@@ -175,88 +158,6 @@ TEST_CASE("without time nothing that is carried changes")
     });
 }
 
-TEST_CASE("a point is released by its label or by distance, and says which")
-{
-    const PlantRules rules = rules_of(swivel_default_plant());
-    PlantedPoint<float> point = standing(rules, 0);
-    REQUIRE(point.state.locked);
-    SECTION("by its label")
-    {
-        point.step({0.1, 0, 0}, false, 1 / 60.0);
-        CHECK(point.last.step.releases);
-        CHECK_FALSE(point.last.too_far);
-    }
-    SECTION("by distance")
-    {
-        point.step({0.239, 0, 0}, true, 1 / 60.0);
-        CHECK(point.state.locked);
-        point.step({0.241, 0, 0}, true, 1 / 60.0);
-        CHECK(point.last.step.releases);
-        CHECK(point.last.too_far);
-    }
-    SECTION("a limb twice as long has twice the distance")
-    {
-        point.step({0.47, 0, 0}, true, 1 / 60.0, 2);
-        CHECK(point.state.locked);
-        point.step({0.49, 0, 0}, true, 1 / 60.0, 2);
-        CHECK(point.last.too_far);
-    }
-}
-
-TEST_CASE("a point that shuffles under one label locks first, and again when it rests")
-{
-    PlantedPoint<float> point(rules_of(swivel_default_plant()));
-    int lock_count = 0;
-    double x = 0;
-    for (int n = 0; n < 60 * 12; ++n) {
-        x += (n < 600 ? 0.3 : 0) / 60;
-        point.step({x, 0, 0}, true, 1 / 60.0);
-        lock_count += point.last.step.locks;
-        if (n == 599) CHECK(lock_count == 1);
-    }
-    CHECK(lock_count == 2);
-    CHECK(point.state.locked);
-    // With no such speed it stays free under that label, and locks at the next.
-    swivel_plant plant = swivel_default_plant();
-    plant.again = 0;
-    point = PlantedPoint<float>(rules_of(plant));
-    for (int n = 0; n < 60 * 12; ++n) point.step({0.3 / 60 * std::min(n, 600), 0, 0}, true, 1 / 60.0);
-    CHECK_FALSE(point.state.locked);
-    point.step({3, 0, 0}, false, 1 / 60.0);
-    point.step({3, 0, 0}, true, 1 / 60.0);
-    CHECK(point.state.locked);
-}
-
-TEST_CASE("a point locks within `lock` of the animation only")
-{
-    const PlantRules rules = rules_of(swivel_default_plant());
-    PlantedPoint<float> point = standing(rules, 0);
-    point.step({0.2, 0, 0}, false, 1 / 60.0);  // released, 0.2 away
-    while (true) {
-        point.step({0.2, 0, 0}, true, 1 / 60.0);
-        const double offset = (eigen(point.last.target) - Vector3d(0.2, 0, 0)).norm();
-        CHECK(point.state.locked == (offset <= 0.12));
-        if (point.state.locked) break;
-    }
-}
-
-TEST_CASE("a body that was not solved for longer than `longest`, or is reset, starts anew")
-{
-    swivel_plant plant = swivel_default_plant();
-    plant.longest = 0.5f;
-    PlantedPoint<float> point = standing(rules_of(plant), 1);
-    const bool is_reset = GENERATE(true, false), label = GENERATE(true, false);
-    if (is_reset) point.state.fresh = true;
-    const Vector3d x(7, 8, 9);
-    point.step(x, label, is_reset ? 1 / 60.0 : 0.51);
-    CHECK(point.last.step.fresh);
-    CHECK(eigen(point.last.target) == x);
-    CHECK(point.state.locked == label);
-    CHECK_FALSE(point.last.cut);
-    point.step(x + Vector3d(0.1, 0, 0), label, 1 / 60.0);
-    CHECK(eigen(point.last.target) == (label ? x : Vector3d(eigen(mv<float>(x + Vector3d(0.1, 0, 0))))));
-}
-
 TEST_CASE("a point that locks goes on at its speed to its anchor, and never past it where `run` is 1")
 {
     for (const double run : {0.0, 0.5, 1.0}) {
@@ -270,22 +171,5 @@ TEST_CASE("a point that locks goes on at its speed to its anchor, and never past
         for (int n = 0; n < 200; ++n) most = std::max(most, point.step({0.5, 0, 0}, true, 1 / 2000.0).x() - anchor);
         // The offset's cubic swings out by most at the root of its derivative.
         CHECK(most == Approx(run == 0 ? 4.0 / 27 * 0.5 * 0.1 : run == 1 ? 0 : 0.00207).margin(3e-5));
-    }
-}
-
-TEST_CASE("a speed that is too high to be eased away is cut, and flagged")
-{
-    const swivel_plant plant = swivel_default_plant();
-    for (const double speed : {3.5, 3.7}) {  // 3 lock / stop is 3.6
-        PlantedPoint<float> point = standing(rules_of(plant), speed);
-        CHECK(point.last.cut == (speed > 3.6));
-        CHECK(eigen(point.state.velocity).norm() == Approx(std::min(speed, 3.6)).epsilon(1e-3));
-    }
-    for (const double speed : {4.0, 4.1}) {  // 6.75 lock / blend is 4.05
-        PlantedPoint<float> point = standing(rules_of(plant), 0);
-        for (int n = 0; n < 20; ++n) point.step({0, 0, 0}, true, 1 / 60.0);
-        point.step({0, 0, 0}, false, 1 / 60.0);
-        point.step({speed / 60, 0, 0}, false, 1 / 60.0);
-        CHECK(point.last.cut == (speed > 4.05));
     }
 }

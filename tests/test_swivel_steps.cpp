@@ -4,11 +4,12 @@
 // pole do. Only joint limits make it jump, and a flag says so. Without a largest swivel, the elbow jumps only where
 // swivel.h says.
 #include <catch2/catch.hpp>
+#include <optional>
 #include <vector>
 
 #include <rapidcheck/catch.h>
 
-#include "tests/formula_limb.h"
+#include "tests/free_limb.h"
 #include "tests/limit_oracle.h"
 
 namespace {
@@ -73,23 +74,20 @@ struct Run {
     int jumped = 0;
     Vector3d last;  // normal of the swivel plane
 };
-Run run(const Path& arms, LimbUse use, double most)
+// most: of the swivel in a frame; none: no limit.
+Run run(const Path& arms, std::optional<double> most)
 {
+    FreeLimb limb(arms[0], most ? SWIVEL_WITH_MOST_SWIVEL : 0);
+    if (most) limb.write(SWIVEL_MOST_SWIVEL, turn(*most));
     Run out;
-    Vector3d before;
-    Vector<float> normal = vector(0.0f, 0.0f, 0.0f);
     for (std::size_t n = 0; n < arms.size(); ++n) {
-        LimbGoal<float> goal = limb_goal<float>(arms[n]);
-        goal.continuity = {normal, turned<float>(most)};
-        const Solved<float> got = solve(use, goal);
-        if (n > 0) {
-            const double by = step(before, got.hinge, arms[n].wrist.normalized());
-            if (by > out.largest) out.largest = by, out.largest_frame = static_cast<int>(n);
-            out.jumped += (got.pose.arm.flags & SWIVEL_JUMPED) != 0;
-        }
-        before = got.hinge, normal = got.pose.normal;
+        write_arm(limb.crowd, 0, arms[n]);
+        const LimbPose got = limb.solve();
+        const double by = n > 0 ? step(out.last, got.hinge(), arms[n].wrist.normalized()) : 0;
+        if (by > out.largest) out.largest = by, out.largest_frame = static_cast<int>(n);
+        out.jumped += (got.flags & SWIVEL_JUMPED) != 0;
+        out.last = got.hinge();
     }
-    out.last = before;
     return out;
 }
 
@@ -97,12 +95,10 @@ Run run(const Path& arms, LimbUse use, double most)
 
 TEST_CASE("the swivel of a frame stays under the limit on every hard path")
 {
-    LimbUse use;
-    use.continuity = true;
     for (const NamedPath& hard : hard_paths())
         for (const double most : {0.02, 0.1, 0.5}) {
             INFO(hard.name << ", most " << most);
-            const Run got = run(hard.path, use, most);
+            const Run got = run(hard.path, most);
             CHECK(got.largest <= most + 1e-5);
             CHECK(got.jumped == 0);
         }
@@ -112,7 +108,7 @@ TEST_CASE("without the limit the elbow jumps where it is said to, and only there
 {
     for (const NamedPath& hard : hard_paths()) {
         INFO(hard.name);
-        const Run got = run(hard.path, {}, kPi);
+        const Run got = run(hard.path, {});
         const bool passes_shoulder = hard.name == "through the folded arm";
         const bool passes_pole = hard.name.find("pole") != std::string::npos;
         if (passes_shoulder || passes_pole)
@@ -126,8 +122,6 @@ TEST_CASE("random walks of target and pole stay under the limit, and follow the 
 {
     rc::prop("with nothing else", [](std::uint64_t seed) {
         Random random{seed};
-        LimbUse use;
-        use.continuity = true;
         const double most = random.between(0.01, 1);
         Path arms;
         Vector3d wrist = 0.4 * random.direction(), pole = random.direction();
@@ -136,71 +130,59 @@ TEST_CASE("random walks of target and pole stay under the limit, and follow the 
             arms.push_back(rounded(Arm{wrist, pole, 0.3, 0.25}));
         }
         arms.insert(arms.end(), 400, Arm(arms.back()));  // time to come to rest at the pole
-        const Run got = run(arms, use, most);
+        const Run got = run(arms, most);
         RC_ASSERT(got.largest <= most + 2e-5);
         const double sine = arms.back().wrist.normalized().cross(arms.back().pole.normalized()).norm();
-        if (sine > 0.05) RC_ASSERT((got.last - solve(LimbUse{}, limb_goal<float>(arms.back())).hinge).norm() <= 1e-5);
+        if (sine > 0.05) RC_ASSERT((got.last - solve_all({arms.back()})[0].hinge()).norm() <= 1e-5);
     });
 }
 
 TEST_CASE("joint limits win over the largest swivel, and say so")
 {
-    LimbUse use;
-    use.continuity = use.limits.shoulder_cone = true;
-    const Arm arm = rounded(Arm{{0, 0, 0.4}, {1, 0, 0}, 0.3, 0.3});
-    LimbGoal<float> goal = limb_goal<float>(arm);
-    const Solved<float> free = solve(use, goal);
-    goal.continuity = {free.pose.normal, turned<float>(0.1)};
-    goal.limits.shoulder_cone = {vector(-1.0f, 0.0f, 0.0f), 0.5f};  // the elbow has to go to the other side
-    const Solved<float> got = solve(use, goal);
-    CHECK((got.pose.arm.flags & SWIVEL_JUMPED) != 0);
-    CHECK((got.pose.arm.flags & SWIVEL_LIMITED_SHOULDER_CONE) != 0);
-    CHECK(got.elbow.normalized().x() <= -0.5 + 1e-6);
-    CHECK((free.pose.arm.flags & SWIVEL_JUMPED) == 0);
+    FreeLimb limb({{0, 0, 0.4}, {1, 0, 0}, 0.3, 0.3}, SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE);
+    limb.write(SWIVEL_MOST_SWIVEL, turn(0.1));
+    CHECK((limb.solve().flags & SWIVEL_JUMPED) == 0);
+    limb.write(SWIVEL_SHOULDER_CONE, Float4{-1, 0, 0, 0.5f});  // the elbow has to go to the other side
+    const LimbPose got = limb.solve();
+    CHECK((got.flags & SWIVEL_JUMPED) != 0);
+    CHECK((got.flags & SWIVEL_LIMITED_SHOULDER_CONE) != 0);
+    CHECK(got.elbow_place().normalized().x() <= -0.5 + 1e-6);
 }
 
 TEST_CASE("an angle is not turned on while the pole does not say where the elbow goes")
 {
-    LimbUse use;
-    use.angle = use.continuity = true;
-    Vector<float> normal = vector(0.0f, 0.0f, 0.0f);
-    Vector3d first = Vector3d::Zero();
-    for (int frame = 0; frame < 6; ++frame) {
-        const Vector3d pole = frame < 2 ? Vector3d(0, -1, 0) : Vector3d(0, 0, 5);  // then along the line
-        LimbGoal<float> goal = limb_goal<float>(rounded(Arm{{0, 0, 1.2}, pole, 1, 1}));
-        goal.angle = turned<float>(0.5);
-        goal.continuity.previous_normal = normal;
-        const Solved<float> got = solve(use, goal);
-        if (frame == 0) first = got.hinge;
-        INFO("frame " << frame);
-        CHECK((got.hinge - first).norm() <= 1e-6);
-        normal = got.pose.normal;
-    }
+    const Arm arm{{0, 0, 1.2}, {0, -1, 0}, 1, 1};
+    FreeLimb limb(arm, SWIVEL_WITH_ANGLE | SWIVEL_WITH_MOST_SWIVEL);
+    limb.write(SWIVEL_ANGLE, turn(0.5));
+    const Vector3d first = limb.solve().hinge();
+    limb.write(SWIVEL_POLE, Float3{0, 0, 5});  // along the line
+    for (int frame = 0; frame < 4; ++frame) CHECK((limb.solve().hinge() - first).norm() <= 1e-6);
 }
 
-TEST_CASE("steps of any size are told from larger ones: 1e-4 rad, and half a turn")
+TEST_CASE("steps of any size are told from larger ones, 1e-4 rad and half a turn among them, and go towards the wish")
 {
     Random random{9};
-    LimbUse use;
-    use.continuity = true;
     for (int n = 0; n < 3000; ++n) {
         const Arm arm = random_reachable(random);
-        const Vector3d line = arm.wrist.normalized();
-        LimbGoal<float> goal = limb_goal<float>(arm);
-        const Solved<float> free = solve(LimbUse{}, goal);
+        const Vector3d line = arm.wrist.normalized(), free = solve_all({arm})[0].hinge();
+        FreeLimb limb(arm, SWIVEL_WITH_MOST_SWIVEL);
         const double most = random.spread(1e-4, 3);
-        goal.continuity = {mv<float>(free.hinge), turned<float>(most)};
-        CHECK(solve(use, goal).pose.arm.flags == SWIVEL_REACHED);  // it is there already
-        const Vector3d far = Eigen::AngleAxisd(random.between(most + 1e-3, kPi), line) * free.hinge;
-        goal.continuity.previous_normal = mv<float>(far);
-        const Solved<float> got = solve(use, goal);
-        INFO("most " << most);
-        CHECK(step(far, got.hinge, line) <= most * (1 + 1e-5) + 2e-6);
-        CHECK((got.pose.arm.flags & SWIVEL_LIMITED_STEP) != 0);
+        limb.write(SWIVEL_MOST_SWIVEL, turn(most)), limb.write(SWIVEL_NORMAL, floats(free));
+        CHECK(limb.solve().flags == SWIVEL_REACHED);  // it is there already
+        const double away = random.between(most + 1e-3, kPi);
+        const Vector3d far = Eigen::AngleAxisd(random.below(2) ? away : -away, line) * free;
+        limb.write(SWIVEL_NORMAL, floats(far));
+        const LimbPose got = limb.solve();
+        INFO("most " << most << ", from " << away);
+        CHECK(step(far, got.hinge(), line) <= most * (1 + 1e-5) + 2e-6);
+        CHECK(step(free, got.hinge(), line) == Approx(away - most).margin(1e-5));
+        CHECK((got.flags & SWIVEL_LIMITED_STEP) != 0);
         // Half a turn is no limit, however it is rounded.
         for (const double half_turn : {kPi, double{3.14159274f}}) {
-            goal.continuity = {mv<float>(Vector3d(-free.hinge)), turned<float>(half_turn)};
-            CHECK(solve(use, goal).pose.arm.flags == SWIVEL_REACHED);
+            limb.write(SWIVEL_MOST_SWIVEL,
+                       std::array{static_cast<float>(std::cos(half_turn)), static_cast<float>(std::sin(half_turn))});
+            limb.write(SWIVEL_NORMAL, floats(Vector3d(-free)));
+            CHECK(limb.solve().flags == SWIVEL_REACHED);
         }
     }
 }
