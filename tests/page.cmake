@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise: the page that swivel view writes opens from disk, solves as the library does, and can be used (page/).
-#   BUILD: a build folder of emscripten. SWIVEL: the command, of which a copy goes beside the page's program. ARM: the program of page/limb.cpp.
+#   BUILD: a build folder of emscripten. SWIVEL: the command, of which a copy goes beside the page's program.
 #   SOURCE: the repository. WORK: an own folder. NODE, CHROMIUM.
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
@@ -21,4 +21,4 @@ file(COPY ${SWIVEL} DESTINATION ${WORK}/bin)
 get_filename_component(command ${SWIVEL} NAME)
 run(${CMAKE_COMMAND} --build ${BUILD} --target swivel_wasm_package swivel_view)
 run(${NODE} ${SOURCE}/tools/view/bundle.mjs ${BUILD}/tools/wasm ${WORK}/share/swivel/view.html)
-run(${CMAKE_COMMAND} -E env SWIVEL=${WORK}/bin/${command} ARM=${ARM} CHROMIUM=${CHROMIUM} WORK=${WORK} ${NODE} ${SOURCE}/tests/page/all.mjs)
+run(${CMAKE_COMMAND} -E env SWIVEL=${WORK}/bin/${command} CHROMIUM=${CHROMIUM} WORK=${WORK} ${NODE} ${SOURCE}/tests/page/all.mjs)

@@ -7,9 +7,11 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import xxhash
 import zarr
 
 from stage import CLIP, LIMITED, ROOT, STATE, WHOLE, Stage, unittest
+from swivel import Field
 
 LIMBS = ["left_arm", "right_arm", "left_leg", "right_leg"]
 
@@ -27,6 +29,23 @@ def table_of(path):
 
 def rotation_of(row, joint):
     return bits([float(row[f"{joint}_{axis}"]) for axis in "xyzw"])
+
+
+def opened(folder):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return zarr.open(str(folder), mode="r")
+
+
+def arrays_of(group):
+    """All arrays below a group of zarr by their paths, sorted."""
+    found = {}
+    group.visititems(lambda name, item: found.update({name: item}) if hasattr(item, "chunks") else None)
+    return dict(sorted(found.items()))
+
+
+def digest_of(content):
+    return xxhash.xxh3_64_intdigest(content) or 1
 
 
 def short_clip(path, frame_count):
@@ -62,9 +81,7 @@ class Values(Stage):
                 options = ["--crowd", "crowd.toml"] if toml else []
                 options += words[0:4] if name == "given" else []
                 self.swivel("solve", clip, "--characters", 45, "--out", "solved.csv", "--quiet", *options)
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore")
-                    cache = zarr.open(str(folder), mode="r")
+                cache = opened(folder)
                 limbs = LIMBS if toml else LIMBS[:2]
                 self.assertEqual(cache["shoulder"].shape, (20, len(limbs), 45, 4))
                 values = {name: cache[name][:] for name in ("shoulder", "elbow", "wrist", "flags") if name in cache}
@@ -93,6 +110,27 @@ class Values(Stage):
                 if name == "clavicle":
                     wanted = [",".join(line.split(",")[:22] + line.split(",")[26:]) for line in wanted]
                 self.assertEqual(found, wanted)
+
+    def test_digests_are_those_that_the_page_describes(self):
+        """Of goals, state and attributes, by another library's XXH3. `swivel check` proves those of results."""
+        self.swivel("solve", CLIP, "--limbs", "all", "--export-targets", "targets.csv", "--quiet")
+        folder = self.fill(self.store("cache", "--targets", "targets.csv", toml=WHOLE, characters=75, frames=23))
+        cache, numbers, count = opened(folder), [], 0
+        for name, digests in arrays_of(cache["goal_digest"]).items():
+            for place in np.argwhere(digests[:]):
+                self.assertEqual(digests[tuple(place)], digest_of((folder / name / ".".join(map(str, place))).read_bytes()), (name, place))
+                count += 1
+            numbers.append(digests[:].tobytes())
+        self.assertGreater(count, 40)
+        self.assertEqual(cache.attrs["goals_digest"], f"{digest_of(b''.join(numbers)):016x}")
+        state = {name: cache[f"state/{name}"].ndim for name in (field.name.lower() for field in Field if field >= Field.SHOULDER) if f"state/{name}" in cache}
+        self.assertGreater(len(state), 2)
+        for (time, column), digest in np.ndenumerate(cache["state/digest"][:]):
+            chunks = [(folder / "state" / name / ".".join([f"{time}.0.{column}", *"0" * (dimensions - 3)])).read_bytes() for name, dimensions in state.items()]
+            self.assertEqual(digest, digest_of(np.array([digest_of(chunk) for chunk in chunks], "<u8").tobytes()), (time, column))
+        text = re.sub(r'("(?:[^"\\]|\\.)*")|\s+', lambda match: match[1] or "", (folder / ".zattrs").read_text())
+        before, digest = re.fullmatch(r'(.*),"digest":"([0-9a-f]{16})"\}', text).groups()
+        self.assertEqual(digest, f"{digest_of((before + '}').encode()):016x}")
 
     def test_edges_of_chunks_are_empty(self):
         cache = self.fill(self.store("cache", toml=LIMITED, characters=20, frames=10))
@@ -123,10 +161,7 @@ class Documentation(Stage):
         rows = {name: (kind, dimensions) for name, kind, dimensions in re.findall(r"^\| `([a-z_/]+)` \| `\\?([<|][a-z]\d)` \| ([a-z_, ]+) \|", text, re.M)}
         self.swivel("solve", CLIP, "--export-targets", "targets.csv", "--limbs", "all", "--quiet")
         folder = self.store("cache", "--targets", "targets.csv", toml=WHOLE, characters=20, frames=4, chunk="2,16")
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            cache, found = zarr.open(str(folder), mode="r"), {}
-        cache.visititems(lambda name, item: found.update({name: item}) if hasattr(item, "chunks") else None)
+        found = arrays_of(opened(folder))
         self.assertEqual({name for name in found if not name.startswith(("state/", "goal_digest/"))}, {name for name in rows if not name.startswith("state/")})
         for name, (kind, dimensions) in rows.items():
             with self.subTest(array=name):

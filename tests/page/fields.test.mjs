@@ -2,7 +2,7 @@
 // The promise: switches and sliders show what the chosen limbs have, take away a crowd file's limits, and change all or nothing.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { clip, file, visit, write } from './harness.mjs';
+import { choose, clip, file, state, visit, write } from './harness.mjs';
 
 const toml = file('limits.toml', `[limb.arms]
 limits.flexion_deg = [20, 70]
@@ -14,24 +14,23 @@ reach = { soft_far = 0.2 }
 const limited = write('limits.html', 'view', clip, '--limbs', 'all', '--characters', '4', '--frames', '30', '--crowd', toml);
 const box = (page, field) => page.locator(`[data-field=${field}]`);
 const bars = (page, field) => box(page, field).locator('xpath=ancestor::div[1]').locator('input[type=range]').evaluateAll((all) => all.map(({ value }) => Number(value)));
-const choose = (page, name) => page.evaluate((which) => swivelPage.select({ limb: swivelPage.stage.limbs.find((limb) => limb.name === which), character: 1 }), name);
 
 test('switches and sliders follow the chosen kind of limb', async () => {
   await visit(limited, async (page) => {
     await page.getByText('Limits and weights').click();
     for (const name of ['left_arm', 'right_arm']) {
-      await choose(page, name);
+      await choose(page, name, 1);
       assert.deepEqual(await bars(page, 'FLEXION_LIMIT'), [20, 70], name);
       assert.deepEqual(await bars(page, 'HUMERAL_TWIST'), [-30, 50], name);
       assert.equal(await box(page, 'REACH').isChecked(), false);
     }
-    await choose(page, 'right_leg');
+    await choose(page, 'right_leg', 1);
     assert.deepEqual(await bars(page, 'FLEXION_LIMIT'), [0, 120]);
     assert.equal((await bars(page, 'REACH'))[0], 0.2);
     assert.deepEqual([await box(page, 'REACH').isChecked(), await box(page, 'HUMERAL_TWIST').isChecked()], [true, false]);
-    await page.evaluate(() => swivelPage.select(null));
+    await choose(page, null);
     assert.deepEqual(await box(page, 'REACH').evaluate((input) => [input.checked, input.indeterminate]), [true, true]);
-    assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
+    assert.equal(await state(page), 'equal');
   });
 });
 
@@ -51,15 +50,15 @@ test('a limit of the crowd file can be switched off and on', async () => {
     });
     const [arms, legs] = await flexions();
     assert.ok(Math.abs(arms - 70) < 0.1 && Math.abs(legs - 120) < 0.1, `${arms} ${legs}`);
-    await choose(page, 'left_arm');
+    await choose(page, 'left_arm', 1);
     await box(page, 'FLEXION_LIMIT').uncheck();
     const [free, kept] = await flexions();
     assert.ok(free > 100 && Math.abs(kept - 120) < 0.1, `${free} ${kept}`);
-    await choose(page, 'left_leg');
+    await choose(page, 'left_leg', 1);
     await box(page, 'FLEXION_LIMIT').uncheck();
     assert.equal(await page.evaluate(() => swivelPage.stage.limbs.some((limb) => swivelPage.stage.has(limb, 'FLEXION_LIMIT'))), false);
     assert.ok((await flexions())[1] > 125);
-    assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'changed');
+    assert.equal(await state(page), 'changed');
     await box(page, 'FLEXION_LIMIT').check();
     assert.ok(Math.abs((await flexions())[1] - 120) < 0.1);
   });
@@ -69,18 +68,17 @@ test('weights say how much of the clip is kept, and a pole\'s counts where it is
   const place = write('weights.html', 'view', clip, '--characters', '4', '--frames', '30', '--crowd', file('weights.toml', '[limb.left_arm]\nweights.position = 0.5\n'));
   await visit(place, async (page) => {
     await page.getByText('Limits and weights').click();
-    await choose(page, 'left_arm');
+    await choose(page, 'left_arm', 1);
     const weights = box(page, 'WEIGHTS').locator('xpath=ancestor::div[1]'), weigh = (name, value) => weights.getByLabel(name).fill(value);
-    const state = () => page.evaluate(() => swivelPage.stage.digestState());
     const joint = (name) => page.evaluate((part) => swivelPage.stage.pose(swivelPage.selection.limb, 1)[part], name);
     const move = (part, by) => page.evaluate(([which, step]) => {
       const { stage, selection: { limb } } = swivelPage;
       swivelPage.drag(which, stage.goal(limb, 1, which).map((coordinate, axis) => coordinate + step[axis]));
     }, [part, by]);
     const apart = (a, b) => Math.hypot(...a.map((coordinate, axis) => coordinate - b[axis]));
-    assert.deepEqual([await bars(page, 'WEIGHTS'), await state()], [[0.5, 1, 1], 'equal']);
+    assert.deepEqual([await bars(page, 'WEIGHTS'), await state(page)], [[0.5, 1, 1], 'equal']);
     await weigh('Pole', '0');
-    assert.deepEqual([await bars(page, 'WEIGHTS'), await state()], [[0.5, 1, 0], 'changed']);
+    assert.deepEqual([await bars(page, 'WEIGHTS'), await state(page)], [[0.5, 1, 0], 'changed']);
     const [wrist, elbow] = [await joint('wrist'), await joint('elbow')];
     await move('pole', [9, 1, 3]);
     assert.ok(apart(await joint('elbow'), elbow) === 0, 'a pole of no weight says nothing');
@@ -110,7 +108,7 @@ test('a change that fails leaves the crowd as it was, and is told', async () => 
     assert.equal(await box(page, 'SHOULDER_BOX').isChecked(), false);
     assert.equal(await page.getByRole('button', { name: 'Undo' }).isVisible(), false);
     await page.evaluate(() => swivelPage.setFrame(7));
-    assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
+    assert.equal(await state(page), 'equal');
     await page.evaluate(() => window.taken.forEach((at) => swivelPage.stage.memory.free(at)));
     await box(page, 'SHOULDER_BOX').click();
     assert.equal(await page.textContent('.notice'), '');

@@ -34,13 +34,13 @@ export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding:
 
 /**
  * Opens a page, which stands still; use gets playwright's page. before: run in the page before its script. isFresh: opens it, though a test
- * has left it open. isJudged: it looks whether it is whole. spoils: it is not for other tests. reducedMotion, colorScheme: of the system. options: of a context.
+ * has left it open. spoils: it is not for other tests. reducedMotion, colorScheme: of the system. options: of a context.
  */
-export async function visit(file, use, { before, hash = '', isFresh = false, isJudged = false, spoils = false, reducedMotion = 'reduce', colorScheme = 'light', ...options } = {}) {
+export async function visit(file, use, { before, hash = '', isFresh = false, spoils = false, reducedMotion = 'reduce', colorScheme = 'light', ...options } = {}) {
   const tab = await take(file, { viewport: { width: 800, height: 500 }, ...options }, isFresh);
   let isGood = false;
   try {
-    await show(tab, file, { hash, media: { reducedMotion, colorScheme }, isFresh, isJudged, before });
+    await show(tab, file, { hash, media: { reducedMotion, colorScheme }, isFresh, before });
     await use(tab.page);
     assert.deepEqual(tab.faults, []);
     isGood = !spoils;
@@ -68,12 +68,29 @@ export function signed(text) {
   return text.slice(0, begin) + digest.toString(16).padStart(16, '0') + text.slice(begin + 16);
 }
 
-/** Where a part of the chosen limb is on the page: "target", "pole", "shoulder", "elbow" or "wrist". */
+/** Where a part of the chosen limb is on the page: a joint, a goal ("target", "pole"), or another handle ("cone", "hips", "ground"). */
 export const pixel = (page, part) => page.evaluate((which) => {
-  const { stage, view, selection: { limb, character } } = swivelPage;
-  const at = which in { target: 0, pole: 0 } ? stage.goal(limb, character, which) : stage.pose(limb, character)[which];
-  return view.project(at);
+  const { stage, view, picker: { handles }, selection: { limb, character } } = swivelPage;
+  if (which === 'target' || which === 'pole') return view.project(stage.goal(limb, character, which));
+  if (which in handles) return view.project(view.toClip(handles[which].getWorldPosition(view.camera.position.clone())));
+  return view.project(stage.pose(limb, character)[which]);
 }, part);
+
+/** Chooses a character's limb by its name. Without one, nothing is chosen. */
+export const choose = (page, name, character) => page.evaluate(([which, who]) => {
+  swivelPage.select(which && { limb: limbOf(which), character: who });
+  swivelPage.draw();
+}, [name, character]);
+
+/** Digests of frames, each with whether it is the command's: "equal", or "changed" by the user. */
+export const digests = (page, frames) => page.evaluate((list) => list.map((frame) => {
+  swivelPage.setFrame(frame);
+  return [swivelPage.stage.digest(), swivelPage.stage.digestState()];
+}), frames);
+export const digest = (page) => page.evaluate(() => swivelPage.stage.digest());
+export const state = (page) => page.evaluate(() => swivelPage.stage.digestState());
+export const assertEqualBits = async (page, frames) => assert.deepEqual((await digests(page, frames)).map(([, state]) => state), frames.map(() => 'equal'));
+export const range = (count) => [...Array(count).keys()];
 
 /** How much of the picture differs between two moments, as a share of its pixels. */
 export async function difference(page, act) {
@@ -110,6 +127,12 @@ export async function until(page, value, isWanted) {
   assert.fail(`${value} did not come`);
 }
 
+/** A drag of a goal or handle of the chosen limb by so many pixels. Returns where it began. */
+export async function pull(page, part, x, y) {
+  const from = await pixel(page, part);
+  await drag(page, from, { x: from.x + x, y: from.y + y });
+  return from;
+}
 /** A drag of the mouse from one place to another, in steps. */
 export async function drag(page, from, to) {
   await page.mouse.move(from.x, from.y);

@@ -21,6 +21,24 @@ function drawIfSeen() {
   }
 }
 
+/** In the page: what tests ask of it again and again. */
+function help() {
+  window.limbOf = (name) => swivelPage.stage.limbs.find((limb) => limb.name === name);
+  window.apart = (a, b) => Math.hypot(...a.map((x, axis) => x - b[axis]));
+  /** How far the shader has elbows and wrists from where the library has them, in limb lengths, at worst. characters: those that are drawn. */
+  window.worstDrawn = (characters) => {
+    const { stage } = swivelPage;
+    swivelPage.draw();
+    return Math.max(...stage.limbs.flatMap((limb) => {
+      const drawn = swivelPage.readback(limb, characters.length);
+      return characters.flatMap((who, n) => ['elbow', 'wrist'].map((joint, which) => {
+        const { place } = stage.characters[who], at = stage.pose(limb, who)[joint].map((x, axis) => x - place[axis]);
+        return window.apart(at, drawn[2 * n + which]) / stage.armLength(limb, who);
+      }));
+    }));
+  };
+}
+
 /** In the page, once it is ready: remembers how it is, and defines window.renew(). */
 function remember() {
   const { stage, view, drawnCount, theme } = swivelPage, { size, covered } = view, { className } = document.body;
@@ -85,6 +103,7 @@ async function newTab(key) {
   page.on('request', (request) => { if (request.url() !== tab.url && !/^(blob|data):/.test(request.url())) tab.faults.push(`request: ${request.url()}`); });
   await devtools.send('Page.enable');
   await page.addInitScript(drawIfSeen);
+  await page.addInitScript(help);
   tabs.push(tab);
   return tab;
 }
@@ -107,11 +126,6 @@ export function leave(tab, isGood) {
 /** A page that is written again is another one. */
 export const forget = (file) => tabs.filter((tab) => tab.file === file).forEach((tab) => { tab.file = null; });
 
-/** A page that does not find its script does not judge it, which takes a fifth of an opening. */
-function hideScript() {
-  Object.defineProperty(Document.prototype, 'currentScript', { value: null });
-}
-
 /** Opens a tab's page. before: run in it before its script. */
 export async function open({ page, url, devtools }, hash = '', before = null) {
   const script = before && await devtools.send('Page.addScriptToEvaluateOnNewDocument', { source: `(${before})()` });
@@ -123,13 +137,13 @@ export async function open({ page, url, devtools }, hash = '', before = null) {
   }
   if (script) await devtools.send('Page.removeScriptToEvaluateOnNewDocument', script);
 }
-/** Shows a page, which stands still, as it is when it is opened. isFresh: opens it whatever the tab shows. isJudged: it looks whether it is whole. */
-export async function show(tab, file, { hash, media, isFresh, isJudged, before }) {
+/** Shows a page, which stands still, as it is when it is opened. isFresh: opens it whatever the tab shows. */
+export async function show(tab, file, { hash, media, isFresh, before }) {
   const { page, url } = tab, medium = JSON.stringify(media);
   await page.mouse.move(0, 0);
-  if (!isFresh && !isJudged && !before && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew())) return follow(page, hash);
+  if (!isFresh && !before && tab.file === file && tab.media === medium && await page.evaluate(() => window.renew())) return follow(page, hash);
   await page.emulateMedia(media);
-  await open(tab, isFresh ? hash : '', isJudged ? before : `() => { (${hideScript})(); (${before ?? (() => {})})(); }`);
+  await open(tab, isFresh ? hash : '', before);
   const isCrowd = await page.evaluate(() => window.swivelPage?.ready.then(() => true));
   Object.assign(tab, { file: isCrowd && !isFresh && !before ? file : null, media: medium });
   if (!tab.file) return;

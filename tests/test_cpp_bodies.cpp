@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: crowds of bodies that swivel.hpp makes and drives have the bits of crowds made and driven in C. Standing
+// crowds of the corpus are played both ways: groups from makers, state as the caller's structures, ground from a
+// function, which may throw.
+#include <algorithm>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "tools/corpus/corpus.h"
+
+namespace {
+
+using namespace swivel;
+using corpus::Recipe;
+
+const Recipe& standing(std::string_view name) { return corpus::recipe_of(corpus::Part::standing, name); }
+
+// A standing crowd of the corpus, and the poses that it is solved with.
+class Player {
+public:
+    explicit Player(const Recipe& recipe, std::uint32_t body_count = 20)
+        : crowd(corpus::make_crowd(recipe, body_count)), standing_(recipe, body_count)
+    {
+    }
+    // With another crowd of the same groups, which gets the inputs of the corpus.
+    Player(const Recipe& recipe, Crowd made) : Player(recipe, swivel_group_limb_count(made.get(), 0))
+    {
+        for (std::uint32_t group = 0; group < swivel_group_count(made.get()); ++group) {
+            const swivel_rows from = swivel_input_rows(crowd.get(), group), to = swivel_input_rows(made.get(), group);
+            REQUIRE(from.row_count == to.row_count);
+            std::copy_n(from.base, std::size_t{from.block_count} * from.row_count * SWIVEL_LANES, to.base);
+        }
+        crowd = std::move(made);
+    }
+
+    // Frames from the first on, each solved by solve(job).
+    template <class Solve>
+    Player& play(std::uint32_t frames, const Solve& solve)
+    {
+        for (std::uint32_t frame = 0; frame < frames; ++frame) {
+            standing_.go_to(frame, crowd);
+            corpus::with_job(standing_.poses(), solve);
+        }
+        return *this;
+    }
+    Player& play(std::uint32_t frames = 20)
+    {
+        return play(frames, [&](const Job& job) { crowd.solve(job); });
+    }
+    std::uint64_t digest() { return corpus::digest_poses(standing_.poses(), crowd.digest()); }
+
+    Crowd crowd;
+
+private:
+    corpus::Standing standing_;
+};
+
+// Calls take() with C's definition of a crowd of 20 bodies.
+template <class Take>
+void with_definition(const Recipe& recipe, const Take& take)
+{
+    corpus::with_definition(recipe, {20, 20, 20},
+                            [&](const void* def) { take(*static_cast<const swivel_crowd_def*>(def)); });
+}
+
+// A group as the makers of swivel.hpp make it, with the members that they do not take.
+swivel_group_def made_as(const swivel_group_def& in_c)
+{
+    swivel_group_def made = in_c.features & SWIVEL_FIT    ? fit_group(in_c.fit)
+                            : in_c.features & SWIVEL_PROP ? prop_group(in_c.prop)
+                            : in_c.features & SWIVEL_LOOK
+                                ? look_group(std::span(in_c.look.joints).first(in_c.look.joint_count), in_c.look)
+                                : body_group(*in_c.joints, in_c.features);
+    made.on_bad_input = in_c.on_bad_input;
+    made.shoulder_order = in_c.shoulder_order, made.wrist_order = in_c.wrist_order;
+    made.plant = in_c.plant, made.ground = in_c.ground, made.link = in_c.link;
+    return made;
+}
+
+// A hill for each body. Heels have ground of another slope than toes.
+void put_hills(const Probes& probes)
+{
+    for (std::size_t n = 0; n < probes.bodies.size(); ++n) {
+        const float slope = 0.1f * static_cast<float>(probes.bodies[n] % 3 + probes.group);
+        std::copy_n(probes.places[n], 3, probes.grounds[n]);
+        probes.grounds[n][1] = slope * probes.places[n][0];
+        probes.normals[n][0] = -slope, probes.normals[n][1] = 1, probes.normals[n][2] = 0;
+    }
+}
+// The same between two calls in C: one for the probes, one for all else.
+void by_two_calls(Crowd& crowd, const Job& job)
+{
+    Job probes = job;
+    probes.probes_only = true;
+    crowd.solve(probes);
+    for (std::uint32_t group = 0; group < 3; ++group) {
+        const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
+        std::vector<std::uint32_t> bodies(count);
+        std::vector<std::array<float, 3>> places(count), grounds(count), normals(count);
+        for (std::uint32_t n = 0; n < count; ++n) bodies[n] = n;
+        const auto rows = [&](auto& values) { return std::span(reinterpret_cast<float(*)[3]>(values.data()), count); };
+        crowd.read(SWIVEL_PROBE, group, places);
+        put_hills({group, bodies, rows(places), rows(grounds), rows(normals)});
+        crowd.write(SWIVEL_GROUND, group, grounds);
+        crowd.write(SWIVEL_GROUND_NORMAL, group, normals);
+    }
+    crowd.solve(job);
+}
+
+}  // namespace
+
+TEST_CASE("C++: groups from makers and a crowd from a skeleton have the bits of C's definitions")
+{
+    for (const Recipe& recipe : corpus::recipes_of(corpus::Part::standing)) {
+        std::optional<Crowd> crowd;
+        with_definition(recipe, [&](const swivel_crowd_def& def) {
+            std::vector<swivel_group_def> groups;
+            for (std::uint32_t n = 0; n < def.group_count; ++n) groups.push_back(made_as(def.groups[n]));
+            crowd.emplace(*def.skeleton, def.body_count, groups, std::array{def.up[0], def.up[1], def.up[2]});
+        });
+        INFO(corpus::full_name(recipe));
+        CHECK(Player(recipe, std::move(*crowd)).play().digest() == Player(recipe).play().digest());
+    }
+}
+
+TEST_CASE("C++: what a maker is not told is as in C: constants, what bad input gets, and up")
+{
+    CHECK(fit_group().fit.half == swivel_default_fit().half);
+    CHECK(prop_group().prop.joint == swivel_default_prop().joint);
+    const swivel_group_def look = look_group({3, 1, 4});
+    CHECK(look.look.rate == swivel_default_look().rate);
+    CHECK(look.look.joint_count == 3);
+    CHECK(look.look.joints[2] == 4);
+    for (const swivel_group_def& def : {fit_group(), prop_group(), look}) CHECK(def.on_bad_input == SWIVEL_KEEP_POSE);
+
+    const Recipe& recipe = standing("feet");
+    std::vector<std::uint64_t> digests;
+    with_definition(recipe, [&](const swivel_crowd_def& def) {
+        const std::span groups(def.groups, def.group_count);
+        digests.push_back(Player(recipe, Crowd(*def.skeleton, 20, groups)).play().digest());
+        for (const std::array<float, 3>& up : {std::array{0.0f, 2.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}})
+            digests.push_back(Player(recipe, Crowd(*def.skeleton, 20, groups, up)).play().digest());
+        const swivel_group_def long_look = look_group({0, 1, 2, 3, 4, 5, 6, 7, 8});
+        CHECK_THROWS_WITH(Crowd(*def.skeleton, 20, std::span(&long_look, 1)), Catch::Contains("look.joint_count is 9"));
+    });
+    CHECK(digests[0] == digests[1]);
+    CHECK(digests[0] != digests[2]);
+}
+
+TEST_CASE("C++: what is carried is read and set back as the caller's structures, and supports change for some bodies")
+{
+    struct Leg {
+        std::array<float, 11> plant;
+        std::uint32_t mark;
+    };
+    Player feet(standing("feet-by-motion"));
+    feet.play();
+    std::vector<Leg> legs(20, Leg{{}, 7});
+    std::vector<std::array<float, 11>> plants(20), again(20);
+    feet.crowd.read(SWIVEL_PLANT, 1, legs);
+    feet.crowd.read(SWIVEL_PLANT, 1, plants);
+    for (std::size_t n = 0; n < legs.size(); ++n) CHECK((legs[n].plant == plants[n] && legs[n].mark == 7));
+    Player other(standing("feet-by-motion"));
+    other.crowd.write(SWIVEL_PLANT, 1, legs);
+    other.crowd.read(SWIVEL_PLANT, 1, again);
+    CHECK(plants == again);
+
+    const std::vector<corpus::Support> from(2, {{1, 2, 3}, {0, 0, 0, 1}}),
+        to{{{1, 2.25, 3}, {0, 0.6f, 0, 0.8f}}, {{0, 2, 3}, {0, 0, 0.6f, 0.8f}}};
+    Player in_c(standing("feet-by-motion"));
+    in_c.play();
+    const auto view = [](const std::vector<corpus::Support>& supports) {
+        return swivel_supports{.position = stream(supports, &corpus::Support::position),
+                               .rotation = stream(supports, &corpus::Support::rotation)};
+    };
+    feet.crowd.change_support(0, 4, 2, view(from), view(to));
+    for (std::uint32_t n = 0; n < 2; ++n) corpus::change_support(in_c.crowd, 0, 4 + n, from[n], to[n]);
+    CHECK(feet.digest() == in_c.digest());
+    CHECK(feet.digest() != Player(standing("feet-by-motion")).play().digest());
+}
+
+TEST_CASE("C++: a function is asked for ground at each foot's probe, and gives the bits of two calls")
+{
+    const Recipe& recipe = standing("ground");
+    Player asking(recipe, 300), calling(recipe, 300);
+    std::mutex one_at_a_time;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> asked;
+    asking.play(3, [&](Job job) {
+        asked.clear();
+        job.sample = [&](const Probes& probes) {
+            const std::lock_guard lock(one_at_a_time);
+            for (std::size_t n = 0; n < probes.bodies.size(); ++n) {
+                CHECK(asked.insert({probes.group, probes.bodies[n]}).second);
+                std::array<float, 3> ground[1];
+                asking.crowd.read(SWIVEL_GROUND, probes.group, ground, probes.bodies[n]);
+                CHECK(std::isnan(ground[0][1]) == std::isnan(probes.grounds[n][1]));
+            }
+            put_hills(probes);
+        };
+        asking.crowd.solve(job);
+    });
+    CHECK(asked.size() > 3 * 290);  // a few have bad input
+    calling.play(3, [&](const Job& job) { by_two_calls(calling.crowd, job); });
+    CHECK(asking.digest() == calling.digest());
+    CHECK(asking.digest() != Player(recipe, 300).play(3).digest());
+}
+
+TEST_CASE("C++: what a function throws comes out of solve, which is done, and no more feet ask")
+{
+    const Recipe& recipe = standing("ground");
+    const auto solved = [&](const Sample& sample, bool on_this_thread, const char* throws) {
+        Player player(recipe, 300);
+        player.play(1, [&](Job job) {
+            job.sample = sample, job.on_this_thread = on_this_thread;
+            if (throws)
+                CHECK_THROWS_WITH(player.crowd.solve(job), throws);
+            else
+                player.crowd.solve(job);
+        });
+        return player.digest();
+    };
+    const std::uint64_t untold = solved({}, true, nullptr), told = solved(put_hills, true, nullptr);
+    CHECK(told != untold);
+    for (const bool on_this_thread : {true, false})
+        for (const int last : {1, 2}) {
+            std::atomic<int> calls = 0;
+            const auto throwing = [&](const Probes& probes) {
+                if (++calls >= last) throw std::runtime_error("no ground loaded");
+                put_hills(probes);
+            };
+            const std::uint64_t digest = solved(throwing, on_this_thread, "no ground loaded");
+            CHECK((digest == untold) == (last == 1));
+            CHECK(digest != told);
+            if (on_this_thread) CHECK(calls == last);
+        }
+}
+
+TEST_CASE("C++: frames of bodies have values of their fields' widths and kinds, and jobs say once how ground comes")
+{
+    std::vector<std::array<float, 11>> plants(2);
+    std::vector<std::array<double, 3>> places(2);
+    Frame frame;
+    CHECK_NOTHROW(frame.out(SWIVEL_PLANT, stream(plants)));
+    CHECK_NOTHROW(frame.in(SWIVEL_COMING, stream(places)));
+    CHECK_THROWS_WITH(frame.out(SWIVEL_SHIFT, stream(plants)), Catch::Contains("11 floats is no value"));
+    CHECK_THROWS_WITH(frame.in(SWIVEL_CAP, stream(places)), Catch::Contains("is no position"));
+    CHECK(component_count(SWIVEL_SIGHT) == 6);
+    CHECK(component_count(SWIVEL_SHOULDER_BOX) == 12);
+    CHECK(component_count(SWIVEL_PROP_FRAME) == 7);
+    CHECK(component_count(SWIVEL_SHIFT) == 3);
+
+    Player near(standing("ground"));
+    near.play(1, [&](Job job) {
+        job.probes_only = true, job.sample = put_hills;
+        CHECK_THROWS_WITH(near.crowd.solve(job), Catch::Contains("probes_only does not call it"));
+    });
+    Player far(standing("prop-at-joint"));
+    far.play(1, [&](Job job) {
+        const std::vector<std::array<float, 3>> grounds(20);
+        std::vector<Frame> frames(swivel_group_count(far.crowd.get()));
+        frames[0].in(SWIVEL_GROUND, stream(grounds));
+        job.frames = frames;
+        CHECK_THROWS_WITH(far.crowd.solve(job),
+                          Catch::Contains("ground is in floats, but the pose has root_is_double"));
+    });
+    std::vector<std::array<double, 3>> origins(20);
+    std::uint32_t prop = 0;
+    while (!(swivel_group_features(far.crowd.get(), prop) & SWIVEL_PROP)) ++prop;
+    CHECK_NOTHROW(far.crowd.write_doubles(SWIVEL_PROP_PLACE, prop, origins));
+    CHECK_THROWS_WITH(far.crowd.write_doubles(SWIVEL_PROP_PLACE, prop, origins, stream(origins)),
+                      Catch::Contains("it is in a joint's frame here, which has no origin; give null"));
+}
