@@ -46,7 +46,6 @@ std::array<Names, 4> found(const Clip& clip)
 }
 
 Names left_arm(const std::vector<Names>& chains) { return found(skeleton(chains))[0]; }
-Names left_leg(const std::vector<Names>& chains) { return found(skeleton(chains))[2]; }
 
 std::string problem(const std::vector<Names>& chains)
 {
@@ -135,40 +134,37 @@ TEST_CASE("limb joints: what exporters add to every name does not count")
     require_pair(false, {"ValveBiped.Bip01_*_Thigh", "ValveBiped.Bip01_*_Calf", "ValveBiped.Bip01_*_Foot"}, "L", "R");
 }
 
-TEST_CASE("limb joints: what lies between may have any name but that of another upper or lower joint")
+TEST_CASE("limb joints: which joints of a chain are the limb")
 {
-    CHECK(left_arm({{"LeftArm", "Gadget", "LeftForeArm", "LeftHand"}}) == Names{"LeftArm", "LeftForeArm", "LeftHand"});
-    CHECK(left_arm({{"Shoulder_L", "ShoulderPart1_L", "Elbow_L", "ElbowPart1_L", "Wrist_L"}}) ==
-          Names{"Shoulder_L", "Elbow_L", "Wrist_L"});
-    CHECK(left_leg({{"DEF-thigh.L", "DEF-thigh.L.001", "DEF-shin.L", "DEF-shin.L.001", "DEF-foot.L"}}) ==
-          Names{"DEF-thigh.L", "DEF-shin.L", "DEF-foot.L"});
-    CHECK(left_leg({{"lThighBend", "lThighTwist", "lShin", "lFoot"}}) == Names{"lThighBend", "lShin", "lFoot"});
-    // The first may be a clavicle.
-    CHECK(left_arm({{"LeftShoulder", "LeftArm", "LeftElbow", "LeftWrist"}}) ==
-          Names{"LeftArm", "LeftElbow", "LeftWrist"});
-    CHECK(left_arm({{"LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist"}}) ==
-          Names{"LeftShoulder", "LeftElbow", "LeftWrist"});
-    CHECK(left_arm({{"LeftArm", "LeftCollar", "LeftForeArm", "LeftHand"}}).empty());
-}
-
-TEST_CASE("limb joints: a name that is a thigh to some and a shin to others is what those around it make of it")
-{
-    const Names mixamo = {"LeftUpLeg", "LeftLeg", "LeftFoot"}, soma = {"LeftLeg", "LeftShin", "LeftFoot"};
-    CHECK(left_leg({mixamo}) == mixamo);
-    CHECK(left_leg({soma}) == soma);
-    CHECK(left_leg({{"LeftUpLeg", "LeftLeg", "LeftShin", "LeftFoot"}}) == soma);  // a shin has no thigh below it
-    const Names arm = {"LeftArm", "LeftForeArm", "LeftHand"}, ipi = {"LeftShoulder", "LeftForeArm", "LeftHand"};
-    CHECK(left_arm({{"LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand"}}) == arm);
-    CHECK(left_arm({{"LeftClavicle", "LeftShoulder", "LeftForeArm", "LeftHand"}}) == ipi);
-}
-
-TEST_CASE("limb joints: none where joints are no chain, or a joint is missing")
-{
-    REQUIRE_FALSE(left_leg({{"LeftUpLeg", "LeftLeg", "LeftFoot"}}).empty());
-    CHECK(left_leg({{"LeftUpLeg", "LeftLeg"}, {"LeftFoot"}}).empty());
-    CHECK(left_leg({{"LeftUpLeg", "LeftLeg"}}).empty());
-    CHECK(left_leg({{"LeftUpLeg", "LeftFoot", "LeftLeg"}}).empty());
-    CHECK(left_leg({{"RightUpLeg", "RightLeg", "RightFoot"}}).empty());
+    struct Row {
+        const char* why;
+        std::vector<Names> chains;
+        Names wanted = {};  // of the left limb; empty: none is found
+    };
+    const Names mixamo = {"LeftUpLeg", "LeftLeg", "LeftFoot"}, soma = {"LeftLeg", "LeftShin", "LeftFoot"},
+                arm = {"LeftArm", "LeftForeArm", "LeftHand"}, elbow = {"LeftArm", "LeftElbow", "LeftWrist"},
+                ipi = {"LeftShoulder", "LeftForeArm", "LeftHand"}, rigify = {"DEF-thigh.L", "DEF-shin.L", "DEF-foot.L"};
+    const std::vector<Row> rows = {
+        {"any name may lie between", {{"LeftArm", "Gadget", "LeftForeArm", "LeftHand"}}, arm},
+        {"bones in parts", {{"DEF-thigh.L", "DEF-thigh.L.001", "DEF-shin.L", "DEF-shin.L.001", "DEF-foot.L"}}, rigify},
+        {"twist bones", {{"lThighBend", "lThighTwist", "lShin", "lFoot"}}, {"lThighBend", "lShin", "lFoot"}},
+        {"a clavicle", {{"LeftShoulder", "LeftArm", "LeftElbow", "LeftWrist"}}, elbow},
+        {"an upper joint of another row lies between", {{"LeftArm", "LeftCollar", "LeftForeArm", "LeftHand"}}},
+        {"a leg is a shin", {mixamo}, mixamo},
+        {"a leg is a thigh", {soma}, soma},
+        {"a shin has no thigh below it", {{"LeftUpLeg", "LeftLeg", "LeftShin", "LeftFoot"}}, soma},
+        {"a shoulder is a clavicle", {{"LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand"}}, arm},
+        {"a shoulder is an upper arm", {{"LeftClavicle", "LeftShoulder", "LeftForeArm", "LeftHand"}}, ipi},
+        {"no chain", {{"LeftUpLeg", "LeftLeg"}, {"LeftFoot"}}},
+        {"no foot", {{"LeftUpLeg", "LeftLeg"}}},
+        {"another order", {{"LeftUpLeg", "LeftFoot", "LeftLeg"}}},
+        {"the other side", {{"RightUpLeg", "RightLeg", "RightFoot"}}},
+    };
+    for (const Row& row : rows) {
+        INFO(row.why);
+        const auto limbs = found(skeleton(row.chains));
+        CHECK((limbs[0].empty() ? limbs[2] : limbs[0]) == row.wanted);
+    }
     CHECK(problem({{"LeftArm", "LeftForeArm"}}) == "no joint is called 'lefthand' or alike for its wrist");
     CHECK(problem({{"LeftHand"}}).empty());  // one name alone says nothing
 }
