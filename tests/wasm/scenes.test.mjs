@@ -28,12 +28,16 @@ function crowdOf({ groups, skeleton, body_count, up, form, space, root_is_double
   return skeleton ? swivel.bodies({ skeleton, bodyCount: body_count, groups: all, up, form, space, rootIsDouble: Boolean(root_is_double) }) : swivel.crowd(all);
 }
 
-function give(crowd, { carried = [], inputs, doubles = [], pose = {} }, outputs) {
+// isViewed: inputs go into views of the memory, which a solve takes in.
+function give(crowd, { carried = [], inputs, doubles = [], pose = {} }, outputs, isViewed = false) {
   for (const { group, body, was, now } of carried) {
     const limbs = { group, first: body, count: 1 };
     if (was) crowd.changeSupport(was, now, limbs); else crowd.reset(limbs);
   }
-  inputs.forEach((fields, group) => Object.entries(fields).forEach(([name, values]) => crowd.write(Field[name.toUpperCase()], numbers(values), { group })));
+  inputs.forEach((fields, group) => Object.entries(fields).forEach(([name, values]) => {
+    if (isViewed && !doubles.length) crowd.values(Field[name.toUpperCase()], group).set(numbers(values));
+    else crowd.write(Field[name.toUpperCase()], numbers(values), { group });
+  }));
   doubles.forEach((fields, group) => Object.entries(fields).forEach(([name, values]) => crowd.positions(Field[name.toUpperCase()], group).set(numbers(values))));
   for (const [part, values] of Object.entries(pose)) crowd.pose(camel(part)).set(numbers(values));
   for (const part of outputs) crowd.pose(camel(part)).fill(0);
@@ -54,10 +58,10 @@ function writtenParts({ space, outputs, frames }) {
   return chosen.map((parts) => parts.find(has)).filter(Boolean).map(camel);
 }
 
-function* play(scene, crowd) {
+function* play(scene, crowd, isViewed) {
   const written = scene.skeleton ? writtenParts(scene) : [];
   for (const frame of scene.frames) {
-    give(crowd, frame, scene.outputs ?? []);
+    give(crowd, frame, scene.outputs ?? [], isViewed);
     const mask = Array.from({ length: Math.ceil(crowd.blockCount / 2) }, (_, word) => (word ? 0 : frame.mask));
     const solved = crowd.solve(frame.mask === undefined ? {} : { mask });
     yield { solved, digest: crowd.digest().toString(16), poses: digestOf(written.map((part) => crowd.pose(part))).toString(16) };
@@ -84,6 +88,23 @@ test('frames have the digests of C++', () => {
     });
     crowd.dispose();
   }
+});
+
+test('views of every field have the same bits, in and out', () => {
+  const seen = new Set();
+  for (const scene of scenes) {
+    const crowd = crowdOf(scene), views = [], isInDoubles = (field) => scene.frames.some(({ doubles = [] }) => doubles.some((fields) => Object.keys(fields).some((name) => Field[name.toUpperCase()] === field)));
+    for (let group = 0; group < crowd.groupCount; ++group)
+      for (const field of Object.values(Field)) if (crowd.componentCount(field, group) > 0 && !isInDoubles(field)) views.push({ field, group, view: crowd.values(field, group) });
+    let n = 0;
+    for (const found of play(scene, crowd, true)) {
+      assert.deepEqual(found, wanted(scene.frames[n]), `${scene.name}, frame ${n++}`);
+      for (const { field, group, view } of views) assert.deepEqual(view, crowd.read(field, { group }), `${scene.name}: field ${field} of group ${group}`);
+    }
+    views.forEach(({ field }) => seen.add(field));
+    crowd.dispose();
+  }
+  assert.deepEqual(Object.keys(Field).filter((name) => !seen.has(Field[name])), []);
 });
 
 test('what is carried can be saved and set back in another crowd, views too', () => {
