@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise: the package for the web installs from its tarball, its types hold, and its tests (wasm/) pass in Node.
-#   BUILD: a build folder of emscripten. WORK: an own folder. SOURCE: the repository. ARM: swivel's build of package/arm.c. SCENES: what print_scenes wrote. NPM, TSC. VERSION.
+#   BUILD: a build folder of emscripten. WORK: an own folder. SOURCE: the repository. SCENES: what print_scenes wrote. NPM, TSC. VERSION.
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT result EQUAL 0)
@@ -23,4 +23,4 @@ run(${NPM} install --offline --no-audit --no-fund ${BUILD}/tools/wasm/swivel-was
 file(GLOB tests ${SOURCE}/tests/wasm/*)
 file(COPY ${tests} DESTINATION ${WORK})
 run(${TSC} --noEmit --strict --target es2022 --module node16 --moduleResolution node16 types.ts)
-run(${CMAKE_COMMAND} -E env ARM=${ARM} SCENES=${SCENES} HEADER=${SOURCE}/include/swivel/swivel.h node --test)
+run(${CMAKE_COMMAND} -E env SCENES=${SCENES} HEADER=${SOURCE}/include/swivel/swivel.h node --test)

@@ -2,13 +2,12 @@
 """What the tests of caches share: the command, crowds to store, and a cache's files as bytes.
 
 SWIVEL names the command. SWIVEL_TEST_DATA may hold the clip; Debian's assimp-testmodels has it."""
+import ctypes
 import os
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
-
-import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 SWIVEL = os.environ["SWIVEL"]
@@ -27,6 +26,16 @@ target = [60, 15, 160]
 heights = "{ROOT}/examples/hills.png"
 size = [900, 60, 900]
 """
+
+
+XXHASH = ctypes.CDLL("libxxhash.so.0")
+XXHASH.XXH3_64bits.restype = ctypes.c_uint64
+XXHASH.XXH3_64bits.argtypes = (ctypes.c_char_p, ctypes.c_size_t)
+
+
+def digest_of(content):
+    """Of bytes, as docs/cache.md says."""
+    return XXHASH.XXH3_64bits(content, len(content)) or 1
 
 
 def run(*words, **options):

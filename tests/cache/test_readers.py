@@ -7,10 +7,9 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-import xxhash
 import zarr
 
-from stage import CLIP, LIMITED, ROOT, STATE, WHOLE, Stage, unittest
+from stage import CLIP, LIMITED, ROOT, STATE, WHOLE, Stage, digest_of, unittest
 from swivel import Field
 
 LIMBS = ["left_arm", "right_arm", "left_leg", "right_leg"]
@@ -42,10 +41,6 @@ def arrays_of(group):
     found = {}
     group.visititems(lambda name, item: found.update({name: item}) if hasattr(item, "chunks") else None)
     return dict(sorted(found.items()))
-
-
-def digest_of(content):
-    return xxhash.xxh3_64_intdigest(content) or 1
 
 
 def short_clip(path, frame_count):
@@ -112,7 +107,7 @@ class Values(Stage):
                 self.assertEqual(found, wanted)
 
     def test_digests_are_those_that_the_page_describes(self):
-        """Of goals, state and attributes, by another library's XXH3. `swivel check` proves those of results."""
+        """Of goals, state and attributes, by xxHash. `swivel check` proves those of results."""
         self.swivel("solve", CLIP, "--limbs", "all", "--export-targets", "targets.csv", "--quiet")
         folder = self.fill(self.store("cache", "--targets", "targets.csv", toml=WHOLE, characters=75, frames=23))
         cache, numbers, count = opened(folder), [], 0

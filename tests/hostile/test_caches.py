@@ -6,7 +6,6 @@ the cache.
     test_caches.py --full                10,000
     test_caches.py --count N --seed S    N of them, from seed S on"""
 import collections
-import ctypes
 import os
 import random
 import re
@@ -14,12 +13,9 @@ import shutil
 import sys
 
 from hostile import EVIL, TOKEN, argument, check_all, command_with_page, measured
-from stage import LIMITED, WHOLE, Stage, unittest
+from stage import LIMITED, WHOLE, Stage, digest_of, unittest
 
 MEMORY = 1024 + 128  # MiB: what a cache may take, and beside it attributes of 4 MiB as JSON
-XXHASH = ctypes.CDLL("libxxhash.so.0")
-XXHASH.XXH3_64bits.restype = ctypes.c_uint64
-XXHASH.XXH3_64bits.argtypes = (ctypes.c_char_p, ctypes.c_size_t)
 COUNT = argument("--count", 10_000 if "--full" in sys.argv else 150)
 
 
@@ -58,8 +54,7 @@ class Maker:
             return
         at = self.choose.choice(numbers)
         content = (text[:at.start()] + self.choose.choice(EVIL) + text[at.end():]).encode()
-        digest = XXHASH.XXH3_64bits(content, len(content)) or 1
-        path.write_bytes(content[:-1] + f',"digest":"{digest:016x}"}}'.encode())
+        path.write_bytes(content[:-1] + f',"digest":"{digest_of(content):016x}"}}'.encode())
 
     def bytes_(self, path):
         content = bytearray(path.read_bytes()) or bytearray(b"0")

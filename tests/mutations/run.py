@@ -171,13 +171,6 @@ def run_all(mutations, work):
             yield mutation, verdict, seconds
 
 
-def table(results):
-    width = max(len(mutation["name"]) for mutation, _, _ in results)
-    print()
-    for mutation, verdict, _ in results:
-        print(f"{mutation['name']:{width}}  {verdict}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", metavar="PATTERN", action="append", default=[], help="those with this in their name; may be repeated")
@@ -195,9 +188,9 @@ def main():
     except Failure as failure:
         print(f"run.py: {failure}", file=sys.stderr)
         return 1
-    table(results)
     killed = sum(verdict.startswith("killed") for _, verdict, _ in results)
-    print(f"\n{killed} of {len(results)} mutations killed, {time.monotonic() - begin:.0f} s")
+    print("".join(f"\n{mutation['name']}: {verdict}" for mutation, verdict, _ in results if not verdict.startswith("killed")))
+    print(f"{killed} of {len(results)} mutations killed, {time.monotonic() - begin:.0f} s")
     return killed != len(results)
 
 

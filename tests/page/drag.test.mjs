@@ -13,7 +13,8 @@ const letGo = (page) => page.getByRole('button', { name: 'Let go' }), letAllGo =
 const table = (page) => page.getByRole('button', { name: 'Save as table' });
 
 test('a wrist\'s target follows the pointer: one alone, and then everyone\'s by the same way; all are let go', async () => {
-  await visit(demo, async (page) => {
+  const sizes = file('sizes.toml', '[crowd]\nsize = [0.7, 1.3]\n');
+  await visit(write('sizes.html', 'view', clip, '--characters', '12', '--frames', '30', '--crowd', sizes), async (page) => {
     const targets = () => page.evaluate(() => swivelPage.stage.characters.map((_, n) => swivelPage.stage.goal(limbOf('left_arm'), n, 'target')));
     const off = async (from, x, y) => {
       const now = await pixel(page, 'target');
@@ -27,8 +28,8 @@ test('a wrist\'s target follows the pointer: one alone, and then everyone\'s by 
     await pull(page, 'target', 15, 22);
     await pull(page, 'target', 22, -42);
     assert.ok(await off(start, 12, -30) < 2, 'and after two more drags');
-    const sizes = await page.evaluate(() => swivelPage.stage.characters.map(({ size }) => size));
-    const moved = (await targets()).map((at, n) => at.map((x, axis) => (x - before[n][axis]) / sizes[n]));
+    const size = await page.evaluate(() => swivelPage.stage.characters.map((each) => each.size));
+    const moved = (await targets()).map((at, n) => at.map((x, axis) => (x - before[n][axis]) / size[n]));
     assert.ok(Math.hypot(...moved[7]) > 0.01, `${moved[7]}`);
     for (const n of [0, 5, 11]) moved[n].forEach((way, axis) => assert.ok(Math.abs(way - moved[7][axis]) < 1e-4, `${moved[n]} ${moved[7]}`));
     await page.keyboard.press('Escape');

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arms for the tests, and a forward kinematics of their own: NumPy in double, sharing nothing with the library."""
+"""Arms for the tests, and quaternions: NumPy in double, sharing nothing with the library."""
 import numpy as np
 
 
@@ -16,20 +16,6 @@ def rotate(q, v):
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
     u, w = q[..., :3], q[..., 3:]
     return v + 2 * np.cross(u, np.cross(u, v) + w * v)
-
-
-def flexed(elbow):
-    """The elbow's quaternion from cos and sin of half the flexion."""
-    elbow = np.asarray(elbow, float)
-    zero = np.zeros(len(elbow))
-    return np.stack([-elbow[:, 1], zero, zero, elbow[:, 0]], axis=-1)
-
-
-def joints_at(shoulder, elbow, lengths):
-    """Elbows and wrists of plain arms, in the arm frame."""
-    bone = np.array([0.0, 0.0, 1.0])
-    elbows = lengths[..., :1] * rotate(shoulder, bone)
-    return elbows, elbows + lengths[..., 1:] * rotate(times(shoulder, flexed(elbow)), bone)
 
 
 def quaternions(random, n):

@@ -9,7 +9,6 @@ FOOT, SHIN, THIGH, HAND, FOREARM, ROLL, UPPER_ARM, PELVIS = range(8)
 PARENTS = [SHIN, THIGH, PELVIS, FOREARM, ROLL, UPPER_ARM, PELVIS, -1]
 PLACES = np.float32([(0, -0.4, 0), (0, -0.45, 0), (0.1, -0.1, 0), (0.25, 0, 0), (0.2, 0, 0), (0.1, 0.02, 0), (0.2, 0.5, 0), (0, 1, 0)])
 LIMBS = [(UPPER_ARM, FOREARM, HAND), (THIGH, SHIN, FOOT)]
-TURNED = [joint for limb in LIMBS for joint in limb]
 
 
 def crowd_of(n, features=0):
@@ -19,23 +18,13 @@ def crowd_of(n, features=0):
     return swivel.Crowd([*groups, *shifts], features, skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=n)
 
 
-def angles(a, b):
-    """Between rotations, in radians."""
-    return 2 * np.arcsin(np.minimum(1, np.minimum(*(np.linalg.norm(a + sign * b, axis=-1) for sign in (1, -1))) / 2))
-
-
-def depth_of(parents, joint):
-    return 0 if joint < 0 else 1 + depth_of(parents, parents[joint])
-
-
-def forward(rotations, places=PLACES, scales=1.0, root=(0, 0, 0), root_rotation=(0, 0, 0, 1), root_scale=1.0, parents=PARENTS):
-    """Places (n, joints, 3) and rotations (n, joints, 4) of all joints in the world."""
-    n, joints = len(rotations), len(parents)
-    places, scales = np.broadcast_to(places, (n, joints, 3)), np.broadcast_to(scales, (n, joints, 3))
+def forward(rotations, places, scales, root, root_rotation, root_scale):
+    """Places (n, joints, 3) and rotations (n, joints, 4) of all joints in the world. Parents come after their children."""
+    n, joints = len(rotations), len(PARENTS)
     at, turned, sized = np.zeros((n, joints + 1, 3)), np.zeros((n, joints + 1, 4)), np.zeros((n, joints + 1, 1))
     at[:, -1], turned[:, -1], sized[:, -1, 0] = root, root_rotation, root_scale  # where a parent -1 is
-    for joint in sorted(range(joints), key=lambda joint: depth_of(parents, joint)):
-        parent = parents[joint]
+    for joint in reversed(range(joints)):
+        parent = PARENTS[joint]
         at[:, joint] = at[:, parent] + sized[:, parent] * rotate(turned[:, parent], places[:, joint])
         turned[:, joint] = times(turned[:, parent], rotations[:, joint])
         sized[:, joint] = sized[:, parent] * scales[:, joint, :1]

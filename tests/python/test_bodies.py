@@ -7,22 +7,10 @@ import unittest
 import numpy as np
 
 import swivel
-from arms import rotate
-from bodies import LIMBS, PARENTS, PLACES, TURNED, Bodies, crowd_of
-from swivel import BodyGroup, Feature, Flag, Pose, Skeleton
+from bodies import LIMBS, PLACES, Bodies, crowd_of
+from swivel import Feature, Flag, Pose
 
 N = 50
-KEPT = [joint for joint in range(8) if joint not in TURNED]
-
-
-def matrices_of(bodies, rotations, rows):
-    """Rows of local matrices, whose last column is the translation."""
-    made = np.zeros((len(rotations), 8, rows, 4), np.float32)
-    made[..., :3, :3] = np.swapaxes(rotate(rotations[:, :, None], np.eye(3)), 2, 3) * bodies.scales[:, :, None]
-    made[..., :3, 3] = bodies.translations
-    if rows == 4:
-        made[..., 3, 3] = 1
-    return made
 
 
 class Solved(unittest.TestCase):
@@ -33,31 +21,6 @@ class Solved(unittest.TestCase):
         crowd = crowd_of(N, features)
         self.assertEqual(crowd.solve(frames=self.bodies.goals(), pose=Pose(**arrays)), N)
         self.assertIsNone(crowd.find(Flag.BAD_INPUT))
-
-    def test_results_go_elsewhere(self):
-        rotations, before, out = self.bodies.rotations.copy(), self.bodies.rotations.copy(), self.bodies.rotations.copy()
-        self.solved(rotations=rotations, **self.bodies.members())
-        self.assertTrue(np.all(np.any(rotations != before, axis=(0, 2))[TURNED]))
-        np.testing.assert_array_equal(rotations[:, KEPT], before[:, KEPT])
-        before.setflags(write=False)
-        self.solved(rotations=before, out=out, **self.bodies.members())
-        np.testing.assert_array_equal(out, rotations)
-
-    def test_matrices_are_rotations(self):
-        """Of three rows and four, and the views of columns as they lie in an engine's memory."""
-        wanted = self.bodies.rotations.copy()
-        self.solved(rotations=wanted, **self.bodies.members())
-        for rows in (3, 4):
-            given, after = (matrices_of(self.bodies, rotations, rows) for rotations in (self.bodies.rotations, wanted))
-            columns = np.ascontiguousarray(np.swapaxes(given, 2, 3))
-            for matrices in (given.copy(), np.swapaxes(columns, 2, 3)):
-                out = matrices.copy("K")
-                self.solved(matrices=matrices, out=out, **self.bodies.roots())
-                np.testing.assert_array_equal(matrices, given)
-                self.solved(matrices=matrices, **self.bodies.roots())
-                np.testing.assert_array_equal(matrices, out)
-                np.testing.assert_allclose(matrices, after, atol=1e-5)
-                np.testing.assert_array_equal(matrices[:, KEPT], given[:, KEPT])
 
     def test_what_is_left_out_rests(self):
         """Of the translations, scales and roots, and so is one value for all bodies."""
@@ -120,15 +83,6 @@ class Solved(unittest.TestCase):
         np.testing.assert_array_equal(rotations[:, list(LIMBS[1])], wanted[:, list(LIMBS[1])])
         np.testing.assert_array_equal(rotations[:, list(LIMBS[0])], self.bodies.rotations[:, list(LIMBS[0])])
 
-    def test_bad_input_keeps_the_pose_unless_it_is_to_rest(self):
-        for on_bad_input in (None, swivel.OnBadInput.REST_POSE):
-            crowd = swivel.Crowd(BodyGroup(*LIMBS[0], bend=(0, 0, 1)), Feature.POLE_INCOMING, on_bad_input=on_bad_input,
-                                 skeleton=Skeleton(PARENTS, PLACES), body_count=N)
-            rotations = self.bodies.rotations.copy()
-            crowd.solve(pose=Pose(rotations))  # without targets
-            self.assertEqual(crowd.find(Flag.BAD_INPUT), (0, 0))
-            self.assertEqual(np.array_equal(rotations, self.bodies.rotations), on_bad_input is None)
-
 
 class Compared(unittest.TestCase):
     def setUp(self):
@@ -159,14 +113,6 @@ class Compared(unittest.TestCase):
                              (dict(elbow=(0, np.nan, 0)), ValueError), (dict(pose=None), TypeError)):
             with self.assertRaises(error):
                 self.crowd.compare(**{"pose": pose, "body": 0, **places, **given})
-
-
-class Made(unittest.TestCase):
-    def test_groups_have_their_own_features(self):
-        crowd = swivel.Crowd([BodyGroup(*LIMBS[0], (0, 0, 1), features=Feature.WITH_HAND), BodyGroup(*LIMBS[1], (0, 0, -1))],
-                             Feature.POLE_INCOMING, skeleton=Skeleton(PARENTS, PLACES), body_count=3)
-        bodys = Feature.BODY | swivel.needed_features(swivel.Field.INCOMING_ELBOW) | Feature.WORLD
-        self.assertEqual([crowd.features(group) for group in (0, 1)], [bodys | Feature.WITH_HAND, bodys | Feature.POLE_INCOMING])
 
 
 class Mistakes(unittest.TestCase):

@@ -36,25 +36,16 @@ class Calls(unittest.TestCase):
                                  ("wrist_position", crowd.wrists()), ("residual", crowd.residuals()), ("wrist", crowd.read(Field.WRIST) if "hand" in given else None)):
                 np.testing.assert_array_equal(getattr(arms, name), values, name)
 
-    def test_joints_of_a_skeleton(self):
-        random = np.random.default_rng(5)
-        # wrist, twist, twist, roll of the forearm, elbow, roll of the upper arm, shoulder, chest, root
-        parents = np.array([3, 3, 4, 4, 5, 6, 7, 8, -1])
-        places = random.normal(scale=0.3, size=(9, 3))
-        rest = quaternions(random, 9)
-        limb = swivel.bind_joints(parents, places, 6, 4, 0, rotations=rest, twist_bones=[2, 1], bend=random.normal(size=3))
-        kept = swivel.Binding(**{name: getattr(limb, name) for name in dir(swivel.Binding) if name[0] != "_"})
-        self.assertEqual(repr(kept), repr(limb))
-        self.assertEqual(limb.twist_from_arm.shape, (2, 4))
-        chain = swivel.bind(places[1], places[2], (1, 0, 0), *rest[:3])
-        self.assertEqual(repr(swivel.bind_joints([-1, 0, 1], places[:3], 0, 1, 2, rotations=rest[:3], bend=(1, 0, 0))), repr(chain))
-        with self.assertRaisesRegex(ValueError, "bind_joints: the elbow, joint 6, is not below the shoulder, joint 4"):
-            swivel.bind_joints(parents, places, 4, 6, 0, rotations=rest)
-        turned_none = swivel.bind_joints(parents, places, 6, 4, 0, twist_bones=[2, 1], bend=(1, 0, 0))
-        given = swivel.bind_joints(parents, places, 6, 4, 0, np.tile((0, 0, 0, 1), (9, 1)), [2, 1], (1, 0, 0))
-        self.assertEqual(repr(turned_none), repr(given))
-        with self.assertRaisesRegex(ValueError, r"translations: expected shape \(9, 3\)"):
-            swivel.bind_joints(parents, places[1:], 6, 4, 0)
+    def test_a_binding_of_joints_is_that_of_the_chain(self):
+        places, rest, bend = [(0, 0, 0), (0.3, 0, 0), (0.25, 0.1, 0)], quaternions(np.random.default_rng(5), 3), (0, 0, 1)
+        chain = swivel.bind(*places[1:], bend, *rest)
+        self.assertEqual(repr(swivel.bind_joints([-1, 0, 1], places, 0, 1, 2, rotations=rest, bend=bend)), repr(chain))
+        self.assertEqual(repr(swivel.Binding(**{name: getattr(chain, name) for name in dir(swivel.Binding) if name[0] != "_"})), repr(chain))
+        self.assertEqual(swivel.bind_joints([-1, 0, 1, 1], [*places, (0.1, 0, 0)], 0, 1, 2, twist_bones=[3]).twist_from_arm.shape, (1, 4))
+        with self.assertRaisesRegex(ValueError, "bind_joints: the elbow, joint 0, is not below the shoulder, joint 1"):
+            swivel.bind_joints([-1, 0, 1], places, 1, 0, 2)
+        with self.assertRaisesRegex(ValueError, r"translations: expected shape \(3, 3\)"):
+            swivel.bind_joints([-1, 0, 1], places[1:], 0, 1, 2)
 
     def test_no_arms_give_no_arms(self):
         none = swivel.solve(np.empty((0, 3)), None, (0.3, 0.26), hand=np.empty((0, 4)))
@@ -119,19 +110,6 @@ class Groups(unittest.TestCase):
     def test_what_a_group_does_not_say_is_the_crowds(self):
         crowd = swivel.Crowd([3, swivel.Group(4), swivel.Group(5, features=0), (6, self.limb)], Feature.WITH_REACH)
         self.assertEqual([crowd.features(group) for group in range(4)], [Feature.WITH_REACH] * 2 + [0, Feature.WITH_REACH])
-        boxes = np.concatenate([swivel.range(*np.radians((angle - 3, angle + 3))) for angle in (70, 20, 50)])
-
-        def shoulders(crowd, group):
-            for field, values in ((Field.TARGET, self.sample.targets), (Field.LENGTHS, self.sample.lengths), (Field.SHOULDER_BOX, boxes)):
-                crowd.write(field, values, group)
-            crowd.solve()
-            return crowd.read(Field.SHOULDER, group)
-
-        own = swivel.Group(40, shoulder_order=swivel.EulerOrder.ZXY)
-        crowd = swivel.Crowd([40, own], Feature.WITH_SHOULDER_BOX, swivel.EulerOrder.XYZ)
-        self.assertTrue(np.any(shoulders(crowd, 0) != shoulders(crowd, 1)))
-        alone = swivel.Crowd(40, Feature.WITH_SHOULDER_BOX, swivel.EulerOrder.ZXY)
-        np.testing.assert_array_equal(shoulders(crowd, 1), shoulders(alone, 0))
 
     def test_frames_are_those_of_the_groups_as_named(self):
         wanted_plain, wanted_bound = self.alone()
@@ -274,10 +252,8 @@ class Bits(unittest.TestCase):
         self.assertEqual(len(of), len(entities))
         self.assertLess(closing_error, 1e-14)
         blades = [swivel.blade_name(n) for n in range(32)]
-        elbow = [of["p_e"].coefficients[blades.index(blade)] for blade in ("e1", "e2", "e3")]
-        np.testing.assert_allclose(elbow, (0.980883, 0.980883, -0.189039), atol=1e-6)
+        self.assertAlmostEqual(of["p_e"].coefficients[blades.index("e3")], -0.189039, 6)
         self.assertIn("step 1", repr(of["S1"]))
-        self.assertIn("sphere", of["S1"].meaning)
         for wrong in (lambda: swivel.steps((9, 0, 0), (0, 1, 0), 1, 1), lambda: swivel.blade_name(32), lambda: swivel.blade_name(-1)):
             self.assertRaises(ValueError, wrong)
         for shape in ((2,), (1, 3), (4, 3), ()):  # it takes one arm

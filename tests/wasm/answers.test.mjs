@@ -39,12 +39,6 @@ test('angles become what fields take', () => {
   close([...swivel.aim([0, 0, 2], 0.5)].slice(0, 3), [0, 0, 1], 1e-7);
   const straight = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] });
   close(swivel.armAxis(straight, [0, 0, Math.SQRT1_2, Math.SQRT1_2], [0, 3, 0]), [1, 0, 0], 1e-7);
-  const crowd = swivel.crowd([2], Feature.WITH_FLEXION_LIMIT);
-  crowd.write(Field.LENGTHS, [1, 1]), crowd.write(Field.TARGET, [0, 0, 1.5, 0, 0, 0.2]), crowd.write(Field.FLEXION_LIMIT, swivel.flexion(0, 2)), crowd.solve();
-  assert.deepEqual(crowd.find(Flag.LIMITED_FLEXION), { group: 0, limb: 1 });
-  assert.equal(crowd.find(Flag.LIMITED_FLEXION, { group: 0, limb: 2 }), undefined);
-  assert.equal(crowd.explain(0).includes('\0'), false);
-  crowd.dispose();
 });
 
 test("the lecture's steps come entity by entity", () => {

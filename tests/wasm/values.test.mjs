@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The promise: values are views of memory, each field in its place, and calls see what they hold.
+// The promise: values are views of memory, and calls see what they hold. That each field is in its place is in scenes.test.mjs.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Feature, featureRules, Field, Flag, LANES, OnBadInput } from 'swivel-wasm';
+import { Feature, Field, Flag } from 'swivel-wasm';
 import { close, refuses, swivel } from './common.mjs';
 
 test('values are views of memory, which solves read and write', () => {
@@ -35,53 +35,6 @@ test('values are views of memory, which solves read and write', () => {
   for (const other of others) other.dispose();
   assert.deepEqual([...shoulder], before);
   crowd.dispose();
-});
-
-// Features that go together, by the library's rules: each feature of limbs is in one of these sets. Of free limbs, or of bodies.
-function featureSets(isBodys) {
-  const all = Object.entries(featureRules).map(([name, rule]) => ({ bit: Feature[name], ...rule }));
-  const withAll = (features) => all.reduce((found, { bit, needs }) => (found & bit ? found | needs : found), features);
-  const withNeeds = (features) => withAll(withAll(features));  // a need has needs of its own
-  const ofNoLimb = Feature.FIT | Feature.PROP | Feature.LOOK | Feature.SENT | Feature.WITH_REGION;  // the last two have no fields
-  const rules = all.filter(({ bit }) => !(bit & ofNoLimb) && (isBodys ? !(Feature.JOINTS & bit) : !(withNeeds(bit) & Feature.BODY)));
-  const fits = (features) => rules.every(({ bit, excludes }) => !(features & bit && features & excludes));
-  const sets = [];
-  for (const { bit } of rules)
-    if (!sets.some((set) => set & bit))
-      sets.push(rules.reduce((set, { bit: more }) => (fits(withNeeds(set | more)) ? withNeeds(set | more) : set), withNeeds(bit)));
-  return sets.map((set) => (set & Feature.WITH_TWIST_BONES ? set | 3n * Feature.WITH_TWIST_BONES : set));
-}
-
-test('every field has its own place in frames', () => {
-  const binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] });
-  const skeleton = { parents: [-1, 0, 1, 2, 2, 2, 2, -1], translations: new Array(8).fill([0, 0, 1]).flat() };
-  const bodies = (features) => {
-    const joints = { shoulder: 1, elbow: 2, wrist: 3, bend: [0, 1, 0], twistBones: features & Feature.WITH_TWIST_BONES ? [4, 5, 6] : [] };
-    const others = [...(features & Feature.WITH_FIT ? [{ fit: {} }] : []), { look: { joints: [7] } }, ...(features & Feature.WITH_LINK ? [{ prop: {} }] : [])];
-    const crowd = swivel.bodies({ skeleton, bodyCount: 20, groups: [{ joints, features, onBadInput: OnBadInput.REST_POSE, link: others.length }, ...others] });
-    crowd.pose('time');
-    return crowd;
-  };
-  const seen = new Set(), crowds = [
-    ...featureSets(false).map((features) => swivel.crowd([{ limbCount: 20, binding }], features)), ...[...featureSets(true), Feature.WITH_PLANT].map(bodies)];  // a label goes without PLANT_BY_MOTION
-  for (const crowd of crowds) {
-    const views = Array.from({ length: crowd.groupCount }, (_, group) =>
-      Object.values(Field).filter((field) => crowd.componentCount(field, group) > 0).map((field) => ({ field, group, view: crowd.values(field, group) }))).flat();
-    views.forEach(({ field }) => seen.add(field));
-    // Numbers of which no two are alike: a solve brings them into rows, whether they are good or not.
-    const fill = (from) => views.filter(({ field }) => field < Field.SHOULDER).forEach(({ field, view }) => view.forEach((_, n) => (view[n] = from + field + n / 1024)));
-    fill(1), assert.equal(crowd.solve(), 20);
-    for (const { field, group, view } of views) {
-      const [inputs, results] = [crowd.inputRows(group), crowd.resultRows(group)];
-      const rows = field < Field.SHOULDER ? inputs : field === Field.FLAGS ? new Uint32Array(results.buffer, results.byteOffset, results.length) : results;
-      const count = crowd.componentCount(field, group);
-      assert.equal(view.length, 20 * count);
-      for (let c = 0; c < count; ++c)
-        assert.equal(view[17 * count + c], rows[(rows.length / 32 + crowd.fieldFirstRow(field, group) + c) * LANES + 1], `field ${field}`);  // block 1, lane 1
-    }
-    crowd.dispose();
-  }
-  assert.deepEqual([...seen].sort((a, b) => a - b), Object.values(Field));
 });
 
 test('calls beside solves see what views hold now', () => {

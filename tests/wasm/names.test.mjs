@@ -1,48 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The promise: the package gives the native library's bits, and has every name of swivel.h.
-//   ARM: swivel's build of tests/package/arm.c. HEADER: swivel.h
+// The promise: the package has every name of swivel.h, with its number. Bits are in scenes.test.mjs.
+//   HEADER: swivel.h
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { defaultFit, defaultGround, defaultPlant, defaultProp, Feature, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION } from 'swivel-wasm';
-import { swivel } from './common.mjs';
-
-// The arms of tests/package/arm.c.
-function manyArms() {
-  const targets = new Float32Array(3000);
-  let random = 1;
-  for (let n = 0; n < targets.length; ++n) {
-    random = (Math.imul(random, 1664525) + 1013904223) >>> 0;
-    targets[n] = Math.fround(0.04) + Math.fround(Math.fround(random >>> 8) * Math.fround(Math.fround(0.26) / 16777216));
-  }
-  return targets;
-}
-
-test('the same bits as the native library', () => {
-  const line = execFileSync(process.env.ARM, { encoding: 'utf8' });
-  assert.equal(swivel.isaName, 'sse2');
-  const crowd = swivel.crowd([1000]);
-  crowd.write(Field.TARGET, manyArms());
-  crowd.write(Field.POLE, [0.25, -1, 0.125]);
-  crowd.write(Field.LENGTHS, [0.3, 0.26]);
-  assert.equal(crowd.solve(), 1000);
-  assert.ok(crowd.residuals().every((off) => off < 1e-6));
-  assert.ok(line.endsWith(`digest ${crowd.digest().toString(16).padStart(16, '0')}\n`), line);
-  crowd.dispose();
-});
-
-test('digests are unsigned, and differ with any result', () => {
-  const crowd = swivel.crowd([1]), seen = new Set();
-  crowd.write(Field.LENGTHS, [1, 1]);
-  for (let n = 0; n < 64; ++n) {
-    crowd.write(Field.TARGET, [0.01 * n, 0.5, 1]), crowd.solve();
-    assert.ok(crowd.digest() >= 0n);
-    seen.add(crowd.digest());
-  }
-  assert.equal(seen.size, 64);
-  crowd.dispose();
-});
 
 test('every name of swivel.h, with its number', () => {
   const header = readFileSync(process.env.HEADER, 'utf8').replace(/\/\/.*/g, '');
