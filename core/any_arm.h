@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: MIT
 //
 // One arm in the arm frame, by the same two ways as the kernels take, for tests and swivel_verify(). The plain formula
-// solves it where it holds. Any other arm is solved as a whole limb without features (limb.h).
+// solves it where it holds. Any other arm is solved as a whole limb that nothing more is asked of. Kernels run that in
+// stages (simd/stages.h).
 #pragma once
 
-#include "core/limb.h"
+#include "core/limb_bones.h"
 #include "core/solve_arm.h"
+#include "core/wish.h"
+#include "core/wrist_goal.h"
 
 namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+ArmPose<T> solve_as_limb(const ArmGoal<T>& arm)
+{
+    const LimbUse nothing_more;
+    LimbGoal<T> goal{};
+    goal.arm = arm;
+    const Mask<T> valid = is_valid(nothing_more, goal);
+    const WristLine<T> to = wrist_line(arm.wrist);
+    const PlacedBones<T, Hinge<T>> bones = place_bones(nothing_more, goal, to.wanted);
+    const LimbNormal<T> wish = limb_normal(nothing_more, goal, one<T>(), to.line);
+    const Word<T> flags = bones.flags | wish.flags | word_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
+    return {select(valid, lifted(to.line, wish.normal, bones.lift), one<T>()), select(valid, bones.cos_half, T(1)),
+            select(valid, bones.sin_half, T(0)), select(valid, flags, word<T>(SWIVEL_BAD_INPUT)), valid};
+}
 
 // For one arm: T is float or double.
 template <class T>
 ArmPose<T> solve_arm(const ArmGoal<T>& goal)
 {
     const PlainArm<T> plain = solve_plain(goal);
-    if (plain.holds) return plain.pose;
-    LimbGoal<T> limb{};
-    limb.arm = goal;
-    return solve_limb<false>(LimbUse{}, limb, true).arm;
+    return plain.holds ? plain.pose : solve_as_limb(goal);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

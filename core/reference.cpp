@@ -96,8 +96,6 @@ void write_quaternion(const Multivector& Q, double out[4])
     out[3] = scalar(Q);
 }
 
-Multivector read_quaternion(const double q[4]) { return q[3] + q[0] * i + q[1] * j + q[2] * k; }
-
 void write_vector(const Multivector& v, double out[3])
 {
     out[0] = scalar(dot(v, e1));
@@ -141,14 +139,6 @@ ReferencePose solve_reference_for_normal(const double wrist[3], const double nor
     const Multivector p_w = point(vector(wrist[0], wrist[1], wrist[2]));
     const Multivector n = vector(normal[0], normal[1], normal[2]);
     return solve_in_plane(p_w, plane(n / norm(n), 0), upper, fore);
-}
-
-void wrist_of(const ReferencePose& pose, double upper, double fore, double out[3])
-{
-    const Multivector q_s = read_quaternion(pose.shoulder_rotor);
-    const Multivector q_e = read_quaternion(pose.elbow_rotor);
-    // wrist = q_s (L1 e3 + q_e L2 e3 ~q_e) ~q_s
-    write_vector(q_s * (upper * e3 + q_e * fore * e3 * ~q_e) * ~q_s, out);
 }
 
 }  // namespace swivel

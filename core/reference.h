@@ -41,9 +41,4 @@ ReferencePose solve_reference(const ReferenceArm& arm);
 //   upper, fore: bone lengths
 ReferencePose solve_reference_for_normal(const double wrist[3], const double normal[3], double upper, double fore);
 
-// Forward kinematics: where the pose's shoulder and elbow rotors put the wrist.
-//   upper, fore: bone lengths
-//   out: 3 coordinates in the arm's frame, outside `pose`
-void wrist_of(const ReferencePose& pose, double upper, double fore, double out[3]);
-
 }  // namespace swivel

@@ -2,8 +2,8 @@
 //
 // The promise: dense.h is the algebra of D. Hildenbrand, "Inverse Kinematics of a Virtual Character" (TU Darmstadt,
 // 2019). The axioms, and the identities of the lecture, numbered as there. (3.19, 3.20, 3.22) follow from the square of
-// a line, (3.18). The arm's own steps, (7.1-7.4) and (7.6-7.9), are judged in the arms of test_reference.cpp. Rotations
-// and cross products are judged by Eigen.
+// a line, (3.18). The arm's own steps, (7.1-7.4) and (7.6-7.9), are judged by swivel_verify(), in test_formulas.cpp.
+// Rotations and cross products are judged by Eigen.
 
 #include "core/dense.h"
 

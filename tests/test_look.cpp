@@ -2,7 +2,7 @@
 //
 // The promise of the look's formulas, in float: the shortest turn carries one direction to the other, a share of it is
 // that share of the angle, a cone holds it, the last joint brings the line of sight to the target, and eased
-// turns change by no more than they may. Eigen judges, by angles. How a look fades is in test_body_look_steps.cpp.
+// turns change by no more than they may. Eigen judges, by angles.
 #include "core/look.h"
 
 #include <catch2/catch.hpp>
@@ -122,6 +122,27 @@ TEST_CASE("a carried turn is the turn again, and a part of a way turns by less t
             RC_ASSERT(turn_angle(is) <= cone + 4e-6);
             // A way of half a turn or more, on which no step is the last, ends before half a turn.
             if (part == 1 && was.dot(goal) > 2e-3) RC_ASSERT(is.angularDistance(goal) <= 4e-6);
+        }
+    });
+}
+
+TEST_CASE("a look counts from none behind to all ahead, and less very near")
+{
+    const LookFade fade{-0.9f, 1 / 0.8f, 0.05f};
+    rc::prop("any target", [&](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < kTurns; ++n) {
+            const Vector3d axis = random.direction(), to = random.spread(1e-3, 1e3) * beside(random, axis);
+            const double unit = random.spread(0.1, 10);
+            const auto smooth = [](double x) {
+                x = std::clamp(x, 0.0, 1.0);
+                return x * x * (3 - 2 * x);
+            };
+            const double cosine = axis.dot(to.normalized());
+            const float got = look_weight(LineOfSight<float>{vector(0.0f, 0.0f, 0.0f), mv<float>(axis)}, mv<float>(to),
+                                          fade, float(unit));
+            RC_ASSERT(std::fabs(double{got} - smooth((cosine + 0.9) / 0.8) * smooth(to.norm() / (0.05 * unit))) <=
+                      2e-6);
         }
     });
 }

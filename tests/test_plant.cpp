@@ -57,11 +57,14 @@ double strayed_from_machine(std::uint64_t seed, double clearance)
     PlantMachine machine(rules);
     PlantedPoint<T> point(rules);
     RandomLabels labels;
-    double t = 0, worst = 0;
+    bool moves = true;
+    double t = 0, on_way = 0, worst = 0;
     while (t < 4) {
         const double time = static_cast<T>(random_time(random, per_second));
         t += time;
-        const Vector3d x = eigen(mv<T>(way.place(t)));
+        if (random.below(30) == 0) moves = !moves;
+        if (moves) on_way += time;
+        const Vector3d x = eigen(mv<T>(way.place(on_way)));
         const bool label = labels.next(random, time);
         if (random.below(100) == 0) machine.stands = PlantMachine::Stands::starts, point.state.fresh = true;  // a reset
         const bool was_locked = machine.stands == PlantMachine::Stands::locked;

@@ -9,15 +9,19 @@
 #include "bench/rivals/character.h"
 #include "bench/rivals/counted.h"
 #include "bench/rivals/rifle.h"
+#include "core/choose_swivel.h"
 #include "core/fit.h"
 #include "core/ground.h"
-#include "core/limb.h"
+#include "core/limb_bones.h"
 #include "core/look.h"
 #include "core/plant.h"
 #include "core/posed_limb.h"
 #include "core/prop.h"
+#include "core/region.h"
 #include "core/space.h"
 #include "core/spring.h"
+#include "core/wish.h"
+#include "core/wrist_goal.h"
 
 namespace bench {
 
@@ -76,6 +80,33 @@ const swivel_region& allowing_region()
     return allowing;
 }
 
+// The stages of a limb with a hand and an incoming pose, from `goal` to `wrist` (simd/stages.h).
+struct SolvedLimb {
+    swivel::ArmPose<Counted> arm;
+    Rotor<Counted> wrist;
+};
+SolvedLimb solve_limb(const swivel::LimbUse& use, const swivel::LimbGoal<Counted>& goal)
+{
+    const swivel::Mask<Counted> valid = swivel::is_valid(use, goal);
+    const auto wrist = swivel::wrist_goal(use, goal);
+    const auto to = swivel::wrist_line(wrist.place);
+    const auto bones = swivel::place_bones(use, goal, to.wanted);
+    const auto wish = swivel::limb_normal(use, goal, wrist.hand, to.line);
+    const swivel::Hinge<Counted> elbow = swivel::hinge(bones.cos_half, -bones.sin_half);
+    swivel::Vector<Counted> normal = wish.normal;
+    if (use.limits.region) {
+        const swivel::SwivellingArm<Counted, decltype(bones.lift)> arm{to.line, normal, bones.lift, elbow, wrist.hand};
+        const auto region = swivel::region_limit(arm, use.limits.region);
+        swivel::room(region, swivel::Turned<Counted>{Counted(1.0), Counted(0.0)});
+        const auto chosen = swivel::choose_swivel(
+            swivel::LimitsInRegion<Counted, swivel::kMostBoxes>{swivel::Limits<Counted>{}, region}, valid);
+        normal = swivel::swivelled(normal, to.line, chosen.swivel);
+    }
+    const Rotor<Counted> shoulder = swivel::lifted(to.line, normal, bones.lift);
+    return {{shoulder, bones.cos_half, bones.sin_half, bones.flags | wish.flags, valid},
+            ~(shoulder * elbow) * wrist.hand};
+}
+
 // Its stages, from `posed` to `correct` (simd/stages.h). The arm of a rifle has weights, too, a flexion limit and a
 // region, which allows what is wished for.
 enum class Arm { plain, rifle };
@@ -107,7 +138,7 @@ void count_body_limb(const Frames& frames, const BodyChain& chain, Arm arm = Arm
         goal.weights = {Counted(0.9), Counted(0.8), Counted(0.0)};
         goal.limits.flexion = {Counted(0.9997), Counted(0.3)};
     }
-    const swivel::SolvedLimb<Counted> solved = swivel::solve_limb<false>(use, goal, Counted(0.0) <= Counted(0.0));
+    const SolvedLimb solved = solve_limb(use, goal);
 
     store(of_binding * solved.arm.shoulder * ~upper_from_arm, local);
     store(upper_from_arm * swivel::elbow_rotor(solved.arm) * ~fore_from_arm, local);
