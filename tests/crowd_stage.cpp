@@ -27,6 +27,37 @@ double angle_between(const Vector3d& a, const Vector3d& b)
     return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
 }
 
+PlainPose joint_in(const PlainMotion& motion, std::size_t frame, std::string_view name)
+{
+    return pose_of(motion, frame)[static_cast<std::size_t>(joint_named(motion, name))];
+}
+
+Matrix3d local_rotation(const PlainMotion& motion, std::size_t frame, std::string_view name)
+{
+    const std::vector<PlainPose> pose = pose_of(motion, frame);
+    const int joint = joint_named(motion, name), above = motion.joint(joint).parent;
+    const Matrix3d& turn = pose[static_cast<std::size_t>(joint)].rotation;
+    return above < 0 ? turn : Matrix3d(pose[static_cast<std::size_t>(above)].rotation.transpose() * turn);
+}
+
+std::vector<Eigen::Isometry3d> joints_of(const formats::Clip& clip, std::size_t frame)
+{
+    std::vector<Eigen::Isometry3d> to;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        const Eigen::Isometry3d local = Eigen::Translation3d(formats::local_translation(clip, frame, n)) *
+                                        clip.rotation[frame * clip.joints.size() + n];
+        const int parent = clip.joints[n].parent;
+        to.push_back(parent < 0 ? local : to[static_cast<std::size_t>(parent)] * local);
+    }
+    return to;
+}
+
+void require_done(const Outcome& outcome)
+{
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+}
+
 CrowdStage::CrowdStage(std::size_t first, std::size_t step)
 {
     spill(folder / "clip.bvh", cut(plain_motion_of(must_find_jump()), first, step));
@@ -92,19 +123,6 @@ ArmAxes CrowdStage::axes(std::size_t arm) const
     Matrix3d m;
     m << y.cross(z), y, z;
     return {m};
-}
-
-void CrowdStage::require_refused(const std::string& toml, const std::string& said, const std::string& out,
-                                 Words more) const
-{
-    more.insert(more.end(), {"--out", out});
-    fs::remove(folder / out);
-    const Outcome outcome = run(toml, more);
-    INFO(toml << outcome.err);
-    CHECK(outcome.exit_code == 1);
-    CHECK_THAT(outcome.err, Catch::Matchers::StartsWith("swivel: ") && Catch::Matchers::Contains(said));
-    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-    CHECK_FALSE(fs::exists(folder / out));
 }
 
 }  // namespace swivel::test

@@ -1,19 +1,22 @@
 #pragma once
 // SPDX-License-Identifier: MIT
 // A folder with a clip of real motion and a crowd file, the command to solve them, and the solved poses for the tests
-// of crowd files. Places come from forward kinematics of the written BVH. Rotations are about the arm frame's axes.
+// of crowd files. One forward kinematics judges all that is written: that of plain_motion.h. Rotations are about the
+// arm frame's axes.
 
 #include <nlohmann/json.hpp>
 
 #include <Eigen/Geometry>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/plain_motion.h"
 #include "tests/pose_rows.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
+#include "tools/formats/clip.h"
 
 namespace swivel::test {
 
@@ -35,6 +38,13 @@ struct ArmAxes {
     }
 };
 
+// One of a motion's joints in a frame.
+PlainPose joint_in(const PlainMotion& motion, std::size_t frame, std::string_view name);
+// Its rotation against the joint above it.
+Matrix3d local_rotation(const PlainMotion& motion, std::size_t frame, std::string_view name);
+// All joints of a clip that may be in no file, by products of its own rotations and translations.
+std::vector<Eigen::Isometry3d> joints_of(const formats::Clip& clip, std::size_t frame);
+
 struct CrowdStage {
     TempFolder folder;
     PlainMotion clip;
@@ -53,9 +63,9 @@ struct CrowdStage {
     Vector3d face() const;
     // Of a limb whose bones lie on one line at rest, as this clip's arms do. The hinge is the one that is reported.
     ArmAxes axes(std::size_t arm) const;
-    void require_refused(const std::string& toml, const std::string& said, const std::string& out = "out.csv",
-                         Words more = {}) const;
 };
+
+void require_done(const Outcome& outcome);
 
 // "[x, y, z]", every digit.
 std::string text_of(const Vector3d& v);

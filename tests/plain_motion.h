@@ -80,7 +80,7 @@ std::string rest_of(const std::string& line, const std::vector<std::size_t>& cha
 // The text of a motion's frames first, first + step, ... and as often as wanted.
 std::string cut(const PlainMotion& motion, std::size_t first, std::size_t step, std::size_t repeats = 1);
 
-// A small file with two arms, one line of frames each; its line numbers are known to test_command_input.cpp.
+// A small file with two arms, one line of frames each; its line numbers are known to tests/transcripts.
 inline const std::string kTwoArms = [] {
     const auto arm = [](const std::string& side, const std::string& sign) {
         const std::string three = "CHANNELS 3 Zrotation Yrotation Xrotation\n";
@@ -95,8 +95,4 @@ inline const std::string kTwoArms = [] {
            "1 2 3 0 10 0 0 20 0 0 -30 0 5 0 0 0 20 0 0 30 0 5 0 0\n"
            "1 2 4 0 11 0 0 21 0 0 -31 0 6 0 0 0 21 0 0 31 0 6 0 0\n";
 }();
-// A table of targets for it: its columns, and a row.
-inline const std::string kColumns = "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n";
-inline const std::string kGoodRow = "0,0,left,6,8,3,4,8,9\n";
-
 }  // namespace swivel::test

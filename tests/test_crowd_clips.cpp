@@ -87,34 +87,7 @@ TEST_CASE("several clips begin where the first one does, and go on in loops of t
     INFO(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("300 frames") && Contains("of the clip 1, ") && Contains("of the clip 2, "));
-    stage.first.require_refused(kCrowd + kClips + "loop = [40, 90]\n", "crowd.loop: the clip is not the only clip");
     // A clip's first frames, where fewer are asked for.
     const nlohmann::json json = stage.first.json(kCrowd + kClips, {"--frames", "5"});
     for (const auto& each : json.at("performed")) CHECK(each.at("frames") == 5);
-}
-
-TEST_CASE("clips that do not fit are refused")
-{
-    const TwoClips stage;
-    const auto refused = [&](const std::string& clips, const std::string& said) {
-        stage.first.require_refused(kCrowd + "clips = [" + clips + "]\n", said);
-    };
-    std::string other = slurp(stage.second.folder / "clip.bvh");
-    const std::string joint = "JOINT LeftFoot", time = "Frame Time: ";
-    REQUIRE(other.find(joint) != std::string::npos);
-    std::string renamed = other, slower = other;
-    renamed.replace(renamed.find(joint), joint.size(), "JOINT LeftPaw");
-    slower.replace(slower.find(time), time.size() + 3, time + "0.1");
-    spill(stage.first.folder / "renamed.bvh", renamed);
-    spill(stage.first.folder / "slower.bvh", slower);
-    refused("{ file = \"renamed.bvh\" }", "LeftPaw, not ");
-    refused("{ file = \"slower.bvh\" }", "its frames come at another rate than the clip's");
-    refused("{ file = \"none.bvh\" }", "none.bvh");
-    refused("{ file = \"other.bvh\", clip = \"Run\" }", "other.bvh: is a BVH file, which has one motion");
-    const Outcome outcome = stage.first.run(kCrowd + kClips, {"--characters", "1", "--out", "other.bvh"});
-    CHECK(outcome.exit_code == 2);
-    CHECK_THAT(outcome.err, Contains("other.bvh: is a clip, too"));
-    CHECK(slurp(stage.first.folder / "other.bvh") == other);
-    refused("{}", "names no motion; write { file = \"FILE\" } or { clip = \"NAME\" }");
-    refused("{ files = \"other.bvh\" }", "files");
 }

@@ -29,29 +29,6 @@ std::string three_cells(const Vector3d& v) { return text_of(v).substr(1, text_of
 
 }  // namespace
 
-TEST_CASE("crowd file: without a key all is as without a file; options go before it")
-{
-    const CrowdStage stage;
-    const auto plain = [&](const Words& more) {
-        Words arguments = {"solve", "clip.bvh", "--out", "plain.csv"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        REQUIRE(run_command(stage.folder.path, arguments).exit_code == 0);
-        return slurp(stage.folder / "plain.csv");
-    };
-    CHECK(stage.output("[crowd]\n", "out.csv") == plain({}));
-    const std::string file = "[crowd]\ncharacters = 5\nseed = 3\nlimbs = \"legs\"\n";
-    CHECK(stage.output(file, "out.csv") == plain({"--characters", "5", "--seed", "3", "--limbs", "legs"}));
-    CHECK(stage.output(file, "out.csv", {"--characters", "2", "--seed", "4", "--limbs", "all"}) ==
-          plain({"--characters", "2", "--seed", "4", "--limbs", "all"}));
-    const auto json = stage.json(file);
-    CHECK(json.at("characters") == 5);
-    CHECK(json.at("seed") == 3);
-    CHECK(json.at("crowd") == "c.toml");
-    CHECK(json.contains("legs_bound"));
-    CHECK_FALSE(json.contains("arms_bound"));
-    CHECK(json.at("legs") == 10 * stage.clip.lines.size());
-}
-
 TEST_CASE("crowd file: size, stagger, spacing and targets beside the file")
 {
     const CrowdStage stage(1200, 50);
@@ -94,8 +71,6 @@ TEST_CASE("crowd file: joints and bend")
     CHECK(worst_rotation(stage.rows(swapped, "left_arm"), stage.rows("[crowd]\n", "right_arm")) == 0);
     CHECK(stage.json("[limb.right_leg]\njoints = [\"RightUpLeg\", \"RightLeg\", \"RightFoot\"]\n")
               .contains("legs_bound"));
-    stage.require_refused("[limb.left_arm]\njoints = [\"Left\", \"LeftForeArm\", \"LeftHand\"]\n",
-                          "limb.left_arm.joints: no joint is called 'Left' in clip.bvh");
 
     // The clip's own elbows come back, whichever way the limb is said to bend.
     for (const std::string bend : {"[0, 0, 1]", "[0, 0, -1]"}) {
@@ -104,8 +79,6 @@ TEST_CASE("crowd file: joints and bend")
         CHECK(stage.json(toml).at("arms_bound").at(0).at("bend") == nlohmann::json({0.0, 0.0, sign}));
         CHECK(worst_rotation(stage.rows(toml, "left_arm"), stage.rows("[crowd]\n", "left_arm")) < 1e-4);
     }
-    stage.require_refused("[limb.left_arm]\nbend = [1, 0, 0]\n",
-                          "bend, limb.left_arm.bend of c.toml, is along its upper bone");
 }
 
 TEST_CASE("crowd file: target.offset and target.point")
@@ -268,8 +241,6 @@ TEST_CASE("crowd file: aim points the hand at the target, flexion as given")
         CHECK(angle_between(at.hand * axis, point - at.wrist) < 0.01);
         CHECK(at.bend() * kDegrees == Approx(35).margin(0.01));
     }
-    stage.require_refused("[limb.arms.aim]\naxis = [1, 0, 0]\nflexion_deg = 3\n[limb.arms.reach]\nsoft_far = 0.1\n",
-                          "c.toml:5: limb.arms.reach.soft_far: means nothing beside limb.arms.aim in line 1");
 }
 
 TEST_CASE("crowd file: a clavicle takes its share")
@@ -305,7 +276,4 @@ TEST_CASE("crowd file: a clavicle takes its share")
     const Matrix3d above = pose_of(solved, 0)[static_cast<std::size_t>(one.clip.joint(clavicle).parent)].rotation;
     const Matrix3d local = above.transpose() * pose_of(solved, 0)[static_cast<std::size_t>(clavicle)].rotation;
     CHECK((row.rotation("clavicle").toRotationMatrix() - local).norm() < 1e-5);
-    spill(one.folder / "clip.bvh", kTwoArms);
-    one.require_refused(
-        share, "c.toml:2: limb.left_arm.clavicle.share: the joint above the left arm, Hips, carries other joints");
 }

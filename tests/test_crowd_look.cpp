@@ -4,12 +4,14 @@
 // it is. Checked in the files that are written, by the tests' own forward kinematics.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <catch2/catch.hpp>
 
 #include "tests/crowd_stage.h"
+#include "tools/cache/cache.h"
 
+using namespace swivel;
 using namespace swivel::test;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -24,13 +26,6 @@ std::string look_at(const Vector3d& target, const std::string& more = "")
     return "[look]\ntarget = " + text_of(target) + "\n" + more;
 }
 
-// A joint's rotation against the one above it.
-Matrix3d local(const PlainMotion& motion, const std::vector<PlainPose>& pose, int joint)
-{
-    const int above = motion.joint(joint).parent;
-    const Matrix3d& turn = pose[static_cast<std::size_t>(joint)].rotation;
-    return above < 0 ? turn : Matrix3d(pose[static_cast<std::size_t>(above)].rotation.transpose() * turn);
-}
 double turn_between(const Matrix3d& a, const Matrix3d& b)
 {
     return kDegrees * Eigen::AngleAxisd(a.transpose() * b).angle();
@@ -39,7 +34,7 @@ double turn_between(const Matrix3d& a, const Matrix3d& b)
 // By how many degrees the face misses the target.
 double missed_by(const PlainMotion& motion, std::size_t frame, const Vector3d& face, const Vector3d& target)
 {
-    const PlainPose head = pose_of(motion, frame)[static_cast<std::size_t>(joint_named(motion, "Head"))];
+    const PlainPose head = joint_in(motion, frame, "Head");
     return angle_between(head.rotation * face, target - head.position);
 }
 // How far each looking joint is turned from the clip, and the most of all others, in degrees.
@@ -50,10 +45,10 @@ struct Turned {
 Turned turned(const PlainMotion& clip, const PlainMotion& motion, std::size_t frame)
 {
     Turned turned;
-    const std::vector<PlainPose> was = pose_of(clip, frame), is = pose_of(motion, frame);
-    for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint) {
-        const double by = turn_between(local(clip, was, joint), local(motion, is, joint));
-        const auto at = std::ranges::find(kLooking, clip.joint(joint).name);
+    for (const PlainJoint& joint : clip.joints) {
+        const double by =
+            turn_between(local_rotation(clip, frame, joint.name), local_rotation(motion, frame, joint.name));
+        const auto at = std::ranges::find(kLooking, joint.name);
         if (at != kLooking.end())
             turned.looking[static_cast<std::size_t>(at - kLooking.begin())] = by;
         else
@@ -64,8 +59,23 @@ Turned turned(const PlainMotion& clip, const PlainMotion& motion, std::size_t fr
 // In front of the head, and as far to the side and up as forwards.
 Vector3d aside(const PlainMotion& clip, double far)
 {
-    const PlainPose head = pose_of(clip, 0)[static_cast<std::size_t>(joint_named(clip, "Head"))];
+    const PlainPose head = joint_in(clip, 0, "Head");
     return head.position + far * (head.rotation * Vector3d(1, 0.3, 1));
+}
+
+// The local rotation of a look's joint as the cache has it, of the only character.
+Quaterniond looking(const tools::Cache& cache, std::uint32_t frame, std::size_t joint)
+{
+    const tools::CachedCrowd& crowd = cache.crowd();
+    const char* const names[] = {"shoulder", "elbow", "wrist"};
+    const auto& fields = cache.arrays().fields;
+    const auto field = std::ranges::find(fields, std::string(names[joint]), &tools::ResultField::name) - fields.begin();
+    const tools::Results results = cache.results({frame / crowd.chunk.frames, 0}).value();
+    const std::size_t at = 4 * crowd.place(frame % crowd.chunk.frames, crowd.limbs.size(), 0);
+    const auto number = [&](std::size_t n) {
+        return double{std::bit_cast<float>(results[static_cast<std::size_t>(field)][at + n])};
+    };
+    return Quaterniond(number(3), number(0), number(1), number(2));
 }
 
 }  // namespace
@@ -110,7 +120,7 @@ TEST_CASE("no joint of a look turns further than it may, and behind a head there
 TEST_CASE("each of a crowd looks from where it is, whatever its size")
 {
     const CrowdStage stage{100, 2};
-    const PlainPose head = pose_of(stage.clip, 0)[static_cast<std::size_t>(joint_named(stage.clip, "Head"))];
+    const PlainPose head = joint_in(stage.clip, 0, "Head");
     const Vector3d face = head.rotation * stage.face(), target = head.position + Vector3d(150, -5, 170);
     const std::string toml = "[crowd]\ncharacters = 100\nstagger = false\nsize = [0.5, 2]\n";
     const nlohmann::json all = stage.json(toml + look_at(target, "most_deg = 180\n"), {"--frames", "1"});
@@ -143,34 +153,18 @@ TEST_CASE("heads look in a clip that goes on and on, on ground, and where no arm
     CHECK(whole.lines.size() == stage.clip.lines.size());
 }
 
-TEST_CASE("a head that its name does not tell is named, and is then as any")
+TEST_CASE("a cache has the poses of heads that solve writes")
 {
     const CrowdStage stage{100, 2};
-    const Vector3d target = aside(stage.clip, 60);
-    const PlainMotion known = stage.motion(look_at(target), kFew);
-    spill(stage.folder / "clip.bvh", edited(slurp(stage.folder / "clip.bvh"), "JOINT Head", "JOINT Kopf"));
-    CHECK_THAT(run_command(stage.folder.path, {"rig", "clip.bvh"}).out, Contains("head: missing: no joint above"));
-    stage.require_refused(look_at(target),
-                          "c.toml:1: look: no head of the clip is known that can turn; name one by "
-                          "look.head, or take this out");
-    CHECK(stage.motion(look_at(target, "head = \"Kopf\"\n"), kFew).lines == known.lines);
-    stage.require_refused(look_at(target, "head = \"Head\"\n"), "c.toml:3: look.head: no joint is called 'Head'");
-    stage.require_refused(look_at(target, "head = \"LeftArm\"\n"),
-                          "c.toml:3: look.head: 'LeftArm' is the figure's leftUpperArm");
-}
-
-TEST_CASE("looks that cannot be are refused with file, line and key")
-{
-    const CrowdStage stage;
-    stage.require_refused("[look]\nmost_deg = 20\n",
-                          "c.toml:1: look.target: is missing; write what heads look at: [x, y, z]");
-    stage.require_refused(look_at({1, 2, 3}, "most_deg = 181\n"), "c.toml:3: look.most_deg: ");
-    stage.require_refused(look_at({1, 2, 3}, "joints = 2\n"), "c.toml:3: look.joints: ");
-    stage.require_refused(look_at({1, 2, 3}) + "[budget]\nblocks = 1\n",
-                          "c.toml:1: look: heads that look are solved in every frame; take this or [budget] out");
-    spill(stage.folder / "arms.bvh", kTwoArms);
-    spill(stage.folder / "c.toml", look_at({1, 2, 3}));
-    const Outcome headless = run_command(stage.folder.path, {"solve", "arms.bvh", "--crowd", "c.toml"});
-    CHECK(headless.exit_code == 1);
-    CHECK_THAT(headless.err, Contains("c.toml:1: look: no head of the clip is known that can turn"));
+    const std::string toml = look_at(aside(stage.clip, 60));
+    const PlainMotion motion = stage.motion(toml, kFew);
+    for (const Words& words :
+         {Words{"store", "clip.bvh", "cache", "--crowd", "c.toml", "--frames", "30"}, Words{"fill", "cache"}})
+        require_done(run_command(stage.folder.path, words));
+    const tools::Cache cache(stage.folder / "cache");
+    for (std::uint32_t frame = 0; frame < kCount; ++frame)
+        for (std::size_t n = 0; n < kLooking.size(); ++n) {
+            const Quaterniond written(local_rotation(motion, frame, kLooking[n]));
+            CHECK(kDegrees * looking(cache, frame, n).angularDistance(written) < 1e-3);
+        }
 }

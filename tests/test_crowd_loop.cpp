@@ -4,13 +4,10 @@
 // frames are found, or named. Places are those of Eigen's matrices, of the clip alone.
 #include <catch2/catch.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
 #include "tests/crowd_stage.h"
-#include "tests/gltf_rig.h"
 #include "tests/shared_figures.h"
 #include "tools/crowd/find_loop.h"
 #include "tools/formats/bvh.h"
@@ -23,57 +20,18 @@ using tools::ClipLoop;
 
 namespace {
 
-std::vector<Eigen::Isometry3d> matrices(const Clip& clip, std::size_t frame)
-{
-    std::vector<Eigen::Isometry3d> to;
-    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
-        const Eigen::Isometry3d local = Eigen::Translation3d(formats::local_translation(clip, frame, n)) *
-                                        clip.rotation[frame * clip.joints.size() + n];
-        const int parent = clip.joints[n].parent;
-        to.push_back(parent < 0 ? local : to[static_cast<std::size_t>(parent)] * local);
-    }
-    return to;
-}
 // The most that any joint moves between two frames that follow each other, from one frame to another.
 double largest_step(const Clip& clip, std::size_t from, std::size_t to)
 {
     double most = 0;
-    std::vector<Eigen::Isometry3d> was = matrices(clip, from);
+    std::vector<Eigen::Isometry3d> was = joints_of(clip, from);
     for (std::size_t frame = from + 1; frame <= to; ++frame) {
-        const std::vector<Eigen::Isometry3d> is = matrices(clip, frame);
+        const std::vector<Eigen::Isometry3d> is = joints_of(clip, frame);
         for (std::size_t n = 0; n < is.size(); ++n)
             most = std::max(most, (is[n].translation() - was[n].translation()).norm());
         was = is;
     }
     return most;
-}
-
-// How far arms are turned in a frame, in degrees. They go on turning, so that the nearest frames differ least.
-double turn_of(std::size_t frame) { return 5 + 3 * static_cast<double>(frame); }
-
-// Two arms that turn, and so many seconds between their frames.
-std::string turning_bvh(std::size_t frame_count, double frame_time)
-{
-    std::string text = kTwoArms.substr(0, kTwoArms.find("Frames:")) +
-                       fmt::format("Frames: {}\nFrame Time: {}\n", frame_count, frame_time);
-    for (std::size_t frame = 0; frame < frame_count; ++frame)
-        text += fmt::format("1 2 3 0 10 0 0 {0} 0 0 -30 0 5 0 0 0 {0} 0 0 30 0 5 0 0\n", turn_of(frame));
-    return text;
-}
-
-void write_turning_glb(const fs::path& path, std::size_t frame_count, double frame_time)
-{
-    GltfRig rig;
-    const int arm = rig.add("LeftArm", -1, {0, 0, 0}), fore = rig.add("LeftForeArm", arm, {1, 0, 0.5});
-    rig.add("LeftHand", fore, {1, 0, 0});
-    std::vector<float> times, turns;
-    for (std::size_t frame = 0; frame < frame_count; ++frame) {
-        times.push_back(static_cast<float>(static_cast<double>(frame) * frame_time));
-        const Quaterniond turn(Eigen::AngleAxisd(turn_of(frame) / kDegrees, Vector3d::UnitZ()));
-        for (const double part : turn.coeffs()) turns.push_back(static_cast<float>(part));
-    }
-    rig.add_keys(rig.add_animation("turn"), arm, "rotation", times, turns);
-    rig.write(path);
 }
 
 // A root, and two joints that are turned so far about x, in radians.
@@ -135,12 +93,12 @@ TEST_CASE("the loop of a walk is one step of both legs, and no joint jumps where
         }
         CHECK(largest_step(on, 0, count - 1) <= 1.2 * largest_step(clip, loop.first, loop.last));
         // Where the second round begins, it is as in the last frame, and then as in the first round, some way on.
-        const auto seam = matrices(on, length), last = matrices(clip, loop.last);
+        const auto seam = joints_of(on, length), last = joints_of(clip, loop.last);
         for (std::size_t n = 0; n < seam.size(); ++n) REQUIRE((seam[n].matrix() - last[n].matrix()).norm() < 1e-6);
         const auto middle = length / 2 + length % 2;
         REQUIRE(static_cast<double>(middle) * clip.frame_time >= tools::kSeam);
-        const auto first = matrices(on, middle), second = matrices(on, length + middle),
-                   third = matrices(on, 2 * length + middle);
+        const auto first = joints_of(on, middle), second = joints_of(on, length + middle),
+                   third = joints_of(on, 2 * length + middle);
         const Eigen::Isometry3d way = second[0] * first[0].inverse();
         CHECK(std::fabs(way.translation().y()) < 1e-6);
         CHECK((way.rotation() * Vector3d::UnitY() - Vector3d::UnitY()).norm() < 1e-6);
@@ -173,7 +131,7 @@ TEST_CASE("a clip that turns on the spot and about its height loops as it does")
     const Clip on = tools::looped(clip, 0, found.loop, 500);
     for (std::size_t frame = 0; frame < on.frame_count; ++frame) {
         const Eigen::AngleAxisd turn(0.7 * 0.02 * static_cast<double>(found.loop.first + frame), Vector3d::UnitY());
-        REQUIRE((matrices(on, frame)[0].translation() - turn * Vector3d(3, 1, 0)).norm() < 1e-9);
+        REQUIRE((joints_of(on, frame)[0].translation() - turn * Vector3d(3, 1, 0)).norm() < 1e-9);
     }
     // Too short to loop.
     clip.frame_count = 20;
@@ -225,24 +183,6 @@ TEST_CASE("the loop that is found is the best one, as a comparison of all frames
     }
 }
 
-TEST_CASE("crowd file: a clip that does not come back to a pose is said to have no good loop")
-{
-    const TempFolder folder;
-    spill(folder / "c.toml", "[crowd]\nlimbs = \"arms\"\nloop = \"auto\"\n");
-    const std::string said = "the clip never comes back to a pose while it moves: at the loop's seam its joints are ";
-    const auto notes = [&](double frame_time) {
-        spill(folder / "clip.bvh", turning_bvh(61, frame_time));
-        const Outcome plain = run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml"}),
-                      json = run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml", "--json"});
-        REQUIRE(plain.exit_code + json.exit_code == 0);
-        const std::string of = nlohmann::json::parse(json.out).value("notes", nlohmann::json()).dump();
-        CHECK((plain.out.find("note     " + said) != plain.out.npos) == (of.find(said) != of.npos));
-        return of;
-    };
-    CHECK_THAT(notes(1.0 / 30), Contains(said));  // 90 degrees a second
-    CHECK_THAT(notes(1.0), !Contains(said));      // 3 degrees
-}
-
 TEST_CASE("crowd file: loop")
 {
     const CrowdStage stage(0, 1);
@@ -272,13 +212,6 @@ TEST_CASE("crowd file: loop")
             const PoseLine& first = looped[6 * (frame + static_cast<std::size_t>(is.number("start")))];
             for (std::size_t j = 0; j < 3; ++j) CHECK(is.joint[j].angularDistance(first.joint[j]) < 1e-4);
         }
-    CHECK(stage.output(crowd + "loop = false\n", "a.csv") == stage.output(crowd, "b.csv"));
-    stage.require_refused(crowd + "loop = [40, 9000]\n", "crowd.loop: the clip has no frame 9000; it has frames 0 to ");
-    const CrowdStage short_stage(0, 100);
-    short_stage.require_refused(crowd + "loop = \"auto\"\n", "crowd.loop: the clip is shorter than half a second");
-    stage.require_refused(crowd + "loop = [40, 41]\n", "crowd.loop: the clip needs two frames or more to loop");
-    stage.require_refused(crowd + "loop = [40.5, 60]\n", "crowd.loop: frames are counted; write whole numbers");
-    stage.require_refused(crowd + "loop = true\n", "crowd.loop: is true; write \"auto\", [first, last] or false");
     // A written clip has the frames of the loop, and poses as in the table.
     const PlainMotion written = stage.motion("[crowd]\nloop = [40, 90]\nlimbs = \"legs\"\n", {"--frames", "200"});
     REQUIRE(written.lines.size() == 200);
@@ -288,39 +221,4 @@ TEST_CASE("crowd file: loop")
     CHECK((again - first).norm() > 1e-3);
     CHECK((third - again).norm() == Approx((again - first).norm()).margin(1e-4));
     CHECK(first.y() == Approx(third.y()).margin(1e-4));
-}
-
-TEST_CASE("crowd file: a loop has two frames or more, however long each takes")
-{
-    const TempFolder folder;
-    spill(folder / "c.toml", "[crowd]\nlimbs = \"arms\"\nloop = \"auto\"\n");
-    const auto run = [&](Words words) {
-        words.insert(words.end(), {"--crowd", "c.toml"});
-        return run_command(folder.path, words);
-    };
-    for (const double frame_time : {0.7, 1.0, 499'999.0, 1e12, 500'001.0}) {
-        spill(folder / "clip.bvh", turning_bvh(10, frame_time));
-        write_turning_glb(folder / "clip.glb", 10, frame_time);
-        for (const std::string clip : {"clip.bvh", "clip.glb"}) {
-            INFO(clip << ", " << frame_time << " s");
-            const Outcome solved = run({"solve", clip, "--json"});
-            INFO(solved.err);
-            REQUIRE(solved.exit_code == 0);
-            const auto loop = nlohmann::json::parse(solved.out).at("loop").get<std::array<std::size_t, 2>>();
-            CHECK(loop[1] == loop[0] + 2);
-        }
-    }
-    CHECK(run({"store", "clip.bvh", "of_bvh"}).exit_code == 0);
-    CHECK(run({"store", "clip.glb", "of_glb"}).exit_code == 0);
-    // Between two frames there is one alone that could go on and on.
-    spill(folder / "clip.bvh", turning_bvh(2, 500'001));
-    write_turning_glb(folder / "clip.glb", 2, 500'001);
-    for (const std::string clip : {"clip.bvh", "clip.glb"})
-        for (const Words& words : {Words{"solve", clip, "--out", "out.csv"}, Words{"store", clip, "cache"}}) {
-            const Outcome outcome = run(words);
-            CHECK(outcome.exit_code == 1);
-            CHECK_THAT(outcome.err, Contains("c.toml:3: crowd.loop: the clip has fewer than three frames"));
-            CHECK(std::ranges::count(outcome.err, '\n') == 1);
-        }
-    CHECK(folder.file_count() == 5);
 }

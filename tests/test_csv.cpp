@@ -126,12 +126,7 @@ TEST_CASE("targets: damaged tables are refused with line, column and cause")
     CHECK_THAT(complaint(folder, "# nothing\n"), Contains("t.csv: is empty"));
     CHECK_THAT(complaint(folder, kPlain.substr(0, kPlain.find('\n'))), Contains("t.csv: has no targets"));
     CHECK_THAT(complaint(folder, std::string("frame\0,x", 8)), Contains("t.csv: is a binary file"));
-    CHECK_THAT(complaint(folder, edited(kPlain, "4,5", "\"4,5")),
-               Contains("t.csv:2: a quote is opened and not closed"));
-    CHECK_THAT(complaint(folder, "frame;limb\n"), Contains("t.csv:1: its columns are separated by semicolons"));
     CHECK(read(folder, edited(kPlain, "4,5,6", "\"4\", \"5\" ,6"))[0].pole == Eigen::Vector3d(4, 5, 6));
-    CHECK_THROWS_WITH(read_targets_csv(folder / "none.csv"), Contains("none.csv: cannot be opened: No such file"));
-    CHECK_THROWS_WITH(read_targets_csv(folder.path), Contains("is a directory"));
 }
 
 TEST_CASE("poses: the text of known rows")

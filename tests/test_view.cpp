@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What `swivel view`, `solve --view` and `demo --view` write into a page: the clip's joints by forward kinematics of
-// the tests' own, characters, goals and digests, names that try to end the script. tests/page looks at the page itself.
+// the tests' own, characters, goals and digests, names that try to end the script. tests/page looks at the page itself,
+// and tests/transcripts/view.txt says what is refused.
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
@@ -19,8 +20,6 @@
 #include "tools/formats/base64.h"
 
 using namespace swivel::test;
-using Catch::Matchers::Contains;
-using Catch::Matchers::EndsWith;
 using Eigen::Vector3d;
 using Json = nlohmann::json;
 
@@ -44,11 +43,11 @@ std::string digest_of_script(const std::string& script)
 struct Stage {
     TempFolder folder;
 
-    explicit Stage(bool has_program = true)
+    Stage()
     {
         for (const char* name : {"bin", "share", "share/swivel", "work"}) fs::create_directory(folder / name);
         fs::copy_file(SWIVEL_COMMAND, folder / "bin/swivel");
-        if (has_program) spill(folder / "share/swivel/view.html", kBefore + kBegin + "/*crowd*/null" + kAfter);
+        spill(folder / "share/swivel/view.html", kBefore + kBegin + "/*crowd*/null" + kAfter);
         spill(folder / "work/clip.bvh", kTwoArms);
     }
     Outcome run(Words words) const
@@ -89,13 +88,6 @@ std::vector<Value> values_of(const Json& text)
     std::vector<Value> values(bytes.size() / sizeof(Value));
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
-}
-
-void require_failure(const Outcome& outcome, int code, const std::string& words)
-{
-    CHECK(outcome.exit_code == code);
-    CHECK_THAT(outcome.err, Contains(words) && EndsWith("\n"));
-    CHECK(std::ranges::count(outcome.err, '\n') == 1);
 }
 
 // As the page solves it: the crowd made again from the page's numbers, frame after frame.
@@ -223,30 +215,6 @@ TEST_CASE("names cannot end a page's script")
     fs::copy_file(stage.at("clip.bvh"), stage.at(name));
     REQUIRE(stage.run({"view", name}).exit_code == 0);
     CHECK(stage.page(name + ".html").at("title") == name);
-}
-
-TEST_CASE("without the page's program view says how to build it, and writes nothing")
-{
-    const Stage stage(false);
-    require_failure(stage.run({"view", "clip.bvh"}), 1, "build it with tools/view/build");
-    CHECK(!fs::exists(stage.at("clip.bvh.html")));
-    require_failure(stage.run({"demo", "--view", "demo.html"}), 1, "build it with tools/view/build");
-}
-
-TEST_CASE("a page may go to standard output, and takes no name of a clip, a table or a crowd file")
-{
-    const Stage stage;
-    const Outcome outcome = stage.run({"view", "clip.bvh", "--out", "-"});
-    CHECK(outcome.exit_code == 0);
-    CHECK_THAT(outcome.out, Catch::Matchers::StartsWith(kBefore));
-    CHECK_THAT(outcome.err, Contains("solved"));
-    for (const std::string name : {"a.csv", "b.bvh", "c.GLB", "d.gltf", "e.vrm", "f.toml"}) {
-        spill(stage.at(name), "of someone");
-        for (const auto& words : std::vector<Words>{{"view", "clip.bvh", "--out", name},
-                                                    {"demo", "--frames", "1", "--characters", "1", "--view", name}})
-            require_failure(stage.run(words), 2, name + ": a page is HTML");
-        CHECK(slurp(stage.at(name)) == "of someone");
-    }
 }
 
 TEST_CASE("without a file the page shows the figure that is installed, in its own skin")

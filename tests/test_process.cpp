@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: whatever ends the command's process, no unfinished file stays, one line says why, and the exit status is
-// the cause's own. What is lost on a standard stream is told, and never lands in a file.
-#include <fcntl.h>
+// the cause's own. A bar shows how far a run is, on a terminal alone, within its width, and is wiped. Full disks and
+// closed streams are in tests/transcripts/input.txt.
+#include <rapidcheck/catch.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <catch2/catch.hpp>
@@ -13,15 +14,18 @@
 #include <functional>
 #include <sstream>
 
-#include "tests/pipe_stage.h"
+#include "tests/plain_motion.h"
+#include "tests/run_command.h"
+#include "tests/test_data.h"
+#include "tools/cli/progress.h"
 
 using namespace swivel::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
+using swivel::tools::progress_line;
 
 namespace {
-
-// ---- what a process may find itself in, for Surroundings::before
 
 void limit(int resource, std::uint64_t most)
 {
@@ -69,6 +73,10 @@ struct LongRun {
     }
 };
 
+const Surroundings kTerminal{{"TERM=xterm"}, true};
+// Long enough for bars, 0.1 s apart, on a machine ten times faster than today's.
+const Words kLongRun = {"demo", "--characters", "20000", "--frames", "100"};
+
 }  // namespace
 
 TEST_CASE("process: a signal leaves no partial file, says so, and is what the run ends by")
@@ -103,84 +111,24 @@ TEST_CASE("process: a hangup that nohup has ignored stays ignored")
     CHECK(stage.folder.file_count() == 2);
 }
 
-TEST_CASE("process: a pipe that nobody reads and a limit on the size of files end a run, and leave no file")
+TEST_CASE("process: a pipe that nobody reads ends a run without a word")
 {
-    const PipeStage stage;
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
     Surroundings unread;
     unread.before = [] {
         int ends[2];
-        if (::pipe2(ends, O_CLOEXEC) == 0) ::dup2(ends[1], STDOUT_FILENO);
+        if (::pipe(ends) == 0) ::dup2(ends[1], STDOUT_FILENO);
         ::close(ends[0]);
+        ::close(ends[1]);
     };
     for (const Words& words :
-         std::vector<Words>{{"help"}, {"solve", "clip.bvh", "--out", "-", "--export-targets", "t2.csv", "--quiet"}}) {
-        const Outcome outcome = spawn_command(stage.folder.path, words, unread);
+         std::vector<Words>{{"help"}, {"solve", "clip.bvh", "--out", "-", "--export-targets", "t.csv", "--quiet"}}) {
+        const Outcome outcome = spawn_command(folder.path, words, unread);
         CHECK(outcome.exit_code == -SIGPIPE);
         CHECK(outcome.err.empty());
+        CHECK(folder.file_count() == 1);
     }
-    Surroundings small;
-    small.before = [] { limit(RLIMIT_FSIZE, 100), limit(RLIMIT_CORE, 0); };
-    const Outcome outcome = spawn_command(stage.folder.path, {"solve", "clip.bvh", "--out", "o.csv"}, small);
-    CHECK(outcome.exit_code == -SIGXFSZ);
-    CHECK(outcome.err == "swivel: File size limit exceeded; unfinished files are removed\n");
-    CHECK(stage.folder.file_count() == 3);
-}
-
-TEST_CASE("process: a standard output that is full is one line and exit code 1, whatever goes there")
-{
-    const PipeStage stage;
-    Surroundings full;
-    full.stdout_file = "/dev/full";
-    for (const Words& words : std::vector<Words>{{"--help"},
-                                                 {"--version"},
-                                                 {"solve", "--help"},
-                                                 {"help", "solve"},
-                                                 {"info", "--json"},
-                                                 {"rig", "clip.bvh"},
-                                                 {"solve", "clip.bvh", "--json"},
-                                                 {"demo", "--characters", "2", "--frames", "2"}}) {
-        const Outcome outcome = spawn_command(stage.folder.path, words, full);
-        INFO(words.front());
-        CHECK(outcome.exit_code == 1);
-        CHECK(outcome.err == "swivel: standard output could not be written in full\n");
-    }
-    const Outcome poses = spawn_command(stage.folder.path, {"solve", "clip.bvh", "--out", "-", "--quiet"}, full);
-    CHECK(poses.exit_code == 1);
-    CHECK_THAT(poses.err, StartsWith("swivel: standard output: cannot be written: "));
-}
-
-TEST_CASE("process: closed standard streams lose their text, and no other file gets it")
-{
-    const PipeStage stage;
-    const std::string csv = stage.written({"clip.bvh", "--out", "a.csv"}),
-                      table = stage.written({"clip.bvh", "--export-targets", "t2.csv"});
-    const auto spawn = [&](Words words, const std::vector<int>& closed) {
-        Surroundings without;
-        without.before = [&closed] {
-            for (const int descriptor : closed) ::close(descriptor);
-        };
-        words.insert(words.begin(), "solve");
-        return spawn_command(stage.folder.path, words, without);
-    };
-    for (const std::vector<int>& closed : std::vector<std::vector<int>>{{0}, {1}, {2}, {0, 1, 2}}) {
-        INFO(closed.size() << " closed, " << closed[0] << " first");
-        const Outcome outcome = spawn({"clip.bvh", "--out", "b.csv", "--export-targets", "t3.csv"}, closed);
-        CHECK(slurp(stage.folder / "b.csv") == csv);
-        CHECK(slurp(stage.folder / "t3.csv") == table);
-        CHECK(outcome.exit_code == std::ranges::count(closed, 1));  // the report is lost with standard output
-    }
-    CHECK(spawn({"clip.bvh", "--clip", "x"}, {2}).exit_code == 2);  // what cannot be said is no crash
-    CHECK_THAT(spawn({"-"}, {0}).err, StartsWith("swivel: standard input: "));
-    CHECK_THAT(spawn({"clip.bvh", "--out", "-", "--quiet"}, {1}).err,
-               StartsWith("swivel: standard output: cannot be written: "));
-}
-
-TEST_CASE("process: a message that nobody can be told changes no exit code")
-{
-    const TempFolder folder;
-    Surroundings mute;
-    mute.before = [] { ::dup2(::open("/dev/full", O_WRONLY | O_CLOEXEC), STDERR_FILENO); };
-    CHECK(spawn_command(folder.path, {"slove"}, mute).exit_code == 2);
 }
 
 TEST_CASE("process: lack of memory is one line that blames no file, wherever it shows")
@@ -217,4 +165,57 @@ TEST_CASE("process: lack of memory is one line that blames no file, wherever it 
         CHECK(done == 3);
         CHECK(failed > 0);
     }
+}
+
+TEST_CASE("progress: the bar is for terminals alone, and wiped")
+{
+    const TempFolder folder;
+    const Outcome piped = spawn_command(folder.path, kLongRun, {{"TERM=xterm"}});
+    CHECK(piped.exit_code == 0);
+    CHECK(piped.err.empty());
+    Surroundings dumb = kTerminal;
+    dumb.environment = {"TERM=dumb"};
+    CHECK(spawn_command(folder.path, kLongRun, dumb).err.empty());
+    const Outcome watched = spawn_command(folder.path, kLongRun, kTerminal);
+    CHECK(watched.exit_code == 0);
+    CHECK_THAT(watched.err, StartsWith("\r[") && Contains(" of 100 frames") && EndsWith("\r\x1b[K"));
+    CHECK_THAT(watched.err, !Contains("\n"));
+    CHECK_THAT(watched.out, Contains("million arms/s") && !Contains("\x1b"));
+    Words quiet = kLongRun;
+    quiet.push_back("--quiet");
+    const Outcome silent = spawn_command(folder.path, quiet, kTerminal);
+    CHECK(silent.err.empty());
+    CHECK_THAT(silent.out, Contains("million arms/s"));
+}
+
+TEST_CASE("progress: the bar is narrower than the terminal, as wide as that says it is")
+{
+    const TempFolder folder;
+    const Outcome outcome = spawn_command(folder.path, kLongRun, {{"TERM=xterm"}, true, 24});
+    CHECK_THAT(outcome.err, Contains(" %"));
+    for (std::size_t at = 0; at < outcome.err.size();) {
+        const std::size_t end = outcome.err.find("\x1b[K", at);
+        REQUIRE(end != std::string::npos);
+        CHECK(outcome.err[at] == '\r');
+        CHECK(end - at - 1 < 24);
+        at = end + 3;
+    }
+}
+
+TEST_CASE("progress: a line fits, and says as much as fits")
+{
+    rc::prop("narrower than the terminal, with all figures where there is room", [] {
+        const auto total = *rc::gen::inRange<std::uint64_t>(2, 1'000'000'000'000);
+        const auto done = *rc::gen::inRange<std::uint64_t>(0, total + 1);
+        const auto columns = *rc::gen::inRange<std::size_t>(0, 200);
+        const double seconds = *rc::gen::inRange(0, 1'000'000);
+        const std::string line = progress_line(done, total, "frames", seconds, columns);
+        RC_ASSERT(line.size() < std::max<std::size_t>(columns, 1));
+        RC_ASSERT(line.find_first_of("\r\n") == std::string::npos);
+        if (columns > 5) RC_ASSERT(line.find(std::to_string(100 * done / total) + " %") != std::string::npos);
+        const std::string wide = progress_line(done, total, "frames", seconds, 200);
+        RC_ASSERT(wide.find(std::to_string(done) + " of " + std::to_string(total) + " frames, ") != std::string::npos);
+        RC_ASSERT(std::count(wide.begin(), wide.end(), '#') == static_cast<long>(30 * done / total));
+        if (wide.size() < columns) RC_ASSERT(line == wide);
+    });
 }
