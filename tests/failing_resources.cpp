@@ -77,26 +77,21 @@ Function* next(const char* name)
 
 namespace swivel::test {
 
-void let_fail(Resource resource, std::uint32_t nth, bool later_too)
+void let_fail(Resource resource, std::uint32_t nth, bool later_too, const volatile float* word)
 {
     wanted = resource;
     first = nth;
     is_lasting = later_too;
-    request_count = 0;
+    request_count = thread_count = failure_count = 0;
     allocation_fails = [] { return fails(Resource::allocation); };
-    thread_count = failure_count = 0;
     is_limited = resource == Resource::thread;
-    is_armed = resource != Resource::thread;
-}
-void hide_own_memory() { is_hidden = true; }
-void let_fail_elsewhere(const volatile float* word)
-{
-    failure_count = 0;
-    allocation_fails = [] { return fails(Resource::allocation); };
-    is_watcher = true;
+    is_watcher = resource == Resource::allocation_elsewhere;
+    is_armed = !is_limited && !is_watcher;
+    if (!is_watcher) return;
     watched_before = *word;
     watched = word;
 }
+void hide_own_memory() { is_hidden = true; }
 std::uint32_t stop_failing()
 {
     watched = nullptr;

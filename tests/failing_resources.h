@@ -8,17 +8,16 @@
 
 namespace swivel::test {
 
-enum class Resource { allocation, mapping, thread };
+enum class Resource { allocation, mapping, thread, allocation_elsewhere };
 
 // From now on this fails, until stop_failing():
 // - of allocations and mappings the nth request of the calling thread, counted from 1. With later_too, all later ones
 //   fail as well.
 // - every start of a thread, on any thread, while nth - 1 of those that were started from now on are still there.
-void let_fail(Resource resource, std::uint32_t nth, bool later_too);
+// - of allocations elsewhere, on another thread, the first one, which waits until this word changes.
+void let_fail(Resource resource, std::uint32_t nth, bool later_too, const volatile float* word);
 // From now on oneTBB does not find Debian's library that gives it memory, and takes all from malloc and its relatives.
 void hide_own_memory();
-// From now on one allocation of another thread fails: the first one, which waits until this word changes.
-void let_fail_elsewhere(const volatile float* word);
 // Returns how many requests have failed.
 std::uint32_t stop_failing();
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: bad input costs its own limb, and nothing else. Where no weight asks for more, the incoming bits stay.
-// What a crowd of bodies cannot be made of, and what is no pose, gets one line.
+// The promise: bad input costs its own limb of its own body, what holds it, and nothing else. Where no weight asks for
+// more, the incoming bits stay. A hand on one that keeps its pose goes there.
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <cstddef>
 
 #include "tests/body_crowd.h"
-#include "tests/complaint.h"
+#include "tests/holding_bodies.h"
+#include "tests/test_crowd.h"
+#include "tests/upright_bodies.h"
 
 namespace {
 
 using namespace swivel;
 using namespace swivel::test;
-
-constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 // A skeleton whose limbs all hang below joint 0.
 BodySkeleton skeleton_of(Random& random) { return random_body_skeleton(random, {2, 3, 1, true}); }
@@ -56,68 +56,55 @@ struct PosedStage {
 
 TEST_CASE("bad input of a joint is that of the limbs below it, which keep their pose")
 {
-    const auto number = GENERATE(0, 1, 2, 3, 4, 5, 6, 7, 8, 9);
-    PosedStage stage(1, SWIVEL_WITH_HAND);
-    PoseBuffer good(stage.layout, stage.bodies);
-    solve_poses(stage.crowd, good.view());
-    const std::uint64_t digest = swivel_digest(stage.crowd.get());
-
-    constexpr std::size_t body = 17;
-    Body& bad = stage.bodies[body];
-    const BodyLimbJoints& limb = stage.skeleton.limbs[1];
-    bool is_whole_body = false;
-    switch (number) {
-        case 0:
-            bad.rotations[limb.shoulder][2] = kNotANumber;
-            break;
-        case 1:
-            bad.rotations[limb.elbow] = {0, 0, 0, 0};
-            break;
-        case 2:
-            bad.translations[limb.wrist][0] = kNotANumber;
-            break;
-        case 3:
-            bad.translations[limb.elbow][1] = INFINITY;
-            break;
-        case 9:
-            bad.rotations[limb.wrist][0] = kNotANumber;
-            break;
-        case 4:
-            bad.scales[limb.elbow] = {1, 1, 1.01f};
-            break;
-        case 5:
-            bad.scales[limb.shoulder] = {-1, -1, -1};
-            break;
-        case 6:
-            bad.rotations[0] = {INFINITY, 0, 0, 1};
-            is_whole_body = true;
-            break;
-        case 7:
-            bad.root_position[1] = kNotANumber;
-            is_whole_body = true;
-            break;
-        default:
-            bad.root_scale = 0;
-            is_whole_body = true;
-            break;
-    }
-    PoseBuffer poses(stage.layout, stage.bodies);
-    const std::vector<unsigned char> before = poses.bytes;
-    Crowd crowd = body_crowd(stage.skeleton, SWIVEL_WITH_HAND, 20);
-    write_goals(crowd, stage.goals);
-    solve_poses(crowd, poses.view());
-    REQUIRE(swivel_digest(crowd.get()) != digest);
-    for (std::uint32_t n = 0; n < 20; ++n)
-        for (std::uint32_t g = 0; g < 3; ++g) {
-            const bool is_bad = n == body && (is_whole_body || g == 1);
-            INFO("case " << number << ", body " << n << ", group " << g);
-            REQUIRE((limb_flags(crowd, g, n) == SWIVEL_BAD_INPUT) == is_bad);
-            const BodyLimbJoints& joints = stage.skeleton.limbs[g];
-            for (const std::uint32_t joint : {joints.shoulder, joints.elbow, joints.wrist}) {
-                const std::size_t at = n * poses.body_stride + joint * 16;
-                REQUIRE(std::memcmp(&poses.bytes[at], is_bad ? &before[at] : &good.bytes[at], 16) == 0);
+    const struct {
+        const char* name;
+        bool is_whole_body;
+        void (*spoil)(Body& body, const BodyLimbJoints& limb);
+    } rows[] = {
+        {"a shoulder's rotation", false, [](auto& body, auto& limb) { body.rotations[limb.shoulder][2] = kNan; }},
+        {"an elbow's rotation", false,
+         [](auto& body, auto& limb) {
+             body.rotations[limb.elbow] = {0, 0, 0, 0};
+         }},
+        {"a wrist's rotation", false, [](auto& body, auto& limb) { body.rotations[limb.wrist][0] = kNan; }},
+        {"a wrist's translation", false, [](auto& body, auto& limb) { body.translations[limb.wrist][0] = kNan; }},
+        {"an elbow's translation", false, [](auto& body, auto& limb) { body.translations[limb.elbow][1] = kInf; }},
+        {"an uneven scale", false,
+         [](auto& body, auto& limb) {
+             body.scales[limb.elbow] = {1, 1, 1.01f};
+         }},
+        {"a negative scale", false,
+         [](auto& body, auto& limb) {
+             body.scales[limb.shoulder] = {-1, -1, -1};
+         }},
+        {"a rotation above all limbs", true,
+         [](auto& body, auto&) {
+             body.rotations[0] = {kInf, 0, 0, 1};
+         }},
+        {"the root's place", true, [](auto& body, auto&) { body.root_position[1] = kNan; }},
+        {"the root's scale", true, [](auto& body, auto&) { body.root_scale = 0; }},
+    };
+    constexpr std::size_t bad_body = 17;
+    for (const auto& [name, is_whole_body, spoil] : rows) {
+        PosedStage stage(1, SWIVEL_WITH_HAND), bad(1, SWIVEL_WITH_HAND);
+        PoseBuffer good(stage.layout, stage.bodies);
+        solve_poses(stage.crowd, good.view());
+        spoil(bad.bodies[bad_body], stage.skeleton.limbs[1]);
+        PoseBuffer poses(bad.layout, bad.bodies);
+        const std::vector<unsigned char> before = poses.bytes;
+        solve_poses(bad.crowd, poses.view());
+        for (std::uint32_t n = 0; n < 20; ++n)
+            for (std::uint32_t g = 0; g < 3; ++g) {
+                const bool is_bad = n == bad_body && (is_whole_body || g == 1);
+                INFO(name << ", body " << n << ", group " << g);
+                REQUIRE((limb_flags(bad.crowd, g, n) == SWIVEL_BAD_INPUT) == is_bad);
+                const BodyLimbJoints& joints = stage.skeleton.limbs[g];
+                for (const std::uint32_t joint : {joints.shoulder, joints.elbow, joints.wrist}) {
+                    const std::size_t at = n * poses.body_stride + joint * 16;
+                    REQUIRE(std::memcmp(&poses.bytes[at], is_bad ? &before[at] : &good.bytes[at], 16) == 0);
+                }
             }
-        }
+    }
 }
 
 TEST_CASE("a matrix that is slanted or uneven is bad input")
@@ -187,128 +174,6 @@ TEST_CASE("limbs rest where they are told to, and a body that kept its pose keep
     }
 }
 
-TEST_CASE("crowds and poses that cannot be get a line")
-{
-    Random random{6};
-    const BodySkeleton skeleton = skeleton_of(random);
-    const swivel_skeleton view = skeleton.view();
-    swivel_limb_joints joints[2] = {skeleton.joints(0), skeleton.joints(1)};
-    swivel_group_def groups[2] = {swivel_default_body_group_def(&joints[0]), swivel_default_body_group_def(&joints[1])};
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.skeleton = &view, def.body_count = 3, def.groups = groups, def.group_count = 2;
-    const auto refused = [&](const char* line) {
-        swivel_crowd* crowd = nullptr;
-        REQUIRE(swivel_crowd_create(&def, &crowd) == SWIVEL_INVALID_ARGUMENT);
-        REQUIRE(std::string(swivel_last_error()).find(line) != std::string::npos);
-        REQUIRE(swivel_crowd_bytes(&def) == 0);
-    };
-    SECTION("no bodies") { def.body_count = 0, refused("no bodies"); }
-    SECTION("no skeleton") { def.skeleton = nullptr, refused("no skeleton"); }
-    SECTION("no joints") { groups[1].joints = nullptr, refused("group 1 names no joints"); }
-    SECTION("other counts") { groups[1].limb_count = 2, refused("group 1 has 2 limbs, but there are 3 bodies"); }
-    SECTION("a joint twice") { joints[1] = joints[0], refused("group 0 turns joint"); }
-    SECTION("no limb") { joints[1].elbow = 0, refused("group 1: the elbow, joint 0, is not below"); }
-    SECTION("joints of a binding") { groups[0].features = SWIVEL_JOINTS, refused("excludes SWIVEL_JOINTS"); }
-    SECTION("a limb below another")
-    {
-        constexpr std::array<std::int32_t, 7> parents = {-1, 0, 1, 2, 3, 4, 5};
-        constexpr std::array<Float3, 7> offsets = {
-            {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
-        swivel_skeleton chain = swivel_default_skeleton();
-        chain.parents = {parents.data(), 4}, chain.translations = {offsets.data(), 12}, chain.joint_count = 7;
-        joints[0] = swivel_default_limb_joints(1, 2, 3), joints[1] = swivel_default_limb_joints(4, 5, 6);
-        joints[0].bend[1] = joints[1].bend[1] = 1;
-        def.skeleton = &chain;
-        refused("group 0 turns joint 1, which is above joint 4 of group 1");
-    }
-    SECTION("twist bones that no joint is")
-    {
-        groups[0].features = SWIVEL_WITH_HAND | 2 * SWIVEL_WITH_TWIST_BONES;
-        refused("group 0: its features have 2 twist bones, its joints 0");
-    }
-    SECTION("a clavicle that no joint is")
-    {
-        constexpr std::array<std::int32_t, 3> parents = {-1, 0, 1};
-        constexpr std::array<Float3, 3> offsets = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
-        swivel_skeleton arm = swivel_default_skeleton();
-        arm.parents = {parents.data(), 4}, arm.translations = {offsets.data(), 12}, arm.joint_count = 3;
-        joints[0] = swivel_default_limb_joints(0, 1, 2);
-        joints[0].bend[1] = 1;
-        groups[0].features = SWIVEL_WITH_CLAVICLE;
-        def.skeleton = &arm, def.group_count = 1;
-        refused("group 0: the shoulder, joint 0, has no parent");
-    }
-    SECTION("a joint below nothing")
-    {
-        std::vector<std::int32_t> parents = skeleton.parents;
-        parents.push_back(900);  // of a joint that no limb needs
-        swivel_skeleton longer = view;
-        longer.parents = {parents.data(), 4}, longer.joint_count = static_cast<std::uint32_t>(parents.size());
-        def.skeleton = &longer;
-        refused("'s parent is 900; give -1 for a root");
-    }
-    SECTION("calls that need a record")
-    {
-        Crowd crowd(def);
-        char text[100];
-        std::uint32_t count = 0;
-        double number = 0;
-        REQUIRE(swivel_explain(crowd.get(), 0, 0, text, sizeof text) == SWIVEL_INVALID_ARGUMENT);
-        REQUIRE(swivel_allowed_arcs(crowd.get(), 0, 0, nullptr, 0, &count) == SWIVEL_INVALID_ARGUMENT);
-        REQUIRE(swivel_residuals(crowd.get(), 0, 0, 1, {&number, 8}) == SWIVEL_INVALID_ARGUMENT);
-        REQUIRE(swivel_forward(crowd.get(), 0, 0, 0, {}, {}, {}) == SWIVEL_INVALID_ARGUMENT);
-        REQUIRE(std::string(swivel_last_error()).find("create it with SWIVEL_WITH_RECORD") != std::string::npos);
-        Crowd free({group(1)});
-        const swivel_pose pose = swivel_default_pose();
-        REQUIRE_THROWS_WITH(free.solve({.pose = &pose}), Catch::Contains("no bodies"));
-    }
-    SECTION("poses")
-    {
-        Crowd crowd(def);
-        const auto no_pose = [&](const swivel_pose* pose, const char* line) {
-            swivel_job job = swivel_default_job();
-            job.pose = pose;
-            REQUIRE(swivel_solve(crowd.get(), &job) == SWIVEL_INVALID_ARGUMENT);
-            INFO(swivel_last_error());
-            REQUIRE(std::string(swivel_last_error()).find(line) != std::string::npos);
-        };
-        std::vector<Float4> rotations(3 * skeleton.size(), Float4{0, 0, 0, 1});
-        swivel_pose pose = swivel_default_pose();
-        no_pose(nullptr, "give the job their pose");
-        no_pose(&pose, "no rotations");
-        pose.rotations = {rotations.data(), skeleton.size() * 16, 16, nullptr};
-        pose.rotations.body_stride = 0;
-        no_pose(&pose, "body_stride 0 is smaller");
-        pose.rotations.body_stride = skeleton.size() * 16, pose.rotations.joint_stride = 12;
-        no_pose(&pose, "joint_stride 12 is smaller than a value, 16");
-        pose.rotations.joint_stride = 16, pose.root_is_double = 1;
-        no_pose(&pose, "has no position");
-        pose.root_is_double = 0, pose.root_rotation = {rotations.data(), 8};
-        no_pose(&pose, "root_rotation: stride 8");
-        pose.root_rotation = {}, pose.form = SWIVEL_MATRIX_ROWS, pose.scales = pose.rotations;
-        no_pose(&pose, "matrices and scales");
-        std::uint32_t form = 77;
-        std::memcpy(&pose.form, &form, sizeof form);
-        no_pose(&pose, "form is 77");
-        pose = swivel_default_pose();
-        pose.rotations = {rotations.data(), skeleton.size() * 16, 16, nullptr};
-        pose.translation_results = pose.rotations;
-        no_pose(&pose, "only translations in the body's space change");
-        pose.space = SWIVEL_IN_BODY, pose.translations = pose.results = pose.rotations, pose.translation_results = {};
-        no_pose(&pose, "no translation_results");
-        pose.translation_results = pose.rotations, pose.joint_places = {rotations.data(), 8, 16, nullptr};
-        no_pose(&pose, "joint_places: body_stride 8");
-        std::memcpy(&pose.space, &form, sizeof form);
-        no_pose(&pose, "space is 77");
-    }
-    SECTION("what a pose gives")
-    {
-        Crowd crowd(def);
-        REQUIRE_THROWS_WITH(crowd.write_all(SWIVEL_PARENT_SCALE, 0, std::array{1.0f}),
-                            Catch::Contains("the pose of a body gives it"));
-    }
-}
-
 TEST_CASE("a pose of an older header is read as far as it goes")
 {
     PosedStage stage(9, SWIVEL_WITH_HAND);
@@ -319,4 +184,184 @@ TEST_CASE("a pose of an older header is read as far as it goes")
     pose.reserved = 1;  // beyond its end
     solve_poses(stage.crowd, pose);
     REQUIRE(whole.bytes == older.bytes);
+}
+
+// ---- hands and props
+
+namespace {
+
+constexpr std::size_t kBadBody = 20;  // whose share is 2/3, or what a case makes it; without a written place
+
+struct BadBodies {
+    HoldingBodies good_bodies, bodies;
+
+    explicit BadBodies(std::uint64_t seed, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE)
+        : good_bodies(made(seed, on_bad_input)), bodies(made(seed, on_bad_input))
+    {
+    }
+    static HoldingBodies made(std::uint64_t seed, swivel_on_bad_input on_bad_input)
+    {
+        Random random{seed};
+        PoseLayout layout;
+        layout.translates = layout.scales = layout.roots = true;
+        HoldingBodies made(random, 40, layout, on_bad_input);
+        made.find(HoldingBodies::left, SWIVEL_TARGET)->at(kBadBody)[0] = kNan;
+        for (int c = 0; c < 3; ++c) made.find(HoldingBodies::prop, SWIVEL_PROP_PLACE)->at(kBadBody)[c] = kNan;
+        made.find(HoldingBodies::prop, SWIVEL_PROP_SHARE)->at(kBadBody)[0] = 0;
+        return made;
+    }
+    float* input(std::uint32_t group, swivel_field field) { return bodies.find(group, field)->at(kBadBody); }
+    Float4& rotation(std::uint32_t joint) { return bodies.bodies[kBadBody].rotations[joint]; }
+    const BodyLimbJoints& limb(std::uint32_t group) const { return bodies.skeleton.limbs[bodies.limb_of[group]]; }
+
+    // Groups that are bad in that body; in others no bit changes.
+    void check_bad(const std::vector<std::uint32_t>& groups) const
+    {
+        const SolvedLinks good(good_bodies), solved(bodies);
+        for (std::size_t n = 0; n < 40; ++n)
+            if (n != kBadBody)
+                REQUIRE((bits_of_body(bodies, solved.crowd, solved.poses, n) ==
+                         bits_of_body(good_bodies, good.crowd, good.poses, n)));
+        const PoseBuffer before(bodies.layout, bodies.bodies);
+        for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) {
+            const bool is_bad = std::ranges::find(groups, g) != groups.end();
+            INFO("group " << g << ", flags " << solved.flags(g, kBadBody));
+            CHECK((solved.flags(g, kBadBody) == SWIVEL_BAD_INPUT) == is_bad);
+            CHECK(!(good.flags(g, kBadBody) & SWIVEL_BAD_INPUT));
+            if (!is_bad || bodies.limb_of[g] == kNoLimbHere || bodies.groups[g].on_bad_input != SWIVEL_KEEP_POSE)
+                continue;
+            for (const std::uint32_t joint : {limb(g).shoulder, limb(g).elbow, limb(g).wrist}) {
+                const std::size_t at = kBadBody * before.body_stride + joint * 16;
+                CHECK(std::memcmp(&solved.poses.bytes[at], &before.bytes[at], 16) == 0);
+            }
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("bad input of hands and props is that of what depends on them, and of no other body")
+{
+    using H = HoldingBodies;
+    const std::vector<std::uint32_t> none, follower = {H::follower}, right = {H::right},
+                                           all = {H::prop, H::left, H::right};
+    const struct {
+        const char* name;
+        std::uint32_t group;
+        swivel_field field;
+        std::size_t first, count;  // the numbers of its value that are bad
+        std::vector<float> bad;
+        std::vector<std::uint32_t> groups;
+        float share = 0;
+    } rows[] = {
+        {"nothing", H::prop, SWIVEL_PROP_SHARE, 0, 1, {0, 1}, none},
+        {"a grip of the hand that says where the prop is", H::left, SWIVEL_GRIP, 1, 1, {kNan, kInf, 1e16f}, all},
+        {"a grip of the other hand", H::right, SWIVEL_GRIP, 1, 1, {kNan}, right},
+        {"a grip of either hand, between which the prop is", H::right, SWIVEL_GRIP, 4, 1, {kInf}, all, 0.5f},
+        {"a grip of no rotation", H::follower, SWIVEL_GRIP, 3, 4, {0}, follower},
+        {"a share", H::prop, SWIVEL_PROP_SHARE, 0, 1, {-0.1f, 1.1f, kNan}, all},
+        {"a weight", H::prop, SWIVEL_PROP_WEIGHT, 0, 1, {-0.1f, 1.1f, kNan}, all},
+        {"a place of a prop", H::prop, SWIVEL_PROP_PLACE, 0, 3, {2e15f, kInf}, all},
+        {"a rotation of a prop", H::prop, SWIVEL_PROP_TURN, 0, 4, {0, kInf}, all},
+        {"a target of a hand on a prop", H::left, SWIVEL_TARGET, 0, 3, {2e15f}, all},
+        {"a target", H::free, SWIVEL_TARGET, 0, 1, {kNan}, {H::free}},
+    };
+    for (const auto& [name, group, field, first, count, values, groups, share] : rows)
+        for (const float bad : values) {
+            INFO(name << ", " << bad);
+            BadBodies stage(1);
+            if (!stage.bodies.find(group, field))
+                for (HoldingBodies* const each : {&stage.bodies, &stage.good_bodies})
+                    each->give(group, field, [](std::size_t) { return Float1{1}; });
+            if (share > 0) stage.input(H::prop, SWIVEL_PROP_SHARE)[0] = share;
+            std::fill_n(stage.input(group, field) + first, count, bad);
+            stage.check_bad(groups);
+        }
+}
+
+TEST_CASE("bad input of joints is that of the hands and props that hang on them")
+{
+    using H = HoldingBodies;
+    BadBodies elbow(1), wrist(1), far(1), of_prop(1);
+    elbow.rotation(elbow.limb(H::right).elbow)[1] = kNan;
+    elbow.check_bad({H::right});
+    wrist.rotation(wrist.limb(H::free).wrist)[0] = kNan;  // which another one holds
+    wrist.check_bad({H::free, H::follower});
+    of_prop.rotation(1)[2] = kNan;
+    const SolvedLinks solved(of_prop.bodies);
+    CHECK(solved.flags(H::handle, kBadBody) == SWIVEL_BAD_INPUT);
+    CHECK(solved.flags(H::on_handle, kBadBody) == SWIVEL_BAD_INPUT);
+    // A prop that comes from far away to one hand alone.
+    for (HoldingBodies* const each : {&far.good_bodies, &far.bodies}) {
+        each->groups[H::prop].prop.most_move = 1000;
+        each->find(H::prop, SWIVEL_PROP_PLACE)->write(kBadBody, Float3{30, 0, 0});
+    }
+    far.input(H::right, SWIVEL_GRIP)[1] = kNan;
+    far.check_bad({H::right});
+    CHECK(SolvedLinks(far.bodies).flags(H::prop, kBadBody) == SWIVEL_REACHED);
+}
+
+TEST_CASE("a hand on a limb that keeps its pose after bad input holds it there")
+{
+    BadBodies stage(2);
+    stage.input(HoldingBodies::free, SWIVEL_TARGET)[0] = kNan;
+    stage.check_bad({HoldingBodies::free});
+    const SolvedLinks solved(stage.bodies);
+    const LinkedBody body(solved, kBadBody);
+    const JointAt& wrist = body.was[stage.limb(HoldingBodies::free).wrist];
+    const Held told = solved.from_root(SWIVEL_HAND_FRAME, HoldingBodies::free, kBadBody);
+    const double off = 2e-7 * vec(body.was_body.root_position).norm() + body.bound(HoldingBodies::free);
+    const Vector3d up = quat(body.was_body.root_rotation).normalized() * Vector3d::UnitY(),
+                   shifted = double{solved.result<Float3>(SWIVEL_SHIFT, HoldingBodies::fit, kBadBody)[0]} * up;
+    CHECK((told.place - shifted - wrist.place).norm() <= off);
+    CHECK(told.rotation.angularDistance(wrist.rotation) <= 2e-6);
+    if (solved.flags(HoldingBodies::follower, kBadBody) & SWIVEL_REACHED) {
+        const Held wanted = body.wanted(HoldingBodies::follower, {wrist.rotation, wrist.place});
+        CHECK((body.hand(HoldingBodies::follower).place - wanted.place).norm() <=
+              body.bound(HoldingBodies::follower) + off);
+    }
+}
+
+TEST_CASE("a hand on a limb with bad input and its rest pose has bad input")
+{
+    BadBodies stage(3, SWIVEL_REST_POSE);
+    stage.input(HoldingBodies::free, SWIVEL_TARGET)[0] = kNan;
+    stage.check_bad({HoldingBodies::free, HoldingBodies::follower});
+    const SolvedLinks solved(stage.bodies);
+    for (const float x : solved.result<Float7>(SWIVEL_HAND_FRAME, HoldingBodies::free, kBadBody)) CHECK(std::isnan(x));
+    const Body is = solved.poses.read(kBadBody, stage.bodies.bodies[kBadBody]);
+    const swivel_binding bound =
+        bind(stage.bodies.skeleton.view(), stage.bodies.joints[stage.bodies.limb_of[HoldingBodies::follower]]);
+    CHECK(quat(is.rotations[stage.limb(HoldingBodies::follower).shoulder]).angularDistance(quat(bound.shoulder_rest)) <=
+          1e-6);
+}
+
+TEST_CASE("bad input of a look keeps its joints, and is that of no other body")
+{
+    for (const bool keeps : {false, true})
+        for (const char* const what : {"target", "weight", "pose"}) {
+            INFO(what << ", " << keeps);
+            const std::string spoilt = what;
+            Upright of;
+            of.look.look.rate = 2;
+            of.look.on_bad_input = keeps ? SWIVEL_KEEP_POSE : SWIVEL_REST_POSE;
+            UprightCrowd good(of, 20), bodies(of, 20);
+            std::vector<Float3> targets(20, Float3{1, 1.6f, 2});
+            for (UprightCrowd* each : {&good, &bodies}) each->solve(targets, 0.1f), each->reset();
+            const Vector3d sight = bodies.line(7);
+            std::array<float, 25> line{}, kept{};
+            check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_TURNS, 0, 7, 1, {&line, sizeof line}));
+            good.solve(targets, 0.1f);
+            if (spoilt == "target") targets[7] = {0, 1e16f, 0};
+            if (spoilt == "weight") bodies.crowd.write(SWIVEL_LOOK_WEIGHT, 0, std::vector<float>{1.5f}, 7);
+            if (spoilt == "pose") bodies.rotations[7][1][0] = kNan;
+            bodies.solve(targets, 0.1f);
+            CHECK((bodies.rotations[7][3] == Float4{0, 0, 0, 1}));
+            CHECK(bodies.flags(7) == SWIVEL_BAD_INPUT);
+            CHECK((bodies.line(7) == sight));
+            check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_TURNS, 0, 7, 1, {&kept, sizeof kept}));
+            CHECK((kept == (keeps ? line : std::array<float, 25>{})));
+            for (std::size_t n = 0; n < 20; ++n)
+                if (n != 7) CHECK((bodies.rotations[n] == good.rotations[n]));
+        }
 }

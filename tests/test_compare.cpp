@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: swivel_compare() names the mistake for which a pose and the caller's places disagree, and no mistake
-// where they agree. The places are of Eigen's forward kinematics.
+// The promise: swivel_compare() names the mistake for which a pose and the caller's places disagree, in the words of
+// approved/mistakes.txt, and no mistake where they agree. The places are of Eigen's forward kinematics.
 #include <catch2/catch.hpp>
 
 #include <cstring>
 #include <functional>
+#include <map>
 #include <numbers>
+#include <regex>
 
 #include "tests/allocation_count.h"
+#include "tests/approved_texts.h"
 #include "tests/body_crowd.h"
 #include "tests/test_crowd.h"
 
@@ -17,7 +20,7 @@ namespace {
 using namespace swivel;
 using namespace swivel::test;
 
-constexpr int kRigs = 1000;
+constexpr int kRigs = 200;
 
 using Places = std::array<std::array<double, 3>, 3>;
 
@@ -183,22 +186,6 @@ void conjugate(float* q)
 {
     for (int n = 0; n < 3; ++n) q[n] = -q[n];
 }
-void nothing(float*) {}
-
-int chance_count = 0;  // of rigs with a second cause
-
-// One cause, which is this. By chance a second one is true, too: places may lie near the root.
-void check_cause(const Crowd::Comparison& said, const std::string& start)
-{
-    INFO(said.text);
-    REQUIRE(!said.agrees);
-    const std::size_t other = said.text.find(" Or: ");
-    const bool is_one = other == std::string::npos;
-    REQUIRE((said.text.starts_with(start) || (!is_one && said.text.substr(other + 5).starts_with(start))));
-    REQUIRE(said.text.find(is_one ? "With that the three places agree" : "With each of these the three places agree") !=
-            std::string::npos);
-    chance_count += !is_one;
-}
 
 // Poses of quaternions whose rotations show in places.
 RigWish quaternion_wish(Random& random)
@@ -220,20 +207,217 @@ RigWish any_wish(Random& random)
     if (wish.in_body) wish.translates = random.below(2) == 0, wish.stretches = false;
     return wish;
 }
-// Tries many rigs.
+
 template <class Try>
 void for_each_rig(int count, const Try& attempt)
 {
-    chance_count = 0;
     for (int seed = 0; seed < count; ++seed) {
         INFO("rig " << seed);
         Random random{static_cast<std::uint64_t>(seed)};
         attempt(random);
     }
-    CHECK(chance_count <= count / 200);
 }
 
+// A text as far as it is the same for all rigs: # for each number but a unit's factor, and no more than the mistake.
+std::string words_of(const std::string& text)
+{
+    static const std::regex number("\\b-?[0-9]+([.][0-9]+)?(e[+-]?[0-9]+)?\\b");
+    const std::string words =
+        text.substr(0, std::min(text.find(" With that the three"), text.find(" With each of these")));
+    const std::size_t factor = std::min(words.size(), words.find("the factor is"));
+    return std::regex_replace(words.substr(0, factor), number, "#") + words.substr(factor);
+}
+
+// Moves places as they are from the root's.
+template <class Move>
+void move(const Rig& rig, Places& places, const Move& from_root)
+{
+    places = moved(places, [&](const Vector3d& v) -> Vector3d { return from_root(Vector3d(v - rig.root())); });
+}
+Quaterniond root_turn(const Rig& rig) { return quat(rig.bodies[rig.body].root_rotation).normalized(); }
+double root_scale(const Rig& rig) { return double{rig.bodies[rig.body].root_scale}; }
+
+// From where floats tell nothing of the root to where it is seen.
+void come_near(Rig& rig, Places& places)
+{
+    rig.far_roots.clear();
+    rig.pose = rig.poses.view();
+    rig.bodies[rig.body].root_position = {1, -2, 3};
+    rig.poses.write(rig.body, rig.bodies[rig.body]);
+    places = rig.places(rig.limb());
+}
+// Makes the crowd anew with another skeleton.
+void bind_to(Rig& rig, const BodySkeleton& skeleton)
+{
+    rig.crowd = body_crowd(skeleton, SWIVEL_POLE_INCOMING, static_cast<std::uint32_t>(rig.bodies.size()));
+}
+void end_matrix(float* m) { m[3] = m[7] = m[11] = 0, m[15] = 1; }
+void transpose(float* values, int size)
+{
+    for (int row = 0; row < size; ++row)
+        for (int column = 0; column < row; ++column) std::swap(values[4 * row + column], values[4 * column + row]);
+}
+void transpose3(float* values) { transpose(values, 3); }
+void transpose4(float* values) { end_matrix(values), transpose(values, 4); }
+
+RigWish in_root(Random& random) { return {SWIVEL_ROTATIONS, true, true, false, random.below(2) == 0}; }
+RigWish rows_in_root(Random& random) { return {SWIVEL_MATRIX_ROWS, true, true, false, random.below(2) == 0}; }
+RigWish stretched(Random& random) { return {SWIVEL_ROTATIONS, false, true, true, random.below(2) == 0}; }
+RigWish scaled(Random&) { return {SWIVEL_ROTATIONS, false, true, true, true}; }
+RigWish untranslated(Random&) { return {}; }
+RigWish rows(Random& random) { return matrix_wish(random, SWIVEL_MATRIX_ROWS); }
+RigWish local_rows(Random& random)
+{
+    RigWish wish = rows(random);
+    wish.in_body = false;  // where places depend on rotations
+    return wish;
+}
+RigWish columns(Random& random) { return matrix_wish(random, SWIVEL_MATRIX_COLUMNS); }
+RigWish columns3(Random& random) { return matrix_wish(random, SWIVEL_MATRIX_COLUMNS3); }
+RigWish unstretched(Random& random)
+{
+    RigWish wish = columns3(random);
+    wish.stretches = false;
+    return wish;
+}
+template <bool is_in_body>
+RigWish translated(Random& random)
+{
+    RigWish wish = any_wish(random);
+    wish.form = random.below(2) == 0 ? SWIVEL_ROTATIONS : SWIVEL_MATRIX_COLUMNS3;
+    wish.translates = true, wish.in_body = is_in_body;
+    return wish;
+}
+
+using V = Vector3d;
+
+struct Mistake {
+    const char* name;
+    RigWish (*wish)(Random& random);
+    void (*make)(Rig& rig, Places& places);  // the places are right before
+};
+const Mistake mistakes[] = {
+    {"joints with w first", quaternion_wish, [](Rig& r, Places&) { r.change_joints(w_first); }},
+    {"root with w first", quaternion_wish, [](Rig& r, Places&) { r.change_roots(w_first); }},
+    {"all with w first", quaternion_wish, [](Rig& r, Places&) { r.change_joints(w_first), r.change_roots(w_first); }},
+    {"joints inverse", quaternion_wish, [](Rig& r, Places&) { r.change_joints(conjugate); }},
+    {"root inverse", quaternion_wish, [](Rig& r, Places&) { r.change_roots(conjugate); }},
+    {"all inverse", quaternion_wish, [](Rig& r, Places&) { r.change_joints(conjugate), r.change_roots(conjugate); }},
+    {"joints with w first, from the root", in_root, [](Rig& r, Places&) { r.change_joints(w_first); }},
+    {"joints inverse, from the root", in_root, [](Rig& r, Places&) { r.change_joints(conjugate); }},
+    {"matrices transposed, from the root", rows_in_root, [](Rig& r, Places&) { r.change_joints(transpose3); }},
+    {"matrices transposed", local_rows, [](Rig& r, Places&) { r.change_joints(transpose3); }},
+    {"4 x 4 columns as rows", columns,
+     [](Rig& r, Places&) { r.change_joints(end_matrix), r.pose.form = SWIVEL_MATRIX_ROWS; }},
+    {"4 x 4 columns as 3 x 4", columns,
+     [](Rig& r, Places&) { r.change_joints(end_matrix), r.pose.form = SWIVEL_MATRIX_COLUMNS3; }},
+    {"rows as 3 x 4 columns", rows, [](Rig& r, Places&) { r.pose.form = SWIVEL_MATRIX_COLUMNS3; }},
+    {"3 x 4 columns as rows", columns3, [](Rig& r, Places&) { r.pose.form = SWIVEL_MATRIX_ROWS; }},
+    {"4 x 4 rows as columns", columns, [](Rig& r, Places&) { r.change_joints(transpose4); }},
+    {"centimetres for metres", any_wish,
+     [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return 100 * v; }); }},
+    {"metres for centimetres", any_wish,
+     [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return 0.01 * v; }); }},
+    {"millimetres for metres", any_wish,
+     [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return 1000 * v; }); }},
+    {"centimetres for inches", any_wish,
+     [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return 2.54 * v; }); }},
+    {"metres for inches", any_wish, [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return 0.0254 * v; }); }},
+    {"translations in another unit", stretched,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return r.root() + 100 * v; }); }},
+    {"skeleton in another unit", untranslated,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return r.root() + 100 * v; }); }},
+    {"root's place in another unit", any_wish,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return 100 * r.root() + v; }); }},
+    {"no root's place", any_wish, [](Rig& r, Places& p) { move(r, p, [](const V& v) -> V { return v; }); }},
+    {"root's place twice", any_wish,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return 2 * r.root() + v; }); }},
+    {"no root's rotation", any_wish,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return r.root() + root_turn(r).conjugate() * v; }); }},
+    {"root's rotation twice", any_wish,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return r.root() + root_turn(r) * v; }); }},
+    {"no root's scale", any_wish,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return r.root() + v / root_scale(r); }); }},
+    {"root's scale twice", any_wish,
+     [](Rig& r, Places& p) { move(r, p, [&](const V& v) -> V { return r.root() + root_scale(r) * v; }); }},
+    {"in the root's frame", any_wish,
+     [](Rig& r, Places& p) {
+         move(r, p, [&](const V& v) -> V { return root_turn(r).conjugate() * v / root_scale(r); });
+     }},
+    {"y and z exchanged", any_wish,
+     [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return V(v.x(), -v.z(), v.y()); }); }},
+    {"x mirrored", any_wish,
+     [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return V(-v.x(), v.y(), v.z()); }); }},
+    {"z mirrored", any_wish,
+     [](Rig&, Places& p) { p = moved(p, [](const V& v) -> V { return V(v.x(), v.y(), -v.z()); }); }},
+    {"bones as at rest", stretched,
+     [](Rig& r, Places& p) { r.bodies[r.body].translations = r.skeleton.translations, p = r.places(r.limb()); }},
+    {"joints without scales", scaled,
+     [](Rig& r, Places& p) {
+         r.bodies[r.body].scales.assign(r.skeleton.size(), Float3{1, 1, 1});
+         p = r.places(r.limb());
+     }},
+    {"in their parents' frames, said to be the root's", translated<false>,
+     [](Rig& r, Places&) { r.pose.space = SWIVEL_IN_BODY; }},
+    {"in the root's frame, said to be their parents'", translated<true>,
+     [](Rig& r, Places&) { r.pose.space = SWIVEL_LOCAL; }},
+    {"another group's limb", any_wish,
+     [](Rig& r, Places& p) { p = r.places(r.skeleton.limbs[(r.group + 1) % r.skeleton.limbs.size()]); }},
+    {"a shoulder too high", any_wish,
+     [](Rig& r, Places& p) { p = r.places(r.clavicle(), r.limb().elbow, r.limb().wrist); }},
+    {"a shoulder too low", any_wish,
+     [](Rig& r, Places& p) {
+         const std::int32_t between = r.skeleton.parents[r.limb().elbow];
+         p = r.places(static_cast<std::uint32_t>(between), r.limb().elbow, r.limb().wrist);
+     }},
+    {"a crowd's skeleton in another unit", unstretched,
+     [](Rig& r, Places&) {
+         BodySkeleton large = r.skeleton;
+         for (Float3& bone : large.translations) bone = floats(Vector3d(100 * vec(bone)));
+         bind_to(r, large);
+     }},
+    {"three joints too high", any_wish,
+     [](Rig& r, Places&) {
+         BodySkeleton high = r.skeleton;
+         BodyLimbJoints& named = high.limbs[r.group];
+         named = {r.clavicle(), r.limb().shoulder, r.limb().elbow, named.bend, {}};
+         bind_to(r, high);
+     }},
+    {"root's rotation not given", any_wish, [](Rig& r, Places&) { r.pose.root_rotation = {}; }},
+    {"root's place not given", any_wish, [](Rig& r, Places& p) { come_near(r, p), r.pose.root_position = {}; }},
+    {"nothing of the root given", any_wish,
+     [](Rig& r, Places& p) { come_near(r, p), r.pose.root_position = r.pose.root_rotation = {}; }},
+};
+
 }  // namespace
+
+TEST_CASE("each mistake is named as approved, whatever the rig")
+{
+    ApprovedTexts texts("mistakes.txt");
+    texts.scene("what is said of a mistake, with # for numbers");
+    for (const auto& [name, wish, make] : mistakes) {
+        INFO(name);
+        std::map<std::string, int> said;
+        int shown = 0, agreed = 0;
+        bool moves = false;  // places, and not the pose
+        for_each_rig(kRigs, [&](Random& random) {
+            Rig rig(random, wish(random));
+            const Places right = rig.places(rig.limb());
+            Places places = right;
+            make(rig, places);
+            const auto comparison = rig.compare(places);
+            moves = moves || places != right;
+            REQUIRE((!comparison.agrees || places == right));
+            ++(comparison.agrees ? agreed : shown);
+            if (!comparison.agrees) ++said[words_of(comparison.text)];
+        });
+        CHECK(shown > kRigs / 4);
+        CHECK((agreed == 0 || moves));
+        for (const auto& [words, count] : said)
+            if (50 * count > shown) texts.line(name, words);  // by chance a rig shows another mistake, too
+    }
+    texts.compare();
+}
 
 TEST_CASE("a right pose agrees, and no mistake is named")
 {
@@ -246,257 +430,23 @@ TEST_CASE("a right pose agrees, and no mistake is named")
     });
 }
 
-TEST_CASE("quaternions in another order are named")
+TEST_CASE("joints of another group, or too high, are named by their numbers")
 {
-    for_each_rig(kRigs, [](Random& random) {
-        Rig rig(random, quaternion_wish(random));
-        const std::uint32_t which = 1 + random.below(3);
-        rig.change_joints(which & 1 ? w_first : nothing);
-        rig.change_roots(which & 2 ? w_first : nothing);
-        check_cause(rig.compare(), which == 1   ? "The pose's joint rotations are stored as w, x, y, z"
-                                   : which == 2 ? "The pose's root_rotation is stored as w, x, y, z"
-                                                : "The pose's rotations, root_rotation among them, are stored as w");
-    });
+    const Rig rig = [] {
+        Random random{2};
+        return Rig(random, any_wish(random));
+    }();
+    const auto other = static_cast<std::uint32_t>((rig.group + 1) % rig.skeleton.limbs.size());
+    const BodyLimbJoints &limb = rig.limb(), &others = rig.skeleton.limbs[other];
+    const auto n = [](std::uint32_t number) { return std::to_string(number); };
+    CHECK_THAT(
+        rig.compare(rig.places(others)).text,
+        Catch::Contains("group " + n(other) + "'s limb, joints " + n(others.shoulder) + ", " + n(others.elbow) +
+                        " and " + n(others.wrist) + ", but group " + n(rig.group) + " has joints " + n(limb.shoulder)));
+    CHECK_THAT(
+        rig.compare(rig.places(rig.clavicle(), limb.elbow, limb.wrist)).text,
+        Catch::Contains("is joint " + n(rig.clavicle()) + "'s, 1 too high; the group has joint " + n(limb.shoulder)));
 }
-
-TEST_CASE("conjugate quaternions are named")
-{
-    for_each_rig(kRigs, [](Random& random) {
-        Rig rig(random, quaternion_wish(random));
-        const std::uint32_t which = 1 + random.below(3);
-        rig.change_joints(which & 1 ? conjugate : nothing);
-        rig.change_roots(which & 2 ? conjugate : nothing);
-        check_cause(rig.compare(), which == 1   ? "The pose's joint rotations are the inverse ones"
-                                   : which == 2 ? "The pose's root_rotation is the inverse one"
-                                                : "The pose's rotations, root_rotation among them, are the inverse");
-    });
-}
-
-TEST_CASE("in the body's space rotations that do not fit their bones are named")
-{
-    for_each_rig(kRigs, [](Random& random) {
-        const bool is_matrix = random.below(2) == 0;
-        Rig rig(random, {is_matrix ? SWIVEL_MATRIX_ROWS : SWIVEL_ROTATIONS, true, true, false, random.below(2) == 0});
-        const bool is_inverse = is_matrix || random.below(2) == 0;
-        rig.change_joints([&](float* values) {
-            if (!is_matrix) return is_inverse ? conjugate(values) : w_first(values);
-            std::swap(values[1], values[4]), std::swap(values[2], values[8]), std::swap(values[6], values[9]);
-        });
-        const auto said = rig.compare();
-        INFO(said.text);
-        REQUIRE(!said.agrees);
-        REQUIRE(said.text.starts_with("The places agree, but the bones do not lie along them"));
-        REQUIRE(said.text.find(is_matrix    ? "matrices is transposed"
-                               : is_inverse ? "are the inverse ones"
-                                            : "stored as w, x, y, z") != std::string::npos);
-    });
-}
-
-TEST_CASE("another group's limb is named, with its joints")
-{
-    for_each_rig(kRigs, [](Random& random) {
-        const Rig rig(random, any_wish(random));
-        const auto other = static_cast<std::uint32_t>((rig.group + 1) % rig.skeleton.limbs.size());
-        const BodyLimbJoints& limb = rig.skeleton.limbs[other];
-        check_cause(rig.compare(rig.places(limb)),
-                    "Your places are those of group " + std::to_string(other) + "'s limb, joints " +
-                        std::to_string(limb.shoulder) + ", " + std::to_string(limb.elbow) + " and " +
-                        std::to_string(limb.wrist) + ", but group " + std::to_string(rig.group) + " has joints " +
-                        std::to_string(rig.limb().shoulder));
-    });
-}
-
-TEST_CASE("matrices of rows for columns are named")
-{
-    const auto transpose = [](float* values, int size) {
-        for (int row = 0; row < size; ++row)
-            for (int column = 0; column < row; ++column) std::swap(values[4 * row + column], values[4 * column + row]);
-    };
-    const auto end_matrix = [](float* values) { values[3] = values[7] = values[11] = 0, values[15] = 1; };
-    const auto stored = [](const char* as, const char* not_as) {
-        return std::string("The pose's matrices are stored as ") + as + ", but its form is " + not_as + ".";
-    };
-    for_each_rig(kRigs, [&](Random& random) {
-        const std::uint32_t which = random.below(6);
-        const swivel_pose_form form = which == 1   ? SWIVEL_MATRIX_ROWS
-                                      : which == 2 ? SWIVEL_MATRIX_COLUMNS3
-                                      : which == 5 ? SWIVEL_MATRIX_ROWS
-                                                   : SWIVEL_MATRIX_COLUMNS;
-        Rig rig(random, matrix_wish(random, form));
-        switch (which) {
-            case 0:  // 4 x 4 columns as rows
-            case 3:  // and as 3 x 4
-                rig.change_joints(end_matrix);
-                rig.pose.form = which == 0 ? SWIVEL_MATRIX_ROWS : SWIVEL_MATRIX_COLUMNS3;
-                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_COLUMNS",
-                                                         which == 0 ? "SWIVEL_MATRIX_ROWS" : "SWIVEL_MATRIX_COLUMNS3"));
-            case 1:
-                rig.pose.form = SWIVEL_MATRIX_COLUMNS3;
-                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_ROWS", "SWIVEL_MATRIX_COLUMNS3"));
-            case 2:
-                rig.pose.form = SWIVEL_MATRIX_ROWS;
-                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_COLUMNS3", "SWIVEL_MATRIX_ROWS"));
-            case 4:  // 4 x 4 rows as columns
-                rig.change_joints([&](float* values) { end_matrix(values), transpose(values, 4); });
-                return check_cause(rig.compare(), stored("SWIVEL_MATRIX_ROWS", "SWIVEL_MATRIX_COLUMNS"));
-            default:
-                if (rig.layout.in_body) return;  // where places do not depend on it
-                rig.change_joints([&](float* values) { transpose(values, 3); });
-                return check_cause(rig.compare(), "The 3 x 3 part of the pose's matrices is transposed");
-        }
-    });
-}
-
-TEST_CASE("another unit is named, with its factor")
-{
-    for_each_rig(kRigs, [](Random& random) {
-        Rig rig(random, any_wish(random));
-        struct Factor {
-            double value;
-            const char *name, *number;
-        };
-        constexpr Factor factors[] = {{100, "centimetres instead of metres", "100."},
-                                      {0.01, "metres instead of centimetres", "1 / 100."},
-                                      {1000, "millimetres instead of metres", "1000."},
-                                      {2.54, "centimetres instead of inches", "2.54."},
-                                      {0.0254, "metres instead of inches", "1 / 39.3701."}};
-        const Factor& of = factors[random.below(5)];
-        const double factor = of.value;
-        const Vector3d root = rig.root();
-        const std::uint32_t what = random.below(3);  // all; translations; the root
-        const Places places = moved(rig.places(rig.limb()), [&](const Vector3d& v) {
-            if (what == 0) return Vector3d(factor * v);
-            return what == 1 ? Vector3d(root + factor * (v - root)) : Vector3d(factor * root + (v - root));
-        });
-        const bool has_lengths = rig.pose.translations.data || rig.pose.form != SWIVEL_ROTATIONS;
-        check_cause(
-            rig.compare(places),
-            std::string(what == 0   ? "Your places are in another unit than the pose, such as "
-                        : what == 1 ? has_lengths
-                                          ? "Your places are in another unit than the pose's translations, such as "
-                                          : "Your places are in another unit than the skeleton, such as "
-                                    : "Your places and the pose's joints are in another unit than "
-                                      "root_position, such as ") +
-                (what < 2 ? std::string(of.name) + ": the factor is " + of.number : std::string()));
-    });
-}
-
-TEST_CASE("a joint that is too high is named")
-{
-    for_each_rig(kRigs, [](Random& random) {
-        const Rig rig(random, any_wish(random));
-        const BodyLimbJoints& limb = rig.limb();
-        check_cause(rig.compare(rig.places(rig.clavicle(), limb.elbow, limb.wrist)),
-                    "Your place of the shoulder is joint " + std::to_string(rig.clavicle()) +
-                        "'s, 1 too high; the group has joint " + std::to_string(limb.shoulder) + ".");
-        // The crowd's own joint is too high where the caller's is below it.
-        const auto between = static_cast<std::uint32_t>(rig.skeleton.parents[limb.elbow]);
-        if (between == limb.shoulder) return;
-        const auto said = rig.compare(rig.places(between, limb.elbow, limb.wrist));
-        INFO(said.text);
-        REQUIRE(said.text.starts_with("Your place of the shoulder is joint " + std::to_string(between) + "'s, "));
-        REQUIRE(said.text.find("too low; the group has") != std::string::npos);
-    });
-}
-
-TEST_CASE("what counts twice or not at all is named")
-{
-    const auto number = [](const float& x) { return static_cast<double>(x); };
-    for_each_rig(kRigs, [&](Random& random) {
-        RigWish wish = any_wish(random);
-        const std::uint32_t which = random.below(9);
-        if (which == 7) wish = {SWIVEL_ROTATIONS, false, true, true, random.below(2) == 0};
-        if (which == 8) wish = {SWIVEL_ROTATIONS, false, true, true, true};
-        Rig rig(random, wish);
-        const Body& body = rig.bodies[rig.body];
-        const Vector3d root = rig.root();
-        const Quaterniond turn = quat(body.root_rotation).normalized();
-        const double scale = number(body.root_scale);
-        const auto said = [&](const std::function<Vector3d(const Vector3d&)>& move) {  // of places from the root
-            return rig.compare(moved(rig.places(rig.limb()), [&](const Vector3d& v) { return move(v - root); }));
-        };
-        const auto with = [&](const std::function<void(Body&)>& change) {
-            change(rig.bodies[rig.body]);
-            return rig.compare();
-        };
-        switch (which) {
-            case 0:
-                return check_cause(said([&](const Vector3d& v) { return v; }), "Your places are without root_position");
-            case 1:
-                return check_cause(said([&](const Vector3d& v) { return Vector3d(2 * root + v); }),
-                                   "Your places have root_position twice");
-            case 2:
-                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + turn.conjugate() * v); }),
-                                   "Your places are without root_rotation");
-            case 3:
-                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + turn * v); }),
-                                   "Your places have root_rotation twice");
-            case 4:
-                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + v / scale); }),
-                                   "Your places are without root_scale");
-            case 5:
-                return check_cause(said([&](const Vector3d& v) { return Vector3d(root + scale * v); }),
-                                   "Your places have root_scale twice");
-            case 6:
-                return check_cause(said([&](const Vector3d& v) { return Vector3d(turn.conjugate() * v / scale); }),
-                                   "Your places are in the root's frame");
-            case 7:
-                return check_cause(with([&](Body& of) { of.translations = rig.skeleton.translations; }),
-                                   "Your places are those of bones as the skeleton rests");
-            default: {
-                bool is_any = false;  // scaled, above a joint of the limb
-                for (std::uint32_t joint = 0; joint < rig.skeleton.size(); ++joint)
-                    is_any |= std::fabs(number(body.scales[joint][0]) - 1) > 0.02 && joint != rig.limb().wrist &&
-                              rig.skeleton.is_above(joint, rig.limb().wrist);
-                if (is_any)
-                    check_cause(with([&](Body& of) {
-                                    of.scales.assign(of.scales.size(), Float3{1, 1, 1});
-                                }),
-                                "Your places are those of joints without the pose's scales");
-            }
-        }
-    });
-}
-
-TEST_CASE("the other space is named")
-{
-    for_each_rig(kRigs, [](Random& random) {
-        RigWish wish = any_wish(random);
-        wish.form = random.below(2) == 0 ? SWIVEL_ROTATIONS : SWIVEL_MATRIX_COLUMNS3, wish.translates = true;
-        Rig rig(random, wish);
-        rig.pose.space = wish.in_body ? SWIVEL_LOCAL : SWIVEL_IN_BODY;
-        check_cause(rig.compare(), wish.in_body ? "The pose's joints are relative to the root"
-                                                : "The pose's joints are relative to their parents");
-    });
-}
-
-TEST_CASE("other axes are named")
-{
-    for_each_rig(kRigs, [](Random& random) {
-        const Rig rig(random, any_wish(random));
-        const int mirrored = static_cast<int>(random.below(3));
-        const bool is_up = random.below(2) == 0;
-        const Places places = moved(rig.places(rig.limb()), [&](Vector3d v) {
-            if (is_up) return Vector3d(v.x(), -v.z(), v.y());
-            v[mirrored] = -v[mirrored];
-            return v;
-        });
-        check_cause(rig.compare(places),
-                    is_up ? "The places have y and z exchanged" : "The places are mirrored: one side");
-    });
-}
-
-namespace {
-
-double number_after(const std::string& text, const std::string& words)
-{
-    const std::size_t at = text.find(words);
-    INFO(text);
-    REQUIRE(at != std::string::npos);
-    return std::stod(text.substr(at + words.size()));
-}
-
-}  // namespace
 
 TEST_CASE("a joint that no mistake explains is named, with its way")
 {
@@ -563,10 +513,11 @@ TEST_CASE("what is known of an unknown mistake is said")
     const auto has = [](const std::string& all, const char* words) { return all.find(words) != std::string::npos; };
     CHECK(has(text([](const Vector3d& v) { return Vector3d(v + Vector3d(1, 2, 3)); }), "Look at root_position"));
     const Vector3d root = rig.root();
-    CHECK(number_after(text([&](const Vector3d& v) { return Vector3d(root + 1.5 * (v - root)); }), "The places are ") ==
-          Approx(1.5));
+    CHECK(number_after(text([&](const Vector3d& v) -> Vector3d { return Vector3d(root + 1.5 * (v - root)); }),
+                       "The places are ") == Approx(1.5));
     const Quaterniond turn = random.rotation();
-    CHECK(has(text([&](const Vector3d& v) { return Vector3d(turn * v); }), "The limb's own shape is right"));
+    CHECK(
+        has(text([&](const Vector3d& v) -> Vector3d { return Vector3d(turn * v); }), "The limb's own shape is right"));
     Places longer = places;
     longer[2] =
         Rig::numbers(Vector3d(places[1].data()) + 1.7 * (Vector3d(places[2].data()) - Vector3d(places[1].data())));
@@ -576,38 +527,23 @@ TEST_CASE("what is known of an unknown mistake is said")
     CHECK(has(rig.compare(places).text, "is a quaternion of length 0."));
 }
 
-TEST_CASE("a skeleton in another unit than the pose is named, though the places agree")
-{
-    for_each_rig(kRigs / 10, [](Random& random) {
-        RigWish wish = matrix_wish(random, static_cast<swivel_pose_form>(1 + random.below(3)));
-        wish.stretches = false;
-        Rig rig(random, wish);
-        BodySkeleton large = rig.skeleton;
-        for (Float3& bone : large.translations)
-            for (float& number : bone) number *= 100;
-        rig.crowd = body_crowd(large, SWIVEL_POLE_INCOMING, static_cast<std::uint32_t>(rig.bodies.size()));
-        const auto said = rig.compare();
-        INFO(said.text);
-        REQUIRE(!said.agrees);
-        REQUIRE(
-            said.text.starts_with("The places agree, but something else is wrong. The skeleton's bones are 100 times"));
-    });
-}
-
 TEST_CASE("a time in milliseconds is named, though the places agree")
 {
     Random random{1};
     Rig rig(random, {});
-    for (const float time : {0.0167f, 1.0f, 16.7f}) {
-        rig.pose.time = {&time, 0};
-        CHECK(rig.compare().agrees == (time <= 1));
-    }
+    float time = 0.0167f;
+    rig.pose.time = {&time, 0};
+    CHECK(rig.compare().agrees);
+    time = 1;
+    CHECK(rig.compare().agrees);
+    time = 16.7f;
+    CHECK(!rig.compare().agrees);
     CHECK_THAT(rig.compare().text, Catch::Contains("The pose's time is 16.7, which are that many seconds"));
 }
 
 TEST_CASE("an elbow bent against its bend is named, though the places agree")
 {
-    for_each_rig(kRigs / 10, [](Random& random) {
+    for_each_rig(kRigs / 2, [](Random& random) {
         Rig rig(random, any_wish(random));
         BodySkeleton other = rig.skeleton;
         for (float& number : other.limbs[rig.group].bend) number = -number;
@@ -625,59 +561,20 @@ TEST_CASE("an elbow bent against its bend is named, though the places agree")
 
 TEST_CASE("a root in floats for doubles, or in doubles for floats, is named")
 {
-    int doubles = 0;
-    for_each_rig(kRigs / 10, [&](Random& random) {
+    int doubles = 0, floats = 0;
+    for_each_rig(kRigs / 2, [&](Random& random) {
         Rig rig(random, any_wish(random));
         const bool is_double = rig.pose.root_is_double;
         if (!is_double && rig.pose.root_position.stride < 3 * sizeof(double)) return;
         if (is_double && rig.body + 1 == rig.bodies.size()) return;  // it may not read so far
         const Places places = rig.places(rig.limb());
         rig.pose.root_is_double = !is_double;
-        const auto said = rig.compare(places);
-        INFO(said.text);
-        REQUIRE(!said.agrees);
-        REQUIRE(said.text.find(is_double ? "root_position is in doubles, but it is read as floats"
-                                         : "root_position is in floats, but root_is_double says doubles") !=
-                std::string::npos);
-        doubles += is_double;
+        REQUIRE_THAT(rig.compare(places).text,
+                     Catch::Contains(is_double ? "root_position is in doubles, but it is read as floats"
+                                               : "root_position is in floats, but root_is_double says doubles"));
+        ++(is_double ? doubles : floats);
     });
-    CHECK(doubles > 10);
-}
-
-TEST_CASE("a root that was not given is named")
-{
-    for_each_rig(kRigs / 10, [](Random& random) {
-        Rig rig(random, any_wish(random));
-        const Places places = rig.places(rig.limb());
-        const std::uint32_t what = random.below(3);
-        if (what != 0 && !rig.far_roots.empty()) return;  // floats tell nothing there
-        if (what != 0) rig.pose.root_position = {}, rig.pose.root_is_double = 0;
-        if (what != 1) rig.pose.root_rotation = {};
-        const auto said = rig.compare(places);
-        INFO(said.text);
-        REQUIRE(!said.agrees);
-        REQUIRE(said.text.find(what == 0   ? "gives no root_rotation"
-                               : what == 1 ? "gives no root_position"
-                                           : "gives neither root_position nor root_rotation") != std::string::npos);
-    });
-}
-
-TEST_CASE("three joints that are all too high are named")
-{
-    for_each_rig(kRigs / 10, [](Random& random) {
-        Rig rig(random, any_wish(random));
-        const BodyLimbJoints limb = rig.limb();
-        BodySkeleton high = rig.skeleton;
-        BodyLimbJoints& named = high.limbs[rig.group];
-        named.shoulder = rig.clavicle(), named.elbow = limb.shoulder, named.wrist = limb.elbow;
-        named.twist_bones.clear();
-        rig.crowd = body_crowd(high, SWIVEL_POLE_INCOMING, static_cast<std::uint32_t>(rig.bodies.size()));
-        const auto said = rig.compare(rig.places(limb));
-        INFO(said.text);
-        REQUIRE(!said.agrees);
-        REQUIRE(said.text.starts_with("Your shoulder and elbow are joints " + std::to_string(limb.shoulder) + " and " +
-                                      std::to_string(limb.elbow) + ", but the group has joints "));
-    });
+    CHECK(std::min(doubles, floats) > 5);
 }
 
 TEST_CASE("a pose that is read at wrong strides is named")
@@ -717,7 +614,7 @@ TEST_CASE("two mistakes that fit alike are both named")
     CHECK(said.text.find("With each of these the three places agree") != std::string::npos);
 }
 
-TEST_CASE("comparing a pose needs no memory, keeps to the room for its text, and refuses what a job would")
+TEST_CASE("comparing a pose needs no memory, and keeps to the room for its text")
 {
     Random random{5};
     Rig rig(random, quaternion_wish(random));
@@ -725,14 +622,6 @@ TEST_CASE("comparing a pose needs no memory, keeps to the room for its text, and
     const Places places = rig.places(rig.limb());
     const std::string whole = rig.compare(places).text;
     std::vector<char> room(whole.size() + 1);
-    const auto call = [&](const swivel_crowd* crowd, std::uint32_t group, std::uint32_t body, const swivel_pose* pose,
-                          const double* elbow, char* text, std::size_t size) {
-        int agrees = -1;
-        const swivel_status status =
-            swivel_compare(crowd, group, body, pose, places[0].data(), elbow, places[2].data(), text, size, &agrees);
-        CHECK((agrees == -1) == (status != SWIVEL_OK));
-        return status;
-    };
     const swivel_crowd* const crowd = rig.crowd.get();
     const double* const elbow = places[1].data();
     for (std::size_t size = 1; size <= room.size(); ++size) {
@@ -745,25 +634,4 @@ TEST_CASE("comparing a pose needs no memory, keeps to the room for its text, and
         if (size < 4) wanted = std::string(size - 1, '.');
         REQUIRE(std::string(room.data()) == wanted);
     }
-    char* const text = room.data();
-    CHECK_REFUSED(call(nullptr, 0, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(call(crowd, 9, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(call(crowd, 0, 3, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(call(crowd, 0, 0, nullptr, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, nullptr, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, elbow, nullptr, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, elbow, text, 0), SWIVEL_INVALID_ARGUMENT);
-    const double bad[3] = {0, NAN, 0}, far[3] = {0, 2e15, 0};
-    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, bad, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(call(crowd, 0, 0, &rig.pose, far, text, 8), SWIVEL_INVALID_ARGUMENT);
-    swivel_pose pose = rig.pose;
-    pose.rotations.data = nullptr;
-    CHECK_REFUSED(call(crowd, 0, 0, &pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
-    const Crowd free({group(1)});
-    CHECK_REFUSED(call(free.get(), 0, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
-    const swivel_limb_joints joints = rig.skeleton.joints(0);
-    const std::array groups = {body_group(joints, SWIVEL_WITH_FIT), fit_group()};
-    const Crowd fitted(rig.skeleton.view(), 3, groups);
-    CHECK_REFUSED(call(fitted.get(), 1, 0, &rig.pose, elbow, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK(call(fitted.get(), 0, 0, &rig.pose, elbow, text, 8) == SWIVEL_OK);  // without a time
 }

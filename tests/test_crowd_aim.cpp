@@ -200,22 +200,3 @@ TEST_CASE("a carried swivel turns an aiming arm no further than its step")
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == (SWIVEL_REACHED | SWIVEL_LIMITED_STEP));
     CHECK(2 * std::acos(std::fabs(before.dot(after))) == Approx(0.1).margin(1e-3));
 }
-
-TEST_CASE("an aim that is none is bad input, or refused")
-{
-    Crowd crowd = crowd_of(SWIVEL_WITH_AIM, 4);
-    const std::array<float, 5> values[] = {{0, 0, 1, 1, 0}, {0, 0, 2, 1, 0}, {0, 0, 1, 1, 1}, {0, 0, 1, -1, 0}};
-    crowd.write(SWIVEL_AIM, 0, values);
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 2});
-    crowd.solve();
-    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    CHECK(flags[0] == SWIVEL_REACHED);
-    for (int n = 1; n < 4; ++n) CHECK(flags[static_cast<std::size_t>(n)] == SWIVEL_BAD_INPUT);
-
-    float aim[5] = {9, 9, 9, 9, 9};
-    const double axis[3] = {0, 0, 1}, nothing[3] = {};
-    CHECK_REFUSED(swivel_aim(axis, 4, aim), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_aim(nothing, 1, aim), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_aim(nullptr, 1, aim), SWIVEL_INVALID_ARGUMENT);
-    CHECK(aim[0] == 9);
-}

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: swivel_explain() names what is wrong with a limb, with numbers that forward kinematics confirms.
+// The promise: swivel_explain() names what is wrong with a limb, in the words of approved/limbs.txt, with numbers that
+// forward kinematics confirms.
+#include <cctype>
+
+#include "tests/approved_texts.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"
@@ -10,23 +14,6 @@ using namespace swivel;
 using namespace swivel::test;
 
 namespace {
-
-bool says(const Crowd& crowd, std::uint32_t limb, const std::string& part)
-{
-    const std::string text = crowd.explain(0, limb);
-    INFO(text);
-    CHECK(is_one_line(text.substr(0, 255)));
-    return text.find(part) != std::string::npos;
-}
-
-// The first number after these words.
-double number_after(const std::string& text, const std::string& words)
-{
-    const std::size_t at = text.find(words);
-    INFO(text);
-    REQUIRE(at != std::string::npos);
-    return std::stod(text.substr(at + words.size()));
-}
 
 double off_cone(const Vector3d& a, const Vector3d& b, double most) { return std::acos(a.dot(b)) - most; }
 double off_twist(const Quaterniond& q, const Vector3d& axis, const AngleRange& range)
@@ -42,224 +29,269 @@ double off_box(const Quaterniond& q, const AngleBox& box)
     return std::min(most(angles[0], angles[1], angles[2]), most(angles[0] + kPi, kPi - angles[1], angles[2] + kPi));
 }
 
-}  // namespace
+// A limb of bones of length 1 whose shoulder is at the origin, or what a scene makes of it.
+struct Told {
+    ApprovedTexts& texts;
+    Crowd crowd;
 
-TEST_CASE("explain names inputs that were never written, or are out of range, and no other")
+    Told(ApprovedTexts& to, const std::string& scene, swivel_features features, const swivel_binding& binding = {})
+        : texts(to), crowd(crowd_of(features, 1, binding))
+    {
+        texts.scene(scene);
+        write(SWIVEL_TARGET, Float3{0, 0.8f, 1});
+        if (features & SWIVEL_WORLD) write(SWIVEL_SHOULDER_POSITION, Float3{0, 0, 0});
+    }
+    template <class Value>
+    void write(swivel_field field, const Value& value)
+    {
+        crowd.write_all(field, 0, value);
+    }
+    void says(const std::string& when) { texts.line(when, crowd.explain(0, 0)); }
+    void solved(const std::string& when)
+    {
+        crowd.solve();
+        says(when);
+        judge(crowd.explain(0, 0));
+    }
+    template <class Value>
+    void with(const std::string& when, swivel_field field, const Value& value)
+    {
+        write(field, value);
+        solved(when);
+    }
+
+private:
+    // The distances that a text names are those of swivel_forward() and swivel_residuals().
+    void judge(const std::string& text) const
+    {
+        if (text.starts_with("Bad input")) return;
+        const auto value = [&](swivel_field field, auto otherwise) {
+            if (swivel_field_row_count(crowd.get(), 0, field)) crowd.read(field, 0, std::span(&otherwise, 1));
+            return otherwise;
+        };
+        std::array<std::array<double, 3>, 1> wrist;
+        std::array<std::array<double, 4>, 1> hand{{{0, 0, 0, 1}}};
+        std::array<double, 1> residual;
+        crowd.wrists(0, wrist);
+        crowd.residuals(0, residual);
+        if (swivel_group_features(crowd.get(), 0) & SWIVEL_WITH_HAND) crowd.hands(0, hand);
+        const double scale = value(SWIVEL_PARENT_SCALE, Float1{1})[0];
+        const Vector3d place(wrist[0].data()), effector = vec(value(SWIVEL_EFFECTOR, Float3{})),
+                                               tip = place + scale * (Quaterniond(hand[0].data()) * effector);
+        const double missed = (tip - vec(value(SWIVEL_TARGET, Float3{}))).norm(),
+                     length = scale * double{value(SWIVEL_LENGTHS, Float2{})[0] + value(SWIVEL_LENGTHS, Float2{})[1]};
+        const auto is_told = [&](const std::string& words, double is, double share = 1e-3) {
+            const std::size_t at = text.find(words);
+            if (at == std::string::npos || !std::isdigit(text[at + words.size()])) return;
+            INFO(text);
+            CHECK(number_after(text, words) == Approx(is).epsilon(share).margin(1e-6));
+        };
+        is_told("The target is ", missed);
+        if (!swivel_field_row_count(crowd.get(), 0, SWIVEL_CLAVICLE)) is_told(": the wrist is ", place.norm());
+        is_told("zone of reach keeps the wrist ", missed);
+        is_told("zone of reach keeps the effector ", missed);
+        is_told(", the wrist is ", missed);
+        is_told(", the effector is ", missed);
+        is_told("passes it by ", length * residual[0]);
+        is_told(", to within ", residual[0], 0.06);
+    }
+};
+
+void tell_of_inputs(ApprovedTexts& texts)
 {
     constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE;
-    const swivel_group_def group = swivel_default_group_def(20);
-    Crowd crowd = crowd_with(features, {&group, 1});
-    CHECK(says(crowd, 3, "it never was"));
-    crowd.solve();
-    const std::string none = crowd.explain(0, 19);
-    for (const char* field : {"target", "lengths", "shoulder_position"})
-        CHECK(none.find(std::string(field) + " (nan") != std::string::npos);
-    for (const char* field : {"pole", "hand", "parent", "cone"}) CHECK(none.find(field) == std::string::npos);
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
-    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-    crowd.write(SWIVEL_POLE, 0, std::vector<Float3>{{kInf, 0, 0}}, 7);
-    crowd.write(SWIVEL_HAND, 0, std::vector<Float4>{{0, 0, 0, 0}}, 8);
-    CHECK(says(crowd, 1, "Its inputs changed since it was solved"));
-    crowd.solve();
-    CHECK(crowd.explain(0, 7) ==
-          "Bad input: pole (inf, 0, 0) is out of its range, no further than 1e15. The limb has its rest pose.");
-    CHECK(says(crowd, 8, "hand (0, 0, 0, 0) is out of its range, a quaternion of length 1e-9 to 1e9"));
-    CHECK(crowd.explain(0, 1).starts_with("The target is reached, to within "));
-    crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{1e14f, 0, 0}}, 9);
-    crowd.write(SWIVEL_PARENT_SCALE, 0, std::vector<Float1>{{1e-3f}}, 9);
-    crowd.solve();
-    CHECK(says(crowd, 9, "each input is in its range, but not as the parent's"));
+    Told none(texts, "inputs that were never written", features);
+    none.write(SWIVEL_TARGET, Float3{kNan, kNan, kNan});
+    none.write(SWIVEL_SHOULDER_POSITION, Float3{kNan, kNan, kNan});
+    none.says("not solved");
+    none.with("without lengths either", SWIVEL_LENGTHS, Float2{kNan, kNan});
+
+    Told bad(texts, "inputs out of range", features);
+    bad.with("pole", SWIVEL_POLE, Float3{kInf, 0, 0});
+    bad.with("hand, too", SWIVEL_HAND, Float4{0, 0, 0, 0});
+    bad.write(SWIVEL_POLE, Float3{0, -1, 0});
+    bad.write(SWIVEL_HAND, Float4{0, 0, 0, 1});
+    bad.with("one number of three", SWIVEL_TARGET, Float3{0, kNan, 1});
+    bad.write(SWIVEL_TARGET, Float3{1e14f, 0, 0});
+    bad.with("too far for a small parent", SWIVEL_PARENT_SCALE, Float1{1e-3f});
+    bad.write(SWIVEL_PARENT_SCALE, Float1{1});
+    bad.with("cone's axis", SWIVEL_SHOULDER_CONE, Float4{0, 0, 1.5f, 0.2f});
+
+    Told pair(texts, "pairs that are not of unit length", SWIVEL_WITH_SHOULDER_BOX);
+    Float12 box = {1, 0, -1, 0, 0, 0.5f, -1, 0, 1, 0, -2, 0};
+    pair.with("two pairs of a box", SWIVEL_SHOULDER_BOX, box);
+
+    Told changed(texts, "inputs that changed", SWIVEL_WORLD);
+    changed.solved("solved");
+    changed.write(SWIVEL_TARGET, Float3{0, 3, 0});
+    changed.says("another target");
+
+    swivel_group_def group = group_of(1);
+    group.on_bad_input = SWIVEL_KEEP_POSE;
+    Told kept(texts, "a limb that keeps its pose", 0);
+    kept.crowd = Crowd(group);
+    kept.with("target", SWIVEL_TARGET, Float3{0, 2e15f, 0});
 }
 
-TEST_CASE("explain measures how far a target is out of reach, from the shoulder as the clavicle has turned it")
+void tell_of_reach(ApprovedTexts& texts)
 {
-    Random random{4};
-    Crowd crowd = crowd_of(SWIVEL_WORLD, 1), turned = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 1);
-    turned.write_all(SWIVEL_CLAVICLE, 0, Float4{0.1f, 0.2f, -0.1f, 0.5f});
-    for (int n = 0; n < 40; ++n) {
-        const bool is_far = n % 2 == 0;
-        const auto number = [](double x) { return static_cast<float>(x); };
-        const float upper = number(random.between(0.5, 1)), fore = number(random.between(0.2, 0.4)),
-                    scale = number(random.spread(0.1, 10));
-        const double distance = is_far ? random.between(2, 4) : random.between(0.01, 0.05);
-        const Float3 shoulder = floats(Vector3d(3 * random.direction())),
-                     target = floats(Vector3d(vec(shoulder) + double{scale} * distance * random.direction()));
-        for (Crowd* const each : {&crowd, &turned}) {
-            each->write_all(SWIVEL_TARGET, 0, target);
-            each->write_all(SWIVEL_SHOULDER_POSITION, 0, shoulder);
-            each->write_all(SWIVEL_LENGTHS, 0, Float2{upper, fore});
-            each->write_all(SWIVEL_PARENT_SCALE, 0, Float1{scale});
-            each->solve();
-        }
-        const std::string text = crowd.explain(0, 0);
-        const double end = double{scale} * (is_far ? double{upper} + double{fore} : double{upper} - double{fore});
-        const double missed = std::fabs((vec(target) - vec(shoulder)).norm() - end);
-        CHECK(text.find(is_far ? "out of reach" : "too near") != std::string::npos);
-        CHECK(number_after(text, "The target is ") == Approx(missed).epsilon(1e-3));
-        CHECK(number_after(text, "the wrist is ") == Approx(end).epsilon(1e-3));
-        if (is_far) CHECK(number_after(turned.explain(0, 0), "the wrist is ") == Approx(end).epsilon(1e-3));
+    Told limb(texts, "reach", SWIVEL_WORLD);
+    limb.solved("in reach");
+    limb.with("a turned parent", SWIVEL_PARENT_ROTATION, Float4{0, 0, 0.6f, 0.8f});
+    limb.with("too far", SWIVEL_TARGET, Float3{0, 0, 3});
+    limb.with("twice as large", SWIVEL_PARENT_SCALE, Float1{2});
+    limb.with("too far by two of its own units", SWIVEL_TARGET, Float3{0, 0, 8});
+    limb.write(SWIVEL_PARENT_SCALE, Float1{1});
+    limb.write(SWIVEL_TARGET, Float3{0, 0, 0.25f});
+    limb.with("too near", SWIVEL_LENGTHS, Float2{1, 0.5f});
+    limb.with("no bones", SWIVEL_LENGTHS, Float2{0, 0});
+    limb.write(SWIVEL_LENGTHS, Float2{1, 1});
+    limb.write(SWIVEL_TARGET, Float3{0, 0, 1.5f});
+    limb.with("pole on the target's line", SWIVEL_POLE, Float3{0, 0, -3});
+
+    Told clavicle(texts, "a clavicle takes its share, so the shoulder moves", SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE);
+    clavicle.write(SWIVEL_CLAVICLE, Float4{0.3f, 0, 0, 0.5f});
+    clavicle.with("too far", SWIVEL_TARGET, Float3{0, 0, 3});
+
+    Told hand(texts, "the hand says where the elbow goes", SWIVEL_WITH_HAND | SWIVEL_POLE_HAND);
+    hand.with("along the target's line", SWIVEL_TARGET, Float3{0, 0, 1.5f});
+
+    constexpr swivel_features bounds = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_REACH |
+                                       SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
+    for (const bool blends : {false, true}) {
+        Told bound(texts, blends ? "bounds with a position weight" : "bounds of reach", bounds);
+        if (blends) bound.write(SWIVEL_WEIGHTS, Float3{0.75f, 1, 1});
+        if (blends) bound.write(SWIVEL_INCOMING_ELBOW, Float4{-0.6f, 0, 0, 0.8f});
+        bound.solved("in reach");
+        Float2 flexion;
+        CHECK(swivel_flexion(0.5, 2, flexion.data()) == SWIVEL_OK);
+        bound.write(SWIVEL_FLEXION_LIMIT, flexion);
+        bound.with("an elbow that cannot be straight", SWIVEL_TARGET, Float3{0, 0, 3});
+        bound.with("an elbow that cannot fold", SWIVEL_TARGET, Float3{0, 0, 0.1f});
+        bound.write(SWIVEL_FLEXION_LIMIT, Float2{1, 0});
+        bound.write(SWIVEL_REACH, Float4{0.2f, 0, 1, 0});
+        bound.with("a soft zone", SWIVEL_TARGET, Float3{0, 0, 1.9f});
+        bound.with("an effector", SWIVEL_EFFECTOR, Float3{0.1f, 0, 0});
+        bound.write(SWIVEL_TARGET, Float3{0, 0, 2.7f});
+        bound.with("stretched", SWIVEL_REACH, Float4{0, 0, 1.25f, 0});
     }
+
+    Told aims(texts, "an arm that aims", SWIVEL_WITH_AIM);
+    aims.write(SWIVEL_AIM, aim({0, 0.3, 1}, 1.2));
+    aims.with("from where it can", SWIVEL_TARGET, Float3{0.3f, 2, 3});
+    aims.with("too near", SWIVEL_TARGET, Float3{0, 0, 0.01f});
 }
 
-TEST_CASE("explain says how exactly a target is reached in lengths of the limb, as residuals do, whatever the unit")
+void tell_of_limits(ApprovedTexts& texts)
 {
-    Random random{7};
-    for (const swivel_features features : {SWIVEL_WORLD, SWIVEL_WORLD | SWIVEL_WITH_AIM}) {
-        Crowd crowd = crowd_of(features, 40);
-        crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
-        crowd.write_all(SWIVEL_LENGTHS, 0, Float2{300, 200});
-        float aim[5];
-        const double axis[3] = {0, 0, 1};
-        REQUIRE(swivel_aim(axis, 0.3, aim) == SWIVEL_OK);
-        if (features & SWIVEL_WITH_AIM) crowd.write_all(SWIVEL_AIM, 0, aim);
-        const double near = features & SWIVEL_WITH_AIM ? 600 : 200;  // an aim reaches beyond the arm
-        for (std::uint32_t n = 0; n < 40; ++n) {
-            const double distance = random.between(near, near + 290);
-            crowd.write(SWIVEL_TARGET, 0, std::vector{floats(Vector3d(distance * random.direction()))}, n);
-        }
-        crowd.solve();
-        std::vector<double> off(40);
-        crowd.residuals(0, off);
-        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-        int reached = 0;
-        for (std::uint32_t n = 0; n < 40; ++n) {
-            if (!(flags[n] & SWIVEL_REACHED)) continue;
-            const std::string text = crowd.explain(0, n);
-            CHECK(number_after(text, ", to within ") == Approx(off[n]).epsilon(0.06));  // of two digits
-            CHECK(text.find(" of the limb's length.") != std::string::npos);
-            ++reached;
-        }
-        CHECK(reached > 10);
-    }
+    Told limited(texts, "limits of the elbow's place", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST);
+    limited.with("a cone on the other side", SWIVEL_SHOULDER_CONE, cone({0, 1, 0.2}, 0.5));
+    limited.with("a cone that no place keeps", SWIVEL_SHOULDER_CONE, cone({0, -1, 0}, 0.5));
+    limited.with("a twist, too", SWIVEL_HUMERAL_TWIST, range(2, 2.1));
+
+    Told box(texts, "a box of the shoulder", SWIVEL_WITH_SHOULDER_BOX);
+    Float12 ranges;
+    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(range(-0.5, k == 1 ? 1.6 : 0.5), ranges.begin() + 4 * k);
+    box.write(SWIVEL_TARGET, Float3{1.95f, 0, 0});
+    box.write(SWIVEL_POLE, Float3{0, 1, 0.2f});
+    box.with("near its pole", SWIVEL_SHOULDER_BOX, ranges);
+    box.with("far from it", SWIVEL_TARGET, Float3{0.2f, 0.2f, 1.5f});
+
+    Told hand(texts, "limits of the hand", SWIVEL_WITH_HAND | SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE);
+    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(range(-0.2, 0.2), ranges.begin() + 4 * k);
+    hand.write(SWIVEL_HAND_CONE, cone({0, 0, 1}, 0.3));
+    hand.with("none kept", SWIVEL_WRIST_BOX, ranges);
+
+    Told step(texts, "a step from solve to solve", SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE);
+    step.write(SWIVEL_MOST_SWIVEL, turn(0.3));
+    step.solved("at first");
+    step.write(SWIVEL_POLE, Float3{1, 5, 3});
+    step.says("another pole");
+    step.solved("a step later");
+    std::vector<std::array<double, 3>> elbow(1);
+    step.crowd.elbows(0, elbow);
+    step.write(SWIVEL_SHOULDER_CONE, cone(elbow[0], 0.1));
+    step.says("a cone about the elbow");
+    step.solved("where the step ends");
+    step.with("a cone out of reach", SWIVEL_SHOULDER_CONE, cone({-1, 0, -1}, 0.1));
 }
 
-TEST_CASE("explain of bones without a length, of aims, and of inputs left as they start")
+}  // namespace
+
+TEST_CASE("explain speaks of limbs as approved")
 {
-    Crowd crowd = crowd_of(SWIVEL_WORLD, 2);
-    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{1, 0, 0});
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{1, 0, 2});
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0, 0});
-    crowd.solve();
-    CHECK(number_after(crowd.explain(0, 0), "The target is ") == 2);
-    CHECK(says(crowd, 0, "bones of no length"));
-    CHECK(says(crowd, 0, "Its parent_rotation is the identity"));
-    crowd.write_all(SWIVEL_PARENT_ROTATION, 0, Float4{0, 0, 0.6f, 0.8f});
-    CHECK(!says(crowd, 0, "parent_rotation"));
-
-    Crowd aiming = crowd_of(SWIVEL_WITH_AIM, 2);
-    aiming.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-    float aim[5];
-    const double axis[3] = {0, 0.3, 1};
-    REQUIRE(swivel_aim(axis, 1.2, aim) == SWIVEL_OK);
-    aiming.write_all(SWIVEL_AIM, 0, aim);
-    aiming.write(SWIVEL_TARGET, 0, std::vector<Float3>{{0.3f, 2, 3}, {0, 0, 0.01f}});
-    aiming.solve();
-    const auto flags = read<std::uint32_t>(aiming, SWIVEL_FLAGS);
-    CHECK(flags[0] & SWIVEL_REACHED);
-    CHECK(says(aiming, 0, "The hand aims at the target"));
-    CHECK(flags[1] & SWIVEL_CLAMPED_NEAR);
-    std::array<double, 2> off;
-    aiming.residuals(0, off);
-    CHECK(number_after(aiming.explain(0, 1), "the hand's ray passes it by ") == Approx(2 * off[1]).epsilon(1e-3));
+    ApprovedTexts texts("limbs.txt");
+    tell_of_inputs(texts);
+    tell_of_reach(texts);
+    tell_of_limits(texts);
+    texts.compare();
 }
 
-TEST_CASE("explain says which limit turned the elbow from its wish, by how much, and why none is kept")
-{
-    Random random{6};
-    constexpr std::uint32_t count = 300;
-    constexpr swivel_features limits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
-    const Chained limb = chained(random);
-    Crowd limited = crowd_of(kWorldJointsHand | limits, count, limb.bound),
-          free = crowd_of(kWorldJointsHand, count, limb.bound);
-    limited.write_all(SWIVEL_SHOULDER_CONE, 0, cone({0.2, 0.5, 1}, 1.1));
-    limited.write_all(SWIVEL_HUMERAL_TWIST, 0, range(-0.7, 0.9));
-    std::vector<Limb> limbs;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        limbs.push_back(random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
-        for (Crowd* crowd : {&limited, &free}) write_limb(*crowd, 0, n, limbs.back());
-    }
-    limited.solve();
-    free.solve();
-    const auto flags = read<std::uint32_t>(limited, SWIVEL_FLAGS);
-    std::vector<std::array<double, 3>> elbow[2], wrist(count);
-    for (std::size_t k : {0u, 1u}) {
-        elbow[k].resize(count);
-        (k == 0 ? limited : free).elbows(0, elbow[k]);
-    }
-    limited.wrists(0, wrist);
-    std::size_t turned = 0, impossible = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const std::string text = limited.explain(0, n);
-        INFO(text);
-        const bool is_named = text.find("shoulder_cone") != std::string::npos;
-        if (!(flags[n] & SWIVEL_INFEASIBLE)) CHECK(is_named == ((flags[n] & SWIVEL_LIMITED_SHOULDER_CONE) != 0));
-        if (flags[n] & SWIVEL_INFEASIBLE) {
-            CHECK(text.find("No place of the elbow keeps ") != std::string::npos);
-            ++impossible;
-        } else if (flags[n] & (SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_HUMERAL_TWIST)) {
-            const auto at = [&](const std::array<double, 3>& p) {
-                return Vector3d(Vector3d(p[0], p[1], p[2]) - vec(limbs[n].position));
-            };
-            const Vector3d line = at(wrist[n]).normalized();
-            const auto across = [&](const Vector3d& v) { return Vector3d(v - v.dot(line) * line).normalized(); };
-            const double cosine = across(at(elbow[0][n])).dot(across(at(elbow[1][n])));
-            const double degrees_off = std::acos(std::clamp(cosine, -1.0, 1.0)) / degrees(1);
-            CHECK(number_after(text, "keeps all limits is ") == Approx(degrees_off).margin(0.11));
-            ++turned;
-        }
-    }
-    CHECK(turned > 20);
-    CHECK(impossible > 20);
-}
-
-TEST_CASE("explain says by how many degrees the pose that violates limits least is outside of each")
+TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that keeps not all is outside of each")
 {
     Random random{8};
     constexpr std::uint32_t count = 150;
     const auto narrow = [&] { return AngleRange{random.between(-3, 3), random.between(0.05, 0.6)}; };
-    int named = 0;
+    int named = 0, turned = 0;
     for (const swivel_features limits :
-         {SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
+         {SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST,
+          SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
           SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
           SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {
         const Chained limb = chained(random);
         swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | limits);
         group.shoulder_order = SWIVEL_ZXY;
         group.wrist_order = SWIVEL_YXZ;
-        Crowd crowd(group);
+        Crowd crowd(group), free = crowd_of(kWorldJointsHand, count, limb.bound);
         LimbLimits l(random);
-        l.shoulder = 0.5, l.hand = 0.3;
-        l.humeral = narrow(), l.forearm = narrow(), l.twist = narrow();
+        l.shoulder = limits & SWIVEL_WITH_HAND_CONE ? 0.5 : 1.1, l.hand = 0.3;
+        l.humeral = limits & SWIVEL_WITH_HAND_CONE ? narrow() : AngleRange{0.1, 1.6};
+        l.forearm = narrow(), l.twist = narrow();
         l.shoulder_box = {{2, 0, 1}, {narrow(), narrow(), narrow()}};
         l.wrist_box = {{1, 0, 2}, {narrow(), narrow(), narrow()}};
-        std::vector<Limb> limbs;
-        for (std::uint32_t n = 0; n < count; ++n)
-            limbs.push_back(random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
         each_limit(l, [&](swivel_field field, const auto& value) {
             if (swivel_field_row_count(crowd.get(), 0, field)) crowd.write_all(field, 0, value);
         });
-        for (std::uint32_t n = 0; n < count; ++n) write_limb(crowd, 0, n, limbs[n]);
-        crowd.solve();
-        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+        std::vector<Limb> limbs;
         for (std::uint32_t n = 0; n < count; ++n) {
-            if (!(flags[n] & SWIVEL_INFEASIBLE)) continue;
+            limbs.push_back(random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
+            for (Crowd* const each : {&crowd, &free}) write_limb(*each, 0, n, limbs[n]);
+        }
+        crowd.solve();
+        free.solve();
+        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+        std::vector<std::array<double, 3>> elbow(count), wished(count);
+        crowd.elbows(0, elbow);
+        free.elbows(0, wished);
+        for (std::uint32_t n = 0; n < count; ++n) {
             const std::string text = crowd.explain(0, n);
             INFO(text);
             const LocalPose q = added_to_rest(local_pose(crowd, n), limb.bound);
             const Vector3d bone = Vector3d::UnitZ();
-            const std::tuple<std::uint32_t, std::string, double> off[] = {
-                {SWIVEL_WITH_SHOULDER_CONE, "shoulder_cone", off_cone(l.shoulder_axis, q.shoulder * bone, 0.5)},
-                {SWIVEL_WITH_HUMERAL_TWIST, "humeral_twist", off_twist(q.shoulder, bone, l.humeral)},
-                {SWIVEL_WITH_SHOULDER_BOX, "shoulder_box", off_box(q.shoulder, l.shoulder_box)},
-                {SWIVEL_WITH_HAND_CONE, "hand_cone", off_cone(bone, q.wrist * l.hand_axis, 0.3)},
-                {SWIVEL_WITH_FOREARM_TWIST, "forearm_twist", off_twist(q.wrist, bone, l.forearm)},
-                {SWIVEL_WITH_HAND_TWIST, "hand_twist", off_twist(q.wrist, l.twist_axis, l.twist)},
-                {SWIVEL_WITH_WRIST_BOX, "wrist_box", off_box(q.wrist, l.wrist_box)},
+            const std::tuple<std::uint32_t, std::uint32_t, std::string, double> off[] = {
+                {SWIVEL_WITH_SHOULDER_CONE, SWIVEL_LIMITED_SHOULDER_CONE, "shoulder_cone",
+                 off_cone(l.shoulder_axis, q.shoulder * bone, l.shoulder)},
+                {SWIVEL_WITH_HUMERAL_TWIST, SWIVEL_LIMITED_HUMERAL_TWIST, "humeral_twist",
+                 off_twist(q.shoulder, bone, l.humeral)},
+                {SWIVEL_WITH_SHOULDER_BOX, SWIVEL_LIMITED_SHOULDER_BOX, "shoulder_box",
+                 off_box(q.shoulder, l.shoulder_box)},
+                {SWIVEL_WITH_HAND_CONE, SWIVEL_LIMITED_HAND_CONE, "hand_cone",
+                 off_cone(bone, q.wrist * l.hand_axis, 0.3)},
+                {SWIVEL_WITH_FOREARM_TWIST, SWIVEL_LIMITED_FOREARM_TWIST, "forearm_twist",
+                 off_twist(q.wrist, bone, l.forearm)},
+                {SWIVEL_WITH_HAND_TWIST, SWIVEL_LIMITED_HAND_TWIST, "hand_twist",
+                 off_twist(q.wrist, l.twist_axis, l.twist)},
+                {SWIVEL_WITH_WRIST_BOX, SWIVEL_LIMITED_WRIST_BOX, "wrist_box", off_box(q.wrist, l.wrist_box)},
             };
-            const std::string pose = text.substr(text.find("Its pose violates"));
-            for (const auto& [limit, name, angle] : off) {
+            const std::size_t violates = text.find("Its pose violates");
+            REQUIRE((violates != std::string::npos) == ((flags[n] & SWIVEL_INFEASIBLE) != 0));
+            for (const auto& [limit, flag, name, angle] : off) {
+                if (violates == std::string::npos) {
+                    CHECK((text.find(name) != std::string::npos) == ((flags[n] & flag) != 0));
+                    continue;
+                }
                 const double degrees_off = angle / degrees(1);
+                const std::string pose = text.substr(violates);
                 const bool is_named = pose.find(name + " by") != std::string::npos;
                 if (!(limits & limit) || degrees_off < -0.03) CHECK_FALSE(is_named);
                 if ((limits & limit) && degrees_off > 0.03) {
@@ -268,100 +300,19 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
                     ++named;
                 }
             }
+            if (text.find("keeps all limits is ") == std::string::npos) continue;
+            const Vector3d line = (vec(limbs[n].target) - vec(limbs[n].position)).normalized();
+            const auto across = [&](const std::array<double, 3>& at) {
+                const Vector3d v = Vector3d(at.data()) - vec(limbs[n].position);
+                return Vector3d(v - v.dot(line) * line);
+            };
+            CHECK(number_after(text, "keeps all limits is ") ==
+                  Approx(angle_between(across(elbow[n]), across(wished[n])) / degrees(1)).margin(0.11));
+            ++turned;
         }
     }
     CHECK(named > 500);
-}
-
-TEST_CASE("explain says how near an arm that its box turned is to the box's pole")
-{
-    Random random{9};
-    constexpr std::uint32_t count = 2000;
-    swivel_group_def group = swivel::group(count, SWIVEL_WITH_SHOULDER_BOX);
-    group.shoulder_order = SWIVEL_ZXY;
-    Crowd crowd(group);
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-    const Float4 narrow = range(-0.5, 0.5), wide = range(-1.6, 1.6);
-    Float12 box;
-    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(k == 1 ? wide : narrow, box.begin() + 4 * k);
-    crowd.write_all(SWIVEL_SHOULDER_BOX, 0, box);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Float3 target = floats(1.5 * random.direction()), pole = floats(random.direction());
-        crowd.write(SWIVEL_TARGET, 0, std::span(&target, 1), n);
-        crowd.write(SWIVEL_POLE, 0, std::span(&pole, 1), n);
-    }
-    crowd.solve();
-    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    int near = 0, far = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        if (!(flags[n] & SWIVEL_LIMITED_SHOULDER_BOX)) continue;
-        const std::string text = crowd.explain(0, n), words = "degrees from the pole of shoulder_box";
-        INFO(text);
-        // The middle angle's sine is the entry of the first axis and the last.
-        const double sine = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[n]).toRotationMatrix()(2, 1);
-        const double off = std::acos(std::fabs(sine)) / degrees(1);
-        const bool is_said = text.find(words) != std::string::npos;
-        if (std::fabs(off - 15) > 0.01) CHECK(is_said == (off < 15));
-        if (is_said) CHECK(number_after(text, "It is ") == Approx(off).margin(0.51));
-        (is_said ? near : far) += 1;
-    }
-    CHECK(near > 0);
-    CHECK(far > 0);
-}
-
-TEST_CASE("with a step limit, explain measures the nearest place from where the step ends")
-{
-    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST, 1);
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
-    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 5, 3});
-    crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, range(-3.14, 3.14));
-    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.3));
-    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone({0, 0, 1}, 3.14));
-    crowd.solve();
-    std::vector<std::array<double, 3>> elbow(1);
-    crowd.elbows(0, elbow);
-    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone(elbow[0], 0.1));
-    crowd.write_all(SWIVEL_POLE, 0, Float3{1, -5, -3});
-    const std::string text = crowd.explain(0, 0);
-    CHECK(text.find("Where the step takes the elbow, it breaks shoulder_cone") != std::string::npos);
-    const Vector3d before = vec(read<Float3>(crowd, SWIVEL_NORMAL)[0]);
-    crowd.solve();
-    crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, range(2, 2.1));
-    CHECK(says(crowd, 0, "keeps all limits at once, as the step's end breaks shoulder_cone and humeral_twist:"));
-    const double made = std::acos(before.dot(vec(read<Float3>(crowd, SWIVEL_NORMAL)[0])));
-    CHECK(made > 0.05);
-    CHECK(number_after(text, "keeps all limits is ") == Approx((0.3 - made) * 180 / kPi).margin(0.06));
-}
-
-TEST_CASE("explain writes no further than it may, changes nothing and refuses what is not there")
-{
-    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE, 20);
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
-    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.1));
-    crowd.solve();
-    crowd.write_all(SWIVEL_POLE, 0, Float3{0, 5, -3});
-    crowd.solve();
-    const auto before = all_words(crowd);
-    CHECK(says(crowd, 0, "the next solve goes as far as step and limits allow"));
-    const std::string whole = crowd.explain(0, 0);
-    for (const std::size_t size : {std::size_t{1}, std::size_t{2}, std::size_t{4}, std::size_t{30}, whole.size(),
-                                   whole.size() + 1, whole.size() + 2}) {
-        std::vector<char> text(size + 8, '?');
-        REQUIRE(swivel_explain(crowd.get(), 0, 0, text.data(), size) == SWIVEL_OK);
-        std::string expected = whole.substr(0, size - 1);
-        if (expected != whole)  // cut
-            for (std::size_t n = 1; n <= std::min(expected.size(), std::size_t{3}); ++n) expected.end()[-int(n)] = '.';
-        CHECK(std::string(text.data()) == expected);
-        CHECK(std::count(text.begin() + static_cast<std::ptrdiff_t>(size), text.end(), '?') == 8);
-    }
-    CHECK((all_words(crowd) == before));
-    char text[8];
-    CHECK_REFUSED(swivel_explain(nullptr, 0, 0, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_explain(crowd.get(), 1, 0, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_explain(crowd.get(), 0, 20, text, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_explain(crowd.get(), 0, 0, nullptr, 8), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_explain(crowd.get(), 0, 0, text, 0), SWIVEL_INVALID_ARGUMENT);
+    CHECK(turned > 20);
 }
 
 TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every input is bad")
@@ -392,70 +343,4 @@ TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every
             CHECK(whole.size() < SWIVEL_EXPLANATION_BYTES);
         }
     }
-}
-
-TEST_CASE("with weights, explain speaks of the blended target, and of how far the limb is from the target itself")
-{
-    Random random{9};
-    constexpr std::uint32_t count = 200;
-    constexpr swivel_features features = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_INCOMING |
-                                         SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT;
-    Crowd crowd = crowd_of(features, count);
-    std::vector<Float3> targets, effectors, weights;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        targets.push_back(floats(random.vector(0, 4)));
-        effectors.push_back(n % 2 == 0 ? Float3{0, 0, 0} : floats(Vector3d(0.3 * random.direction())));
-        weights.push_back({n % 4 == 0 ? 1 : static_cast<float>(random.below(4) ? random.unit() : 0), 1, 1});
-    }
-    crowd.write(SWIVEL_TARGET, 0, targets);
-    crowd.write(SWIVEL_EFFECTOR, 0, effectors);
-    crowd.write(SWIVEL_WEIGHTS, 0, weights);
-    crowd.write_all(SWIVEL_HAND, 0, floats(random.rotation()));
-    crowd.write_all(SWIVEL_INCOMING_ELBOW, 0, Float4{-0.5f, 0, 0, 1});
-    crowd.write_all(SWIVEL_REACH, 0, Float4{0.1f, 0.1f, 1, 0});
-    float flexion[2];
-    REQUIRE(swivel_flexion(0.2, 2.5, flexion) == SWIVEL_OK);
-    crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, flexion);
-    crowd.solve();
-    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    std::vector<std::array<double, 3>> wrists(count);
-    std::vector<std::array<double, 4>> hands(count);
-    crowd.wrists(0, wrists);
-    crowd.hands(0, hands);
-    int reached = 0, softened = 0, far = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const std::string text = crowd.explain(0, n);
-        INFO(text);
-        const Vector3d tip = Vector3d(wrists[n].data()) + Quaterniond(hands[n].data()) * vec(effectors[n]);
-        const double missed = (tip - vec(targets[n])).norm();
-        const std::string point = n % 2 == 0 ? "wrist " : "effector ";
-        if (weights[n][0] == 1) {
-            CHECK(text.find("blended") == std::string::npos);
-            if (!(flags[n] & (SWIVEL_REACHED | SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR))) {
-                CHECK(number_after(text, "A soft zone of reach keeps the " + point) == Approx(missed).epsilon(1e-3));
-            }
-            continue;
-        }
-        CHECK(text.find("to within") == std::string::npos);
-        CHECK(number_after(text, "With a position weight of ") ==
-              Approx(double{weights[n][0]}).epsilon(6e-3).margin(1e-12));
-        const std::size_t tail = text.find("With a position weight");
-        CHECK(number_after(text.substr(tail), "the " + point + "is ") == Approx(missed).epsilon(6e-4).margin(1e-5));
-        if (flags[n] & SWIVEL_REACHED) {
-            CHECK(text.starts_with("The blended target is reached."));
-            ++reached;
-        } else if (flags[n] & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) {
-            const bool is_far = flags[n] & SWIVEL_CLAMPED_FAR;
-            CHECK(text.starts_with(is_far ? "The blended target is out of reach: the wrist is "
-                                          : "The blended target is too near: the wrist is "));
-            CHECK(number_after(text, ": the wrist is ") ==
-                  Approx(Vector3d(wrists[n].data()).norm()).epsilon(6e-4).margin(1e-12));
-            far += is_far;
-        } else {
-            CHECK(text.starts_with("A soft zone of reach keeps the "));
-            CHECK(text.find(" from its blended target.") != std::string::npos);
-            ++softened;
-        }
-    }
-    CHECK(std::min({reached, softened, far}) > 5);
 }

@@ -159,23 +159,10 @@ TEST_CASE("arcs of locked axes are as short as what they allow")
     CHECK(some > 100);
 }
 
-TEST_CASE("angles that make no limit are refused")
+TEST_CASE("the widest angles are limits")
 {
-    float value[4] = {7, 7, 7, 7};
-    const double axis[3] = {0, 0, 2}, none[3] = {0, 0, 0};
-    CHECK_REFUSED(swivel_range(1, 0, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_range(0, 6.4, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_range(std::nan(""), 1, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_range(0, 1, nullptr), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_cone(none, 1, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_cone(axis, -0.1, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_cone(axis, 3.2, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_flexion(-0.1, 1, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_flexion(1, 0.5, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_flexion(1, 3.2, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_mirror(SWIVEL_RESULT_END, SWIVEL_XYZ, value, value), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_mirror(SWIVEL_ELBOW, SWIVEL_XYZ, value, value), SWIVEL_INVALID_ARGUMENT);
-    for (const float x : value) CHECK(x == 7);
+    float value[4];
+    const double axis[3] = {0, 0, 2};
     CHECK(swivel_range(-kPi, kPi, value) == SWIVEL_OK);
     CHECK(swivel_cone(axis, kPi, value) == SWIVEL_OK);
     CHECK(swivel_flexion(0, kPi, value) == SWIVEL_OK);
@@ -215,24 +202,13 @@ TEST_CASE("a cone said in the character's axes holds in the character's axes")
     CHECK(kept > 300);
 }
 
-TEST_CASE("swivel_arm_axis refuses what has no direction, and takes its own output")
+TEST_CASE("swivel_arm_axis takes its own output")
 {
     Random random{9};
     const swivel_binding binding = chained(random).bound;
-    const Float4 turned = floats(random.rotation()), none{};
-    const double up[3] = {0, 1, 0}, nothing[3] = {}, bad[3] = {0, std::nan(""), 0};
-    double axis[3] = {7, 7, 7};
-    const auto wrong = SWIVEL_INVALID_ARGUMENT;
-    CHECK_REFUSED(swivel_arm_axis(nullptr, turned.data(), up, axis), wrong);
-    CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), nullptr, axis), wrong);
-    CHECK_REFUSED(swivel_arm_axis(&binding, none.data(), up, axis), wrong);
-    for (const double* direction : {nothing, bad})
-        CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), direction, axis), wrong);
-    const swivel_binding zeros = swivel_default_binding();
-    CHECK_REFUSED(swivel_arm_axis(&zeros, turned.data(), up, axis), wrong);
-    CHECK((axis[0] == 7 && axis[1] == 7 && axis[2] == 7));
+    const Float4 turned = floats(random.rotation());
+    double up[3] = {0, 1, 0}, axis[3];
     REQUIRE(swivel_arm_axis(&binding, turned.data(), up, axis) == SWIVEL_OK);
-    double in_place[3] = {0, 1, 0};
-    REQUIRE(swivel_arm_axis(&binding, turned.data(), in_place, in_place) == SWIVEL_OK);
-    CHECK(std::equal(axis, axis + 3, in_place));
+    REQUIRE(swivel_arm_axis(&binding, turned.data(), up, up) == SWIVEL_OK);
+    CHECK(std::equal(axis, axis + 3, up));
 }

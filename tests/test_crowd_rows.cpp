@@ -64,68 +64,6 @@ TEST_CASE("a new crowd's inputs are what anybody would guess, and else bad")
     }
 }
 
-TEST_CASE("a limb that lacks its target, its shoulder's place or its lengths has bad input, and no other")
-{
-    for (const swivel_field missing : {SWIVEL_TARGET, SWIVEL_SHOULDER_POSITION, SWIVEL_LENGTHS, SWIVEL_HAND}) {
-        Crowd crowd = crowd_with(SWIVEL_WORLD, {group_of(20)});
-        const auto give = [&](swivel_field field, auto value) {
-            crowd.write(field, 0, std::vector(field == missing ? 19 : 20, value), 0);
-        };
-        give(SWIVEL_TARGET, Float3{0, 0.5f, 1});
-        give(SWIVEL_SHOULDER_POSITION, Float3{0, 0, 0.2f});
-        give(SWIVEL_LENGTHS, Float2{1, 1});
-        crowd.solve();
-        std::vector<std::uint32_t> expected(20, SWIVEL_REACHED);
-        if (missing != SWIVEL_HAND) expected[19] = SWIVEL_BAD_INPUT;
-        CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS) == expected);
-    }
-}
-
-TEST_CASE("limbs that were never solved have the bits of bad input, but for its flag")
-{
-    const auto slant = [](float sign) {
-        swivel_chain chain = swivel_default_chain();
-        for (float(&q)[4] : {std::ref(chain.shoulder_rotation), std::ref(chain.elbow_rotation)})
-            std::ranges::copy(Float4{0.2f * sign, 0.4f, -0.4f * sign, 0.8f}, q);
-        std::ranges::copy(Float4{0.6f, 0, 0, -0.8f * sign}, chain.wrist_rotation);
-        chain.elbow_offset[0] = chain.wrist_offset[0] = 0.3f * sign;
-        chain.bend[2] = 1;
-        return bind(chain);
-    };
-    const swivel_group_def groups[] = {swivel::group(33, slant(1), 0), swivel::group(7, slant(-1), 0)};
-    constexpr swivel_features plain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND,
-                              limb = SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | 3 * SWIVEL_WITH_TWIST_BONES |
-                                     SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;
-    std::vector<swivel_features> sets = {plain | limb, SWIVEL_WORLD | SWIVEL_WITH_HAND | limb};
-    for (swivel_features n = 0; n < 8; ++n) sets.push_back(n);
-    for (const swivel_features features : sets) {
-        INFO("features " << features);
-        Crowd crowd = crowd_with(features, groups);
-        std::vector<std::vector<float>> fresh;
-        for (const bool solved : {false, true}) {
-            if (solved) crowd.solve();
-            for (std::uint32_t g = 0; g < 2; ++g)
-                for (const swivel_field field : every_field()) {
-                    if (field < SWIVEL_SHOULDER || field == SWIVEL_FLAGS) continue;
-                    if (swivel_field_row_count(crowd.get(), 0, field) == 0) continue;
-                    std::vector<float> values(groups[g].limb_count * 12);  // the longest has 3 twist bones
-                    REQUIRE(swivel_read(crowd.get(), field, g, 0, groups[g].limb_count, {values.data(), 48}) ==
-                            SWIVEL_OK);
-                    fresh.push_back(values);
-                }
-            for (const std::uint32_t flags : read<std::uint32_t>(crowd, SWIVEL_FLAGS, 0))
-                CHECK(flags == (solved ? std::uint32_t{SWIVEL_BAD_INPUT} : 0u));
-        }
-        for (std::size_t n = 0; n < fresh.size() / 2; ++n) CHECK(fresh[n] == fresh[n + fresh.size() / 2]);
-        const Float4 shoulder = read<Float4>(crowd, SWIVEL_SHOULDER, 1)[6];
-        const bool joints = features & SWIVEL_JOINTS;
-        const Float4 rest = joints ? Float4{-0.2f, 0.4f, 0.4f, 0.8f} : Float4{0, 0, 0, 1};
-        CHECK(distance(quat(shoulder), quat(rest)) <= 1e-6);
-        if (features & SWIVEL_WITH_REACH) CHECK(read<Float1>(crowd, SWIVEL_STRETCH, 0)[32] == Float1{1});
-        if (features & SWIVEL_WITH_MOST_SWIVEL) CHECK(read<Float3>(crowd, SWIVEL_NORMAL, 0)[32] == Float3{});
-    }
-}
-
 namespace {
 
 // swivel_digest() as the header describes it, by limbs and their values: floats of rows by swivel.h's layout.

@@ -212,18 +212,25 @@ namespace {
 
 constexpr std::uint32_t kCount = 37, kSecond = 6;  // limbs of the two groups: a part of a block at the end of each
 
-Crowd good_crowd(swivel_features features)
+// Of the two groups.
+std::array<swivel_binding, 2> bindings(swivel_features features)
 {
     Random random{features + 1};
-    std::vector<swivel_group_def> groups;
-    for (const std::uint32_t count : {kCount, kSecond})
-        groups.push_back(swivel::group(count, chained(random).bound, features));
+    const swivel_binding first = chained(random).bound;
+    return {first, chained(random).bound};
+}
+// The first group's limbs rest after bad input, the second group's keep their pose.
+Crowd good_crowd(swivel_features features)
+{
+    Random random{features + 2};
+    const std::array<swivel_binding, 2> bound = bindings(features);
+    std::array groups = {swivel::group(kCount, bound[0], features), swivel::group(kSecond, bound[1], features)};
+    groups[1].on_bad_input = SWIVEL_KEEP_POSE;
     Crowd crowd(groups);
     for (std::uint32_t group = 0; group < 2; ++group)
-        for (std::uint32_t n = 0; n < groups[group].limb_count; ++n) {
-            const float(&bones)[2] = groups[group].binding.lengths;
-            write_limb(crowd, group, n, random_limb(random, features, {bones[0], bones[1]}));
-        }
+        for (std::uint32_t n = 0; n < groups[group].limb_count; ++n)
+            write_limb(crowd, group, n,
+                       random_limb(random, features, {bound[group].lengths[0], bound[group].lengths[1]}));
     return crowd;
 }
 
@@ -247,13 +254,31 @@ std::vector<std::vector<std::uint32_t>> all_results(const Crowd& crowd)
     return words;
 }
 
+// Limbs that were never solved rest as their bindings say, unstretched, and have no flags.
+void check_rest(const Crowd& crowd, swivel_features features)
+{
+    for (std::uint32_t group = 0; group < 2; ++group) {
+        const swivel_binding bound = bindings(features)[group];
+        const bool joints = features & SWIVEL_JOINTS;
+        const Quaterniond rest = joints ? quat(bound.shoulder_rest) : Quaterniond::Identity();
+        CHECK(distance(quat(read<Float4>(crowd, SWIVEL_SHOULDER, group)[1]), rest) <= 1e-6);
+        CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, group)[1] == 0);
+        if (features & SWIVEL_WITH_REACH) CHECK(read<Float1>(crowd, SWIVEL_STRETCH, group)[1] == Float1{1});
+    }
+}
+
+std::uint32_t& flags_of(const Crowd& crowd, std::vector<std::uint32_t>& results)
+{
+    return results[swivel_field_first_row(crowd.get(), 0, SWIVEL_FLAGS)];
+}
+
 // A limb's input, as it must not be.
 struct Spoilt {
     swivel_field field;
     std::uint32_t first, count;  // the numbers that are changed
     float bad;
 };
-// Every way to spoil a limb: not a number, or out of the range that swivel.h gives.
+// Every way to spoil a limb: a number that is none, and what is out of the range that swivel.h gives.
 std::vector<Spoilt> every_spoilt(const Crowd& crowd)
 {
     std::vector<Spoilt> ways;
@@ -262,17 +287,27 @@ std::vector<Spoilt> every_spoilt(const Crowd& crowd)
         for (const float bad : all)
             if (swivel_field_row_count(crowd.get(), 0, field)) ways.push_back({field, first, count, bad});
     };
-    for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_LENGTHS, SWIVEL_SHOULDER_POSITION,
-                                     SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND}) {
-        const std::uint32_t count = swivel_field_row_count(crowd.get(), 0, field);
-        for (std::uint32_t c = 0; c < count; ++c) add(field, c, 1, {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f});
+    for (int f = 0; f < SWIVEL_INPUT_END; ++f) {
+        const auto field = static_cast<swivel_field>(f);
+        for (std::uint32_t c = 0; c < swivel_field_row_count(crowd.get(), 0, field); ++c)
+            add(field, c, 1, {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f});
     }
     for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_LENGTHS, c, 1, {-1, 0.9e-15f, -1e-15f, 1e-40f, 1.001e15f});
-    for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION})
+    for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION, SWIVEL_EFFECTOR})
         add(field, 0, 3, {0.6e15f});  // no component is too long, the vector is
     add(SWIVEL_PARENT_SCALE, 0, 1, {0.0f, -0.0f, -1, 0.9e-15f, 1.001e15f});
-    for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND})
+    for (const swivel_field field :
+         {SWIVEL_PARENT_ROTATION, SWIVEL_HAND, SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
         add(field, 0, 4, {0.0f, 0.45e-9f, 1e-30f, 0.55e9f});  // half of its length
+    add(SWIVEL_ANGLE, 0, 2, {0, 0.7e-9f, 0.8e9f});
+    for (const std::uint32_t c : {0u, 1u, 2u}) add(SWIVEL_WEIGHTS, c, 1, {-0.1f, 1.1f});
+    for (const std::uint32_t c : {0u, 1u, 3u}) add(SWIVEL_REACH, c, 1, {-0.1f, 1.1f});
+    add(SWIVEL_REACH, 2, 1, {0.9f, 1001});
+    add(SWIVEL_CLAVICLE, 3, 1, {-0.1f, 1.1f});
+    for (const swivel_field field : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) add(field, 3, 1, {-1.1f, 1.1f});
+    for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_FLEXION_LIMIT, c, 1, {-0.1f, 1.1f});
+    add(SWIVEL_AIM, 3, 1, {-1});
+    add(SWIVEL_MOST_SWIVEL, 1, 1, {-1});
     return ways;
 }
 
@@ -280,31 +315,41 @@ std::vector<Spoilt> every_spoilt(const Crowd& crowd)
 
 TEST_CASE("a bad number spoils its limb and no other")
 {
-    for (swivel_features features = 0; features < 16; ++features) {
-        if (!is_feature_set(features)) continue;
+    std::vector<swivel_features> sets = {SWIVEL_WITH_AIM | SWIVEL_WITH_ANGLE,
+                                         kWorldJointsHand | kLimits | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE |
+                                             SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
+                                             SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_CLAVICLE |
+                                             3 * SWIVEL_WITH_TWIST_BONES};
+    for (swivel_features features = 0; features < 16; ++features)
+        if (is_feature_set(features)) sets.push_back(features);
+    for (const swivel_features features : sets) {
         const std::vector<Spoilt> ways = every_spoilt(good_crowd(features));
         for (std::size_t next = 0; next < ways.size();) {
             Crowd crowd = good_crowd(features);
+            check_rest(crowd, features);
             auto expected = all_results(crowd);  // of limbs that were never solved: the rest pose
             crowd.solve();
-            const auto good = all_results(crowd);
+            auto good = all_results(crowd);
             for (std::size_t at = 0; at < good.size(); ++at) {
-                CHECK((good[at].back() & kBad) == 0);
-                if (at % 3 == 1 || next == ways.size()) {
-                    expected[at] = good[at];
-                    continue;
-                }
-                const Spoilt& way = ways[next++];
+                CHECK((flags_of(crowd, good[at]) & kBad) == 0);
                 const std::uint32_t group = at >= kCount, limb = static_cast<std::uint32_t>(at - (group ? kCount : 0));
-                std::array<float, 4> value{};
+                const bool is_spoilt = at % 3 == 1 && next < ways.size();
+                if (!is_spoilt || group == 1) expected[at] = good[at];
+                if (!is_spoilt) continue;
+                const Spoilt& way = ways[next++];
+                Float12 value{};
                 check(swivel_read(crowd.get(), way.field, group, limb, 1, {value.data(), sizeof value}));
                 for (std::uint32_t c = way.first; c < way.first + way.count; ++c) value[c] = way.bad;
                 check(swivel_write(crowd.get(), way.field, group, limb, 1, {value.data(), sizeof value}));
-                expected[at].back() = kBad;
+                flags_of(crowd, expected[at]) = kBad;
             }
             crowd.solve();
             INFO("features " << features << ", ways to " << next);
-            CHECK((all_results(crowd) == expected));
+            const auto got = all_results(crowd);
+            for (std::size_t at = 0; at < got.size(); ++at) {
+                INFO("limb " << at);
+                CHECK((got[at] == expected[at]));
+            }
         }
     }
 }

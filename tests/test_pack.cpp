@@ -268,6 +268,7 @@ TEST_CASE("a group's words are those of its results, for every set of features")
                 row += words;
             }
             REQUIRE(rows == row);
+            REQUIRE(swivel_packed_row(0, SWIVEL_TARGET) == 0);
         }
     });
     CHECK(rotations > 10000);
@@ -292,19 +293,6 @@ TEST_CASE("every instruction set gives the words, in every block range, and writ
                              expected.begin() + static_cast<std::ptrdiff_t>(blocks.first * block_words)));
         }
     });
-}
-
-TEST_CASE("packing refuses groups and blocks that do not exist, and missing words")
-{
-    const Crowd crowd({group(40), group(1)});
-    std::uint16_t words[SWIVEL_LANES * 16] = {};
-    CHECK_REFUSED(swivel_pack(nullptr, 0, {0, 1}, words), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_pack(crowd.get(), 2, {0, 1}, words), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_pack(crowd.get(), 0, {0, 1}, nullptr), SWIVEL_INVALID_ARGUMENT);
-    for (const swivel_blocks blocks : {swivel_blocks{0, 4}, {3, 1}, {4, 0}, {1, ~0u}, {~0u, 2}})
-        CHECK_REFUSED(swivel_pack(crowd.get(), 0, blocks, words), SWIVEL_INVALID_ARGUMENT);
-    for (const std::uint16_t word : words) REQUIRE(word == 0);
-    CHECK(swivel_packed_row(0, SWIVEL_TARGET) == 0);
 }
 
 TEST_CASE("wrists of random arms stay within the stated distance of the results'")

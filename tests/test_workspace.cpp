@@ -59,9 +59,6 @@ TEST_CASE("a workspace is as large as the crowd needs it, and part of its memory
     const std::size_t one = swivel_crowd_bytes(&def);
     def.workspace_count = 5;
     CHECK(swivel_crowd_bytes(&def) == one + 4 * large);
-    def.workspace_count = 65;
-    CHECK(swivel_crowd_bytes(&def) == 0);
-    CHECK(std::string(swivel_last_error()).find("65 workspaces") != std::string::npos);
 }
 
 TEST_CASE("a job's own workspace may hold anything, and gives the same bits")

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a call with a wrong argument is refused in one line, which names group, field and what is wrong. It
+// writes nothing, neither to the crowd nor to the caller. Each line is a call that is right but for one argument. The
+// test `interface` has wrong ranges, strides and jobs of most calls in any order; here are their words.
+#include <catch2/catch.hpp>
+
+#include <cstring>
+
+#include "tests/holding_bodies.h"
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_whole_limb.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+using H = HoldingBodies;
+
+constexpr std::uint32_t kNoSuchThing = 77;
+
+swivel_job job_with(const swivel_pose* pose)
+{
+    swivel_job job = swivel_default_job();
+    job.pose = pose;
+    return job;
+}
+
+// What the calls are about, and where they would write.
+struct Called {
+    Random random{5};
+    Crowd crowd, directions;  // of free limbs: 20 and 5, in 3 blocks
+    HoldingBodies made{random, 3, PoseLayout{}};
+    Crowd bodies = made.crowd();
+    PoseBuffer poses{made.layout, made.bodies};
+    swivel_pose pose = made.view(poses);
+    swivel_binding binding = chained(random).bound;
+    float in[16] = {1, 2, 3}, priority = 1, urgency[3] = {};
+    const double zeros[3] = {}, nans[3] = {0, std::nan(""), 0}, up[3] = {0, 1, 0}, far[3] = {0, 2e15, 0};
+    float floats[16];
+    double doubles[16];
+    std::uint32_t words[16], count, again;
+    std::uint16_t halves[16 * SWIVEL_LANES];
+    swivel_arc arc;
+    char text[8];
+    int agrees;
+
+    Called()
+        : crowd(crowd_with(SWIVEL_WORLD | SWIVEL_WITH_ANGLE, {group_of(20), group_of(5)})),
+          directions(crowd_with(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {group_of(5)}))
+    {
+        crowd.solve();
+        std::memset(floats, 0x7a, bytes().size());
+    }
+    // All that a call may write to.
+    std::span<char> bytes() { return {reinterpret_cast<char*>(floats), reinterpret_cast<char*>(&agrees + 1)}; }
+    swivel_out out(std::size_t stride) { return {doubles, stride}; }
+
+    swivel_status solve_bodies(const swivel_job& job) { return swivel_solve(bodies.get(), &job); }
+    swivel_status solve_groups(std::initializer_list<std::uint32_t> named)
+    {
+        std::uint32_t bits = 0;
+        for (const std::uint32_t g : named) bits |= 1u << g;
+        swivel_job job = job_with(&pose);
+        job.groups = &bits, job.group_word_count = 1;
+        return solve_bodies(job);
+    }
+    swivel_status solve_budget(const swivel_in* priorities)
+    {
+        swivel_job job = swivel_default_job();
+        job.priorities = priorities, job.most_blocks = 1, job.solved_count = &count;
+        return swivel_solve(crowd.get(), &job);
+    }
+    swivel_status choose(const swivel_in* priorities, std::uint32_t* mask, std::uint32_t word_count)
+    {
+        return swivel_choose(crowd.get(), priorities, urgency, 1, mask, word_count, &count);
+    }
+    swivel_status compare(const swivel_crowd* of, std::uint32_t group, std::uint32_t body, const swivel_pose* with,
+                          const double* elbow, char* to, std::size_t size)
+    {
+        return swivel_compare(of, group, body, with, up, elbow, up, to, size, &agrees);
+    }
+};
+
+// Checks calls that were refused, and that nothing of all this has changed in the end.
+struct Unchanged {
+    Called& c;
+    const std::vector<std::uint32_t> free = all_words(c.crowd), of_bodies = all_words(c.bodies);
+    const std::vector<unsigned char> poses = c.poses.bytes;
+    const std::string bytes{c.bytes().begin(), c.bytes().end()};
+
+    void operator()(swivel_status status, const char* words) const
+    {
+        CHECK(status == SWIVEL_INVALID_ARGUMENT);
+        CHECK(is_one_line(swivel_last_error()));
+        CHECK_THAT(swivel_last_error(), Catch::Contains(words));
+        swivel_use_isa("no such thing");  // another line
+    }
+    ~Unchanged()
+    {
+        CHECK((all_words(c.crowd) == free && all_words(c.bodies) == of_bodies));
+        CHECK(c.poses.bytes == poses);
+        CHECK(std::string(c.bytes().begin(), c.bytes().end()) == bytes);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("reads and writes with wrong arguments are refused")
+{
+    Called c;
+    const Unchanged refused{c};
+    swivel_crowd *const crowd = c.crowd.get(), *const bodies = c.bodies.get(), *const directions = c.directions.get();
+    refused(swivel_write(nullptr, SWIVEL_TARGET, 0, 0, 1, {c.in, 12}), "crowd is null");
+    refused(swivel_write(crowd, SWIVEL_TARGET, 1, 0, 1, {c.in, 4}),
+            "group 1, target: stride 4 is smaller than a value, 12 bytes");
+    refused(swivel_write(crowd, SWIVEL_POLE, 0, 0, 1, {nullptr, 12}), "group 0, pole: data is null");
+    refused(swivel_write(crowd, SWIVEL_HAND, 1, 0, 1, {c.in, 0}),
+            "group 1, hand: not part of this group; create it with SWIVEL_WITH_HAND");
+    refused(swivel_write(bodies, SWIVEL_PARENT_SCALE, H::free, 0, 1, {c.in, 0}),
+            "group 4, parent_scale: the pose of a body gives it; leave it out");
+    refused(swivel_write(crowd, SWIVEL_FLAGS, 0, 0, 1, {c.in, 0}),
+            "flags is a result; swivel_write takes inputs and what is carried");
+    refused(swivel_write(crowd, SWIVEL_INPUT_END, 0, 0, 1, {c.in, 0}), "there is no field ");
+    refused(swivel_write(crowd, SWIVEL_TARGET, 2, 0, 1, {c.in, 12}), "group 2 does not exist; this crowd has 2");
+    refused(swivel_read(crowd, SWIVEL_TARGET, 0, 1, ~0u, c.out(12)),
+            "4294967295 limbs from limb 1 on are not all in group 0, which has 20");
+    refused(swivel_pack(crowd, 0, {1, ~0u}, c.halves), "blocks 1 + 4294967295 are out of range; group 0 has 2");
+    refused(swivel_read(crowd, SWIVEL_ELBOW, 0, 0, 1, c.out(0)),
+            "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
+    refused(swivel_read(crowd, SWIVEL_WRIST, 0, 0, 1, c.out(16)),
+            "group 0, wrist: not part of this group; create it with SWIVEL_WITH_HAND");
+    refused(swivel_read(crowd, SWIVEL_INPUT_END, 0, 0, 1, c.out(16)), "there is no field ");
+    refused(swivel_write_doubles(crowd, SWIVEL_TARGET, 0, 0, 1, {c.up, 0}, {c.up, 23}),
+            "group 0, origin: stride 23 is smaller than a value, 24 bytes");
+    refused(swivel_write_doubles(crowd, SWIVEL_LENGTHS, 0, 0, 1, {c.up, 0}, {}),
+            "group 0, lengths: not a position; doubles are for target, pole, shoulder_position, coming, ground and "
+            "prop_place");
+    refused(swivel_write_doubles(directions, SWIVEL_POLE, 0, 0, 1, {c.up, 0}, {c.up, 0}),
+            "group 0, pole: it is a direction here, which has no origin; give null");
+}
+
+TEST_CASE("questions about limbs are refused where nothing answers them")
+{
+    Called c;
+    const Unchanged refused{c};
+    const swivel_crowd *const crowd = c.crowd.get(), *const bodies = c.bodies.get();
+    refused(swivel_forward(crowd, 0, 0, 1, c.out(23), {}, {}),
+            "group 0, elbow: stride 23 is smaller than a value, 24 bytes");
+    refused(swivel_forward(crowd, 1, 0, 1, {}, c.out(8), {}),
+            "group 1, wrist: stride 8 is smaller than a value, 24 bytes");
+    refused(swivel_forward(crowd, 0, 0, 1, {}, {}, c.out(32)), "group 0 has no hands; create it with SWIVEL_WITH_HAND");
+    refused(swivel_residuals(nullptr, 0, 0, 1, c.out(8)), "crowd is null");
+    refused(swivel_residuals(crowd, 0, 0, 1, c.out(7)), "group 0, distance: stride 7 is smaller than a value, 8 bytes");
+    refused(swivel_residuals(crowd, 1, 0, 1, {}), "group 1, distance: data is null");
+    refused(swivel_joint_angles(crowd, 0, 0, 1, SWIVEL_XYZ, static_cast<swivel_euler_order>(6), 0, c.out(56)),
+            "wrist_order is 6; it is one of SWIVEL_XYZ to SWIVEL_ZYX");
+    refused(swivel_joint_angles(crowd, 0, 0, 1, SWIVEL_XYZ, SWIVEL_XYZ, 2, c.out(56)), "family is 2; it is 0 or 1");
+    refused(swivel_allowed_arcs(crowd, 0, 0, &c.arc, 1, nullptr), "arc_count is null");
+    refused(swivel_allowed_arcs(crowd, 0, 0, nullptr, 1, &c.count), "arcs is null");
+    refused(swivel_pack(nullptr, 0, {0, 1}, c.halves), "crowd is null");
+    refused(swivel_pack(crowd, 0, {0, 1}, nullptr), "swivel_pack: words is null");
+
+    const char* const no_text = "text is null or of no size";
+    refused(swivel_explain(nullptr, 0, 0, c.text, 8), "crowd is null");
+    refused(swivel_explain(crowd, 2, 0, c.text, 8), "group 2 does not exist; this crowd has 2");
+    refused(swivel_explain(crowd, 0, 20, c.text, 8), "limb 20 on are not all in group 0, which has 20");
+    refused(swivel_explain(bodies, SWIVEL_EVERY_GROUP, 3, c.text, 8), "limb 3 on are not all in group 0, which has 3");
+    refused(swivel_explain(crowd, SWIVEL_EVERY_GROUP, 0, c.text, 8),
+            "this crowd has no bodies; name one of its 2 groups");
+    refused(swivel_explain(crowd, 0, 0, nullptr, 8), no_text);
+    refused(swivel_explain(crowd, 0, 0, c.text, 0), no_text);
+    const swivel_pose none = swivel_default_pose();
+    refused(c.compare(nullptr, 0, 0, &c.pose, c.up, c.text, 8), "crowd is null");
+    refused(c.compare(crowd, 0, 0, &c.pose, c.up, c.text, 8), "this crowd has no bodies, so it has no pose");
+    refused(c.compare(bodies, 12, 0, &c.pose, c.up, c.text, 8), "group 12 does not exist; this crowd has 10");
+    refused(c.compare(bodies, H::free, 3, &c.pose, c.up, c.text, 8), "limb 3 on are not all in group 4, which has 3");
+    refused(c.compare(bodies, H::fit, 0, &c.pose, c.up, c.text, 8), "group 7 is SWIVEL_FIT, which is no limb");
+    refused(c.compare(bodies, H::free, 0, nullptr, c.up, c.text, 8), "swivel_compare: pose is null");
+    refused(c.compare(bodies, H::free, 0, &none, c.up, c.text, 8), "the pose has no rotations; give them");
+    refused(c.compare(bodies, H::free, 0, &c.pose, nullptr, c.text, 8), "swivel_compare: elbow is null");
+    refused(c.compare(bodies, H::free, 0, &c.pose, c.nans, c.text, 8), "elbow is not finite or further than 1e15");
+    refused(c.compare(bodies, H::free, 0, &c.pose, c.far, c.text, 8), "elbow is not finite or further than 1e15");
+    refused(c.compare(bodies, H::free, 0, &c.pose, c.up, nullptr, 8), no_text);
+    refused(c.compare(bodies, H::free, 0, &c.pose, c.up, c.text, 0), no_text);
+
+    refused(swivel_residuals(bodies, H::fit, 0, 1, c.out(8)),
+            "swivel_residuals: group 7 is SWIVEL_FIT, which is no limb");
+    refused(swivel_forward(bodies, H::prop, 0, 1, c.out(24), {}, {}),
+            "swivel_forward: group 0 is SWIVEL_PROP, which is no");
+    refused(swivel_allowed_arcs(bodies, H::fit, 0, &c.arc, 1, &c.count),
+            "swivel_allowed_arcs: group 7 is SWIVEL_FIT, which");
+    refused(swivel_joint_angles(bodies, H::fit, 0, 1, SWIVEL_XYZ, SWIVEL_XYZ, 0, c.out(56)),
+            "swivel_joint_angles: group 7 is");
+    const swivel_group_def group = swivel_default_body_group_def(&c.made.joints[0]);
+    const Crowd unrecorded(c.made.skeleton.view(), 3, std::span(&group, 1));
+    const char* const no_record = "group 0 is of bodies; create it with SWIVEL_WITH_RECORD";
+    refused(swivel_residuals(unrecorded.get(), 0, 0, 1, c.out(8)), no_record);
+    refused(swivel_explain(unrecorded.get(), 0, 0, c.text, 8), no_record);
+    refused(swivel_forward(unrecorded.get(), 0, 0, 0, {}, {}, {}), no_record);
+    refused(swivel_allowed_arcs(unrecorded.get(), 0, 0, nullptr, 0, &c.count), no_record);
+}
+
+TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that names a part of what is linked")
+{
+    Called c;
+    {
+        const Unchanged refused{c};
+        const swivel_in good[] = {{&c.priority, 0}, {&c.priority, 0}}, narrow[] = {good[0], {&c.priority, 3}},
+                        null[] = {{nullptr, 4}, good[1]};
+        refused(swivel_solve(nullptr, nullptr), "crowd is null");
+        refused(swivel_choose(nullptr, good, c.urgency, 1, c.words, 2, &c.count), "crowd is null");
+        refused(c.solve_budget(nullptr), "most_blocks goes with priorities");
+        refused(c.choose(nullptr, c.words, 2), "priorities are missing; give one for each of this crowd's 2 groups");
+        refused(c.solve_budget(narrow), "group 1, priority: stride 3 is smaller than a value, 4 bytes");
+        refused(c.choose(narrow, c.words, 2), "group 1, priority: stride 3 is smaller than a value, 4 bytes");
+        refused(c.solve_budget(null), "group 0, priority: data is null");
+        refused(c.choose(good, nullptr, 2), "the mask is null");
+        for (const std::uint32_t count : {0u, 1u, 3u})
+            refused(c.choose(good, c.words, count), "words; this crowd of 3 blocks has 2, a bit for each lane");
+        refused(c.solve_groups({H::follower}), "the job names group 5, but not group 4; they are linked, name both");
+        refused(c.solve_groups({H::third}), "the job names group 3, but not group 1; they are linked, name both");
+        refused(c.solve_groups({H::left, H::right}), "they are linked, name both");
+        refused(c.solve_groups({H::prop}), "they are linked, name both");
+        refused(c.solve_groups({H::prop, H::left}), "they are linked, name both");
+        refused(c.solve_groups({H::handle}), "they are linked, name both");
+    }
+    CHECK((c.urgency[0] == 0 && c.urgency[2] == 0));
+    CHECK(c.solve_groups({H::free}) == SWIVEL_OK);
+    CHECK(c.solve_groups({H::free, H::follower}) == SWIVEL_OK);
+    CHECK(c.solve_groups({H::prop, H::left, H::right}) == SWIVEL_OK);
+    CHECK(c.solve_groups({H::prop, H::left, H::right, H::third}) == SWIVEL_OK);
+    CHECK(c.solve_groups({H::handle, H::on_handle}) == SWIVEL_OK);
+}
+
+TEST_CASE("poses that cannot be are refused")
+{
+    using Values = swivel_joint_values;
+    const struct {
+        const char* words;
+        void (*change)(swivel_pose& pose, const Values& other);
+    } rows[] = {
+        {"the pose has no rotations", [](auto& p, auto&) { p.rotations = {}; }},
+        {"rotations: body_stride 0 is smaller", [](auto& p, auto&) { p.rotations.body_stride = 0; }},
+        {"rotations: joint_stride 12 is smaller than a value, 16",
+         [](auto& p, auto&) { p.rotations.joint_stride = 12; }},
+        {"the pose's root is in doubles, but has no position", [](auto& p, auto&) { p.root_is_double = 1; }},
+        {"root_rotation: stride 8",
+         [](auto& p, auto& o) {
+             p.root_rotation = {o.data, 8};
+         }},
+        {"the pose has matrices and scales",
+         [](auto& p, auto& o) { p.form = SWIVEL_MATRIX_ROWS, p.rotations = p.scales = o; }},
+        {"the pose's form is 77", [](auto& p, auto&) { std::memcpy(&p.form, &kNoSuchThing, 4); }},
+        {"the pose's space is 77", [](auto& p, auto&) { std::memcpy(&p.space, &kNoSuchThing, 4); }},
+        {"only translations in the body's space change", [](auto& p, auto& o) { p.translation_results = o; }},
+        {"but no translation_results",
+         [](auto& p, auto& o) { p.space = SWIVEL_IN_BODY, p.translations = p.results = o; }},
+        {"joint_places: body_stride 8",
+         [](auto& p, auto& o) {
+             p.joint_places = {o.data, 8, 16, nullptr};
+         }},
+        {"reserved is not 0", [](auto& p, auto&) { p.reserved = 1; }},
+        {"pose has size 0", [](auto& p, auto&) { p.size = 0; }},
+        {"the pose has no time, which plants, shifts and looks with a rate need", [](auto& p, auto&) { p.time = {}; }},
+    };
+    Called c;
+    {
+        const Unchanged refused{c};
+        std::vector<float> numbers(3 * c.made.skeleton.size() * 16);
+        const Values other = {numbers.data(), c.made.skeleton.size() * 64, 64, nullptr};
+        for (const auto& [words, change] : rows) {
+            swivel_pose pose = c.pose;
+            change(pose, other);
+            refused(c.solve_bodies(job_with(&pose)), words);
+        }
+        refused(c.solve_bodies(job_with(nullptr)), "this crowd is of bodies; give the job their pose");
+        const swivel_job posed = job_with(&c.pose);
+        refused(swivel_solve(c.crowd.get(), &posed), "this crowd has no bodies, so it takes no pose");
+    }
+    CHECK(c.solve_bodies(job_with(&c.pose)) == SWIVEL_OK);
+    c.pose.time = {};  // which a comparison does not need
+    CHECK(c.compare(c.bodies.get(), H::leg, 0, &c.pose, c.up, c.text, 8) == SWIVEL_OK);
+}
+
+TEST_CASE("angles and axes that make no limit, and bindings that are none, are refused")
+{
+    Called c;
+    const Unchanged refused{c};
+    refused(swivel_range(1, 0, c.floats), "swivel_range: least 1 is above most 0");
+    refused(swivel_range(0, 6.4, c.floats), "swivel_range: 0 to 6.4 is wider than a whole turn");
+    refused(swivel_range(std::nan(""), 1, c.floats), "swivel_range: nan to 1 is not finite");
+    refused(swivel_range(0, 1, nullptr), "swivel_range: range is null");
+    refused(swivel_cone(c.zeros, 1, c.floats), "swivel_cone: axis (0, 0, 0) has no direction");
+    refused(swivel_cone(c.up, -0.1, c.floats), "swivel_cone: largest angle -0.1 is not in 0 to pi");
+    refused(swivel_cone(c.up, 3.2, c.floats), "swivel_cone: largest angle 3.2 is not in 0 to pi");
+    refused(swivel_flexion(-0.1, 1, c.floats), "swivel_flexion: -0.1 to 1 is not a range within 0 to pi");
+    refused(swivel_flexion(1, 0.5, c.floats), "swivel_flexion: 1 to 0.5 is not a range within 0 to pi");
+    refused(swivel_flexion(1, 3.2, c.floats), "swivel_flexion: 1 to 3.2 is not a range within 0 to pi");
+    refused(swivel_aim(c.up, 4, c.floats), "swivel_aim: flexion 4 is not in 0 to pi");
+    refused(swivel_aim(c.zeros, 1, c.floats), "swivel_aim: axis (0, 0, 0) has no direction");
+    refused(swivel_aim(nullptr, 1, c.floats), "swivel_aim: axis is null");
+    refused(swivel_mirror(SWIVEL_RESULT_END, SWIVEL_XYZ, c.in, c.floats), "there is no field ");
+    refused(swivel_mirror(SWIVEL_ELBOW, SWIVEL_XYZ, c.in, c.floats), "swivel_mirror: elbow is a result");
+    const float *const turned = c.in, *const nothing = c.in + 8;
+    swivel_binding binding = c.binding, no_binding = swivel_default_binding();
+    refused(swivel_arm_axis(nullptr, turned, c.up, c.doubles), "swivel_arm_axis: binding is null");
+    refused(swivel_arm_axis(&binding, turned, nullptr, c.doubles), "is null");
+    refused(swivel_arm_axis(&binding, nothing, c.up, c.doubles), "the parent's rotation is zero or not finite");
+    refused(swivel_arm_axis(&binding, turned, c.zeros, c.doubles), "direction (0, 0, 0) is not 1e-15..1e15 long");
+    refused(swivel_arm_axis(&binding, turned, c.nans, c.doubles), "direction (0, nan, 0) is not 1e-15..1e15 long");
+    refused(swivel_arm_axis(&no_binding, turned, c.up, c.doubles), "the binding holds a quaternion not of unit length");
+    const swivel_chain chain = skewed_chain(c.random);
+    const swivel_skeleton skeleton = c.made.skeleton.view();
+    refused(swivel_bind(nullptr, &binding), "swivel_bind: chain or binding is null");
+    refused(swivel_bind(&chain, nullptr), "swivel_bind: chain or binding is null");
+    refused(swivel_bind_joints(nullptr, &c.made.joints[0], &binding), "skeleton, joints or binding is null");
+    refused(swivel_bind_joints(&skeleton, nullptr, &binding), "skeleton, joints or binding is null");
+    refused(swivel_bind_joints(&skeleton, &c.made.joints[0], nullptr), "skeleton, joints or binding is null");
+    no_binding.size = 0;
+    refused(swivel_bind(&chain, &no_binding), "binding has size 0");
+}
