@@ -10,7 +10,6 @@
 
 #include "tests/named_skeleton.h"
 #include "tools/retarget/joint_pairs.h"
-#include "tools/rig/finger_names.h"
 #include "tools/rig/joint_names.h"
 #include "tools/rig/limbs.h"
 #include "tools/rig/name_table.h"

@@ -9,7 +9,7 @@
 
 #include "tests/crowd_stage.h"
 #include "tests/shared_figures.h"
-#include "tools/crowd/find_loop.h"
+#include "tools/crowd/clip_loop.h"
 #include "tools/formats/bvh.h"
 
 using namespace swivel;

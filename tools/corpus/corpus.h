@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tools/corpus/interface.h"
-#include "tools/corpus/recipes.h"
+#include "tools/corpus/recipe.h"
 #include "tools/corpus/standing.h"
 
 namespace swivel::corpus {

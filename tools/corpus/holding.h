@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What bodies that stand on ground as it lies, or hold something, get beside other inputs: the ground below each foot,
-// grips, and props. Now and then ground is steep or none, a prop is far away, and a number is spoilt.
+// What bodies that stand on ground as it lies, hold something or look at something get beside other inputs: the ground
+// below each foot, grips, props, and what they look at, which goes to and fro on any side. Now and then ground is
+// steep, a prop is far away, one of them is missing, or a number is spoilt.
 #pragma once
 
 #include <array>
@@ -13,6 +14,29 @@
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {
+
+// Of one body. Places are from the root, in the unit of its scale.
+struct Looker {
+    Random random;  // of all frames
+    double scale;
+    std::array<std::array<Vector, 2>, kLookCount> places;
+};
+
+class Looking {
+public:
+    // bodies: in their first poses.
+    Looking(const Recipe& recipe, const std::vector<Body>& bodies, Poses& poses);
+    // Brings one body's looks to a frame. root: the body's place. swing: 0 to 1.
+    void move_body(std::uint32_t body, const Vector& root, double swing, Poses& poses);
+    // Those rows of the crowd that they are in.
+    void write(Crowd& crowd) const;
+
+private:
+    void spoil_body(std::uint32_t body, Poses& poses);
+
+    std::vector<Looker> lookers_;
+    std::array<LookRows, kLookCount> rows_;
+};
 
 // Of one body. Places are from the root, in the unit of its scale.
 struct Holder {

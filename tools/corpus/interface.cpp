@@ -15,25 +15,6 @@ namespace swivel::corpus {
 
 namespace {
 
-// In the order in which they are digested.
-// clang-format off
-constexpr auto kResults = [] {
-    using enum Field;
-    return std::to_array({
-        shoulder, elbow, wrist, flags, stretch, normal, twist, clavicle_turn, record, plant, plant_turn, plant_motion,
-        goal, probe, lift, hand_frame});
-}();
-// clang-format on
-// In the order of the bits that are digested for them.
-// clang-format off
-constexpr std::uint32_t kFlags[] = {
-    SWIVEL_REACHED, SWIVEL_SOFTENED, SWIVEL_STRETCHED, SWIVEL_CLAMPED_FAR, SWIVEL_CLAMPED_NEAR,
-    SWIVEL_SWIVEL_UNDEFINED, SWIVEL_LIMITED_FLEXION, SWIVEL_LIMITED_SHOULDER_CONE, SWIVEL_LIMITED_HUMERAL_TWIST,
-    SWIVEL_LIMITED_SHOULDER_BOX, SWIVEL_LIMITED_HAND_CONE, SWIVEL_LIMITED_FOREARM_TWIST, SWIVEL_LIMITED_HAND_TWIST,
-    SWIVEL_LIMITED_WRIST_BOX, SWIVEL_LIMITED_STEP, SWIVEL_INFEASIBLE, SWIVEL_JUMPED, SWIVEL_BAD_INPUT, SWIVEL_PLANTED,
-    SWIVEL_RELEASED, SWIVEL_BROKE_AWAY, SWIVEL_CUT, SWIVEL_LIMITED_LOOK, SWIVEL_FADED, SWIVEL_LIMITED_REGION};
-// clang-format on
-
 swivel_field library_field(Field field) { return static_cast<swivel_field>(field); }
 
 // All that a group of the library has for these.

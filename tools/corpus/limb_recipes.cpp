@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/corpus/recipes.h"
+#include "tools/corpus/recipe.h"
 
 namespace swivel::corpus {
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <iterator>
 
@@ -37,19 +36,6 @@ struct Random {
         return size;
     }
 };
-
-// What limbs and bodies are given. Random numbers of a field depend on its place here: further ones come last.
-// clang-format off
-inline constexpr auto kDrawn = [] {
-    using enum Field;
-    return std::to_array({
-        target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, effector, angle,
-        incoming_shoulder, incoming_elbow, incoming_wrist, weights, reach, most_swivel, flexion_limit, shoulder_cone,
-        humeral_twist, shoulder_box, hand_cone, forearm_twist, hand_twist, wrist_box, aim, clavicle, contact, cap,
-        fit_weight, coming, coming_time, ground, skeleton, joint_rotation, joint_translation, joint_scale, bend,
-        root_position, root_rotation, root_scale, motion, ground_normal, ground_weight, grip});
-}();
-// clang-format on
 
 // What the numbers of a field are drawn for.
 enum class Use : std::uint32_t { value = 0, spoil = 1 };

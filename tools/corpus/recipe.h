@@ -3,7 +3,9 @@
 // Describes a crowd of the corpus, in words of the corpus alone. This header and interface.cpp know the library's.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "swivel/swivel.hpp"
 
@@ -57,6 +59,30 @@ enum class Field : std::uint16_t {
     skeleton = 0x8000, joint_rotation, joint_translation, joint_scale, bend, root_position, root_rotation, root_scale,
     motion
 };
+// What limbs and bodies are given. Random numbers of a field depend on its place here: further ones come last.
+inline constexpr auto kDrawn = [] {
+    using enum Field;
+    return std::to_array({
+        target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, effector, angle,
+        incoming_shoulder, incoming_elbow, incoming_wrist, weights, reach, most_swivel, flexion_limit, shoulder_cone,
+        humeral_twist, shoulder_box, hand_cone, forearm_twist, hand_twist, wrist_box, aim, clavicle, contact, cap,
+        fit_weight, coming, coming_time, ground, skeleton, joint_rotation, joint_translation, joint_scale, bend,
+        root_position, root_rotation, root_scale, motion, ground_normal, ground_weight, grip});
+}();
+// Results, in the order in which they are digested.
+inline constexpr auto kResults = [] {
+    using enum Field;
+    return std::to_array({
+        shoulder, elbow, wrist, flags, stretch, normal, twist, clavicle_turn, record, plant, plant_turn, plant_motion,
+        goal, probe, lift, hand_frame});
+}();
+// Flags, in the order of the bits that are digested for them.
+inline constexpr std::uint32_t kFlags[] = {
+    SWIVEL_REACHED, SWIVEL_SOFTENED, SWIVEL_STRETCHED, SWIVEL_CLAMPED_FAR, SWIVEL_CLAMPED_NEAR,
+    SWIVEL_SWIVEL_UNDEFINED, SWIVEL_LIMITED_FLEXION, SWIVEL_LIMITED_SHOULDER_CONE, SWIVEL_LIMITED_HUMERAL_TWIST,
+    SWIVEL_LIMITED_SHOULDER_BOX, SWIVEL_LIMITED_HAND_CONE, SWIVEL_LIMITED_FOREARM_TWIST, SWIVEL_LIMITED_HAND_TWIST,
+    SWIVEL_LIMITED_WRIST_BOX, SWIVEL_LIMITED_STEP, SWIVEL_INFEASIBLE, SWIVEL_JUMPED, SWIVEL_BAD_INPUT, SWIVEL_PLANTED,
+    SWIVEL_RELEASED, SWIVEL_BROKE_AWAY, SWIVEL_CUT, SWIVEL_LIMITED_LOOK, SWIVEL_FADED, SWIVEL_LIMITED_REGION};
 enum class Order : std::uint8_t {
     xyz = SWIVEL_XYZ, xzy = SWIVEL_XZY, yzx = SWIVEL_YZX, yxz = SWIVEL_YXZ, zxy = SWIVEL_ZXY, zyx = SWIVEL_ZYX
 };
@@ -114,5 +140,17 @@ constexpr std::uint64_t features_of(const Recipe& recipe, std::uint32_t group)
 {
     return is_holding(recipe, group) ? recipe.holding : recipe.features;
 }
+
+// The tables of the corpus's crowds, part by part. Rows may be added at a table's end.
+//
+// Both have the same sets of features: all of plain arms.
+std::span<const Recipe> ordinary_recipes();
+std::span<const Recipe> hard_recipes();
+// Each feature alone, with what it needs, and sets of many.
+std::span<const Recipe> limb_recipes();
+// Each form of poses, and each thing that they may have; the features of limbs, many together.
+std::span<const Recipe> body_recipes();
+// Bodies of a few joints' movements, for the features that carry something from frame to frame.
+std::span<const Recipe> standing_recipes();
 
 }  // namespace swivel::corpus

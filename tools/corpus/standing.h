@@ -13,7 +13,6 @@
 #include "tools/corpus/bodies.h"
 #include "tools/corpus/holding.h"
 #include "tools/corpus/interface.h"
-#include "tools/corpus/looking.h"
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace swivel::tools {
 
@@ -38,6 +43,137 @@ double faded(double seconds)
 {
     const double share = std::min(seconds / kSeam, 1.0);
     return 1 - share * share * (3 - 2 * share);
+}
+
+using Eigen::Index;
+using Eigen::MatrixXf;
+
+constexpr double kNoGap = 1e-3;  // radians: nobody sees them
+
+// A frame's column says how its joints are turned, and below that how far they turn in kStep. The distance of two such
+// columns is that of the poses: the root of the sum of squared angles, in radians, where they are small. Joints that
+// lie in the world are turned with the body.
+MatrixXf looks_of(const Clip& clip, int body)
+{
+    constexpr double kStep = 1.0 / 30;  // seconds
+    const std::size_t joints = clip.joints.size();
+    std::vector<Quaterniond> rotations = clip.rotation;
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const Quaterniond heading = heading_of(clip, frame, body).conjugate();
+        for (std::size_t n = 0; n < joints; ++n)
+            if (clip.joints[n].parent < 0) rotations[frame * joints + n] = heading * rotations[frame * joints + n];
+    }
+    MatrixXf looks(12 * joints, clip.frame_count);
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const std::size_t before = frame > 0 ? frame - 1 : 0, after = std::min(frame + 1, clip.frame_count - 1);
+        const double per = kStep / (static_cast<double>(after - before) * clip.frame_time);
+        for (std::size_t n = 0; n < joints; ++n) {
+            const auto rotation = [&](std::size_t at) { return rotations[at * joints + n]; };
+            const auto pose = static_cast<Index>(9 * n), motion = static_cast<Index>(9 * joints + 3 * n),
+                       column = static_cast<Index>(frame);
+            const Eigen::Matrix3d turned = std::sqrt(0.5) * rotation(frame).toRotationMatrix();
+            const Eigen::AngleAxisd turn(rotation(after) * rotation(before).conjugate());
+            looks.block<9, 1>(pose, column) = turned.reshaped().cast<float>();
+            looks.block<3, 1>(motion, column) = (per * turn.angle() * turn.axis()).cast<float>();
+        }
+    }
+    return looks;
+}
+
+// How many joints ever turn from where they are in the first frame; at least 1. The others would only dilute a mean.
+double turning_count(const MatrixXf& looks)
+{
+    Index count = 0;
+    for (Index row = 0; row < looks.rows() / 12 * 9; row += 9) {
+        const auto joint = looks.middleRows<9>(row);
+        if ((joint.colwise() - joint.col(0)).colwise().norm().maxCoeff() > kNoGap) ++count;
+    }
+    return static_cast<double>(std::max<Index>(count, 1));
+}
+
+float gap2_of(const MatrixXf& looks, const ClipLoop& loop)
+{
+    return (looks.col(static_cast<Index>(loop.last)) - looks.col(static_cast<Index>(loop.first))).squaredNorm();
+}
+
+// How fast the joints of a clip turn, all of them together.
+class Pace {
+public:
+    Pace(const MatrixXf& looks, std::size_t frames_a_second)
+    {
+        const Eigen::VectorXf speeds = looks.bottomRows(looks.rows() / 4).colwise().norm();
+        for (const float speed : speeds) sums_.push_back(sums_.back() + double{speed});
+        const std::size_t frames = sums_.size() - 1, span = std::min(frames_a_second, frames);
+        double sum2 = 0;
+        for (std::size_t n = 0; n + span <= frames; ++n) sum2 += std::pow(mean({n, n + span}), 2);
+        min_pace_ = kLeastPace * std::sqrt(sum2 / static_cast<double>(frames - span + 1));
+    }
+    bool is_kept(const ClipLoop& loop) const { return mean(loop) >= min_pace_; }
+
+private:
+    double mean(const ClipLoop& of) const
+    {
+        return (sums_[of.last] - sums_[of.first]) / static_cast<double>(of.length());
+    }
+
+    std::vector<double> sums_ = {0};  // of the speeds of all frames before each one
+    double min_pace_;
+};
+
+constexpr Index kDirections = 8;
+using Coarse = Eigen::Matrix<float, kDirections, Eigen::Dynamic>;
+
+// Each frame along the directions in which poses differ most, nearly. Two frames are no nearer to each other than they
+// are here.
+Coarse coarse_of(const MatrixXf& looks)
+{
+    constexpr Index kSampled = 400, kRounds = 4;
+    const Index every = (looks.cols() + kSampled - 1) / kSampled, count = (looks.cols() + every - 1) / every;
+    MatrixXf some(looks.rows(), count), axes(looks.rows(), kDirections);
+    for (Index n = 0; n < count; ++n) some.col(n) = looks.col(n * every);
+    some.colwise() -= some.rowwise().mean().eval();
+    for (Index n = 0; n < kDirections; ++n) axes.col(n) = some.col(n * count / kDirections);
+    for (Index round = 0; round < kRounds; ++round) {  // towards the largest eigenvectors of the covariance
+        const Eigen::HouseholderQR<MatrixXf> qr(some * (some.transpose() * axes));
+        axes = qr.householderQ() * MatrixXf::Identity(axes.rows(), kDirections);
+    }
+    return axes.transpose() * looks;
+}
+
+// The best loop of so many frames or more, nearly. Frames are sorted along the first of the coarse directions, and by
+// time where they are equal there. Each is compared with those behind it, until they are farther away there than the
+// best two frames are from each other; in full only where all the coarse directions allow it. A budget bounds the time
+// where all frames are alike, or all as far apart: kBudget looks at other frames, of which a full one costs kInFull.
+// (Real clips need 40 full ones.)
+FoundLoop nearest(const MatrixXf& looks, const Pace& pace, std::size_t apart, float no_gap2)
+{
+    constexpr Index kBudget = 4000, kInFull = 20;
+    const Coarse unsorted = coarse_of(looks);
+    std::vector<std::uint32_t> order(static_cast<std::size_t>(looks.cols()));
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t n) { return unsorted(0, n); });
+    Coarse coarse(kDirections, looks.cols());
+    for (Index n = 0; n < looks.cols(); ++n) coarse.col(n) = unsorted.col(order[static_cast<std::size_t>(n)]);
+
+    FoundLoop best{{0, order.size() - 1}, std::numeric_limits<double>::infinity()};
+    float best2 = std::numeric_limits<float>::infinity();
+    for (Index at = 0; at < looks.cols(); ++at)
+        for (Index to = at + 1, left = kBudget + static_cast<Index>(apart); to < looks.cols() && left > 0;
+             ++to, --left) {
+            const float ahead = coarse(0, to) - coarse(0, at);
+            if (ahead * ahead > best2) break;
+            if ((coarse.col(to) - coarse.col(at)).squaredNorm() > best2) continue;
+            const auto [first, last] =
+                std::minmax({order[static_cast<std::size_t>(at)], order[static_cast<std::size_t>(to)]});
+            const ClipLoop loop{first, last};
+            const bool is_shorter = loop.length() < best.loop.length();
+            if (loop.length() < apart || (best2 <= no_gap2 && !is_shorter) || !pace.is_kept(loop)) continue;
+            left -= kInFull;
+            const float gap2 = std::max(gap2_of(looks, loop), no_gap2);
+            if (gap2 < best2 || (gap2 <= no_gap2 && is_shorter)) best = {loop, 0}, best2 = gap2;
+        }
+    if (std::isfinite(best2)) best.gap = std::sqrt(double{gap2_of(looks, best.loop)});
+    return best;
 }
 
 }  // namespace
@@ -86,6 +222,22 @@ Clip looped(const Clip& clip, int body, const ClipLoop& loop, std::size_t frame_
             to.scale.push_back(clip.scale[from * clip.scale_track_count + track]);
     }
     return to;
+}
+
+FoundLoop find_loop(const Clip& clip, int body)
+{
+    const auto frames_in = [&](double seconds) {
+        const double frames = std::ceil(seconds / clip.frame_time - 1e-6);
+        return static_cast<std::size_t>(std::clamp(frames, 1.0, static_cast<double>(clip.frame_count)));
+    };
+    const double half = static_cast<double>(clip.frame_count - 1) * clip.frame_time / 2;
+    const std::size_t apart = std::max(frames_in(std::clamp(half, kShortestLoop, kLongEnough)), kFewestLooped);
+    if (apart >= clip.frame_count) return {{0, clip.frame_count - 1}, std::numeric_limits<double>::infinity()};
+    const MatrixXf looks = looks_of(clip, body);
+    const double joints = turning_count(looks);
+    FoundLoop best = nearest(looks, Pace(looks, frames_in(1)), apart, static_cast<float>(kNoGap * kNoGap * joints));
+    best.gap /= std::sqrt(joints);
+    return best;
 }
 
 }  // namespace swivel::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A clip that is played over and over. Knows clips alone.
+// A clip that is played over and over, and where it can go on so. Knows clips alone.
 #pragma once
 
 #include <cstddef>
@@ -25,5 +25,30 @@ Eigen::Quaterniond heading_of(const formats::Clip& clip, std::size_t frame, int 
 // The clip as it goes on for so many frames from `first` on. Every time round, what lies in the world goes on from
 // where it was, moved along x and z and turned about y. What still differs at the seam fades in kSeam.
 formats::Clip looped(const formats::Clip& clip, int body, const ClipLoop& loop, std::size_t frame_count);
+
+inline constexpr std::size_t kMostSearched = 100'000;  // frames
+inline constexpr double kShortestLoop = 0.5;           // seconds
+inline constexpr double kLongEnough = 1;               // seconds: no loop needs to be longer
+inline constexpr double kLeastPace = 0.5;              // of a loop, as a share of the clip's
+inline constexpr double kWideGap = 0.17;               // 10 degrees: walks, jumps and boxing come back to within 9
+
+struct FoundLoop {
+    ClipLoop loop;
+    // Between its two frames, of a joint's pose and motion: radians, the root of the mean square. Joints that never
+    // turn do not count.
+    double gap;
+};
+
+// Among all pairs of frames that are far enough apart, and between which the clip moves, the two whose pose and motion
+// nearly differ least: a frame is compared with some thousands of those that are most like it. Pose is how joints are
+// turned, motion how they go on turning in 1/30 s. Which way the body is turned about y does not count.
+// - Far enough is half the clip, but at least kShortestLoop and kFewestLooped, and at most kLongEnough.
+// - The clip moves if joints turn at kLeastPace of its own pace or faster, in the mean. Its pace is the root of the
+//   mean square of all seconds' mean speeds, so that a long rest counts little.
+// - Of loops whose gap is below 0.001 the shortest is taken.
+// Without two such frames the whole clip is the loop, and the gap infinite. body: a joint that all others move with,
+// such as the hips. The clip has frame_time > 0 and 2 frames or more. Takes 0.5 s for 16,000 frames of 31 joints,
+// and 3 s for 100,000, whatever they hold.
+FoundLoop find_loop(const formats::Clip& clip, int body);
 
 }  // namespace swivel::tools

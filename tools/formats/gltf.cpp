@@ -16,7 +16,6 @@
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_accessor.h"
 #include "tools/formats/gltf_buffers.h"
-#include "tools/formats/gltf_element.h"
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/gltf_nodes.h"
 #include "tools/formats/gltf_uri.h"

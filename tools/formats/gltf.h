@@ -11,6 +11,7 @@
 // - Without keys the clip is one frame. Writing to a file without an animation adds one of one key.
 // No mesh or image is read; of animations only nodes' own poses. All else is kept.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,10 +24,22 @@
 
 #include "tools/formats/clip.h"
 #include "tools/formats/gltf_container.h"
-#include "tools/formats/gltf_sampler.h"
 #include "tools/formats/joint_keys.h"
 
 namespace swivel::formats {
+
+enum class Interpolation : std::uint8_t { step, linear, cubic };
+
+// Keyframes as glTF 2.0 has them, and their value at any time (specification, appendix C: STEP, LINEAR with the shorter
+// arc for rotations, CUBICSPLINE). Before the first key and after the last their value holds.
+struct GltfSampler {
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<double> time;            // seconds, strictly increasing, at least one
+    std::vector<Eigen::Vector4d> value;  // one per key, or with cubic three: in-tangent, value, out-tangent
+};
+
+// Whether its value is not the same at all times: keys differ, or tangents between them lead away and back.
+bool is_moving(const GltfSampler& sampler);
 
 enum class GltfPath : std::uint8_t { translation, rotation, scale };
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "tools/formats/error.h"
-#include "tools/formats/gltf_element.h"
+#include "tools/formats/gltf_json.h"
 
 namespace swivel::formats {
 namespace {

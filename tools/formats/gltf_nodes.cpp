@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "tools/formats/error.h"
-#include "tools/formats/gltf_element.h"
+#include "tools/formats/gltf_json.h"
 #include "tools/formats/printable.h"
 
 namespace swivel::formats {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,12 +54,12 @@ struct Output {
 // TypeError), of any strides.
 Output output(const Values& wanted, pybind11::handle object, const pybind11::dtype& type, const Memory& apart = {});
 
-// Copies one value of N floats.
-template <std::size_t N>
-void copy(const char* name, const pybind11::object& given, float (&numbers)[N])
+// Copies one value of so many floats.
+inline void copy(const std::string& name, const pybind11::object& given, std::span<float> numbers)
 {
-    const Input in = input({name, 1, N}, given, pybind11::dtype::of<float>(), true);
-    std::copy_n(static_cast<const char*>(in.values.data), sizeof numbers, reinterpret_cast<char*>(numbers));
+    const Input in = input({name, 1, numbers.size()}, given, pybind11::dtype::of<float>(), true);
+    std::copy_n(static_cast<const char*>(in.values.data), numbers.size_bytes(),
+                reinterpret_cast<char*>(numbers.data()));
 }
 // The length of what NumPy makes an array of.
 std::size_t length_of(const std::string& name, const pybind11::object& given);

@@ -11,7 +11,7 @@
 #include "swivel/swivel.hpp"
 #include "tools/python/arrays.h"
 #include "tools/python/helpers.h"
-#include "tools/python/skeletons.h"
+#include "tools/python/structures.h"
 
 namespace py = pybind11;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/python/frames.h"
+#include "tools/python/poses.h"
 
 #include <pybind11/numpy.h>
 

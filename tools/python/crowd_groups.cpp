@@ -12,8 +12,7 @@
 
 #include "tools/python/crowd.h"
 #include "tools/python/names.h"
-#include "tools/python/plants.h"
-#include "tools/python/skeletons.h"
+#include "tools/python/structures.h"
 
 namespace py = pybind11;
 

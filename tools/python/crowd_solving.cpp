@@ -10,9 +10,8 @@
 #include <string>
 
 #include "tools/python/crowd.h"
-#include "tools/python/frames.h"
-#include "tools/python/plants.h"
 #include "tools/python/poses.h"
+#include "tools/python/structures.h"
 
 namespace py = pybind11;
 

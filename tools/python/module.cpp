@@ -4,12 +4,47 @@
 // Knows the public headers and, for caches of crowds, tools/cache.
 #include <pybind11/pybind11.h>
 
+#include <exception>
+
+#include "swivel/swivel.hpp"
 #include "tools/python/crowd.h"
-#include "tools/python/errors.h"
 #include "tools/python/helpers.h"
 #include "tools/python/names.h"
 
 namespace py = pybind11;
+
+namespace swivel::python {
+
+namespace {
+
+PyObject* exception_for(swivel_status status)
+{
+    switch (status) {
+        case SWIVEL_INVALID_ARGUMENT:
+        case SWIVEL_UNKNOWN_ISA:
+            return PyExc_ValueError;
+        case SWIVEL_OUT_OF_MEMORY:
+            return PyExc_MemoryError;
+        default:
+            return PyExc_RuntimeError;
+    }
+}
+
+// From here on swivel::Error becomes ValueError (a wrong argument, an unknown instruction set), MemoryError, or
+// RuntimeError (an instruction set that this CPU does not run), with the library's own text in Python's names.
+void translate_errors()
+{
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const Error& error) {
+            PyErr_SetString(exception_for(error.status), in_python(error.what()).c_str());
+        }
+    });
+}
+
+}  // namespace
+}  // namespace swivel::python
 
 PYBIND11_MODULE(_core, module)
 {

@@ -12,8 +12,8 @@
 #include "tools/formats/output_file.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
-#include "tools/rig/finger_names.h"
 #include "tools/rig/joint_names.h"
+#include "tools/rig/name_table.h"
 
 namespace swivel::tools {
 

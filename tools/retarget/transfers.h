@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/retarget/joint_pairs.h"
-#include "tools/retarget/stance.h"
+#include "tools/retarget/rest_figure.h"
 
 namespace swivel::tools {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How exporters and rigging tools name the joints of arms and legs. docs/rigs.md shows the same table.
+// How exporters and rigging tools name the joints of limbs and fingers. docs/rigs.md shows the same table of limbs.
 #pragma once
 
 #include <array>
@@ -35,5 +35,9 @@ formats::Side side_of(std::string_view joint_name, formats::Side otherwise);
 
 // A name of the table with this side.
 std::string with_side(std::string_view name, std::string_view side);
+
+// "left index 1" for LeftHandIndex1, index_01_l and f_index.01.L: the side, the finger and its bone, counted from the
+// hand outwards. Empty if the name is none of a finger. plain_name: as plain() has it.
+std::string finger_bone(std::string_view plain_name);
 
 }  // namespace swivel::tools

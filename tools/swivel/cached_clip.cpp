@@ -8,20 +8,6 @@
 
 namespace swivel::tools {
 
-std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
-{
-    std::vector<int> own;
-    for (const Limb& limb : limbs) own.insert(own.end(), limb.joints.begin(), limb.joints.end());
-    if (plan.look) {
-        own.push_back(joint_at(clip, plan.look->joints.front()).parent);
-        own.insert(own.end(), plan.look->joints.begin(), plan.look->joints.end());
-    }
-    std::vector<std::size_t> drawn;
-    for (std::size_t n = 0; n < clip.joints.size(); ++n)
-        if (clip.joints[n].is_bone || std::ranges::count(own, static_cast<int>(n)) > 0) drawn.push_back(n);
-    return drawn;
-}
-
 namespace {
 
 // A joint's place among those that are drawn, or of the nearest one above it; -1 where there is none.
@@ -47,6 +33,20 @@ std::vector<float> positions_of(const formats::Clip& clip, std::span<const std::
 }
 
 }  // namespace
+
+std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan)
+{
+    std::vector<int> own;
+    for (const Limb& limb : limbs) own.insert(own.end(), limb.joints.begin(), limb.joints.end());
+    if (plan.look) {
+        own.push_back(joint_at(clip, plan.look->joints.front()).parent);
+        own.insert(own.end(), plan.look->joints.begin(), plan.look->joints.end());
+    }
+    std::vector<std::size_t> drawn;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n)
+        if (clip.joints[n].is_bone || std::ranges::count(own, static_cast<int>(n)) > 0) drawn.push_back(n);
+    return drawn;
+}
 
 CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::span<const Limb> limbs,
                         const CrowdPlan& plan, const ClipMotion& motion)
@@ -77,6 +77,34 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
     if (const auto& carry = plan.carry)
         crowd.box = {carry->size.x(), carry->size.y(), carry->size.z(), -carry->palm.z()};
     return crowd;
+}
+
+std::optional<PageSkin> page_skin(const MotionFile& file, const CrowdJob& job)
+{
+    PageSkin skin;
+    skin.glb = file.figure_glb();
+    if (skin.glb.empty()) return {};
+    const formats::Clip& clip = file.clip();
+    const std::vector<std::size_t> drawn = drawn_joints(clip, job.limbs, job.plan);
+    for (const std::size_t joint : drawn) skin.nodes.push_back(clip.joints[joint].number);
+    std::vector<int> heads = look_joints(clip, job.body, job.limbs);
+    const auto is_drawn = [&](int joint) { return std::ranges::binary_search(drawn, static_cast<std::size_t>(joint)); };
+    while (!heads.empty() && !is_drawn(heads.front())) heads.erase(heads.begin());
+    if (!heads.empty() && std::ranges::all_of(heads, is_drawn)) {
+        for (const int joint : heads) skin.head.push_back(static_cast<std::size_t>(drawn_at(clip, drawn, joint)));
+        const Eigen::Vector3d face = face_of(clip, heads.back(), job.faces_w);
+        skin.face = {face.x(), face.y(), face.z()};
+    }
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        formats::world_pose(clip, frame, pose_w);
+        for (const std::size_t joint : drawn) {
+            for (const double part : pose_w[joint].rotation.coeffs()) skin.turns.push_back(static_cast<float>(part));
+            skin.turns.push_back(
+                static_cast<float>(pose_w[joint].mirrored ? -pose_w[joint].scale : pose_w[joint].scale));
+        }
+    }
+    return skin;
 }
 
 }  // namespace swivel::tools

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/crowd/clip_loop.h"
 #include "tools/crowd/crowd_plan.h"
-#include "tools/crowd/find_loop.h"
 #include "tools/crowd/given_targets.h"
 #include "tools/crowd/proportions.h"
 #include "tools/swivel/commands.h"

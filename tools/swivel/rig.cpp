@@ -4,19 +4,161 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "tools/cli/command_error.h"
+#include "tools/cli/streams.h"
+#include "tools/formats/printable.h"
+#include "tools/rig/clip_doubts.h"
+#include "tools/rig/limb_axes.h"
+#include "tools/rig/limb_words.h"
 #include "tools/rig/limbs.h"
+#include "tools/rig/vectors.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_file.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/rig_report.h"
+#include "tools/swivel/rig_json.h"
 
 namespace swivel::tools {
+
+namespace {
+
+using formats::Clip;
+using formats::printable;
+
+std::string name_of(const Clip& clip, int joint) { return printable_name(joint_at(clip, joint)); }
+
+std::string list(const Clip& clip, const std::vector<int>& joints)
+{
+    std::string text;
+    for (const int joint : joints) text += (text.empty() ? "" : ", ") + name_of(clip, joint);
+    return text;
+}
+
+// A joint as a TOML string that names it alone: its name where no other joint has it, else its number.
+std::string toml_name(const Clip& clip, int joint)
+{
+    const std::string& name = joint_at(clip, joint).name;
+    using Errors = nlohmann::ordered_json::error_handler_t;
+    const auto dumped = [&](Errors errors) { return nlohmann::ordered_json(name).dump(-1, ' ', false, errors); };
+    // One text has replacements for bytes that are no UTF-8, the other drops them. So equal texts had none.
+    const std::string quoted = dumped(Errors::replace);
+    const bool can_be_written = name == printable(name, name.size()) && quoted == dumped(Errors::ignore);
+    if (can_be_written && formats::find_joints(clip, name).size() == 1) return quoted;
+    return fmt::format("\"#{}\"", joint_at(clip, joint).number);
+}
+
+// Where the limits' axes point.
+void print_axes(const Limb& limb, const Facing& facing)
+{
+    for (int n = 0; n < 3; ++n) {
+        const Eigen::Vector3d axis_w = limb.axes_w.col(n);
+        say(stdout, "           {:<21} {} {} {}\n", n == 0 ? "limits' axes at rest:" : "", "xyz"[n],
+            vector_text(axis_w), direction_words(axis_w, facing));
+    }
+}
+
+// What the clip fits into, as lines of a crowd file that bind the limb as they were taken.
+void print_range(const Clip& clip, const Limb& limb)
+{
+    const std::optional<LimbRange> range = range_of(clip, limb);
+    if (!range) return;
+    const std::string_view word = limb_word(limb.name);
+    say(stdout, "           in the clip the {} is {:.1f} to {:.1f} degrees from z; all its frames fit into\n",
+        words_of(limb.name.kind).upper, range->from_z.least, range->from_z.most);
+    say(stdout, "           [limb.{}]\n", word);
+    say(stdout, "           joints = [{}, {}, {}]\n", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
+        toml_name(clip, limb.end()));
+    say(stdout, "           bend = {}\n", toml_row(range->bend));
+    say(stdout, "           [limb.{}.limits]\n", word);
+    say(stdout, "           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", toml_row(range->axis),
+        range->opening_deg);
+    say(stdout, "           flexion_deg = [{:.1f}, {:.1f}]\n", range->flexion.least, range->flexion.most);
+}
+
+void print_limb(const Clip& clip, const Limb& limb, const Facing& facing)
+{
+    say(stdout, "{:<10} {} > {} > {}, named by {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
+        name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.from);
+    say(stdout, "           {:.6g} + {:.6g} long in the world, scale {:.6g}{}\n", limb.bound.lengths[0],
+        limb.bound.lengths[1], limb.scale, limb.mirrored ? ", mirrored" : "");
+    say(stdout, "           bones along {} and {} of their joints' axes\n", vector_text(limb.upper_bone),
+        vector_text(limb.lower_bone));
+    say(stdout, "           bends towards {} in its joint's axes: {}\n", vector_text(limb.bend), limb.bend_source);
+    print_axes(limb, facing);
+    if (const auto inner = limb.chain.between(); !inner.empty())
+        say(stdout, "           joints in between, which keep their own motion: {}\n", list(clip, inner));
+    for (const std::string& note : limb.notes) say(stdout, "           note: {}\n", note);
+    print_range(clip, limb);
+}
+
+// Names from the root down to the joint; of long ones the end.
+std::string shown_path(const Clip& clip, int joint)
+{
+    std::string path = joint_at(clip, joint).name;
+    for (int up = joint_at(clip, joint).parent; up >= 0; up = joint_at(clip, up).parent) {
+        path = (path.size() < 200 ? joint_at(clip, up).name : "...") + '/' + path;
+        if (path.starts_with("...")) break;
+    }
+    return printable(path, formats::kMostQuoted);
+}
+
+// The parts that are no joints of limbs.
+void print_body(const Clip& clip, const std::vector<BodyPart>& body)
+{
+    const char* heading = "body";
+    for (const BodyPart& part : body) {
+        if (is_limb_part(part)) continue;
+        std::string names;
+        for (const int joint : part.joints) names += (names.empty() ? "" : " > ") + name_of(clip, joint);
+        say(stdout, "{:<10} {}: {}\n", heading, part.name, formats::printable(names, formats::kMostQuoted));
+        heading = "";
+    }
+    if (!joints_of(body, "spine").empty() && joints_of(body, "head").empty())
+        say(stdout,
+            "{:<10} head: missing: no joint above the chest has a name in use for one; look.head of a crowd file or "
+            "--head of swivel retarget names it\n",
+            "");
+}
+
+void print_joints(const Clip& clip)
+{
+    const std::vector<formats::JointPose> rest_w = formats::rest_pose(clip);
+    for (std::size_t joint = 0; joint < clip.joints.size(); ++joint)
+        say(stdout, "#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(rest_w[joint].position),
+            shown_path(clip, static_cast<int>(joint)), clip.joints[joint].is_bone ? "" : " (no bone)");
+}
+
+// On stdout. file: as the user wrote it; with_joints: every joint, too.
+void print_rig(const MotionFile& motion, const std::string& file, const LimbSearch& search, bool with_joints)
+{
+    const Clip& clip = motion.clip();
+    const Facing& facing = search.facing;
+    const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
+    say(stdout, "{}: {}, {} joints, {} of them bones, {} frame{}\n", printable(file, std::string::npos),
+        motion.describe(), clip.joints.size(), bones, clip.frame_count, clip.frame_count == 1 ? "" : "s");
+    say(stdout, "faces {}, told by {}; up is {}, told by {}\n", vector_text(facing.forwards_w), facing.forwards_source,
+        vector_text(facing.up_w), facing.up_source);
+    for (const std::string& note : motion.notes()) say(stdout, "note: {}\n", note);
+    for (const std::string& doubt : clip_doubts(clip, search.body)) say(stdout, "look: {}\n", doubt);
+    for (const LimbFinding& finding : search.findings) {
+        if (finding.limb)
+            print_limb(clip, *finding.limb, facing);
+        else
+            say(stdout, "{:<10} {}: {}\n", plain_name(finding.name), finding.has_joints ? "refused" : "missing",
+                problem_text(finding));
+    }
+    print_body(clip, search.body);
+    if (with_joints) print_joints(clip);
+}
+
+}  // namespace
 
 void run_rig(const RigOptions& options)
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tools/swivel/rig_json.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -9,7 +11,6 @@
 #include "tools/rig/clip_doubts.h"
 #include "tools/rig/limb_axes.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/rig_report.h"
 
 namespace swivel::tools {
 

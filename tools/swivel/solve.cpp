@@ -24,7 +24,6 @@
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_keys.h"
-#include "tools/swivel/page_skin.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"

@@ -14,7 +14,7 @@
 #include "tools/cache/cached_crowd.h"
 #include "tools/crowd/goal_crowd.h"
 #include "tools/formats/output_file.h"
-#include "tools/swivel/page_skin.h"
+#include "tools/swivel/cached_clip.h"
 
 namespace swivel::tools {
 

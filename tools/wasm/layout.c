@@ -14,7 +14,9 @@
 #define OFFSET(structure, name) printf(" %s: %zu,", #name, offsetof(structure, name))
 #define BEGIN(structure) printf("    %s: { bytes: %zu,", #structure, sizeof(structure))
 #define END() printf(" },\n")
-#define BEGIN_DEFAULT(name) begin_default(#name); const swivel_##name name = swivel_default_##name()
+#define BEGIN_DEFAULT(name) \
+    begin_default(#name);   \
+    const swivel_##name name = swivel_default_##name()
 #define END_DEFAULT() printf("} as const;\n")
 #define VALUES(of, name) print_values(#name, (const float*)&of.name, sizeof(of.name) / sizeof(float))
 

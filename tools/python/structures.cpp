@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "tools/python/plants.h"
+#include "tools/python/structures.h"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -11,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "tools/python/arrays.h"
+#include "tools/python/crowd.h"
 #include "tools/python/names.h"
 
 namespace py = pybind11;
@@ -33,6 +36,27 @@ Number number_of(const char* of, const char* name, const py::handle& given)
     }
 }
 
+// A structure of floats. type: of the package, which begins with the same members in the same order. Rows are as long
+// as their defaults.
+template <class Structure>
+Structure floats_of(const char* of, const char* type, const py::handle& given)
+{
+    std::array<float, sizeof(Structure) / sizeof(float)> values;
+    const py::tuple names = package(type).attr("_fields");
+    std::size_t n = 0;
+    for (std::size_t member = 0; n < values.size(); ++member) {
+        const auto name = names[member].cast<std::string>();
+        const py::object usual = package(type).attr("_field_defaults")[names[member]];
+        const std::size_t length = py::isinstance<py::tuple>(usual) ? py::len(usual) : 0;
+        if (length > 0)
+            copy(std::string(of) + "." + name, given.attr(name.c_str()), std::span(values).subspan(n, length));
+        else
+            values[n] = number_of(of, name.c_str(), given);
+        n += std::max<std::size_t>(length, 1);
+    }
+    return std::bit_cast<Structure>(values);
+}
+
 // A number for each joint, or one for all.
 void copy_each(const char* name, const py::object& given, std::span<float> to)
 {
@@ -49,38 +73,48 @@ void require(const char* name, const char* type, const py::object& given)
 
 }  // namespace
 
+SkeletonArrays skeleton_of(const py::object& parents, const py::object& translations, const py::object& rotations)
+{
+    const std::size_t count = length_of("parents", parents);
+    const auto floats = py::dtype::of<float>();
+    SkeletonArrays made{swivel_default_skeleton(),
+                        input({"parents", count, 1}, parents, py::dtype::of<std::int32_t>(), false),
+                        input({"translations", count, 3}, translations, floats, false),
+                        {}};
+    if (!rotations.is_none()) made.rotations = input({"rotations", count, 4}, rotations, floats, false);
+    made.view.joint_count = count_of("number of joints", static_cast<std::int64_t>(count));
+    made.view.parents = made.parents.values;
+    made.view.translations = made.translations.values;
+    made.view.rotations = made.rotations.values;
+    return made;
+}
+
+LimbJoints joints_of(std::int64_t shoulder, std::int64_t elbow, std::int64_t wrist,
+                     const std::vector<std::int64_t>& twist_bones, const py::object& bend)
+{
+    LimbJoints made;
+    made.view =
+        swivel_default_limb_joints(count_of("shoulder", shoulder), count_of("elbow", elbow), count_of("wrist", wrist));
+    for (const std::int64_t bone : twist_bones) made.twist_bones.push_back(count_of("twist_bones", bone));
+    made.view.twist_bones = made.twist_bones.data();
+    made.view.twist_bone_count = count_of("number of twist bones", static_cast<std::int64_t>(twist_bones.size()));
+    copy("bend", bend, made.view.bend);
+    return made;
+}
+
 swivel_plant plant_of(const py::object& given)
 {
     require("plant", "Plant", given);
-    const auto number = [&](const char* name) { return number_of("plant", name, given); };
-    swivel_plant made{number("lock"),
-                      number("unlock"),
-                      number("stop"),
-                      number("blend"),
-                      number("again"),
-                      number("run"),
-                      number("longest"),
-                      {},
-                      {}};
-    copy("plant.speed", given.attr("speed"), made.speed);
-    copy("plant.height", given.attr("height"), made.height);
-    return made;
+    return floats_of<swivel_plant>("plant", "Plant", given);
 }
 
 swivel_ground ground_of(const py::object& given)
 {
     require("ground", "Ground", given);
-    const auto number = [&](const char* name) { return number_of("ground", name, given); };
-    swivel_ground made{{}, number("toe_clearance"), number("heel_clearance"), number("cos_most"), number("half")};
-    copy("ground.heel", given.attr("heel"), made.heel);
-    return made;
+    return floats_of<swivel_ground>("ground", "Ground", given);
 }
 
-swivel_fit fit_of(const py::handle& group)
-{
-    const auto number = [&](const char* name) { return number_of("fit", name, group); };
-    return {number("drop"), number("rise"), number("half"), number("ahead")};
-}
+swivel_fit fit_of(const py::handle& group) { return floats_of<swivel_fit>("fit", "FitGroup", group); }
 
 swivel_prop prop_of(const py::handle& group)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What `swivel rig` says of a skeleton: for people, with lines for a crowd file, and for machines.
+// What `swivel rig` says of a skeleton to machines.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,9 +11,7 @@
 
 namespace swivel::tools {
 
-// On stdout. file: as the user wrote it; with_joints: every joint, too.
-void print_rig(const MotionFile& motion, const std::string& file, const LimbSearch& search, bool with_joints);
-
+// file: as the user wrote it; with_joints: every joint, too.
 nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file, const LimbSearch& search,
                                bool with_joints);
 
