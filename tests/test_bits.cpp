@@ -59,16 +59,6 @@ std::uint32_t large(const Recipe& recipe)
     return corpus::is_of_bodies(recipe.part) ? 300 : recipe.part == Part::limbs ? 1000 : 8000;
 }
 
-// What the scalar build gives for crowds of these sizes.
-template <class Solve>
-std::uint64_t scalar_digest(const IsaScope& scope, const Recipe& recipe, std::uint32_t limb_count, Solve act)
-{
-    REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
-    const std::uint64_t digest = digest_of(recipe, act, limb_count);
-    REQUIRE(swivel_use_isa(scope.before.c_str()) == SWIVEL_OK);
-    return digest;
-}
-
 // What the ways leave of a crowd is what the job leaves, which it then does.
 void check_ways(Scene& scene, Crowd& crowd, const Job& job, std::span<const Way> ways)
 {
@@ -81,21 +71,23 @@ void check_ways(Scene& scene, Crowd& crowd, const Job& job, std::span<const Way>
     }
 }
 
-// Calls take(scene, crowd, job) before each solve of a crowd of the corpus. Three blocks of limbs, the last not full;
-// bodies that stand start anew, stand on other things and are left out now and then.
+constexpr std::uint32_t kLimbs = 37, kFrames = 20;  // three blocks, the last not full
+
+// Calls take(scene, crowd, job) before each solve of a crowd of the corpus. Bodies that stand start anew, stand on
+// other things and are left out now and then.
 template <class Take>
-void play(const Recipe& recipe, const Take& take)
+void play(const Recipe& recipe, const Take& take, std::uint32_t limb_count = kLimbs,
+          std::uint32_t frame_count = kFrames)
 {
-    constexpr std::uint32_t kLimbs = 37, kFrames = 20;
     Scene scene{full_name(recipe), corpus::is_of_bodies(recipe.part) ? skeleton_of(recipe).joint_count() : 0,
                 [&](const std::vector<std::uint32_t>& counts) {
                     return corpus::create_crowd(recipe, {counts[0], counts[1], counts[2]});
                 }};
     const auto solve_there = [&](Crowd& crowd, const Job& job) { take(scene, crowd, job); };
     if (recipe.part == Part::standing)
-        corpus::standing_digest(recipe, solve_there, kLimbs, kFrames);
+        corpus::standing_digest(recipe, solve_there, limb_count, frame_count);
     else
-        digest_of(recipe, solve_there, kLimbs);
+        digest_of(recipe, solve_there, limb_count);
 }
 
 // The same of bodies, that are solved twice.
@@ -147,18 +139,6 @@ TEST_CASE("the instruction set in use gives the golden digests")
         CHECK(corpus::fold(digests) == corpus::kGoldenDigests[static_cast<std::size_t>(part)]);
     }
     CHECK(corpus::digest_of_start(solve_whole) == corpus::kGoldenStart);
-}
-
-TEST_CASE("every number of limbs gives the scalar build's digest")
-{
-    const IsaScope scope;
-    for (const Part part : corpus::kParts)
-        for (const Recipe& recipe : recipes_of(part))
-            for (const std::uint32_t limb_count : {1u, 15u, 16u, 17u, 33u}) {
-                INFO(full_name(recipe) << ", " << limb_count << " limbs");
-                CHECK(digest_of(recipe, solve_whole, limb_count) ==
-                      scalar_digest(scope, recipe, limb_count, solve_whole));
-            }
 }
 
 constexpr Way kWays[] = {
@@ -217,15 +197,29 @@ TEST_CASE("doubles far from the origin give the bits of floats near it")
     });
 }
 
-#ifdef SWIVEL_WITH_TBB
-TEST_CASE("every number of threads gives the scalar build's bits")
+TEST_CASE("large crowds have the same bits on threads, ours and the caller's, from rows and from frames")
 {
-    const IsaScope scope;
+    constexpr Way kLargeWays[] = {
+        {.name = "on threads of the caller's", .jobs = Way::Jobs::threads},
+        {.name = "from frames, on threads of the caller's", .jobs = Way::Jobs::threads, .has_frames = true},
+        {.name = "from frames", .has_frames = true},
+        {.name = "from frames, by masks", .jobs = Way::Jobs::masks, .has_frames = true},
+    };
+    for (const Recipe* recipe : few_crowds())
+        play(
+            *recipe, [&](Scene& scene, Crowd& crowd, const Job& job) { check_ways(scene, crowd, job, kLargeWays); },
+            large(*recipe), 4);
+}
+
+#ifdef SWIVEL_WITH_TBB
+TEST_CASE("every number of threads gives the bits of this one")
+{
     for (const Recipe* recipe : few_crowds()) {
-        const std::uint64_t expected = scalar_digest(scope, *recipe, large(*recipe), [](Crowd& crowd, Job job) {
+        const auto solve_here = [](Crowd& crowd, Job job) {
             job.on_this_thread = true;
             crowd.solve(job);
-        });
+        };
+        const std::uint64_t expected = digest_of(*recipe, solve_here, large(*recipe));
         for (const int threads : {1, 2}) {
             INFO(full_name(*recipe) << ", " << threads << " threads");
             using oneapi::tbb::global_control;

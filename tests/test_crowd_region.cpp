@@ -241,23 +241,6 @@ std::uint32_t flags_of(const Crowd& crowd, std::uint32_t n)
     return flags;
 }
 
-TEST_CASE("a limb with bad input is at rest, and its neighbour has the bits it has without it")
-{
-    const OneArm one;
-    const std::array<float, 3> good{0, 0, 1}, bad{kNan, 0, 1};
-    Crowd crowd = one.crowd(good);
-    const std::vector<std::uint32_t> before = all_words(crowd);
-    crowd.write(SWIVEL_TARGET, 0, std::span(&bad, 1), 1);
-    crowd.solve();
-    CHECK(flags_of(crowd, 1) == SWIVEL_BAD_INPUT);
-    std::array<float, 4> at_rest{};
-    crowd.read(SWIVEL_SHOULDER, 0, std::span(&at_rest, 1), 1);
-    CHECK(at_rest == std::array<float, 4>{0, 0, 0, 1});
-    crowd.write(SWIVEL_TARGET, 0, std::span(&good, 1), 1);
-    crowd.solve();
-    CHECK(all_words(crowd) == before);
-}
-
 TEST_CASE("explain names the region, and says how far off the elbow is")
 {
     const OneArm one;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <list>
 #include <numeric>
+#include <thread>
 
 #include "tests/other_environment.h"
 #include "tests/test_random.h"
@@ -166,6 +167,18 @@ constexpr BodyArray kBodyArrays[] = {{&swivel_pose::root_position, 12, true},
                                      {&swivel_pose::time, 4},
                                      {&swivel_pose::weight, 4}};
 
+// Of any bytes, for one job at a time.
+struct Workspace {
+    std::vector<char> bytes;
+
+    explicit Workspace(const Crowd& crowd) : bytes(swivel_workspace_bytes(crowd.get()) + 64, '\xff') {}
+    void* first() const
+    {
+        const auto place = reinterpret_cast<std::uintptr_t>(bytes.data());
+        return reinterpret_cast<void*>((place + 63) / 64 * 64);
+    }
+};
+
 // Some limbs of each group, solved in a crowd of their own.
 class Part {
 public:
@@ -191,18 +204,25 @@ public:
                 job.mask = mask_of(some);
             solve_some(some);
         };
-        if (way_.jobs == Way::Jobs::one) return solve_those([](std::uint32_t) { return true; });
-        if (way_.jobs != Way::Jobs::blocks) {
-            for (const std::uint32_t half : {1u, 0u})
-                solve_those([&](std::uint32_t limb) { return limb * 7 / 5 % 2 == half; });
-            return;
-        }
-        std::vector<char> workspace(swivel_workspace_bytes(crowd.get()) + 64, '\xff');
-        job.on_this_thread = true;
-        job.workspace = workspace.data() + (64 - reinterpret_cast<std::uintptr_t>(workspace.data()) % 64) % 64;
-        for (std::uint32_t block = swivel_block_count(crowd.get()); block-- > 0;) {
-            job.blocks = swivel_blocks{block, 1};
-            solve_those([&](std::uint32_t limb) { return limb / SWIVEL_LANES == block; });
+        switch (way_.jobs) {
+            case Way::Jobs::one:
+                return solve_those([](std::uint32_t) { return true; });
+            case Way::Jobs::threads:
+                return solve_on_threads();
+            case Way::Jobs::blocks: {
+                const Workspace workspace(crowd);
+                job.on_this_thread = true, job.workspace = workspace.first();
+                for (std::uint32_t block = swivel_block_count(crowd.get()); block-- > 0;) {
+                    job.blocks = swivel_blocks{block, 1};
+                    solve_those([&](std::uint32_t limb) { return limb / SWIVEL_LANES == block; });
+                }
+                return;
+            }
+            default:  // a half, and of large crowds a few; then the others
+                for (const bool are_first : {true, false})
+                    solve_those([&](std::uint32_t limb) {
+                        return (limb < 256 ? limb * 7 / 5 % 2 == 0 : limb % 50 == 0) == are_first;
+                    });
         }
     }
     Crowd& crowd;
@@ -342,6 +362,26 @@ private:
         std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
         for (const std::uint32_t limb : limbs) mask[limb / 32] |= 1u << limb % 32;
         return mask;
+    }
+    // In turns. Ranges end between a mask's words.
+    void solve_on_threads()
+    {
+        constexpr std::uint32_t kThreads = 3, kBlocks = 7;
+        const std::uint32_t end = swivel_block_count(crowd.get());
+        const std::vector<std::uint32_t> mask = mask_of(chosen());
+        job.mask = mask, job.on_this_thread = true;
+        std::vector<std::thread> threads;
+        for (std::uint32_t n = 0; n < kThreads; ++n)
+            threads.emplace_back([&, n] {
+                const Workspace workspace(crowd);
+                Job own = job;
+                own.workspace = workspace.first();
+                for (std::uint32_t first = n * kBlocks; first < end; first += kThreads * kBlocks) {
+                    own.blocks = swivel_blocks{first, std::min(kBlocks, end - first)};
+                    crowd.solve(own);
+                }
+            });
+        for (std::thread& thread : threads) thread.join();
     }
     // In one job.
     void solve_some(const Limbs& limbs)
