@@ -200,7 +200,7 @@ public:
             const Limbs from_last(some.rbegin(), some.rend());
             if (way_.jobs == Way::Jobs::lists)
                 job.limbs = from_last;
-            else
+            else if (way_.jobs == Way::Jobs::masks || from_job_.mask)
                 job.mask = mask_of(some);
             solve_some(some);
         };
@@ -368,8 +368,8 @@ private:
     {
         constexpr std::uint32_t kThreads = 3, kBlocks = 7;
         const std::uint32_t end = swivel_block_count(crowd.get());
-        const std::vector<std::uint32_t> mask = mask_of(chosen());
-        job.mask = mask, job.on_this_thread = true;
+        if (from_job_.mask) job.mask = mask_of(chosen());
+        job.on_this_thread = true;
         std::vector<std::thread> threads;
         for (std::uint32_t n = 0; n < kThreads; ++n)
             threads.emplace_back([&, n] {
