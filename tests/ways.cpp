@@ -96,8 +96,9 @@ public:
     // Whether no byte has changed; or, where a solve writes, none beside the values.
     bool is_as_it_came(bool is_written)
     {
+        if (!is_written) return std::equal(came_.begin(), came_.end(), bytes());
         std::vector<char> now(bytes(), bytes() + kPage * pages_.size());
-        for (std::size_t n = 0; is_written && n < count_; ++n)
+        for (std::size_t n = 0; n < count_; ++n)
             for (std::size_t joint = 0; joint < joint_count_; ++joint) {
                 const std::ptrdiff_t from = at(n, joint) - bytes();
                 std::copy_n(came_.begin() + from, size_, now.begin() + from);
@@ -426,7 +427,7 @@ std::vector<LimbLists> parts_of(const Crowd& crowd, bool is_shuffled)
     }
     if (!is_shuffled) return {all};
     std::vector<LimbLists> parts;
-    for (std::size_t first = 0, end = 1; first < limb_count(crowd, 0); first = end, end = 2 * end + 1) {
+    for (std::size_t first = 0, end = 1; first < limb_count(crowd, 0); first = end, end = 5 * end + 1) {
         parts.emplace_back(all.size());
         for (std::size_t g = 0; g < all.size(); ++g)
             for (std::size_t n = first; n < std::min<std::size_t>(end, limb_count(crowd, 0)); ++n)

@@ -26,7 +26,7 @@ struct Way {
     const char* name;
     Jobs jobs = Jobs::one;
     Memory memory = Memory::packed;
-    bool is_shuffled = false;  // limbs are in any order, in crowds of 1, 2, 4... of them
+    bool is_shuffled = false;  // limbs are in any order, in crowds of 1, 5, 25... of them
     bool has_frames = false;   // inputs come in frames, and the crowd's rows have none of them
     bool is_apart = false;     // a pose's results go elsewhere
     bool is_far = false;       // positions are doubles, far from the origin; then inputs come in frames, too
