@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: what planted limbs carry is whole. It can be read, written back and played again; bad input of one limb
-// keeps it, and so do bodies and groups that are not chosen; a body may start anew; a support may change.
+// The promise: what planted limbs carry is whole. Bad input of one limb keeps it, and so do groups that are not chosen;
+// a body may start anew; a support may change. That it can be saved and loaded is test_bits.cpp's.
 #include <catch2/catch.hpp>
 
 #include "tests/planted_bodies.h"
 #include "tests/test_crowd.h"
-#include "tests/test_isa_scope.h"
 
 namespace {
 
@@ -129,27 +128,6 @@ TEST_CASE("bad input of a planted limb is its own, and keeps what it carries")
     }
 }
 
-TEST_CASE("what is carried can be read, written back and played again")
-{
-    const swivel_features features = kTurning | (GENERATE(true, false) ? SWIVEL_PLANT_BY_MOTION : 0);
-    PlantedBodies stage(2, Ground::moving);
-    Crowd crowd = stage.crowd(features), other = stage.crowd(features);
-    play(stage, crowd, 0, 45);
-    for (std::uint32_t g = 0; g < 3; ++g)
-        for (const swivel_field field : {SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION}) {
-            const std::uint32_t count = swivel_field_row_count(crowd.get(), g, field);
-            if (count == 0) continue;
-            std::vector<float> values(stage.body_count * count);
-            check(swivel_read(crowd.get(), field, g, 0, stage.body_count, {values.data(), 4 * count}));
-            check(swivel_write(other.get(), field, g, 0, stage.body_count, {values.data(), 4 * count}));
-        }
-    play(stage, crowd, 45, 80);
-    const std::vector<unsigned char> poses = stage.poses.bytes;
-    play(stage, other, 45, 80);
-    REQUIRE(stage.poses.bytes == poses);
-    REQUIRE(swivel_digest(other.get()) == swivel_digest(crowd.get()));
-}
-
 TEST_CASE("a limb that goes to its rest pose for bad input starts anew")
 {
     for (const Fault& fault : kFaults) {
@@ -165,63 +143,6 @@ TEST_CASE("a limb that goes to its rest pose for bad input starts anew")
         REQUIRE(carried_bits(crowd, 1, kBad) == std::vector<std::uint32_t>(21));
         REQUIRE(carried_bits(crowd, 1, kBad - 1) != std::vector<std::uint32_t>(21));
     }
-}
-
-TEST_CASE("every instruction set carries the same")
-{
-    const IsaScope scope;
-    std::uint64_t digest = 0;
-    for (std::uint32_t n = 0; const char* const isa = swivel_isa_at(n); ++n) {
-        if (!swivel_isa_runs(isa)) continue;
-        check(swivel_use_isa(isa));
-        PlantedBodies stage(8, Ground::moving);
-        Crowd crowd = stage.crowd(kTurning | SWIVEL_PLANT_BY_MOTION);
-        play(stage, crowd, 0, 60);
-        INFO(isa);
-        if (digest == 0) digest = swivel_digest(crowd.get());
-        REQUIRE(swivel_digest(crowd.get()) == digest);
-    }
-}
-
-TEST_CASE("threads and chunks carry the same")
-{
-    PlantedBodies stage(3, Ground::moving, 1200), again(3, Ground::moving, 1200);
-    Crowd crowd = stage.crowd(kTurning), other = stage.crowd(kTurning);
-    for (int frame = 0; frame < 12; ++frame) {
-        stage.go_to(8 * frame), again.go_to(8 * frame);
-        stage.solve(crowd);
-        again.write_labels(other);
-        const swivel_pose pose = again.view();
-        for (std::uint32_t first = 0; first < swivel_block_count(other.get()); first += 5) {
-            const swivel_blocks blocks{first, std::min(5u, swivel_block_count(other.get()) - first)};
-            other.solve({.blocks = blocks, .on_this_thread = true, .pose = &pose});
-        }
-        REQUIRE(stage.poses.bytes == again.poses.bytes);
-    }
-    REQUIRE(swivel_digest(other.get()) == swivel_digest(crowd.get()));
-}
-
-TEST_CASE("bodies that are not chosen keep every bit")
-{
-    PlantedBodies stage(4, Ground::moving), whole(4, Ground::moving);
-    Crowd crowd = stage.crowd(kTurning), other = stage.crowd(kTurning);
-    play(stage, crowd, 0, 45), play(whole, other, 0, 46);
-    stage.go_to(45);
-    std::vector<std::uint32_t> chosen;
-    for (std::uint32_t n = 0; n < stage.body_count; n += 3) chosen.push_back(n);
-    const PlantedBodies came = stage;
-    stage.write_labels(crowd);
-    std::vector<std::vector<std::vector<std::uint32_t>>> before(3);
-    for (std::uint32_t g = 0; g < 3; ++g)
-        for (std::uint32_t n = 0; n < stage.body_count; ++n) before[g].push_back(carried_bits(crowd, g, n));
-    const swivel_pose pose = stage.view();
-    crowd.solve({.limbs = chosen, .pose = &pose});
-    for (std::uint32_t g = 0; g < 3; ++g)
-        for (std::uint32_t n = 0; n < stage.body_count; ++n) {
-            const bool is_chosen = n % 3 == 0;
-            REQUIRE(limb_bytes(stage, g, n) == limb_bytes(is_chosen ? whole : came, g, n));
-            REQUIRE(carried_bits(crowd, g, n) == (is_chosen ? carried_bits(other, g, n) : before[g][n]));
-        }
 }
 
 TEST_CASE("a job that names groups steps those alone, and needs no time where none is planted")

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: the library says where it wants to know the ground, and asks for each chosen foot once, wherever it
-// solves. What it is told counts as input. Bad input of one body is its own, keeps what it carries, and says so. What
-// is carried can be saved, played again and begun anew.
+// The promise: the library asks for the ground of each chosen foot once, wherever it solves. Bad input of one body is
+// its own, keeps what it carries, and says so. What is carried can be begun anew. That the ground counts as input,
+// however a job samples it, and that nothing else changes, is test_body_ground.cpp's and the test `interface`'s.
 #include <catch2/catch.hpp>
 
-#include <cfenv>
-#include <mutex>
+#include <atomic>
 
 #include "tests/hill_walkers.h"
-#include "tests/test_isa_scope.h"
-
-#ifdef __x86_64__
-#include <xmmintrin.h>
-#endif
+#include "tests/other_environment.h"
 
 namespace {
 
@@ -22,33 +17,6 @@ using namespace swivel::test;
 
 constexpr std::uint32_t kWalkers = 40;
 constexpr swivel_features kWalking = HillWalkers::kFeatures;
-
-// Planes that a sample function gives, and what it was asked.
-struct Asked {
-    const HillWalkers& walkers;
-    std::mutex lock = {};
-    std::vector<std::vector<int>> count = std::vector<std::vector<int>>(2, std::vector<int>(walkers.count()));
-    std::uint32_t most = 0;
-    std::vector<std::vector<Float3>> places = std::vector<std::vector<Float3>>(2, std::vector<Float3>(walkers.count()));
-    std::vector<std::vector<GroundSample>> had =
-        std::vector<std::vector<GroundSample>>(2, std::vector<GroundSample>(walkers.count()));
-
-    static void answer(const swivel_probes* probes, void* user)
-    {
-        auto& asked = *static_cast<Asked*>(user);
-        const std::scoped_lock one(asked.lock);
-        asked.most = std::max(asked.most, probes->count);
-        for (std::uint32_t n = 0; n < probes->count; ++n) {
-            const std::uint32_t body = probes->bodies[n];
-            ++asked.count[probes->group][body];
-            asked.places[probes->group][body] = {probes->places[n][0], probes->places[n][1], probes->places[n][2]};
-            GroundSample& had = asked.had[probes->group][body];
-            std::copy_n(probes->grounds[n], 3, had.place.begin()),
-                std::copy_n(probes->normals[n], 3, had.normal.begin());
-        }
-        HillWalkers::answer(probes, const_cast<HillWalkers*>(&asked.walkers));
-    }
-};
 
 struct Stage {
     HillWalkers walkers;
@@ -118,37 +86,6 @@ std::vector<unsigned char> leg_bytes(const PoseBuffer& poses, std::uint32_t leg,
     return {at, at + 48};
 }
 
-// The caller's environment: another rounding, and where there is such a thing denormals that are flushed.
-struct OtherEnvironment {
-    OtherEnvironment()
-    {
-        std::feclearexcept(FE_ALL_EXCEPT);
-        std::fesetround(FE_UPWARD);
-        flush(true);
-    }
-    ~OtherEnvironment()
-    {
-        flush(false);
-        std::fesetround(FE_TONEAREST);
-        std::feclearexcept(FE_ALL_EXCEPT);
-    }
-    static bool is()
-    {
-#ifdef __x86_64__
-        if ((_mm_getcsr() & kFlushes) != kFlushes) return false;
-#endif
-        return std::fegetround() == FE_UPWARD;
-    }
-
-private:
-#ifdef __x86_64__
-    static constexpr unsigned kFlushes = 0x8040;
-    static void flush(bool does) { _mm_setcsr(does ? _mm_getcsr() | kFlushes : _mm_getcsr() & ~kFlushes); }
-#else
-    static void flush(bool) {}
-#endif
-};
-
 // One thing that is wrong with body 17, or its leg 1.
 constexpr std::uint32_t kBad = 17;
 struct Fault {
@@ -207,164 +144,30 @@ void solve_written(Stage& stage)
 
 }  // namespace
 
-TEST_CASE("probes_only finds the probes, changes nothing else, and may be repeated")
+TEST_CASE("a sample function is asked for each chosen foot once")
 {
-    Stage stage, plain;
-    for (int frame = 0; frame < 90; ++frame) {
-        stage.go_to(frame), plain.go_to(frame);
-        stage.walkers.write_labels(stage.crowd);
-        const PoseBuffer came = stage.poses;
-        const Words before = all_words(stage.crowd);
-        stage.walkers.find_probes(stage.crowd, stage.poses);
-        const Words once = all_words(stage.crowd);
-        stage.walkers.find_probes(stage.crowd, stage.poses);
-        REQUIRE(all_words(stage.crowd) == once);
-        REQUIRE(stage.poses.bytes == came.bytes);
-        const std::vector<Float3> probes[] = {read<Float3>(stage.crowd, SWIVEL_PROBE, 0),
-                                              read<Float3>(stage.crowd, SWIVEL_PROBE, 1)};
-        // Other rows have the bits that they had.
-        int changed = 0;
-        for (std::uint32_t leg = 0; leg < 2; ++leg) {
-            const swivel_rows rows = swivel_result_rows(stage.crowd.get(), leg);
-            const std::uint32_t probe = swivel_field_first_row(stage.crowd.get(), leg, SWIVEL_PROBE);
-            std::size_t at = 0;
-            for_all_rows(stage.crowd, [&](const swivel_rows& each) {
-                for (std::size_t n = 0; n < float_count(each); ++n, ++at) {
-                    if (each.base != rows.base) continue;
-                    const auto row = static_cast<std::uint32_t>(n / SWIVEL_LANES % each.row_count);
-                    if (row >= probe && row < probe + 3)
-                        changed += once[at] != before[at];
-                    else
-                        REQUIRE(once[at] == before[at]);
-                }
-            });
-        }
-        REQUIRE(changed > 0);
-        // The solve that follows sends each foot there, but for its height, and has the bits of one without probes.
-        for (std::uint32_t leg = 0; leg < 2; ++leg) {
-            HillWalkers::write(stage.crowd, leg, stage.walkers.samples(stage.crowd, leg));
-            HillWalkers::write(plain.crowd, leg, stage.walkers.samples(stage.crowd, leg));
-        }
-        stage.step(), plain.step();
-        REQUIRE(stage.poses.bytes == plain.poses.bytes);
-        REQUIRE(swivel_digest(stage.crowd.get()) == swivel_digest(plain.crowd.get()));
-        for (std::uint32_t leg = 0; leg < 2; ++leg)
-            for (std::uint32_t n = 0; n < kWalkers; ++n) {
-                const auto goal = value_of<std::array<float, 7>>(stage.crowd, SWIVEL_GOAL, leg, n);
-                const Vector3d off = vec(probes[leg][n]) - Vector3d(goal[0], goal[1], goal[2]);
-                REQUIRE(std::hypot(off.x(), off.z()) <= 1e-5);
-            }
-    }
-}
-
-TEST_CASE("a frame with probes gets them from a job for probes only, and no other result")
-{
-    Stage stage;
-    stage.play(0, 30);
-    stage.go_to(30);
+    constexpr std::uint32_t kMany = 700;  // on threads
+    Stage stage(kMany);
+    struct Asked {
+        const HillWalkers& walkers;
+        std::array<std::array<std::atomic<int>, kMany>, 2> counts = {};
+    } asked{stage.walkers};
+    std::vector<std::uint32_t> mask((swivel_block_count(stage.crowd.get()) + 1) / 2);
+    const auto is_chosen = [](std::uint32_t n) { return n % 7 == 3 || n / 50 == 2; };
+    for (std::uint32_t n = 0; n < kMany; ++n) mask[n / 32] |= (is_chosen(n) ? 1u : 0u) << n % 32;
     stage.walkers.write_labels(stage.crowd);
-    std::vector<Float3> probes(kWalkers, Float3{7, 7, 7});
-    std::vector<std::uint32_t> flags(kWalkers, 77);
-    const swivel_frame_field fields[] = {{SWIVEL_FLAGS, flags.data(), 4},
-                                         {SWIVEL_PROBE, probes.data(), sizeof(Float3)}};
-    std::vector<swivel_frame> frames(3, swivel_default_frame());
-    frames[1].fields = fields, frames[1].field_count = 2;
     const swivel_pose pose = stage.walkers.view(stage.poses);
     swivel_job job = swivel_default_job();
-    job.pose = &pose, job.frames = frames.data(), job.probes_only = 1;
-    check(swivel_solve(stage.crowd.get(), &job));
-    CHECK(probes == read<Float3>(stage.crowd, SWIVEL_PROBE, 1));
-    CHECK(flags == std::vector<std::uint32_t>(kWalkers, 77));
-}
-
-TEST_CASE("a sample function is asked for each chosen foot once, with the values that it has")
-{
-    Stage stage(700), probed(700);
-    stage.play(0, 20), probed.play(0, 20);
-    stage.go_to(20), probed.go_to(20);
-    const auto had = [&](std::uint32_t leg, std::uint32_t n) {
-        return GroundSample{value_of<Float3>(probed.crowd, SWIVEL_GROUND, leg, n),
-                            value_of<Float3>(probed.crowd, SWIVEL_GROUND_NORMAL, leg, n)};
+    job.pose = &pose, job.mask = mask.data(), job.mask_word_count = static_cast<std::uint32_t>(mask.size());
+    job.sample_user = &asked;
+    job.sample = [](const swivel_probes* probes, void* user) {
+        auto& to = *static_cast<Asked*>(user);
+        for (std::uint32_t n = 0; n < probes->count; ++n) ++to.counts[probes->group][probes->bodies[n]];
+        HillWalkers::answer(probes, const_cast<HillWalkers*>(&to.walkers));
     };
-    std::vector<std::uint32_t> chosen;
-    const bool is_some = GENERATE(true, false), here = GENERATE(true, false);
-    for (std::uint32_t n = 0; n < 700; ++n)
-        if (!is_some || n % 7 == 3 || n / 50 == 2) chosen.push_back(n);
-    Words mask((swivel_block_count(stage.crowd.get()) + 1) / 2);
-    for (const std::uint32_t n : chosen) mask[n / 32] |= 1u << n % 32;
-    Asked asked{stage.walkers};
-    stage.walkers.write_labels(stage.crowd);
-    const swivel_pose pose = stage.walkers.view(stage.poses);
-    const Words before = all_words(stage.crowd);
-    swivel_job job = swivel_default_job();
-    job.pose = &pose, job.sample = Asked::answer, job.sample_user = &asked, job.on_this_thread = here;
-    if (is_some) job.mask = mask.data(), job.mask_word_count = static_cast<std::uint32_t>(mask.size());
     check(swivel_solve(stage.crowd.get(), &job));
-    CHECK(asked.most > (is_some ? 8u : 16u));
-    CHECK(asked.most <= 128);
-    probed.walkers.find_probes(probed.crowd, probed.poses);
-    for (std::uint32_t leg = 0; leg < 2; ++leg) {
-        std::size_t next = 0;
-        for (std::uint32_t n = 0; n < 700; ++n) {
-            const bool is_chosen = next < chosen.size() && chosen[next] == n;
-            next += is_chosen;
-            REQUIRE(asked.count[leg][n] == is_chosen);
-            if (!is_chosen) continue;
-            REQUIRE(asked.places[leg][n] == value_of<Float3>(probed.crowd, SWIVEL_PROBE, leg, n));
-            REQUIRE(asked.had[leg][n] == had(leg, n));
-            // What it stores are inputs in rows.
-            const GroundSample want = stage.walkers.sample(n, asked.places[leg][n]);
-            REQUIRE(value_of<Float3>(stage.crowd, SWIVEL_GROUND, leg, n) == want.place);
-            REQUIRE(value_of<Float3>(stage.crowd, SWIVEL_GROUND_NORMAL, leg, n) == want.normal);
-        }
-    }
-    // With the same planes, the same bits; others have what they had.
-    for (std::uint32_t leg = 0; leg < 2; ++leg)
-        HillWalkers::write(probed.crowd, leg, probed.walkers.samples(probed.crowd, leg));
-    const PoseBuffer came = probed.poses;
-    probed.step();
-    std::size_t next = 0;
-    for (std::uint32_t n = 0; n < 700; ++n) {
-        const bool is_chosen = next < chosen.size() && chosen[next] == n;
-        next += is_chosen;
-        for (std::uint32_t leg = 0; leg < 2; ++leg) {
-            REQUIRE(leg_bytes(stage.poses, leg, n) == leg_bytes(is_chosen ? probed.poses : came, leg, n));
-            if (is_chosen) REQUIRE(results(stage.crowd, leg, n) == results(probed.crowd, leg, n));
-        }
-    }
-}
-
-TEST_CASE("a sample function that stores nothing leaves what was written")
-{
-    Stage stage, plain;
-    stage.play(0, 20), plain.play(0, 20);
-    stage.go_to(20), plain.go_to(20);
-    stage.walkers.ask_and_solve(stage.crowd, stage.poses, [](const swivel_probes*, void*) {});
-    plain.step();
-    CHECK(stage.poses.bytes == plain.poses.bytes);
-    CHECK(swivel_digest(stage.crowd.get()) == swivel_digest(plain.crowd.get()));
-}
-
-TEST_CASE("ground that a sample function gives replaces ground that was bad")
-{
-    Stage stage, good;
-    stage.play(0, 20), good.play(0, 20);
-    stage.go_to(20), good.go_to(20);
-    spoil(stage, SWIVEL_GROUND_NORMAL, Float3{kNan, kNan, kNan});
-    spoil(stage, SWIVEL_GROUND, Float3{kInf, 0, 0});
-    stage.walkers.ask_and_solve(stage.crowd, stage.poses);
-    good.walkers.ask_and_solve(good.crowd, good.poses);
-    for (std::uint32_t leg = 0; leg < 2; ++leg)
-        for (std::uint32_t n = 0; n < kWalkers; ++n) {
-            INFO("leg " << leg << ", body " << n);
-            REQUIRE((flags_of(stage.crowd, leg, n) & SWIVEL_BAD_INPUT) == 0);
-            // The height at which it was asked is not that of the ground before.
-            if (n == kBad && leg == 1) continue;
-            if (n != kBad) REQUIRE(results(stage.crowd, leg, n) == results(good.crowd, leg, n));
-        }
-    const Vector3d a = vec(value_of<Float3>(stage.crowd, SWIVEL_PROBE, 1, kBad)),
-                   b = vec(value_of<Float3>(good.crowd, SWIVEL_PROBE, 1, kBad));
-    CHECK((a - b).norm() <= 1e-6);
+    for (const auto& counts : asked.counts)
+        for (std::uint32_t n = 0; n < kMany; ++n) REQUIRE(counts[n] == is_chosen(n));
 }
 
 TEST_CASE("a sample function runs in its thread's floating-point environment, which changes no bit")
@@ -510,23 +313,6 @@ TEST_CASE("time 0 changes no bit of what feet on ground carry")
     }
 }
 
-TEST_CASE("what feet on ground carry can be saved and played again, and begun anew")
-{
-    Stage stage, other;
-    stage.play(0, 45);
-    for (std::uint32_t g = 0; g < 3; ++g)
-        for (const swivel_field field : {SWIVEL_PLANT, SWIVEL_LIFT, SWIVEL_SHIFT}) {
-            const std::size_t count = swivel_field_row_count(stage.crowd.get(), g, field);
-            if (count == 0) continue;
-            std::vector<float> values(kWalkers * count);
-            check(swivel_read(stage.crowd.get(), field, g, 0, kWalkers, {values.data(), 4 * count}));
-            check(swivel_write(other.crowd.get(), field, g, 0, kWalkers, {values.data(), 4 * count}));
-        }
-    stage.play(45, 80), other.play(45, 80);
-    REQUIRE(stage.poses.bytes == other.poses.bytes);
-    REQUIRE(swivel_digest(stage.crowd.get()) == swivel_digest(other.crowd.get()));
-}
-
 TEST_CASE("a walker that is reset, or was not solved for longer than `longest`, is on its ground at once")
 {
     Stage stage(kWalkers, SWIVEL_KEEP_POSE, 0.5f), fresh(kWalkers, SWIVEL_KEEP_POSE, 0.5f);
@@ -551,21 +337,6 @@ TEST_CASE("a walker that is reset, or was not solved for longer than `longest`, 
                 other_count += !is_anew;
         }
     REQUIRE(other_count > 30);
-}
-
-TEST_CASE("every instruction set and every thread count walks the same")
-{
-    const IsaScope scope;
-    std::uint64_t digest = 0;
-    for (std::uint32_t n = 0; const char* const isa = swivel_isa_at(n); ++n) {
-        if (!swivel_isa_runs(isa)) continue;
-        check(swivel_use_isa(isa));
-        Stage stage(300);
-        stage.play(0, 40);
-        INFO(isa);
-        if (digest == 0) digest = swivel_digest(stage.crowd.get());
-        REQUIRE(swivel_digest(stage.crowd.get()) == digest);
-    }
 }
 
 TEST_CASE("constants of ground that cannot be are refused in one line")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: a crowd far from the origin is as exact as one near it. Its positions are doubles, from which an origin
-// is subtracted before they are rounded. test_frame.cpp has doubles in frames.
+// is subtracted before they are rounded. The test `interface` has doubles in frames.
 #include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"

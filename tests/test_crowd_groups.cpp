@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: crowds of several kinds of limbs are solved by jobs of any kind, on any threads, with the same bits. A
-// wrong job is refused with one line and changes nothing. The library describes its own fields, features and flags.
-// That each limb of a job has the bits that it has alone, and that no other limb changes, is the test `interface`'s.
+// The promise: a job names groups of a crowd of several kinds of limbs. A wrong job is refused with one line and
+// changes nothing. The library describes its own fields, features and flags. That each limb of a job has the bits that
+// it has alone, and that no other limb changes, is the test `interface`'s; threads are test_bits.cpp's.
+#include "tests/test_arm.h"
 #include "tests/test_crowd.h"
-#include "tests/test_limb.h"
 
 #include <fstream>
 #include <regex>
-#include <thread>
 
 using namespace swivel;
 using namespace swivel::test;
@@ -47,81 +46,7 @@ bool is_of(const swivel_field_info& field, swivel_features features)
     return (features & field.needs) == field.needs && !(features & field.excludes);
 }
 
-template <std::size_t Size>
-void put_value(Crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t n,
-               const std::array<float, Size>& value)
-{
-    if (swivel_field_row_count(crowd.get(), group, field) > 0) crowd.write(field, group, std::span(&value, 1), n);
-}
-
-// Random goals and limits for a limb; one in sixteen has bad input.
-void write_random_limb(Crowd& crowd, std::uint32_t group, std::uint32_t n, Random& random)
-{
-    const swivel_features features = swivel_group_features(crowd.get(), group);
-    Limb limb = random_limb(random, features, {static_cast<float>(random.spread(0.5, 2)), 1});
-    if (random.below(16) == 0) limb.pole[random.below(3)] = kNan;
-    write_limb(crowd, group, n, limb);
-    const auto direction = [&] {
-        const Vector3d v = random.direction();
-        return std::array{v.x(), v.y(), v.z()};
-    };
-    put_value(crowd, SWIVEL_SHOULDER_CONE, group, n, cone(direction(), random.between(0.5, 2)));
-    put_value(crowd, SWIVEL_HUMERAL_TWIST, group, n, range(-random.between(0, 2), random.between(0, 2)));
-    put_value(crowd, SWIVEL_WEIGHTS, group, n,
-              Float3{static_cast<float>(random.between(0, 1)), static_cast<float>(random.between(0, 1)), 1});
-    for (const swivel_field incoming : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
-        put_value(crowd, incoming, group, n, floats(random.rotation()));
-    put_value(crowd, SWIVEL_MOST_SWIVEL, group, n, turn(random.between(0, 1)));
-    const Vector3d clavicle = 0.3 * random.direction();
-    put_value(crowd, SWIVEL_CLAVICLE, group, n,
-              Float4{static_cast<float>(clavicle.x()), static_cast<float>(clavicle.y()),
-                     static_cast<float>(clavicle.z()), 0.5f});
-}
-
 }  // namespace
-
-TEST_CASE("a large crowd of several kinds has the same bits on threads, ours and the caller's")
-{
-    constexpr std::uint32_t kLimbs = 3000 * std::size(kKinds);
-    std::vector<swivel_group_def> groups;
-    for (const swivel_features features : kKinds) {
-        groups.push_back(group_of(3000));
-        groups.back().features = features;
-    }
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.groups = groups.data();
-    def.group_count = static_cast<std::uint32_t>(groups.size());
-    def.workspace_count = 3;
-    Crowd one(groups), several(groups), shared(def);
-    for (Crowd* crowd : {&one, &several, &shared})
-        for (std::uint32_t g = 0; g < groups.size(); ++g) {
-            Random random{g};
-            for (std::uint32_t n = 0; n < 3000; ++n) write_random_limb(*crowd, g, n, random);
-        }
-    const std::uint32_t blocks = swivel_block_count(one.get());
-    const auto compare = [&](const Given<std::uint32_t>& mask) {
-        const std::uint32_t count = one.solve({.mask = mask, .on_this_thread = true});
-        CHECK(several.solve({.mask = mask}) == count);
-        std::vector<std::thread> threads;  // of the caller; ranges end between a mask's words
-        for (std::uint32_t t = 0; t < 3; ++t)
-            threads.emplace_back([&, t] {
-                for (std::uint32_t first = 7 * t; first < blocks; first += 3 * 7)
-                    shared.solve({.blocks = swivel_blocks{first, std::min(7u, blocks - first)},
-                                  .mask = mask,
-                                  .on_this_thread = true});
-            });
-        for (std::thread& thread : threads) thread.join();
-        CHECK(several.digest() == one.digest());
-        CHECK(shared.digest() == one.digest());
-        return count;
-    };
-    std::vector<std::uint32_t> mask((blocks + 1) / 2);
-    Random random{5};
-    for (std::uint32_t& word : mask) word = random.below(3) == 0 ? 0 : random.word() & random.word();
-    compare(mask);
-    CHECK(compare(everything) == kLimbs);
-    CHECK(several.solve({.groups = {2u, 5u}}) == 6000);
-}
 
 TEST_CASE("jobs name groups; frames are given for those alone")
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: a frame through the caller's arrays gives the bits of rows, in rounds and on threads, and reads a limb
-// before it writes it. The test `interface` has frames of every field, stride and alignment, doubles among them.
+// The promise: a frame through the caller's arrays reads a limb before it writes it, and is refused where it is wrong.
+// That it gives the bits of rows is test_bits.cpp's, of every field, stride and alignment the test `interface`'s.
 #include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
@@ -12,56 +12,6 @@
 
 using namespace swivel;
 using namespace swivel::test;
-
-// Limbs that are not chosen are neither read nor written.
-TEST_CASE("frames of many rounds give the bits of rows, on threads and on this one")
-{
-    // Four groups share a round of 64 blocks, and two more have rounds of their own.
-    constexpr std::uint32_t counts[] = {5003, 40, 4999, 17, 2100, 3000}, group_count = std::size(counts);
-    std::vector<swivel_group_def> groups;
-    for (const std::uint32_t count : counts) groups.push_back(group_of(count));
-    Random random{8};
-    for (const std::uint32_t one_in : {1u, 2u, 3u, 16u, 200u}) {
-        Crowd framed = crowd_with(SWIVEL_JOINTS, groups), rows = crowd_with(SWIVEL_JOINTS, groups);
-        std::vector<std::uint32_t> mask((swivel_block_count(rows.get()) + 1) / 2);
-        std::vector<Float3> targets[group_count];
-        std::vector<Float4> shoulders[group_count];
-        std::array<Frame, group_count> own;
-        for (std::uint32_t g = 0; g < group_count; ++g) {
-            rows.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});  // what unchosen limbs have and keep
-            framed.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});
-            targets[g].assign(counts[g], Float3{kNan, 7, 7});
-            shoulders[g].assign(counts[g], Float4{7, 7, 7, 7});
-            for (std::uint32_t n = 0; n < counts[g]; ++n) {
-                if (random.below(one_in) != 0) continue;
-                const std::uint32_t limb = swivel_group_first_limb(rows.get(), g) + n;
-                mask[limb / 32] |= 1u << limb % 32;
-                targets[g][n] = floats(random.vector(0.2, 2.2));
-                rows.write(SWIVEL_TARGET, g, std::span(&targets[g][n], 1), n);
-            }
-            own[g].in(SWIVEL_TARGET, {targets[g].data(), sizeof(Float3)});
-            own[g].out(SWIVEL_SHOULDER, {shoulders[g].data(), sizeof(Float4)});
-        }
-        const std::vector<swivel_frame> frames(own.begin(), own.end());
-        rows.solve({.mask = mask});
-        const std::uint32_t blocks = swivel_block_count(rows.get()), part = 1 + random.below(blocks);
-        for (const bool second : {false, true})
-            framed.solve({.blocks = second ? swivel_blocks{part, blocks - part} : swivel_blocks{0, part},
-                          .mask = mask,
-                          .frames = frames,
-                          .on_this_thread = second == (one_in % 2 == 0)});
-        INFO("one in " << one_in << ", cut at block " << part);
-        CHECK((all_words(framed) == all_words(rows)));
-        for (std::uint32_t g = 0; g < group_count; ++g) {
-            const std::vector<Float4> wanted = read<Float4>(rows, SWIVEL_SHOULDER, g);
-            for (std::uint32_t n = 0; n < counts[g]; ++n) {
-                const std::uint32_t limb = swivel_group_first_limb(rows.get(), g) + n;
-                const bool chosen = mask[limb / 32] >> limb % 32 & 1;
-                REQUIRE(shoulders[g][n] == (chosen ? wanted[n] : Float4{7, 7, 7, 7}));
-            }
-        }
-    }
-}
 
 TEST_CASE("bad input keeps the pose in a frame that is read and written in place")
 {
