@@ -78,9 +78,11 @@ TEST_CASE("a weight of 1 changes no bit; one of 0 keeps the pose's bits, and wha
         RC_ASSERT(all_words(all.crowd) == all_words(without.crowd));
         RC_ASSERT(all.poses.bytes == without.poses.bytes);
         RC_ASSERT(none.poses.bytes == PoseBuffer(of.layout, of.bodies).bytes);
-        for (const std::uint32_t group : of.looks)
-            RC_ASSERT(read<std::array<float, 25>>(none.crowd, SWIVEL_LOOK_TURNS, group) ==
-                      read<std::array<float, 25>>(all.crowd, SWIVEL_LOOK_TURNS, group));
+        for (const std::uint32_t group : of.looks) {
+            using Turns = std::array<float, 25>;
+            RC_ASSERT((read<Turns>(none.crowd, SWIVEL_LOOK_TURNS, group) ==
+                       read<Turns>(all.crowd, SWIVEL_LOOK_TURNS, group)));
+        }
     });
 }
 

@@ -2,7 +2,9 @@
 //
 // The promise: within a budget the most urgent blocks are solved, as a plain list sorted by urgency says. No block
 // waits for ever. The choice depends on priorities and history alone.
-#include "tests/test_choice.h"
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_limb.h"
 
 #include <rapidcheck/catch.h>
 #include <algorithm>
@@ -12,6 +14,35 @@ using namespace swivel;
 using namespace swivel::test;
 
 namespace {
+
+std::uint32_t mask_words(const Crowd& crowd) { return (swivel_block_count(crowd.get()) + 1) / 2; }
+std::uint32_t lane_count(const Crowd& crowd) { return swivel_block_count(crowd.get()) * SWIVEL_LANES; }
+bool is_set(const std::vector<std::uint32_t>& words, std::uint32_t limb) { return words[limb / 32] >> limb % 32 & 1; }
+void set(std::vector<std::uint32_t>& words, std::uint32_t limb) { words[limb / 32] |= 1u << limb % 32; }
+
+// One in eight out of reach or of bad input.
+void write_arms(Crowd& crowd, swivel_features features, std::uint32_t group_count, Random& random)
+{
+    for (std::uint32_t group = 0; group < group_count; ++group)
+        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n) {
+            const auto bone = [&] { return static_cast<float>(random.spread(0.2, 5)); };
+            Limb limb = random_limb(random, features, {bone(), bone()});
+            const std::uint32_t kind = random.below(16);
+            if (kind == 0) limb.target[random.below(3)] *= 100;
+            if (kind == 1) limb.pole[random.below(3)] = kNan;
+            write_limb(crowd, group, n, limb);
+        }
+}
+
+// The lanes that are limbs.
+std::vector<std::uint32_t> all_limbs(const Crowd& crowd, std::uint32_t group_count)
+{
+    std::vector<std::uint32_t> limbs;
+    for (std::uint32_t group = 0; group < group_count; ++group)
+        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
+            limbs.push_back(swivel_group_first_limb(crowd.get(), group) + n);
+    return limbs;
+}
 
 // The contract, with a sort.
 struct Model {
