@@ -86,26 +86,6 @@ class Values(Stage):
                 self.assertEqual({key[1:] for key in part}, {(frame, who) for frame in range(5, 17) for who in range(10, 40)})
                 self.assert_table(values, part, limbs, range(5, 17), range(10, 40))
 
-    def test_a_replay_is_the_table_of_solve(self):
-        """Byte by byte where a cache is one column, but for the clavicle, which only solve has."""
-        clip = short_clip(self.folder / "clip.bvh", 20)
-        without_clavicle = LIMITED.replace("[limb.arms.clavicle]\nshare = 0.2\n", "")
-        no_twist = without_clavicle.replace("twist_bones = 2", "")
-        uneven = no_twist.replace("[limb.arms.reach]", "[limb.left_arm]\ntwist_bones = 3\n[limb.arms.reach]")
-        handless = no_twist.replace("hand = true", "hand = false")
-        for name, toml, chunk in (("limited", without_clavicle, "8,64"), ("uneven", uneven, "8,64"), ("handless", handless, "3,64"),
-                                  ("clavicle", LIMITED, "8,64"), ("plain", "", "20,64")):
-            with self.subTest(crowd=name):
-                cache = self.fill(self.store(name, clip=clip, toml=toml, characters=45, frames=20, chunk=chunk))
-                crowd = ("--crowd", "crowd.toml") if toml else ()
-                self.swivel("solve", clip, "--characters", 45, *crowd, "--out", "solved.csv", "--quiet")
-                self.swivel("replay", cache, "--out", "replayed.csv", "--quiet")
-                wanted, found = ((self.folder / file).read_text().splitlines() for file in ("solved.csv", "replayed.csv"))
-                self.assertEqual((name != "plain", name not in ("plain", "handless")), ("stretch" in found[0], "twist1_x" in found[0]))
-                if name == "clavicle":
-                    wanted = [",".join(line.split(",")[:22] + line.split(",")[26:]) for line in wanted]
-                self.assertEqual(found, wanted)
-
     def test_digests_are_those_that_the_page_describes(self):
         """Of goals, state and attributes, by xxHash. `swivel check` proves those of results."""
         self.swivel("solve", CLIP, "--limbs", "all", "--export-targets", "targets.csv", "--quiet")

@@ -124,7 +124,7 @@ class Maker:
         path = self.choose.choice(named)
         makes = {".glb": (self.of_json, self.of_json, self.of_floats, self.bytes_), ".png": (self.of_png, self.of_png, self.bytes_)}
         for _ in range(self.choose.randint(1, 3)):
-            make = self.choose.choice(makes.get(path.suffix, (self.numbers, self.numbers, self.numbers, self.lines, self.bytes_)))
+            make = self.choose.choice(makes.get(path.suffix, (self.numbers, self.numbers, self.numbers, self.bytes_)))
             make(path)
             self.said.append(f"{make.__name__} {path.name}")
 
@@ -153,18 +153,6 @@ class Maker:
         if self.choose.random() < 0.2:
             parts[self.choose.randrange(1, len(parts), 2)] = self.choose.choice(NUMBERS + (parts[self.choose.randrange(1, len(parts), 2)],))
         path.write_text("".join(parts))
-
-    def lines(self, path):
-        lines = path.read_text(errors="replace").splitlines(keepends=True) or ["\n"]
-        at, to = self.choose.randrange(len(lines)), self.choose.randrange(len(lines))
-        change = self.choose.choice(("less", "twice", "swap", "end"))
-        if change == "twice":
-            lines[to:to] = lines[min(at, to):at + 1] or [lines[at]]
-        elif change == "swap":
-            lines[at], lines[to] = lines[to], lines[at]
-        else:
-            del lines[at:at + 1 if change == "less" else None]
-        path.write_text("".join(lines))
 
     def bytes_(self, path):
         content = bytearray(path.read_bytes()) or bytearray(b"0")

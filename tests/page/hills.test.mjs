@@ -154,10 +154,13 @@ test('dragged ground rises below the one who stands there, as far as the pointer
     const after = await seen(page), by = after[3].ground - before[3].ground, rise = after[3].root - before[3].root, at = await pixel(page, 'ground');
     assert.ok(Math.abs(at.y - (from.y - 60)) < 1.5, `the ball is at ${at.y}, the pointer at ${from.y - 60}`);
     assert.ok(by > 0.2 && rise > by / 2 && rise < by, `the ground rises by ${by}, the body by ${rise}`);  // with the ground of the lower foot, on the mound's side
-    const far = await page.evaluate(() => {  // beyond the mound and the heights beside it
-      const { mounds: [{ radius }], ground: { size, columns, rows } } = swivelPage.stage;
-      return radius + 2 * Math.max(size[0] / (columns - 1), size[2] / (rows - 1));
+    const { far, wide, legs } = await page.evaluate(() => {  // far: beyond the mound and the heights beside it. wide: of those that changed, in its radius
+      const { mounds: [{ x, z, radius }], ground: { size, middle, columns, rows, own, pointers }, memory } = swivelPage.stage;
+      const places = (axis, count) => Array.from({ length: count }, (_, n) => middle[axis] + size[axis] * (n / (count - 1) - 0.5)), [xs, zs] = [places(0, columns), places(2, rows)];
+      const ways = Array.from(memory.floats(pointers[1], own.length), (height, n) => (height === own[n] ? 0 : Math.hypot(xs[n % columns] - x, zs[Math.floor(n / columns)] - z)));
+      return { far: radius + 2 * Math.max(size[0] / (columns - 1), size[2] / (rows - 1)), wide: Math.max(...ways) / radius, legs: radius / swivelPage.stage.legLength(3) };
     });
+    assert.ok(wide > 0.5 && wide < 1 && legs >= 3, `the mound is ${wide} of its radius wide, which is ${legs} legs`);
     for (const [n, { above, at: [x, z], length }] of after.entries()) {
       const isFar = Math.hypot(x - before[3].at[0], z - before[3].at[1]) > far + length;
       above.forEach((foot, leg) => assert.ok(Math.abs(foot - before[n].above[leg]) <= (isFar ? 0 : 0.06), `foot ${leg} of ${n} is ${foot} over the ground, ${before[n].above[leg]} before`));

@@ -1,21 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Arms for the tests, and quaternions: NumPy in double, sharing nothing with the library."""
+"""Arms for the tests, and quaternions."""
 import numpy as np
-
-
-def times(a, b):
-    """Hamilton's product of quaternions x, y, z, w: b first, then a."""
-    a, b = np.asarray(a, float), np.asarray(b, float)
-    av, aw, bv, bw = a[..., :3], a[..., 3:], b[..., :3], b[..., 3:]
-    return np.concatenate([aw * bv + bw * av + np.cross(av, bv), aw * bw - np.sum(av * bv, axis=-1, keepdims=True)], axis=-1)
-
-
-def rotate(q, v):
-    """v turned by the quaternions q."""
-    q, v = np.asarray(q, float), np.asarray(v, float)
-    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
-    u, w = q[..., :3], q[..., 3:]
-    return v + 2 * np.cross(u, np.cross(u, v) + w * v)
 
 
 def quaternions(random, n):

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""A small skeleton for the tests, random poses of it, and their forward kinematics: NumPy in double."""
+"""A small skeleton for the tests, and random poses of it."""
 import numpy as np
 
 import swivel
-from arms import quaternions, rotate, times
+from arms import quaternions
+from swivel import Feature, Field, Pose
 
 FOOT, SHIN, THIGH, HAND, FOREARM, ROLL, UPPER_ARM, PELVIS = range(8)
 PARENTS = [SHIN, THIGH, PELVIS, FOREARM, ROLL, UPPER_ARM, PELVIS, -1]
@@ -14,21 +15,8 @@ LIMBS = [(UPPER_ARM, FOREARM, HAND), (THIGH, SHIN, FOOT)]
 def crowd_of(n, features=0):
     """An arm and a leg of n bodies, and their shift if they fit."""
     groups = [swivel.BodyGroup(*limb, bend=(0, 0, side)) for limb, side in zip(LIMBS, (1, -1))]
-    shifts = [swivel.FitGroup()] * bool(features & swivel.Feature.WITH_FIT)
+    shifts = [swivel.FitGroup()] * bool(features & Feature.WITH_FIT)
     return swivel.Crowd([*groups, *shifts], features, skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=n)
-
-
-def forward(rotations, places, scales, root, root_rotation, root_scale):
-    """Places (n, joints, 3) and rotations (n, joints, 4) of all joints in the world. Parents come after their children."""
-    n, joints = len(rotations), len(PARENTS)
-    at, turned, sized = np.zeros((n, joints + 1, 3)), np.zeros((n, joints + 1, 4)), np.zeros((n, joints + 1, 1))
-    at[:, -1], turned[:, -1], sized[:, -1, 0] = root, root_rotation, root_scale  # where a parent -1 is
-    for joint in reversed(range(joints)):
-        parent = PARENTS[joint]
-        at[:, joint] = at[:, parent] + sized[:, parent] * rotate(turned[:, parent], places[:, joint])
-        turned[:, joint] = times(turned[:, parent], rotations[:, joint])
-        sized[:, joint] = sized[:, parent] * scales[:, joint, :1]
-    return at[:, :-1], turned[:, :-1] / np.linalg.norm(turned[:, :-1], axis=-1, keepdims=True)
 
 
 class Bodies:
@@ -47,7 +35,15 @@ class Bodies:
         self.places, self.turned = self.at(self.other)
 
     def at(self, rotations):
-        return forward(rotations, self.translations, self.scales, self.root_position, self.root_rotation, self.root_scale)
+        """Places of all joints in the world, and rotations from the root, as the library has them while no limb is moved."""
+        n = len(rotations)
+        crowd, places, turned = crowd_of(n, Feature.POLE_INCOMING), np.zeros((n, 8, 3), np.float32), np.zeros((n, 8, 4), np.float32)
+        for group in range(len(LIMBS)):
+            crowd.write(Field.TARGET, (0, 0, 0), group)
+        crowd.solve(pose=Pose(rotations.copy(), joint_places=places, joint_rotations=turned, weight=0.0, **self.members()))
+        axis, cosine = self.root_rotation[:, None, :3], self.root_rotation[:, None, 3:]
+        in_world = places + 2 * np.cross(axis, np.cross(axis, places) + cosine * places)
+        return self.root_position[:, None] + self.root_scale[:, None, None] * in_world, turned
 
     def members(self):
         return {name: getattr(self, name) for name in ("translations", "scales", *self.roots())}

@@ -11,11 +11,6 @@ export const wasm = readFileSync(new URL('./node_modules/swivel-wasm/swivel.wasm
 export const refuses = (act, text) =>
   assert.throws(act, (error) => error instanceof SwivelError && error.message.includes(text) && !error.message.includes('\n') || assert.fail(error));
 
-// ---- quaternions x, y, z, w; a*b applies b first
-export const times = ([a, b, c, d], [e, f, g, h]) =>
-  [d * e + a * h + b * g - c * f, d * f - a * g + b * h + c * e, d * g + a * f - b * e + c * h, d * h - a * e - b * f - c * g];
-export const turned = (q, v) => times(times(q, [...v, 0]), [-q[0], -q[1], -q[2], q[3]]).slice(0, 3);
-export const plus = (a, b) => a.map((x, n) => x + b[n]);
 export const close = (a, b, within) => a.forEach((x, n) => assert.ok(Math.abs(x - b[n]) <= within, `${a} is not ${b}`));
 export const unit = (q) => q.map((x) => x / Math.hypot(...q));
 
