@@ -230,6 +230,8 @@ TEST_CASE("a limit of flexion that stretching makes up for is not said; an arm o
     CHECK(limb.solve().flags == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION));
     limb.write(SWIVEL_REACH, Float4{0, 0, 3, 0});
     CHECK(limb.solve().flags == (SWIVEL_REACHED | SWIVEL_STRETCHED));
+    FreeLimb straight({{0, 0, 10}, {0, -1, 0}, 1, 1}, SWIVEL_WITH_FLEXION_LIMIT);  // at rest, which allows that
+    CHECK(straight.solve().flags == SWIVEL_CLAMPED_FAR);
     FreeLimb nothing({{0, 0, 10}, {0, -1, 0}, 0, 0}, SWIVEL_WITH_REACH);
     nothing.write(SWIVEL_REACH, Float4{0, 0, 100, 0});
     CHECK(nothing.solve().flags == SWIVEL_CLAMPED_FAR);
