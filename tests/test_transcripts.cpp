@@ -88,9 +88,9 @@ Lines played(const fs::path& folder, const std::string& command)
 {
     const auto before = contents(folder);
     const std::string bin = fs::path(SWIVEL_COMMAND).parent_path();
-    const Outcome outcome =
-        run_program(folder, {"/bin/sh", "-c", command},
-                    {.environment = {"PATH=" + bin + ":" + std::getenv("PATH"), "SOURCE=" SWIVEL_SOURCE_DIR}});
+    const Outcome outcome = run_program(
+        folder, {"/bin/sh", "-c", command},
+        {.environment = {"PATH=" + bin + ":" + std::getenv("PATH"), "SOURCE=" SWIVEL_SOURCE_DIR, "LC_ALL=C"}});
     const std::string code = outcome.exit_code == 0 ? "" : "[" + std::to_string(outcome.exit_code) + "]";
     Lines seen = lines_of(outcome.out), errors = lines_of(outcome.err);
     if (!code.empty() && errors.size() == 1)
