@@ -44,7 +44,8 @@ enum class Use : std::uint32_t { value = 0, spoil = 1 };
 // frame: 0, except for values that are new in each frame.
 inline Random stream(std::uint64_t seed, std::uint32_t group, Field field, Use use, std::uint32_t frame)
 {
-    const auto number = static_cast<std::uint64_t>(std::ranges::find(kDrawn, field) - std::begin(kDrawn)) + 1;
+    const auto number =
+        static_cast<std::uint64_t>(std::find(std::begin(kDrawn), std::end(kDrawn), field) - std::begin(kDrawn)) + 1;
     Random key{(std::uint64_t{frame} << 32) | (static_cast<std::uint64_t>(use) << 24) | (std::uint64_t{group} << 8) |
                number};
     return {Random{seed ^ key.bits()}.bits()};
