@@ -30,7 +30,7 @@ Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const
 // Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad. An elbow misses its
 // place by at most this number times the limb's length. All other places, and folded elbows: 1e-5 of that length. For
 // an elbow bent by less than 0.02 rad it is 2e-3. The elbow's height over the line from shoulder to wrist is then the
-// root of a float's error in the reach; see tests/test_clip_back.cpp.
+// root of a float's error in the reach; see tests/command/test_clip_back.cpp.
 void require_closed(const Closure& worst);
 
 }  // namespace swivel::test

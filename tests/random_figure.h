@@ -67,7 +67,7 @@ struct FigureNames {
     const char *left, *right;
 };
 
-// As some exporters spell them; tests/test_limb_joints.cpp has all.
+// As some exporters spell them; tests/command/test_limb_joints.cpp has all.
 const std::vector<FigureNames>& figure_names();
 
 // A figure of four limbs with any joint axes, scales and mirrors, with or without joints in between that twist. Limbs

@@ -185,7 +185,7 @@ std::vector<Row> front_rows()
     };
 }
 
-std::vector<Row> name_rows()  // of other names: tests/test_limb_joints.cpp
+std::vector<Row> name_rows()  // of other names: tests/command/test_limb_joints.cpp
 {
     return {
         {"a figure's name before all",

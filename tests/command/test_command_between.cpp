@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A table with rows of some frames: what its limbs are asked for between them, and what the report says of limbs that
-// were given targets. tests/test_command_targets.cpp has what becomes of what is asked.
+// were given targets. tests/command/test_command_targets.cpp has what becomes of what is asked.
 #include <fmt/format.h>
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Heads, necks, toes and fingers are found by the names that rigging tools give joints, each as its files spell them.
-// Names of limbs alone: tests/test_limb_joints.cpp.
+// Names of limbs alone: tests/command/test_limb_joints.cpp.
 #include <catch2/catch.hpp>
 
 #include <map>

@@ -173,7 +173,7 @@ TEST_CASE("rigs: any figure gives its clip back")
     require_no_new_messages(files);
 }
 
-// What is scaled unevenly by more is refused: tests/test_rig_table.cpp.
+// What is scaled unevenly by more is refused: tests/command/test_rig_table.cpp.
 TEST_CASE("rigs: what is scaled unevenly by little is off by no more than the report says")
 {
     const TempFolder folder;
