@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // New rotations, positions and frames written into BVH files: accuracy, and continuity of keys. That all other text of
-// real files stays is for tests/command/test_clip_back.cpp, and whole motions are for tests/command/test_retarget_clips.cpp. Written
-// angles are checked by rotation matrices from the bare text as well as by reading the file again.
+// real files stays is for tests/command/test_clip_back.cpp, and whole motions are for
+// tests/command/test_retarget_clips.cpp. Written angles are checked by rotation matrices from the bare text as well as
+// by reading the file again.
 
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>

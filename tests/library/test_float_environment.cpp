@@ -344,7 +344,8 @@ TEST_CASE("every function of swivel.h is called here, or computes nothing")
         std::ifstream file(std::string(SWIVEL_SOURCE_DIR "/") + name);
         return std::string{std::istreambuf_iterator<char>(file), {}};
     };
-    const std::string header = text_of("include/swivel/swivel.h"), here = text_of("tests/library/test_float_environment.cpp");
+    const std::string header = text_of("include/swivel/swivel.h"),
+                      here = text_of("tests/library/test_float_environment.cpp");
     const std::regex declaration(R"(\nSWIVEL_API [^(;]*?\b(swivel_\w+)\()");
     int declared = 0;
     for (std::sregex_iterator it(header.begin(), header.end(), declaration), end; it != end; ++it, ++declared) {
