@@ -84,6 +84,28 @@ class Readme(unittest.TestCase):
             for link in re.findall(r"\]\(([^)#:]+)", page.read_text(encoding="utf-8")):
                 self.assertTrue((page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}")
 
+    def test_the_tests_that_prove_a_promise_exist(self):
+        tests = ROOT / "tests"
+        rules = "".join(file.read_text(encoding="utf-8") for file in tests.rglob("CMakeLists.txt") if "node_modules" not in file.parts)
+        names = {file.stem.removeprefix("test_") for file in tests.glob("**/test_*.cpp")} | {file.stem for file in tests.glob("*.cmake")}
+        names |= {f"{file.parent.name}_{file.stem.removeprefix('test_')}" for file in tests.glob("*/test_*.py")}
+        names |= set(re.findall(r"\bNAME (\w+)", rules))
+        names |= {f"{platform}_digest" for platform in re.findall(r"swivel_platform\((\w+)", rules)}
+        count = 0
+        for page in (DOCS / "features.md", DOCS / "determinism.md", ROOT / "SECURITY.md"):
+            column = None
+            for line in page.read_text(encoding="utf-8").splitlines():
+                cells = [cell.strip() for cell in line.split("|")]
+                if not line.startswith("|"):
+                    column = None
+                elif column is None:
+                    column = next((n for n, cell in enumerate(cells) if cell in ("test", "proved by")), 0)
+                elif column and cells[column].strip("-"):
+                    for name in re.findall(r"`(\w+)`", cells[column]):
+                        count += 1
+                        self.assertIn(name, names, f"{page.name}: {cells[1]}")
+        self.assertGreater(count, 100)
+
     def test_security_has_what_it_names(self):
         self.assertIn("](SECURITY.md)", self.text)
         text = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
