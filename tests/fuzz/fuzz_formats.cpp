@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <tuple>
+#include <variant>
 
 #include "tests/fuzz/check_clip.h"
 #include "tests/fuzz/gltf_of_bytes.h"
@@ -70,12 +71,23 @@ void check_bvh(std::string_view text, const ScratchFolder& folder)
     check_writing(*file, folder.path / "out.bvh");
 }
 
+void check_limit(const NumberRange& range) { SWIVEL_REQUIRE(range.least <= range.most); }
+void check_limit(const ConeLimit& cone) { SWIVEL_REQUIRE(std::abs(cone.axis.norm() - 1) < 1e-12); }
+void check_limit(const TwistLimit& twist)
+{
+    SWIVEL_REQUIRE(std::abs(twist.axis.norm() - 1) < 1e-12);
+    check_limit(twist.range_deg);
+}
+void check_limit(const BoxLimit& box)
+{
+    for (const NumberRange& range : box.about_deg) check_limit(range);
+}
+
 // The values that take several checks each, in one limb's settings.
 void check_settings(const LimbSettings& s)
 {
     SWIVEL_REQUIRE(!s.joints || s.joints->value.size() == 3);
     SWIVEL_REQUIRE(!s.bend || std::abs(s.bend->value.norm() - 1) < 1e-12);
-    SWIVEL_REQUIRE(!s.shoulder_cone || std::abs(s.shoulder_cone->value.axis.norm() - 1) < 1e-12);
     if (s.region) {
         const RegionLimit& region = s.region->value;
         for (const std::vector<ConeLimit>* cones : {&region.cones, &region.forbidden})
@@ -85,9 +97,10 @@ void check_settings(const LimbSettings& s)
         SWIVEL_REQUIRE(!region.cones.empty() || !region.polygons.empty() || region.clip_margin_deg > 0);
     }
     SWIVEL_REQUIRE(!s.effector || s.effector->value.allFinite());
-    SWIVEL_REQUIRE(!s.flexion_deg || s.flexion_deg->value.least <= s.flexion_deg->value.most);
-    SWIVEL_REQUIRE(!s.pole_weight || (s.pole_weight->value >= 0 && s.pole_weight->value <= 1));
-    SWIVEL_REQUIRE(!(s.most_swivel_deg_per_frame && s.most_swivel_deg_per_second));
+    for (const Maybe<Limit>& limit : s.limits)
+        if (limit) std::visit([](const auto& value) { check_limit(value); }, limit->value);
+    for (const Maybe<double>& weight : s.weights) SWIVEL_REQUIRE(!weight || (weight->value >= 0 && weight->value <= 1));
+    SWIVEL_REQUIRE(!(s.step_deg_per_frame && s.step_deg_per_second));
 }
 
 void check_crowd_file(const CrowdFile& file, std::size_t line_count)

@@ -11,7 +11,7 @@
 // - Without keys the clip is one frame. Writing to a file without an animation adds one of one key.
 // No mesh or image is read; of animations only nodes' own poses. All else is kept.
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -37,6 +37,10 @@ struct GltfSampler {
     std::vector<double> time;            // seconds, strictly increasing, at least one
     std::vector<Eigen::Vector4d> value;  // one per key, or with cubic three: in-tangent, value, out-tangent
 };
+
+// The sampler's rotation at a time, values being x, y, z, w: a unit quaternion; zero where a spline passes through
+// zero.
+Eigen::Quaterniond sample_rotation(const GltfSampler& sampler, double time);
 
 // Whether its value is not the same at all times: keys differ, or tangents between them lead away and back.
 bool is_moving(const GltfSampler& sampler);

@@ -60,16 +60,6 @@ Eigen::Vector3d sample_vector(const GltfSampler& sampler, double time)
     return ((1 - at.share) * from + at.share * to).head<3>();
 }
 
-// The sampler's rotation, values being x, y, z, w: a unit quaternion; zero where a spline passes through zero.
-Eigen::Quaterniond sample_rotation(const GltfSampler& sampler, double time)
-{
-    const Span at = span_at(sampler, time);
-    const Quaterniond from = Quaterniond(key(sampler, at.from)).normalized();
-    if (at.share == 0 || sampler.interpolation == Interpolation::step) return from;
-    if (sampler.interpolation == Interpolation::cubic) return Quaterniond(spline(sampler, at)).normalized();
-    return from.slerp(at.share, Quaterniond(key(sampler, at.to)).normalized()).normalized();
-}
-
 constexpr double kRestFrameTime = 1.0 / 30;
 constexpr double kSlack = 0.01;  // of a step: times are floats, which late in a long clip are that coarse
 
@@ -218,6 +208,15 @@ void require_solvable(const GltfFile& file, const std::vector<bool>& is_needed)
 }
 
 }  // namespace
+
+Eigen::Quaterniond sample_rotation(const GltfSampler& sampler, double time)
+{
+    const Span at = span_at(sampler, time);
+    const Quaterniond from = Quaterniond(key(sampler, at.from)).normalized();
+    if (at.share == 0 || sampler.interpolation == Interpolation::step) return from;
+    if (sampler.interpolation == Interpolation::cubic) return Quaterniond(spline(sampler, at)).normalized();
+    return from.slerp(at.share, Quaterniond(key(sampler, at.to)).normalized()).normalized();
+}
 
 bool is_moving(const GltfSampler& sampler)
 {
