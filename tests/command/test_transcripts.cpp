@@ -2,7 +2,7 @@
 //
 // Plays tests/transcripts/*.txt: what a user types, and what they see. A line for sh stands after `$ `, and goes on
 // after `> `. Below it stands what must come: the lines of standard output, those of standard error after `2> `, and
-// after `+ ` each file or folder that is new or another. A command that fails ends with its exit code in brackets, and
+// after `+ ` each file or folder that is new or another, after `- ` each that is gone. A command that fails ends with its exit code in brackets, and
 // with its one line of standard error. `...` is any text of a line, and on a line of its own any lines. Blank lines are
 // not compared. Comments begin with `# `.
 //
@@ -99,14 +99,17 @@ Lines played(const fs::path& folder, const std::string& command)
         for (const std::string& line : errors) seen.push_back("2> " + line);
         if (!code.empty()) seen.push_back(code);
     }
-    std::set<std::string> changed;  // files, and folders in which something is new or another
-    for (const auto& [name, bytes] : contents(folder))
-        if (!before.contains(name) || before.at(name) != bytes) changed.insert(name.substr(0, name.find('/')));
+    const auto after = contents(folder);
+    std::set<std::string> changed;  // files and folders: + in which something is new or another, - which are gone
+    for (const auto& [name, bytes] : after)
+        if (!before.contains(name) || before.at(name) != bytes) changed.insert("+ " + name.substr(0, name.find('/')));
+    for (const auto& [name, bytes] : before)
+        if (!after.contains(name)) changed.insert("- " + name.substr(0, name.find('/')));
     if (command.find("swivel ") != std::string::npos)
         for (std::string name : changed) {
             std::ranges::replace_if(
                 name, [](char c) { return c < ' '; }, '?');  // ends of lines, and bytes that are no ASCII
-            seen.push_back("+ " + name);
+            seen.push_back(name);
         }
     std::erase(seen, "");
     return seen;

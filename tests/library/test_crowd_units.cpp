@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: an axis or a pair of cosine and sine whose squared length is not 1 within 1e-6 is bad input.
-// What swivel_cone(), swivel_range(), swivel_aim() and swivel_turn() make is always valid.
+// The promise: an axis or a pair of cosine and sine whose squared length is not 1 within 1e-6 is bad input, and
+// explain says how long it is. What swivel_cone(), swivel_range(), swivel_aim() and swivel_turn() make is always valid.
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;
@@ -196,4 +196,30 @@ TEST_CASE("limits hold to 3e-6 of a cosine with axes and pairs as far from unit 
     CHECK(worst <= 3e-6);
     CHECK(worst > 2e-7);  // the axes' own error shows
     CHECK(limited > 1000);
+}
+
+TEST_CASE("explain says how long each axis and pair is that is not of unit length, and no other")
+{
+    Random random{3};
+    for (const UnitPart& part : every_part()) {
+        Float12 value = made_value(random, part.field);
+        double length2 = 0;
+        for (std::uint32_t c = part.first; c < part.first + part.size; ++c) {
+            value[c] *= 1.5f;
+            length2 += double{value[c]} * double{value[c]};
+        }
+        Crowd crowd = crowd_of(part.features, 1);
+        crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.3f, 0.6f});
+        REQUIRE(swivel_write(crowd.get(), part.field, 0, 0, 1, {value.data(), sizeof value}) == SWIVEL_OK);
+        crowd.solve();
+        const std::string text = crowd.explain(0, 0), is = part.size == 2 ? "its pair " : "its axis ";
+        INFO(text);
+        const std::size_t at = text.find(is);
+        REQUIRE(at != std::string::npos);
+        CHECK(text.find("its pair ", at + 1) == std::string::npos);
+        CHECK(text.find("its axis ", at + 1) == std::string::npos);
+        if (part.size == 2)
+            CHECK(std::stod(text.substr(at + 9)) == Approx(double{value[part.first]}).epsilon(1e-5).margin(1e-12));
+        CHECK(std::stod(text.substr(text.find(" is ", at) + 4)) == Approx(std::sqrt(length2)).epsilon(1e-7));
+    }
 }

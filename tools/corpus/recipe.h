@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Describes a crowd of the corpus, in words of the corpus alone. This header and interface.cpp know the library's.
+// Describes a crowd of the corpus. Its names stand for the library's here and in interface.cpp alone.
 #pragma once
 
 #include <array>
