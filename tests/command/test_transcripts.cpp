@@ -2,9 +2,9 @@
 //
 // Plays tests/transcripts/*.txt: what a user types, and what they see. A line for sh stands after `$ `, and goes on
 // after `> `. Below it stands what must come: the lines of standard output, those of standard error after `2> `, and
-// after `+ ` each file or folder that is new or another, after `- ` each that is gone. A command that fails ends with its exit code in brackets, and
-// with its one line of standard error. `...` is any text of a line, and on a line of its own any lines. Blank lines are
-// not compared. Comments begin with `# `.
+// after `+ ` each file or folder that is new or another, after `- ` each that is gone. A command that fails ends with
+// its exit code in brackets, and with its one line of standard error. `...` is any text of a line, and on a line of its
+// own any lines. Blank lines are not compared. Comments begin with `# `.
 //
 // Each transcript has a folder of its own, with clip.bvh, two arms in two frames, and jump.bvh, a whole body that lands
 // and stands. SWIVEL_RENEW=1 writes what comes now into the transcripts, and keeps lines with `...` that still match.
