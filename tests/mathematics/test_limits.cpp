@@ -77,7 +77,7 @@ void judge(Random& random, const LimitedArms& of, Tally& tally)
         tally.missed += is_clear && !allowed;
         tally.too_far += is_clear && std::fabs(swivel) > scan.nearest + 1e-5;
         // Outside of a box there is no one way to measure how far.
-        if (!allowed && !(of.features & kBoxes)) tally.not_least += room < scan.most - 1.5e-6;
+        if (!allowed && !(of.features & kBoxes)) tally.not_least += room < scan.most - 1e-6;
     }
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("the last joint brings the line of sight to its target")
             const auto rounded = [](const Vector3d& v) { return Vector3d(v.cast<float>().cast<double>()); };
             const Vector3d at = rounded(place), is = at + q * (rounded(eye) - at), to = rounded(target) - is;
             RC_ASSERT(!turn.held);
-            RC_ASSERT(angle_from_to(q * rounded(axis), to) <= 3e-6 + 2e-7 * place.norm() / to.norm());
+            RC_ASSERT(angle_from_to(q * rounded(axis), to) <= 2e-6 + 2e-7 * place.norm() / to.norm());
         }
     });
 }
