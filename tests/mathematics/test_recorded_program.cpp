@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The proof (docs/proof.md) is about a list of operations, tests/proof/Program.v. This is the test that solve_plain
+// The proof (docs/proof.md) is about a list of operations, proof/Program.v. This is the test that solve_plain
 // does these operations and no others: it runs the library's own templates on numbers that write down what is done to
 // them.
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 std::string list_of_the_proof()
 {
-    std::ifstream file(SWIVEL_SOURCE_DIR "/tests/proof/Program.v");
+    std::ifstream file(SWIVEL_SOURCE_DIR "/proof/Program.v");
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
