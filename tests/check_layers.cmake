@@ -97,30 +97,32 @@ may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"
 may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"|${public}")
 must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/arm[.]h$" "formulas know no crowd; arm.h knows the bits of flags")
 
-# ---- simd: the files of kernels and their headers see formulas and lanes; the rest sees neither
+# ---- simd: lanes and rows are on the ground; stages of limbs, stages of bodies and the files of kernels stand above them in this order
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|slice|strip_rows)[.]h\"")
-may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(body|choose|store)_stages[.]h\"")
-may_include(simd "simd/body_(kernels[.]cpp|motion[.]h|values[.]h)$" "${standard}|\"core/(fit|(joint|matrix)_frame)[.]h\"|\"simd/(body_motion|body_values|component_rows|kernels|lanes|values)[.]h\"")
-may_include(simd "simd/([a-z]+_stages|sent_rows)[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|fit|goal|hold|joint|limit|look|plant)_stages|sent_rows|strip)[.]h\"")
-may_include(simd "simd/strip[.]h$" "${standard}|\"simd/(slice|stages|strip_rows)[.]h\"")
 may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"core/(look|plant)_rules[.]h\"|\"simd/(fields|rows)[.]h\"")
 may_include(simd "simd/values[.]h$" "${standard}|\"simd/lanes[.]h\"")
 may_include(simd "simd/component_rows[.]h$" "\"core/conformal[.]h\"|\"simd/(fields|lanes)[.]h\"")
-may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
 may_include(simd "simd/slice[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(component_rows|kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/pack[.]h\"|\"simd/(component_rows|kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/fields[.]h$" "${standard}|${public}")
 may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$" "${standard}|\"simd/(body_rows|dispatch|fields|kernels|stages)[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
 may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"simd/fields[.]h\"")
+may_include(simd/limbs "" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/(slice|stages|strip_rows)[.]h\"|\"simd/limbs/[a-z_]+[.]h\"")
+may_include(simd/bodies "" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/(component_rows|kernels|lanes|values)[.]h\"|\"simd/(limbs|bodies)/[a-z_]+[.]h\"")
+may_include(simd/kernels "(arm_kernels[.]cpp|aside[.]h)$" "${standard}|\"core/(isa|solve_arm)[.]h\"|\"simd/(kernels|pack|rows|slice|strip_rows)[.]h\"|\"simd/kernels/aside[.]h\"")
+may_include(simd/kernels "limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(limbs|bodies)/[a-z]+_stages[.]h\"")
+may_include(simd/kernels "body_kernels[.]cpp$" "${standard}|\"core/(fit|(joint|matrix)_frame)[.]h\"|\"simd/bodies/body_[a-z]+[.]h\"")
 
-# ---- batch: never lanes; the files of one line below know core, and the others do not
-set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"")
-may_include(batch "batch/(api|api_explain|api_pose|api_solve|bodies|pose|share|sized|crowd|describe|digest|explain_text|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
-may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/(api_plant|rig|skeleton|body_(check|joints|plan)|angles|budget|check|compare(d_limb)?|explain(_limits|_plant|_probe)?|forward|joint_angles|one_limb|pack|posed_body|region(_cones|_directions)?)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
-may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
+# ---- batch: never lanes. A room sees the rooms that stand before it here.
+set(rooms "refusal")
+foreach(room refusal region crowd solve api query explain)
+  string(APPEND rooms "|${room}")
+  may_include(batch/${room} "" "${standard}|${public}|\"batch/(${rooms})/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
+endforeach()
+foreach(room refusal api)
+  must_not_say(batch/${room} "#[ \t]*include[ \t]*\"core/[^\n]*" ${nowhere} "this room knows no formula")
+endforeach()
 
 # ---- lecture: formulas in double and the oracle; it needs no crowd
 may_include(lecture "" "${standard}|\"include/swivel/lecture[.]h\"|\"core/[a-z_]+[.]h\"|\"simd/float_env[.]h\"")
@@ -163,9 +165,9 @@ endforeach()
 foreach(folder core simd batch include)
   # ---- names that belong to one file
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
-  must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/schedule[.]cpp$" "oneTBB is named in batch/schedule.cpp alone")
+  must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/solve/schedule[.]cpp$" "oneTBB is named in batch/solve/schedule.cpp alone")
   # ---- only + - * / sqrt, comparisons, selects and sign bits
-  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/(compare|explain(_ground|_limits|_look)?|(joint_)?angles|region(_cones|_directions)?)[.]cpp$"
+  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/((explain|region)/[a-z_]+|query/angles)[.]cpp$"
                "no trigonometry here")
   must_not_say(${folder} "[^a-zA-Z_](exp|exp2|log|log2|log10|pow|cbrt)f?[ \t]*[(]" ${nowhere} "not correctly rounded everywhere")
   must_not_say(${folder} "[^a-zA-Z]_*(builtin_)?(fma|fmaf|fms|fnma|rsqrt|reciprocal|mm[0-9]*_rcp[a-z0-9_]*|mm[0-9]*_rsqrt[a-z0-9_]*)[ \t]*[(]"

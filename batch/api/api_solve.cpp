@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+//
+// The C entry points that solve limbs and choose them. A job is checked (job_check.cpp), becomes Work, and is solved.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+
+#include "batch/api/check.h"
+#include "batch/api/job_check.h"
+#include "batch/api/use.h"
+#include "batch/api/workspace.h"
+#include "batch/crowd/lane_mask.h"
+#include "batch/refusal/sized.h"
+#include "batch/refusal/status.h"
+#include "batch/solve/budget.h"
+#include "batch/solve/pose.h"
+#include "batch/solve/solve.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+namespace {
+
+// Finds the group that a limb index is in. It keeps the last group, because lists often stay in one.
+struct Finder {
+    const swivel_crowd& crowd;
+    const Group* at = crowd.groups;
+
+    bool is_limb(std::uint32_t limb)
+    {
+        const std::uint32_t block = limb / SWIVEL_LANES;
+        if (block >= crowd.block_count) return false;
+        if (block < at->first_block || block - at->first_block >= at->block_count) {
+            const auto starts_after = [](std::uint32_t b, const Group& group) { return b < group.first_block; };
+            at = std::upper_bound(crowd.groups, crowd.groups + crowd.group_count, block, starts_after) - 1;
+        }
+        return limb - at->first_block * SWIVEL_LANES < at->limb_count;
+    }
+};
+
+void clear(std::uint32_t* words, const std::uint32_t* limbs, std::uint32_t limb_count)
+{
+    for (std::uint32_t n = 0; n < limb_count; ++n) words[limbs[n] / 32] = 0;
+}
+
+// Marks a list's limbs in the crowd's own mask; none if one of them is no limb.
+swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::uint32_t limb_count)
+{
+    Finder finder{crowd};
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        if (!finder.is_limb(limbs[n])) {
+            clear(crowd.chosen, limbs, n);
+            return fail(SWIVEL_INVALID_ARGUMENT, "entry %u of the list: %u is no limb of this crowd, %s", n, limbs[n],
+                        limbs[n] / SWIVEL_LANES < crowd.block_count ? "but padding" : "but past its end");
+        }
+        crowd.chosen[limbs[n] / 32] |= 1u << limbs[n] % 32;
+    }
+    return SWIVEL_OK;
+}
+
+// The first body that a job solves; none: all are left out.
+std::optional<std::uint32_t> first_body(const Work& work)
+{
+    if (!work.mask && work.blocks.count > 0) return work.blocks.first * SWIVEL_LANES;
+    for (std::uint32_t block = work.blocks.first; block < work.blocks.first + work.blocks.count; ++block)
+        if (const LaneMask bits = chosen_limbs(work.crowd.groups[0], block, work.mask))
+            return block * SWIVEL_LANES + static_cast<std::uint32_t>(std::countr_zero(bits));
+    return std::nullopt;
+}
+// Keeps what explanations doubt of a solve: resets of all bodies, and the time of its pose.
+void note_solve(swivel_crowd& crowd, const Work& work)
+{
+    const std::uint32_t reset = crowd.reset_limbs.exchange(0, std::memory_order_relaxed);
+    if (reset >= crowd.groups[0].limb_count)
+        crowd.solves_anew.fetch_add(1, std::memory_order_relaxed);
+    else
+        crowd.solves_anew.store(0, std::memory_order_relaxed);
+    const swivel_pose pose = full_pose(work.pose);
+    const std::optional<std::uint32_t> body = first_body(work);
+    if (!body || !pose.time.data) return crowd.doubted_time.store(kNoDoubt, std::memory_order_relaxed);
+    float time;
+    std::memcpy(&time, static_cast<const char*>(pose.time.data) + *body * pose.time.stride, sizeof time);
+    const bool is_in_place = !pose.results.data || pose.results.data == pose.rotations.data;
+    const bool is_doubted = time > 1 || (time == 0 && is_in_place);
+    crowd.doubted_time.store(is_doubted ? time : kNoDoubt, std::memory_order_relaxed);
+}
+
+std::uint32_t count_limbs(const Work& work)
+{
+    std::uint32_t limb_count = 0;
+    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t n) {
+        if (work.pose && n > 0) return;  // the same bodies
+        const std::uint32_t last = part.first + part.count - 1;
+        if (!work.mask) {
+            limb_count += (part.count - 1) * SWIVEL_LANES + limb_count_of(group, last);
+            return;
+        }
+        for (std::uint32_t block = part.first; block <= last; ++block)
+            limb_count += static_cast<std::uint32_t>(std::popcount(chosen_limbs(group, block, work.mask)));
+    });
+    return limb_count;
+}
+
+}  // namespace
+
+swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
+{
+    if (!given) {
+        const swivel_job everything = swivel_default_job();
+        return swivel_solve(crowd, &everything);
+    }
+    swivel_status status = check_size<swivel_job>("job", size_of(given));
+    if (status != SWIVEL_OK) return status;
+    swivel_job filled;
+    const swivel_job& job = whole(given, swivel_default_job, filled);
+    const Use use(crowd, job.on_this_thread ? Sharing::shared : Sharing::alone);
+    status = use.status;
+    if (status != SWIVEL_OK) return status;
+    const swivel_blocks blocks = job.blocks ? *job.blocks : swivel_blocks{0, crowd->block_count};
+    status = check_job(*crowd, job, blocks);
+    if (status != SWIVEL_OK) return status;
+    const Isa* const isa = usable_isa(status);
+    if (!isa) return status;
+    const Workspace workspace(*crowd, job.workspace);
+    status = workspace.status;
+    if (status == SWIVEL_OK && job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
+    if (status != SWIVEL_OK) return status;
+    if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
+
+    const Work work{.crowd = *crowd,
+                    .kernels = isa->kernels,
+                    .blocks = blocks,
+                    .groups = job.groups,
+                    .mask = job.limbs || job.priorities ? crowd->chosen : job.mask,
+                    .frames = job.frames,
+                    .from_memory = is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks)),
+                    .strip = workspace.strip,
+                    .pose = job.pose,
+                    .probes_only = job.probes_only != 0,
+                    .sample = job.sample,
+                    .sample_user = job.sample_user};
+    if (work.pose && !work.probes_only) note_solve(*crowd, work);
+    if (job.on_this_thread)
+        solve_here(work);
+    else
+        solve_in_chunks(work);
+    if (job.solved_count) *job.solved_count = count_limbs(work);
+    if (job.limbs) clear(crowd->chosen, job.limbs->indices, job.limbs->count);
+    if (job.priorities) std::fill_n(crowd->chosen, mask_word_count(crowd->block_count), 0u);
+    return SWIVEL_OK;
+}
+
+size_t swivel_workspace_bytes(const swivel_crowd* crowd)
+{
+    return crowd ? workspace_floats(crowd->strip_blocks, crowd->body_row_count) * sizeof(float) : 0;
+}
+
+swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,
+                            uint32_t* mask, uint32_t word_count, uint32_t* chosen_count)
+{
+    const Use use(crowd, Sharing::alone);
+    swivel_status status = use.status;
+    if (status == SWIVEL_OK) status = check_priorities(*crowd, priorities);
+    if (status == SWIVEL_OK) status = check_mask(*crowd, mask, word_count);
+    if (status != SWIVEL_OK) return status;
+    const uint32_t picked = choose(*crowd, priorities, urgency, most_blocks, mask);
+    if (chosen_count) *chosen_count = picked;
+    return SWIVEL_OK;
+}

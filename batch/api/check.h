@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// The checks of arguments that the files of entry points share. Each fails with a line, or gives SWIVEL_OK.
+#pragma once
+
+#include <cstddef>
+
+#include "batch/crowd/crowd.h"
+#include "simd/dispatch.h"
+
+namespace swivel {
+
+// A range of limbs of a group.
+swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);
+
+// A group of limbs; and one whose limbs' poses are known, because they are free or because the group keeps records.
+// call: the entry point, named in the line.
+swivel_status check_limbs(const swivel_crowd& crowd, std::uint32_t group, const char* call);
+swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const char* call);
+
+// A caller's array for some limbs, named in the line.
+swivel_status check_stride(std::uint32_t group, const char* name, std::uint32_t limb_count, const void* data,
+                           std::size_t stride, std::size_t value_bytes, bool may_repeat);
+
+// The features of groups that do not have a field: those of its row, and what makes a group no limb, unless it is that
+// group's.
+constexpr swivel_features excludes_of(const FieldRow& row)
+{
+    return row.excludes | (row.field == SWIVEL_FLAGS ? 0 : kNoLimb & ~row.needs);
+}
+
+// A number that is a field's; and a field that the group has and, if input, that goes into it.
+swivel_status check_field(swivel_field field);
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input);
+
+// The caller's values of a field, to be read if they are input: components of component_bytes each.
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, std::uint32_t limb_count,
+                           const void* data, std::size_t stride, bool input,
+                           std::size_t component_bytes = sizeof(float));
+
+// A range of blocks.
+swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks);
+
+// The kernels to solve with; or null, with the reason in status and last_error().
+const Isa* usable_isa(swivel_status& status);
+
+}  // namespace swivel

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "batch/api/job_check.h"
+
+#include <cstdint>
+
+#include "batch/api/check.h"
+#include "batch/api/pose_check.h"
+#include "batch/api/use.h"
+#include "batch/refusal/sized.h"
+#include "batch/refusal/status.h"
+#include "batch/solve/frame.h"
+#include "batch/solve/pose.h"
+#include "batch/solve/solve.h"
+#include "simd/rows.h"
+
+namespace swivel {
+
+swivel_status check_mask(const swivel_crowd& crowd, const std::uint32_t* mask, std::uint32_t word_count)
+{
+    if (!mask) return fail(SWIVEL_INVALID_ARGUMENT, "the mask is null");
+    if (const std::uint32_t needed = mask_word_count(crowd.block_count); word_count != needed)
+        return fail(SWIVEL_INVALID_ARGUMENT, "a mask of %u words; this crowd of %u blocks has %u, a bit for each lane",
+                    word_count, crowd.block_count, needed);
+    return SWIVEL_OK;
+}
+
+swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* priorities)
+{
+    if (!priorities)
+        return fail(SWIVEL_INVALID_ARGUMENT, "priorities are missing; give one for each of this crowd's %u groups",
+                    lane_group_count(crowd));
+    swivel_status status = SWIVEL_OK;
+    for (std::uint32_t g = 0; g < lane_group_count(crowd) && status == SWIVEL_OK; ++g)
+        status = check_stride(g, "priority", crowd.groups[g].limb_count, priorities[g].data, priorities[g].stride,
+                              sizeof(float), true);
+    return status;
+}
+
+namespace {
+
+swivel_status check_groups(const swivel_crowd& crowd, const swivel_job& job)
+{
+    if (!job.groups && job.group_word_count > 0) return fail(SWIVEL_INVALID_ARGUMENT, "the job's groups are null");
+    const std::uint32_t needed = group_word_count(crowd.group_count);
+    if (job.groups && job.group_word_count != needed)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%u words of groups; this crowd of %u groups has %u, a bit for each",
+                    job.group_word_count, crowd.group_count, needed);
+    return SWIVEL_OK;
+}
+// What limbs are linked to is solved with them.
+swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
+{
+    for (std::uint32_t g = 0; job.groups && g < crowd.group_count; ++g) {
+        if (!(crowd.groups[g].features & SWIVEL_WITH_LINK)) continue;
+        const BodyLimb& limb = crowd.groups[g].limb;
+        if (const bool is_named_here = is_named(job.groups, g);
+            is_named_here != is_named(job.groups, limb.linked_group) && (is_named_here || limb.holds_prop))
+            return fail(SWIVEL_INVALID_ARGUMENT, "the job names group %u, but not group %u; they are linked, name both",
+                        is_named_here ? g : limb.linked_group, is_named_here ? limb.linked_group : g);
+    }
+    return SWIVEL_OK;
+}
+
+swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
+{
+    if (!job.probes_only) return SWIVEL_OK;
+    if (job.sample)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "the job has a sample function, but probes_only does not call it; give one "
+                    "of them");
+    if (job.probes_only && job.priorities)
+        return fail(
+            SWIVEL_INVALID_ARGUMENT,
+            "the job is for probes_only and has priorities, so the solve would choose other bodies; choose them "
+            "by swivel_choose(), and give both jobs its mask");
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g)
+        if (crowd.groups[g].features & SWIVEL_WITH_GROUND && is_named(job.groups, g)) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT,
+                "the job is for probes_only, but names no group that is SWIVEL_WITH_GROUND; leave it out");
+}
+
+// Whether the numbers of a frame's positions are what they are read as. The frame has its origin.
+swivel_status check_positions(std::uint32_t g, const swivel_frame& frame, const swivel_pose* pose)
+{
+    if (frame.positions > SWIVEL_DOUBLES)
+        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: positions is %u; it is a swivel_numbers, 0 to 2", g,
+                    frame.positions);
+    const bool is_double = frame.origin.data != nullptr;
+    if (frame.positions == SWIVEL_NUMBERS_UNSAID || is_double == (frame.positions == SWIVEL_DOUBLES)) return SWIVEL_OK;
+    for (const swivel_frame_field& each : fields_of(frame))
+        if (each.data && is_input(each.field) && is_position(each.field))
+            return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: %s is in %s, but %s; %s", g, name_of(each.field),
+                        is_double ? "floats" : "doubles",
+                        !is_double ? "floats are read without an origin"
+                        : pose     ? "the pose has root_is_double"
+                                   : "the frame has an origin",
+                        is_double ? "give doubles"
+                        : pose    ? "give floats, or a root in doubles and root_is_double"
+                                  : "give floats, or an origin");
+    return SWIVEL_OK;
+}
+
+swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, swivel_frame frame, const swivel_pose* pose)
+{
+    const swivel_in origin = pose ? origin_of(full_pose(pose)) : frame.origin;
+    if (frame.origin.data && (frame.origin.data != origin.data || frame.origin.stride != origin.stride))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "frame of group %u: a body's origin is its root in doubles; give that, or leave origin out", g);
+    frame.origin = origin;
+    if (!frame.fields && frame.field_count > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: its %u fields are null", g, frame.field_count);
+    swivel_status status = check_positions(g, frame, pose);
+    if (status == SWIVEL_OK && frame.origin.data)
+        status = check_stride(g, "origin", 1, frame.origin.data, frame.origin.stride, 3 * sizeof(double), true);
+    std::uint64_t seen = 0;
+    static_assert(kFieldCount <= 64, "a bit for each");
+    for (const swivel_frame_field& each : fields_of(frame)) {
+        if (status == SWIVEL_OK) status = check_field(each.field);
+        if (status != SWIVEL_OK) return status;
+        if (!each.data) continue;
+        const std::uint64_t bit = std::uint64_t{1} << index_of(each.field);
+        if (seen & bit)
+            return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u lists %s twice; list it once", g,
+                        name_of(each.field));
+        seen |= bit;
+        const bool is_double = frame.origin.data && is_position(each.field);
+        status = check_values(crowd, g, each.field, 1, each.data, each.stride, is_input(each.field),
+                              is_double ? sizeof(double) : sizeof(float));
+    }
+    return status;
+}
+
+// Checks the frames of the groups that the blocks touch, and not those of other groups.
+swivel_status check_frames(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
+{
+    swivel_status status = check_size<swivel_frame>("the first frame", size_of(job.frames));
+    for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
+        if (status == SWIVEL_OK) status = check_element("frame", job.frames, n);
+        const auto g = static_cast<std::uint32_t>(&group - crowd.groups);
+        if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(job.frames, n), job.pose);
+    });
+    if (kChecksUse && status == SWIVEL_OK) status = check_overlap(crowd, job, blocks);
+    return status;
+}
+
+swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
+{
+    if ((job.most_blocks > 0 || job.urgency) && !job.priorities)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s priorities; give one for each of this crowd's %u groups",
+                    job.urgency ? "urgency goes with" : "most_blocks goes with", lane_group_count(crowd));
+    if ((job.mask != nullptr) + (job.limbs != nullptr) + (job.priorities != nullptr) > 1)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "a job chooses limbs by a mask, by a list or by priorities; give one of them");
+    if ((job.limbs || job.priorities) && (job.blocks || job.on_this_thread))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "a job with %s is for the whole crowd and cannot be one of several; leave %s out, or give a mask",
+                    job.limbs ? "a list of limbs" : "priorities", job.blocks ? "blocks" : "on_this_thread");
+    if (job.priorities && job.groups)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "a job with priorities is for the whole crowd; leave groups out, and give those that are not "
+                    "wanted priority 0");
+    if (job.limbs && !job.limbs->indices && job.limbs->count > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "a list of %u limbs is null", job.limbs->count);
+    if (job.mask || job.mask_word_count > 0) return check_mask(crowd, job.mask, job.mask_word_count);
+    return job.priorities ? check_priorities(crowd, job.priorities) : SWIVEL_OK;
+}
+
+}  // namespace
+
+swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
+{
+    swivel_status status = job.blocks ? check_blocks(crowd, blocks) : SWIVEL_OK;
+    if (status == SWIVEL_OK) status = check_groups(crowd, job);
+    if (status == SWIVEL_OK) status = check_choice(crowd, job);
+    if (status == SWIVEL_OK) status = check_pose(crowd, job.groups, job.pose);
+    if (status == SWIVEL_OK) status = check_links(crowd, job);
+    if (status == SWIVEL_OK) status = check_sampling(crowd, job);
+    if (status == SWIVEL_OK && job.frames) status = check_frames(crowd, job, blocks);
+    return status;
+}
+
+}  // namespace swivel

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <initializer_list>
+
+#include "batch/crowd/body_joints.h"
+#include "batch/crowd/body_plan.h"
+#include "batch/refusal/status.h"
+#include "core/arm.h"
+
+namespace swivel {
+
+namespace {
+
+// The line of a call that failed, as one about a group or the skeleton.
+swivel_status fail_in(const char* what, swivel_status status)
+{
+    constexpr char call[] = "swivel_bind_joints: ";
+    char line[256];
+    std::snprintf(line, sizeof line, "%s", last_error());
+    const bool names_call = std::strncmp(line, call, sizeof call - 1) == 0;
+    return fail(status, "%s: %s", what, line + (names_call ? sizeof call - 1 : 0));
+}
+
+// What the features ask of the joints.
+swivel_status check_turned(const swivel_skeleton& skeleton, const swivel_group_def& group)
+{
+    const swivel_limb_joints limb = joints_of(group);
+    if (const std::uint32_t wanted = twist_bone_count(group.features); wanted != limb.twist_bone_count)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "its features have %u twist bones, its joints %u; name as many, or leave the feature out", wanted,
+                    limb.twist_bone_count);
+    if (group.features & SWIVEL_WITH_CLAVICLE && parent_of(skeleton, limb.shoulder) < 0)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
+                    limb.shoulder);
+    return SWIVEL_OK;
+}
+
+struct Constant {
+    const char* name;
+    float value;
+    double most;
+};
+swivel_status check_constants(std::uint32_t g, const char* of, std::initializer_list<Constant> constants)
+{
+    for (const Constant& each : constants)
+        if (!(each.value >= 0 && each.value <= each.most))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s is %g; it is 0 to %g", g, of, each.name,
+                        double(each.value), each.most);
+    return SWIVEL_OK;
+}
+swivel_status check_plant(std::uint32_t g, const swivel_plant& plant)
+{
+    constexpr double kMost = 1000;
+    const swivel_status status = check_constants(g, "plant",
+                                                 {{"lock", plant.lock, kMost},
+                                                  {"unlock", plant.unlock, kMost},
+                                                  {"stop", plant.stop, kMost},
+                                                  {"blend", plant.blend, kMost},
+                                                  {"again", plant.again, kMost},
+                                                  {"run", plant.run, 1},
+                                                  {"longest", plant.longest, kHuge},
+                                                  {"speed[0]", plant.speed[0], kMost},
+                                                  {"speed[1]", plant.speed[1], kMost}});
+    if (status != SWIVEL_OK) return status;
+    if (plant.unlock < plant.lock)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, plant.unlock is %g, less than plant.lock, %g; let it be no less", g,
+                    double(plant.unlock), double(plant.lock));
+    for (const float height : plant.height)
+        if (!(std::fabs(height) <= kMost))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, plant.height is %g; it is -%g to %g", g, double(height),
+                        kMost, kMost);
+    return SWIVEL_OK;
+}
+swivel_status check_fit(std::uint32_t g, const swivel_fit& fit)
+{
+    return check_constants(
+        g, "fit",
+        {{"drop", fit.drop, 1000}, {"rise", fit.rise, 1000}, {"half", fit.half, 1000}, {"ahead", fit.ahead, 1000}});
+}
+
+// Limbs that are to fit and what shifts the body for them go together.
+swivel_status check_fits(const swivel_crowd_def& def)
+{
+    std::uint32_t shifts = 0, limbs = 0, shift = 0, limb = 0;  // how many, and the last of each
+    for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        const swivel_features features = group_at(def, g).features;
+        if (features & SWIVEL_FIT && ++shifts > 1)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, and group %u too; a body has one shift", g,
+                        shift);
+        if (features & SWIVEL_FIT) shift = g;
+        if (features & SWIVEL_WITH_FIT) limb = g, ++limbs;
+    }
+    if (shifts == 1 && limbs == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, but no limb is SWIVEL_WITH_FIT; add it to one",
+                    shift);
+    if (shifts == 0 && limbs > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_WITH_FIT, but no group is SWIVEL_FIT; add one", limb);
+    const double length2 =
+        double(def.up[0]) * def.up[0] + double(def.up[1]) * def.up[1] + double(def.up[2]) * def.up[2];
+    if (!(length2 >= kTiny2 && length2 <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's up is %g, %g, %g; give an axis", double(def.up[0]),
+                    double(def.up[1]), double(def.up[2]));
+    return SWIVEL_OK;
+}
+
+swivel_status check_ground(std::uint32_t g, const swivel_ground& ground)
+{
+    const double length2 = double(ground.heel[0]) * ground.heel[0] + double(ground.heel[1]) * ground.heel[1] +
+                           double(ground.heel[2]) * ground.heel[2];
+    if (!(length2 <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, ground.heel is %g, %g, %g; give a place in the wrist's frame",
+                    g, double(ground.heel[0]), double(ground.heel[1]), double(ground.heel[2]));
+    return check_constants(g, "ground",
+                           {{"toe_clearance", ground.toe_clearance, kHuge},
+                            {"heel_clearance", ground.heel_clearance, kHuge},
+                            {"cos_most", ground.cos_most, 1},
+                            {"half", ground.half, 1000}});
+}
+
+// What a limb is linked to, and how many hold each prop.
+swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
+{
+    const swivel_group_def group = group_at(def, g);
+    if (group.link == UINT32_MAX)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is SWIVEL_WITH_LINK, but is linked to none; set its link to a group's number", g);
+    if (group.link >= def.group_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is linked to group %u, which does not exist; there are %u", g,
+                    group.link, def.group_count);
+    const swivel_features to = element(def.groups, group.link, swivel_default_group_def(0)).features;
+    if (to & SWIVEL_PROP) return SWIVEL_OK;
+    if (to & kNoLimb)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is linked to group %u, which is SWIVEL_%s and has no hand; link it to a limb or a prop",
+                    g, group.link, feature_name(to & kNoLimb));
+    if (group.link >= g)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is linked to group %u, which is solved later; let a limb come after the one it holds", g,
+                    group.link);
+    if (!(to & SWIVEL_WITH_HAND))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is linked to group %u, which has no hand; add SWIVEL_WITH_HAND to that", g, group.link);
+    return SWIVEL_OK;
+}
+swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
+{
+    const swivel_prop prop = group_at(def, g).prop;
+    std::uint32_t holders = 0;
+    for (std::uint32_t other = 0; other < def.group_count; ++other) {
+        const swivel_group_def group = group_at(def, other);
+        if (group.features & SWIVEL_LOOK) continue;  // a look is done before
+        holders += group.features & SWIVEL_WITH_LINK && group.link == g;
+        if (prop.joint < 0) continue;
+        for (const std::uint32_t joint : TurnedJoints(skeleton, group))
+            if (is_above(skeleton, joint, static_cast<std::uint32_t>(prop.joint)))
+                return fail(SWIVEL_INVALID_ARGUMENT,
+                            "group %u, prop.joint is %d, which group %u moves; link the limbs to that group instead", g,
+                            prop.joint, other);
+    }
+    if (holders == 0 || holders > kMostHolders)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_PROP, and %u limbs are linked to it; link one or %u",
+                    g, holders, kMostHolders);
+    return check_constants(g, "prop", {{"most_move", prop.most_move, 1000}});
+}
+swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
+{
+    swivel_status status = SWIVEL_OK;
+    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) {
+        const swivel_features features = group_at(def, g).features;
+        if (features & SWIVEL_WITH_LINK) status = check_link(def, g);
+        if (status == SWIVEL_OK && features & SWIVEL_PROP) status = check_prop(def, skeleton, g);
+    }
+    return status;
+}
+
+swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
+{
+    char name[32];
+    for (std::uint32_t n = 0; n < look.joint_count; ++n) {
+        std::snprintf(name, sizeof name, "share[%u]", n);
+        if (const swivel_status status = check_constants(g, "look", {{name, look.share[n], 1000}}); status != SWIVEL_OK)
+            return status;
+        if (!(std::fabs(look.cos_most[n]) <= 1))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.cos_most[%u] is %g; it is -1 to 1", g, n,
+                        double(look.cos_most[n]));
+    }
+    const auto length2 = [](const float(&v)[3]) {
+        return double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2];
+    };
+    if (!(look.share[look.joint_count - 1] > 0))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.share of the last joint is 0; let it be more", g);
+    if (!(length2(look.axis) >= kTiny2 && length2(look.axis) <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.axis is %g, %g, %g; give an axis", g, double(look.axis[0]),
+                    double(look.axis[1]), double(look.axis[2]));
+    if (!(length2(look.eye) <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.eye is %g, %g, %g; give a place in the last joint's frame",
+                    g, double(look.eye[0]), double(look.eye[1]), double(look.eye[2]));
+    if (!(look.cos_none >= -1 && look.cos_full <= 1 && look.cos_full - look.cos_none >= 1e-3f))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, look.cos_full is %g, look.cos_none %g; they are -1 to 1, and cos_full is 0.001 more", g,
+                    double(look.cos_full), double(look.cos_none));
+    return check_constants(g, "look", {{"fade_distance", look.fade_distance, kHuge}, {"rate", look.rate, 1000}});
+}
+swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const swivel_look& look)
+{
+    if (look.joint_count == 0 || look.joint_count > SWIVEL_MOST_LOOK_JOINTS)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
+                    int{SWIVEL_MOST_LOOK_JOINTS});
+    for (std::uint32_t n = 0; n < look.joint_count; ++n) {
+        const std::uint32_t joint = look.joints[n];
+        if (joint >= skeleton.joint_count)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joints[%u] is %u; the skeleton has %u joints", g, n,
+                        joint, skeleton.joint_count);
+        if (const swivel_status status = check_parents(skeleton, "the chain", joint); status != SWIVEL_OK)
+            return fail_in("the skeleton", status);
+        if (n > 0 && (joint == look.joints[n - 1] || !is_above(skeleton, look.joints[n - 1], joint)))
+            return fail(
+                SWIVEL_INVALID_ARGUMENT,
+                "group %u, look.joints[%u], joint %u, is not below the one before, joint %u; name them from the "
+                "body outwards",
+                g, n, joint, look.joints[n - 1]);
+    }
+    return check_look_constants(g, look);
+}
+
+swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
+{
+    const swivel_group_def group = group_at(def, g);
+    if (!(group.features & kNoLimb) == !group.joints)
+        return group.joints
+                   ? fail(SWIVEL_INVALID_ARGUMENT,
+                          "group %u is SWIVEL_%s, which is no limb, but names joints; leave them out", g,
+                          feature_name(group.features & kNoLimb))
+                   : fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; in a crowd of bodies each limb does", g);
+    if (element(def.groups, g, swivel_default_group_def(0)).limb_count != 0 && group.limb_count != def.body_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has %u limbs, but there are %u bodies; leave the count 0", g,
+                    group.limb_count, def.body_count);
+    if (const std::int32_t joint = group.prop.joint;
+        group.features & SWIVEL_PROP &&
+        (joint < -1 || (joint >= 0 && static_cast<std::uint32_t>(joint) >= skeleton.joint_count)))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
+                    g, joint, skeleton.joint_count);
+    if (group.features & SWIVEL_FIT) return check_fit(g, group.fit);
+    if (group.features & SWIVEL_LOOK) return check_look(skeleton, g, group.look);
+    if (!group.joints) return SWIVEL_OK;
+    RestLimb limb;
+    swivel_binding binding = swivel_default_binding();
+    swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
+    if (status == SWIVEL_OK) status = check_reserved("limb joints", joints_of(group));
+    if (status == SWIVEL_OK) status = rest_limb(skeleton, joints_of(group), limb);
+    if (status == SWIVEL_OK) status = bind("swivel_bind_joints", limb, binding);
+    if (status == SWIVEL_OK) status = check_turned(skeleton, group);
+    if (status == SWIVEL_OK) {
+        if (group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group.plant);
+        if (status == SWIVEL_OK && group.features & SWIVEL_WITH_GROUND) status = check_ground(g, group.ground);
+        return status;
+    }
+    char name[24];
+    std::snprintf(name, sizeof name, "group %u", g);
+    return fail_in(name, status);
+}
+
+// Limbs hang beside each other: what one turns is above no joint that another turns. A look may be above limbs, and
+// above looks that come after it.
+swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
+{
+    const swivel_group_def group = group_at(def, g);
+    for (std::uint32_t other = 0; other < def.group_count; ++other) {
+        if (other == g) continue;
+        const swivel_group_def below = group_at(def, other);
+        const bool may_be_above = group.features & SWIVEL_LOOK && (!(below.features & SWIVEL_LOOK) || g < other);
+        for (const std::uint32_t joint : TurnedJoints(skeleton, below))
+            for (const std::uint32_t above : TurnedJoints(skeleton, group))
+                if (is_above(skeleton, above, joint) && !(may_be_above && above != joint))
+                    return fail(SWIVEL_INVALID_ARGUMENT,
+                                "group %u turns joint %u, which is %s joint %u of group %u; %s", g, above,
+                                above == joint ? "also" : "above", joint, other,
+                                group.features & below.features & SWIVEL_LOOK && above != joint
+                                    ? "let the look that is above come first"
+                                    : "a body's limbs hang beside each other, and looks above them");
+    }
+    return SWIVEL_OK;
+}
+
+// All joints may move with a limb, and the needed ones' translations may be those of poses.
+swivel_status check_skeleton(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
+{
+    swivel_status status = SWIVEL_OK;
+    for (std::uint32_t joint = 0; joint < skeleton.joint_count && status == SWIVEL_OK; ++joint)
+        status = check_parents(skeleton, "the chain", joint);
+    if (status == SWIVEL_OK)
+        for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+            RestJoint rest;
+            if (status == SWIVEL_OK) status = read_joint(skeleton, joint, rest);
+        });
+    return status == SWIVEL_OK ? status : fail_in("the skeleton", status);
+}
+
+}  // namespace
+
+swivel_status check_bodies(const swivel_crowd_def& def)
+{
+    swivel_status status = check_size<swivel_skeleton>("skeleton", size_of(def.skeleton));
+    const swivel_skeleton skeleton = skeleton_of(def);
+    if (status == SWIVEL_OK) status = check_reserved("skeleton", skeleton);
+    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g)
+        status = check_group_joints(def, skeleton, g);
+    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) status = check_apart(def, skeleton, g);
+    if (status == SWIVEL_OK) status = check_fits(def);
+    if (status == SWIVEL_OK) status = check_skeleton(def, skeleton);
+    return status == SWIVEL_OK ? check_held(def, skeleton) : status;
+}
+
+}  // namespace swivel

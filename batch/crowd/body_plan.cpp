@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#include "batch/crowd/body_plan.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "batch/crowd/body_joints.h"
+#include "core/joint_frame.h"
+
+namespace swivel {
+
+namespace {
+
+// The next joint that a group's limb turns, from a joint upwards; -1: none.
+std::int32_t mover_of(const swivel_skeleton& skeleton, const TurnedJoints& turned, std::int32_t joint)
+{
+    while (joint >= 0 && !turned.has(joint)) joint = parent_of(skeleton, static_cast<std::uint32_t>(joint));
+    return joint;
+}
+// The same of all groups, and the group that turns it.
+struct Mover {
+    std::int32_t joint = -1;
+    bool is_look = false;
+    std::uint32_t group = 0;
+};
+Mover mover_of(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::int32_t joint)
+{
+    for (; joint >= 0; joint = parent_of(skeleton, static_cast<std::uint32_t>(joint)))
+        for (std::uint32_t g = 0; g < def.group_count; ++g) {
+            const swivel_group_def group = group_at(def, g);
+            if (TurnedJoints(skeleton, group).has(joint)) return {joint, (group.features & SWIVEL_LOOK) != 0, g};
+        }
+    return {};
+}
+
+// The place of a needed joint in the list. The root is the parent of those without one.
+std::uint32_t find(PlannedJoints joints, std::int32_t skeleton_joint)
+{
+    if (skeleton_joint < 0) return 0;
+    std::uint32_t n = 1;
+    while (n < joints.count && joints.joints[n].skeleton_joint != static_cast<std::uint32_t>(skeleton_joint)) ++n;
+    return n;
+}
+std::uint32_t row_of(PlannedJoints joints, std::int32_t skeleton_joint)
+{
+    return joints.joints[find(joints, skeleton_joint)].row;
+}
+
+std::uint32_t depth_of(const swivel_skeleton& skeleton, std::uint32_t joint)
+{
+    std::uint32_t depth = 0;
+    for (std::int32_t at = parent_of(skeleton, joint); at >= 0; ++depth)
+        at = parent_of(skeleton, static_cast<std::uint32_t>(at));
+    return depth;
+}
+
+void store(const Rotor<double>& q, float (&to)[4])
+{
+    to[0] = static_cast<float>(q.at<kI>());
+    to[1] = static_cast<float>(q.at<kJ>());
+    to[2] = static_cast<float>(q.at<kK>());
+    to[3] = static_cast<float>(q.at<kScalar>());
+}
+RestJoint rest_of(const swivel_skeleton& skeleton, std::uint32_t joint)
+{
+    RestJoint rest;
+    read_joint(skeleton, joint, rest);
+    return rest;
+}
+
+// Calls take(joint, mover) for each needed joint that moves with a group's look and is not of it.
+template <class Take>
+void for_each_following(const swivel_crowd_def& def, const swivel_skeleton& skeleton, const swivel_group_def& group,
+                        const Take& take)
+{
+    if (!(group.features & SWIVEL_LOOK)) return;
+    const TurnedJoints turned(skeleton, group);
+    for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+        const auto is = static_cast<std::int32_t>(joint);
+        if (const std::int32_t mover = mover_of(skeleton, turned, is); mover >= 0 && mover != is) take(joint, mover);
+    });
+}
+
+// Each turned joint with its parent and what moves that.
+void plan_turned(const swivel_skeleton& skeleton, const TurnedJoints& turned, PlannedJoints joints, BodyLimb& limb)
+{
+    for (const std::uint32_t joint : turned) {
+        const std::int32_t parent = parent_of(skeleton, joint), above = mover_of(skeleton, turned, parent);
+        limb.turned[limb.turned_count++] = {joint, row_of(joints, static_cast<std::int32_t>(joint)),
+                                            row_of(joints, parent), above < 0 ? 0 : row_of(joints, above)};
+    }
+}
+
+}  // namespace
+
+BodySize body_size(const swivel_crowd_def& def)
+{
+    const swivel_skeleton skeleton = skeleton_of(def);
+    BodySize size{1, kRootJoint + joint_row_count(false), 0, 0, 0};
+    for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+        ++size.joint_count;
+        const Mover mover = mover_of(def, skeleton, static_cast<std::int32_t>(joint));
+        size.row_count += joint_row_count(mover.joint == static_cast<std::int32_t>(joint));
+    });
+    for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
+        size.moved_count += mover_of(def, skeleton, static_cast<std::int32_t>(joint)).joint >= 0;
+    for (std::uint32_t g = 0; g < def.group_count; ++g)
+        for_each_following(def, skeleton, group_at(def, g),
+                           [&](std::uint32_t, std::int32_t) { ++size.following_count; });
+    size.first_own_row = size.row_count;
+    BodyLimb ignored{};
+    for (std::uint32_t g = 0; g < def.group_count; ++g)
+        size.row_count = plan_own_rows(group_at(def, g).features, size.row_count, ignored);
+    return size;
+}
+
+void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
+{
+    const swivel_skeleton skeleton = skeleton_of(def);
+    BodyJoint* end = joints;
+    *end++ = {};
+    for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+        end->skeleton_joint = joint;
+        (end++)->row = depth_of(skeleton, joint);  // until its row is known
+    });
+    std::sort(joints + 1, end, [](const BodyJoint& a, const BodyJoint& b) {
+        return a.row != b.row ? a.row < b.row : a.skeleton_joint < b.skeleton_joint;
+    });
+    joints[0].row = kRootJoint;
+    std::uint32_t row = kRootJoint + joint_row_count(false);
+    for (BodyJoint* to = joints + 1; to != end; ++to) {
+        const PlannedJoints planned{joints, static_cast<std::uint32_t>(to - joints) + 1};
+        const std::uint32_t joint = to->skeleton_joint;
+        const Mover mover = mover_of(def, skeleton, static_cast<std::int32_t>(joint));
+        const RestJoint rest = rest_of(skeleton, joint);
+        to->row = row;
+        to->parent = row_of(planned, parent_of(skeleton, joint));
+        to->mover = mover.joint < 0 || mover.is_look ? 0 : row_of(planned, mover.joint);
+        to->is_turned = mover.joint == static_cast<std::int32_t>(joint);
+        to->translation[0] = static_cast<float>(rest.place.at<kE1>());
+        to->translation[1] = static_cast<float>(rest.place.at<kE2>());
+        to->translation[2] = static_cast<float>(rest.place.at<kE3>());
+        row += joint_row_count(to->is_turned != 0);
+    }
+}
+
+BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
+                   PlannedJoints joints)
+{
+    BodyLimb limb{};
+    if (!group.joints) return limb;
+    const swivel_skeleton skeleton = skeleton_of(def);
+    const swivel_limb_joints of = joints_of(group);
+    const TurnedJoints turned(skeleton, group);
+    const auto row = [&](std::uint32_t joint) { return row_of(joints, static_cast<std::int32_t>(joint)); };
+    const auto parent = [&](std::uint32_t joint) { return row_of(joints, parent_of(skeleton, joint)); };
+    const float(&q)[4] = binding.upper_from_arm;
+    const Vector<float> hinge = swivel::turned(rotor(q[0], q[1], q[2], q[3]), vector(1.0f, 0.0f, 0.0f));
+    limb.parent = parent(of.shoulder), limb.shoulder = row(of.shoulder);
+    limb.elbow_parent = parent(of.elbow), limb.elbow = row(of.elbow);
+    limb.wrist_parent = parent(of.wrist), limb.wrist = row(of.wrist);
+    for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) {
+        limb.twist_bones[n] = row(of.twist_bones[n]), limb.twist_parents[n] = parent(of.twist_bones[n]);
+        store(normalise(rest_of(skeleton, of.twist_bones[n]).rotation), limb.twist_rest[n]);
+    }
+    std::copy(std::begin(hinge.c), std::end(hinge.c), limb.hinge);
+    if (group.features & SWIVEL_WITH_CLAVICLE)
+        store(normalise(rest_of(skeleton, turned.joint[0]).rotation), limb.clavicle_rest);
+    return limb;
+}
+
+void plan_moved(const swivel_crowd_def& def, const swivel_group_def& group, PlannedJoints joints, BodyLimb& limb,
+                MovedJoint* moved, FollowingJoint* following)
+{
+    const swivel_skeleton skeleton = skeleton_of(def);
+    const TurnedJoints turned(skeleton, group);
+    if (turned.count == 0) return;
+    plan_turned(skeleton, turned, joints, limb);
+    limb.is_look = (group.features & SWIVEL_LOOK) != 0;
+    if (const Mover above = mover_of(def, skeleton, parent_of(skeleton, turned.joint[0])); above.joint >= 0)
+        limb.above = row_of(joints, above.joint), limb.above_group = above.group;
+    limb.moved = moved;
+    for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
+        if (const Mover mover = mover_of(def, skeleton, static_cast<std::int32_t>(joint)); turned.has(mover.joint))
+            moved[limb.moved_count++] = {joint, row_of(joints, mover.joint), mover.is_look ? 0 : limb.above};
+    limb.following = following;
+    for_each_following(def, skeleton, group, [&](std::uint32_t joint, std::int32_t mover) {
+        const auto* const at = std::find(turned.begin(), turned.end(), static_cast<std::uint32_t>(mover));
+        following[limb.following_count++] = {row_of(joints, static_cast<std::int32_t>(joint)),
+                                             static_cast<std::uint32_t>(at - turned.begin())};
+    });
+}
+
+namespace {
+
+constexpr PlantRules plant_rules(const swivel_plant& of)
+{
+    const auto per = [](float time) { return 1 / (time > kShortestTime ? double(time) : kShortestTime); };
+    const double lock = of.lock;
+    return {
+        of.lock,
+        of.unlock,
+        of.again,
+        of.longest,
+        of.stop,
+        of.blend,
+        static_cast<float>(double(of.run) * of.stop / 3),
+        static_cast<float>(3 * lock * per(of.stop)),
+        static_cast<float>(6.75 * lock * per(of.blend)),  // an offset swings out by at most 4/27 of speed times time
+        static_cast<float>(per(of.stop)),
+        static_cast<float>(2 * per(of.blend)),
+        of.speed[0],
+        of.speed[1],
+        of.height[0],
+        of.height[1]};
+}
+
+GroundRules ground_rules(const swivel_ground& of)
+{
+    const double cos = of.cos_most;  // of the whole angle
+    return {{of.heel[0], of.heel[1], of.heel[2]},
+            of.toe_clearance,
+            of.heel_clearance,
+            static_cast<float>(sqrt(0.5 + 0.5 * cos)),
+            static_cast<float>(sqrt(0.5 - 0.5 * cos)),
+            spring_rule(of.half)};
+}
+
+LookRules look_rules(const swivel_look& of)
+{
+    LookRules rules{};
+    double left = 0;
+    for (std::uint32_t n = of.joint_count; n-- > 0;) {
+        left += double(of.share[n]);
+        const double cos = of.cos_most[n];  // of the whole angle
+        rules.joint[n] = {static_cast<float>(of.share[n] / left), static_cast<float>(sqrt(0.5 + 0.5 * cos)),
+                          static_cast<float>(sqrt(0.5 - 0.5 * cos))};
+    }
+    rules.fade = {of.cos_none, static_cast<float>(1 / (double(of.cos_full) - of.cos_none)), of.fade_distance};
+    const Vector<double> axis = normalise(vector<double>(of.axis[0], of.axis[1], of.axis[2]));
+    for (std::size_t c = 0; c < 3; ++c) rules.eye[c] = of.eye[c], rules.axis[c] = static_cast<float>(axis.c[c]);
+    rules.rate = of.rate;
+    return rules;
+}
+
+// The first group with a feature; there is one.
+swivel_group_def first_with(const swivel_crowd_def& def, swivel_features feature)
+{
+    std::uint32_t g = 0;
+    while (!(group_at(def, g).features & feature)) ++g;
+    return group_at(def, g);
+}
+float rest_length(const swivel_crowd_def& def, const swivel_group_def& group)
+{
+    const swivel_binding of = body_binding(def, group);
+    return of.lengths[0] + of.lengths[1];
+}
+
+}  // namespace
+
+void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb)
+{
+    constexpr double kLongest = 1e15;
+    const Vector<double> up = normalise(vector<double>(def.up[0], def.up[1], def.up[2]));
+    for (std::size_t c = 0; c < 3; ++c) limb.up[c] = static_cast<float>(up.c[c]);
+    limb.rules = plant_rules(group.plant);
+    limb.drop = group.fit.drop, limb.rise = group.fit.rise;
+    limb.spring = spring_rule(group.fit.half);
+    if (group.features & SWIVEL_WITH_COMING) {
+        const float ahead = first_with(def, SWIVEL_FIT).fit.ahead;
+        limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
+    }
+    if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_FIT))
+        limb.rest_length = rest_length(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_FIT) : group);
+    if (group.features & SWIVEL_WITH_GROUND) limb.ground = ground_rules(group.ground);
+    limb.most_move = group.prop.most_move;
+    if (group.features & SWIVEL_LOOK) limb.look = look_rules(group.look);
+}
+
+std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyLimb& limb)
+{
+    const auto take = [&](std::uint32_t rows) { return std::exchange(first, first + rows); };
+    if (features & SWIVEL_SENT) limb.goal = take(kGoalRows);
+    if (features & SWIVEL_WITH_HAND_FRAME) limb.frame = take(kHeldRows);
+    if (features & SWIVEL_PROP) limb.frame = take(kPropRows);
+    return first;
+}
+
+void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd)
+{
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+        const swivel_group_def group = group_at(def, g);
+        BodyLimb& limb = crowd.groups[g].limb;
+        if (group.features & SWIVEL_PROP && group.prop.joint >= 0)
+            limb.joint = row_of({crowd.joints, crowd.joint_count}, group.prop.joint);
+        if (!(group.features & SWIVEL_WITH_LINK)) continue;
+        BodyLimb& to = crowd.groups[group.link].limb;
+        limb.link = to.frame;
+        limb.linked_group = group.link;
+        limb.holds_prop = group_at(def, group.link).features & SWIVEL_PROP;
+        if (!limb.holds_prop) continue;
+        if (to.holder_count == 0) to.rest_length = rest_length(def, group);
+        limb.holder_number = to.holder_count++;
+        limb.holder = to.frame + kHoldersRow + limb.holder_number * kHolderRows;
+    }
+}
+
+swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group)
+{
+    RestLimb limb;
+    swivel_binding binding = swivel_default_binding();
+    rest_limb(skeleton_of(def), joints_of(group), limb);
+    bind("swivel_bind_joints", limb, binding);
+    return binding;
+}
+
+}  // namespace swivel

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "batch/crowd/crowd.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <new>
+
+#include "batch/crowd/body_joints.h"
+#include "batch/crowd/body_plan.h"
+#include "batch/crowd/streams.h"
+#include "batch/refusal/sized.h"
+#include "simd/float_env.h"
+#include "simd/rows.h"
+
+namespace swivel {
+
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+
+constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
+
+std::uint32_t blocks_in(const swivel_group_def& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
+
+std::uint64_t row_bytes(const swivel_group_def& group)
+{
+    return aligned(std::uint64_t{blocks_in(group)} * block_bytes(group.features));
+}
+
+// Blocks of bodies that are worked in at once: about as many as fit a level 2 cache of 256 KiB with their poses.
+std::uint32_t body_run_blocks(std::uint32_t row_count)
+{
+    constexpr std::size_t kRunBytes = 128 * 1024;
+    const std::size_t blocks = kRunBytes / (row_count * kRowBytes);
+    return static_cast<std::uint32_t>(std::clamp<std::size_t>(blocks, 1, kStripBlocks));
+}
+
+struct Layout {
+    std::uint32_t block_count = 0, strip_blocks = 0;
+    BodySize bodies{};
+    std::uint64_t groups, regions, joints, moved, following, chosen, urgency, done, workspaces, rows,
+        end;  // byte offsets in the arena, also of one too large
+
+    explicit Layout(const swivel_crowd_def& def)
+    {
+        std::uint64_t bytes = 0, region_count = 0;
+        for (std::uint32_t g = 0; g < def.group_count; ++g) {
+            const swivel_group_def group = group_at(def, g);
+            block_count = def.skeleton ? blocks_in(group) : block_count + blocks_in(group);
+            bytes += row_bytes(group);
+            region_count += group.features & SWIVEL_WITH_REGION ? 1 : 0;
+            if (group.features & kLimbFeatures)
+                strip_blocks = std::max(strip_blocks, std::min(blocks_in(group), kStripBlocks));
+        }
+        if (def.skeleton) {
+            bodies = body_size(def);
+            strip_blocks = std::min(strip_blocks, body_run_blocks(bodies.row_count));
+        }
+        groups = aligned(sizeof(swivel_crowd));
+        regions = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
+        joints = regions + aligned(region_count * sizeof(swivel_region));
+        moved = joints + aligned(std::uint64_t{bodies.joint_count} * sizeof(BodyJoint));
+        following = moved + aligned(std::uint64_t{bodies.moved_count} * sizeof(MovedJoint));
+        chosen = following + aligned(std::uint64_t{bodies.following_count} * sizeof(FollowingJoint));
+        urgency = chosen + aligned(std::uint64_t{mask_word_count(block_count)} * sizeof(std::uint32_t));
+        done = urgency + aligned(std::uint64_t{block_count} * sizeof(float));
+        workspaces = done + aligned(block_count);
+        rows = workspaces + def.workspace_count * workspace_floats(strip_blocks, bodies.row_count) * sizeof(float);
+        end = rows + bytes;
+    }
+};
+
+// Fills every lane, also of the padding, with an ordinary arm and with inputs that change nothing.
+void fill_inputs(const Group& group)
+{
+    for (std::uint32_t block = 0; block < group.block_count; ++block) {
+        float* row = group.input + row_offset(std::size_t{block} * SWIVEL_LANES, group.input_row_count, 0);
+        for (std::size_t f = 0; f < kInputCount; ++f)
+            for (std::uint32_t c = 0; c < field_row_count(group.features, kFields[f].field); ++c)
+                row = std::fill_n(row, std::size_t{SWIVEL_LANES}, kFields[f].start[c]);
+    }
+}
+
+// Gives a group's limbs NaN for inputs without a sensible default. So they are bad input until the caller gives them.
+void unknown_inputs(const Group& group)
+{
+    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+    float unknown[kMostComponents];
+    std::fill_n(unknown, kMostComponents, kUnknown);
+    for (const FieldRow& row : kFields) {
+        const bool is_unknown = row.starts == Start::unknown ||
+                                (row.field == SWIVEL_POLE && (group.features & SWIVEL_BODY)) ||
+                                (row.field == SWIVEL_HAND && (group.features & SWIVEL_SENT));
+        if (!is_unknown || field_row_count(group.features, row.field) == 0) continue;
+        const bool is_bound = row.field == SWIVEL_LENGTHS && (group.features & SWIVEL_JOINTS);
+        copy_in(rows_of(group, row.field), 0, group.limb_count, {is_bound ? group.binding.lengths : unknown, 0});
+    }
+}
+
+// Makes a group whose rows begin at `rows`. The crowd has its joints already.
+void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def, const swivel_crowd& crowd,
+                 std::uint32_t first_block, char* rows, Group& group)
+{
+    group.first_block = first_block;
+    group.block_count = blocks_in(def);
+    group.limb_count = def.limb_count;
+    group.features = def.features;
+    group.keeps = def.on_bad_input == SWIVEL_KEEP_POSE;
+    for (std::size_t pass = 0; pass < kPassCount; ++pass)
+        group.stages[pass] = StageList(def.features, static_cast<Pass>(pass));
+    group.shoulder_order = def.shoulder_order;
+    group.wrist_order = def.wrist_order;
+    group.input_row_count = input_row_count(def.features);
+    group.result_row_count = result_row_count(def.features);
+    for (std::size_t f = 0; f < kFieldCount; ++f)
+        group.first_row[f] = static_cast<std::uint16_t>(field_first_row(def.features, kFields[f].field));
+    group.input = reinterpret_cast<float*>(rows);
+    group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
+    if (crowd_def.skeleton) {
+        if (def.joints) group.binding = body_binding(crowd_def, def);
+        group.limb = plan_limb(crowd_def, def, group.binding, {crowd.joints, crowd.joint_count});
+        group.body_block_floats = std::size_t{crowd.body_row_count} * kLanes;
+    } else {
+        group.binding = element(&def.binding, 0, swivel_default_binding());
+    }
+    fill_inputs(group);
+    unknown_inputs(group);
+}
+
+bool is_linked_to(const swivel_crowd_def& def, std::uint32_t g)
+{
+    for (std::uint32_t other = 0; other < def.group_count; ++other) {
+        const swivel_group_def group = element(def.groups, other, swivel_default_group_def(0));
+        if (group.features & SWIVEL_WITH_LINK && group.link == g) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
+{
+    swivel_group_def group = element(def.groups, g, swivel_default_group_def(0));
+    if (def.skeleton) {
+        group.features |= SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
+        if (group.joints && !(group.features & kTwistBones))
+            group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MOST_TWIST_BONES) *
+                              SWIVEL_WITH_TWIST_BONES;
+        group.features = with_sent(group.features);
+        if (is_linked_to(def, g) && group.features & SWIVEL_WITH_HAND) group.features |= SWIVEL_WITH_HAND_FRAME;
+        if (group.limb_count == 0) group.limb_count = def.body_count;
+    }
+    return group;
+}
+
+std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end; }
+
+swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
+{
+    const FloatEnv env;
+    const Layout layout(def);
+    char* const base = static_cast<char*>(arena);
+    std::memset(base, 0, static_cast<std::size_t>(layout.end));
+    swivel_crowd* const crowd = new (base) swivel_crowd{};
+    crowd->alive = swivel_crowd::kAlive;
+    crowd->doubted_time = kNoDoubt;
+    crowd->group_count = def.group_count;
+    crowd->block_count = layout.block_count;
+    crowd->block_bytes = static_cast<std::size_t>((layout.end - layout.rows) / layout.block_count);
+    crowd->groups = reinterpret_cast<Group*>(base + layout.groups);
+    crowd->arena = arena;
+    crowd->arena_bytes = static_cast<std::size_t>(layout.end);
+    crowd->chosen = reinterpret_cast<std::uint32_t*>(base + layout.chosen);
+    crowd->urgency = reinterpret_cast<float*>(base + layout.urgency);
+    crowd->done = reinterpret_cast<std::uint8_t*>(base + layout.done);
+    crowd->strip_blocks = layout.strip_blocks;
+    crowd->workspace_count = def.workspace_count;
+    crowd->workspaces = reinterpret_cast<float*>(base + layout.workspaces);
+    crowd->joint_count = layout.bodies.joint_count;
+    crowd->body_row_count = layout.bodies.row_count;
+    if (def.skeleton) {
+        auto* const joints = reinterpret_cast<BodyJoint*>(base + layout.joints);
+        plan_joints(def, joints);
+        crowd->joints = joints;
+    }
+    char* rows = base + layout.rows;
+    auto* region = reinterpret_cast<swivel_region*>(base + layout.regions);
+    auto* moved = reinterpret_cast<MovedJoint*>(base + layout.moved);
+    auto* following = reinterpret_cast<FollowingJoint*>(base + layout.following);
+    std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
+    for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        const swivel_group_def of = group_at(def, g);
+        Group& group = *new (crowd->groups + g) Group{};
+        if (of.features & SWIVEL_WITH_REGION) group.region = new (region++) swivel_region(*of.region);
+        place_group(def, of, *crowd, first_block, rows, group);
+        if (def.skeleton) {
+            plan_moved(def, of, {crowd->joints, crowd->joint_count}, group.limb, moved, following);
+            plan_group(def, of, group.limb);
+        }
+        moved += group.limb.moved_count;
+        following += group.limb.following_count;
+        own_rows = plan_own_rows(of.features, own_rows, group.limb);
+        if (!def.skeleton) first_block += blocks_in(of);
+        rows += row_bytes(of);
+    }
+    if (def.skeleton) plan_links(def, *crowd);
+    return crowd;
+}
+
+}  // namespace swivel

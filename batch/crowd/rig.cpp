@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "batch/crowd/rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+
+#include "batch/refusal/sized.h"
+#include "batch/refusal/status.h"
+#include "core/arm.h"
+#include "core/frame_rotor.h"
+
+namespace swivel {
+
+namespace {
+
+Vector<double> vector_of(const float (&v)[3]) { return vector<double>(v[0], v[1], v[2]); }
+Rotor<double> rotor_of(const float (&q)[4]) { return rotor<double>(q[0], q[1], q[2], q[3]); }
+
+bool is_usable_bone(const Vector<double>& v) { return len2(v) >= kTiny2 && len2(v) <= kHuge2; }
+
+void store_unit(const Rotor<double>& q, float (&to)[4])
+{
+    const Rotor<double> unit = hemisphere(normalise(q));
+    to[0] = static_cast<float>(unit.at<kI>());
+    to[1] = static_cast<float>(unit.at<kJ>());
+    to[2] = static_cast<float>(unit.at<kK>());
+    to[3] = static_cast<float>(unit.at<kScalar>());
+}
+
+// cos 10 degrees. A rest pose that is bent by less shows noise, and not where the limb bends to.
+constexpr double kBent = 0.984807753;
+
+// The rotor from the arm frame to a joint's own frame: e3 to the joint's bone, e1 to the hinge's part orthogonal to it.
+Rotor<double> align(const Vector<double>& bone, const Vector<double>& hinge)
+{
+    const Vector<double> axis = normalise(bone);
+    return frame_rotor(axis, normalise(hinge - scalar_product(hinge, axis) * axis));
+}
+
+bool is_along(const Vector<double>& a, const Vector<double>& b)
+{
+    return !(len2(cross(a, b)) > 1e-6 * len2(a) * len2(b));  // sin 1e-3, as for poles
+}
+
+// What carries the arm frame into a joint's parent, of what carries it into the joint above.
+Rotor<double> parent_from(const RestJoint& joint, const Rotor<double>& above_from_arm)
+{
+    return joint.between ? ~*joint.between * above_from_arm : above_from_arm;
+}
+
+// What the elbow turns about, in the shoulder joint's frame, as are the bones and the bend. Flexion turns from the
+// upper arm, e3, towards the bend, e2: about -e1, the opposite of this.
+swivel_status find_hinge(const char* call, const Vector<double>& upper, const Vector<double>& fore,
+                         const Vector<double>& given, Vector<double>& hinge)
+{
+    if (!(len2(given) <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "%s: the bend is not finite or longer than 1e15; give a direction or zeros", call);
+    const bool is_given = len2(given) >= kTiny2;
+    if (!is_given && scalar_product(upper, fore) >= kBent * std::sqrt(len2(upper) * len2(fore)))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "%s: the rest pose is straight within 10 degrees, so it does not show where the limb bends to; "
+                    "give the bend",
+                    call);
+    const Vector<double> bend = is_given ? given : fore;
+    if (is_along(bend, upper))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "%s: the %s lies along the upper arm; give the direction that flexion carries the forearm towards",
+                    call, is_given ? "bend" : "forearm");
+    hinge = cross(bend, upper);
+    if (is_along(hinge, fore))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "%s: the forearm at rest lies along the axis that the bend turns it about; give another bend",
+                    call);
+    return SWIVEL_OK;
+}
+
+}  // namespace
+
+swivel_status rest_limb(const swivel_chain& chain, RestLimb& limb)
+{
+    limb = {};
+    limb.shoulder.rotation = rotor_of(chain.shoulder_rotation);
+    limb.elbow.rotation = rotor_of(chain.elbow_rotation);
+    limb.wrist.rotation = rotor_of(chain.wrist_rotation);
+    if (!is_orientation(limb.shoulder.rotation) || !is_orientation(limb.elbow.rotation) ||
+        !is_orientation(limb.wrist.rotation))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind: a rest rotation is zero or not finite; give quaternions x, y, z, w");
+    limb.elbow.place = vector_of(chain.elbow_offset);
+    limb.wrist.place = vector_of(chain.wrist_offset);
+    limb.bend = vector_of(chain.bend);
+    return SWIVEL_OK;
+}
+
+swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& to)
+{
+    const std::size_t size = size_of(&to);
+    if (const swivel_status status = check_size<swivel_binding>("binding", size); status != SWIVEL_OK) return status;
+    swivel_binding binding = swivel_default_binding();
+    const Vector<double>&upper = limb.elbow.place, &fore = limb.wrist.place;
+    if (!is_usable_bone(upper) || !is_usable_bone(fore))
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s: the %s has no direction; offsets must have a length in 1e-15..1e15",
+                    call, is_usable_bone(upper) ? "forearm" : "upper arm");
+    const Rotor<double> elbow_unit = normalise(limb.elbow.rotation);
+    const Rotor<double> elbow_s = limb.elbow.between ? *limb.elbow.between * elbow_unit : elbow_unit;
+    Vector<double> hinge;
+    if (const swivel_status status = find_hinge(call, upper, sandwich(elbow_s, fore), limb.bend, hinge);
+        status != SWIVEL_OK)
+        return status;
+
+    const Rotor<double> upper_from_arm = align(upper, hinge);
+    const Rotor<double> fore_from_arm = align(fore, sandwich(~elbow_s, hinge));
+    store_unit(limb.shoulder.rotation * upper_from_arm, binding.parent_from_arm);
+    store_unit(upper_from_arm, binding.upper_from_arm);
+    store_unit(parent_from(limb.elbow, upper_from_arm), binding.elbow_parent_from_arm);
+    store_unit(fore_from_arm, binding.fore_from_arm);
+    store_unit(parent_from(limb.wrist, fore_from_arm), binding.wrist_parent_from_arm);
+    store_unit(limb.shoulder.rotation, binding.shoulder_rest);
+    store_unit(limb.elbow.rotation, binding.elbow_rest);
+    store_unit(limb.wrist.rotation, binding.wrist_rest);
+    binding.lengths[0] = static_cast<float>(std::sqrt(len2(upper)));
+    binding.lengths[1] = static_cast<float>(std::sqrt(len2(fore)));
+    binding.twist_bone_count = limb.twist_bone_count;
+    for (std::uint32_t n = 0; n < SWIVEL_MOST_TWIST_BONES; ++n) {
+        const bool is_known = n < limb.twist_bone_count;
+        const Rotor<double> parent = is_known ? parent_from(limb.twist_bones[n], fore_from_arm) : fore_from_arm;
+        store_unit(parent, binding.twist_parent_from_arm[n]);
+        store_unit(is_known ? ~limb.twist_bones[n].rotation * parent : parent, binding.twist_from_arm[n]);
+    }
+    binding.size = size;
+    std::memcpy(&to, &binding, size);
+    return SWIVEL_OK;
+}
+
+bool is_binding(const swivel_binding& b)
+{
+    const auto is_unit = [](const float(&q)[4]) {
+        return std::fabs(len2(rotor_of(q)) - 1) <= 1e-5;  // ten times what rounding to floats leaves
+    };
+    const auto are_unit = [&](const auto& list) { return std::all_of(std::begin(list), std::end(list), is_unit); };
+    return is_unit(b.parent_from_arm) && is_unit(b.upper_from_arm) && is_unit(b.elbow_parent_from_arm) &&
+           is_unit(b.fore_from_arm) && is_unit(b.wrist_parent_from_arm) && is_unit(b.shoulder_rest) &&
+           is_unit(b.elbow_rest) && is_unit(b.wrist_rest) && b.twist_bone_count <= SWIVEL_MOST_TWIST_BONES &&
+           are_unit(b.twist_parent_from_arm) && are_unit(b.twist_from_arm);
+}
+
+swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],
+                       double (&axis)[3])
+{
+    const Rotor<double> parent = rotor_of(parent_rotation);
+    const Vector<double> wanted = vector<double>(direction[0], direction[1], direction[2]);
+    if (!is_binding(binding))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_arm_axis: the binding holds a quaternion not of unit length; make it with swivel_bind()");
+    if (!is_orientation(parent))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_arm_axis: the parent's rotation is zero or not finite; give a quaternion x, y, z, w");
+    if (!is_usable_bone(wanted))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: direction (%g, %g, %g) is not 1e-15..1e15 long",
+                    direction[0], direction[1], direction[2]);
+    const Rotor<double> world_from_arm = normalise(parent) * normalise(rotor_of(binding.parent_from_arm));
+    const Vector<double> in_arm = normalise(sandwich(~world_from_arm, wanted));
+    std::copy(std::begin(in_arm.c), std::end(in_arm.c), axis);
+    return SWIVEL_OK;
+}
+
+}  // namespace swivel

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+//
+// The C entry points that describe a solved pose for people: in words, and as joint angles.
+#include <cstring>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "batch/api/check.h"
+#include "batch/api/pose_check.h"
+#include "batch/api/use.h"
+#include "batch/explain/compare.h"
+#include "batch/explain/explain.h"
+#include "batch/explain/explain_doubts.h"
+#include "batch/explain/explain_text.h"
+#include "batch/explain/joint_angles.h"
+#include "batch/refusal/status.h"
+#include "batch/solve/pose.h"
+#include "simd/float_env.h"
+
+using namespace swivel;
+
+namespace {
+
+swivel_status take_place(const double* from, const char* name, Vector<double>& to)
+{
+    if (!from) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: %s is null", name);
+    std::memcpy(to.c, from, sizeof to.c);
+    if (len2(to) <= kHuge2) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: %s is not finite or further than 1e15 from the origin", name);
+}
+
+// Explains each of a body's groups in a line of its own.
+void explain_body(const swivel_crowd& crowd, uint32_t body, Text& text)
+{
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+        text.add("%sgroup %u: ", g > 0 ? "\n" : "", g);
+        if (crowd.groups[g].features & (kNoLimb | SWIVEL_WITH_RECORD))
+            explain(crowd, g, body, text);
+        else
+            text.add("it has no SWIVEL_WITH_RECORD, so nothing is known of it.");
+    }
+}
+
+}  // namespace
+
+swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text, size_t size)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    const bool is_body = group == SWIVEL_EVERY_GROUP;
+    if (const swivel_status status = use.of(is_body ? 0 : group, limb, 1); status != SWIVEL_OK) return status;
+    if (is_body && crowd->joint_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: this crowd has no bodies; name one of its %u groups",
+                    crowd->group_count);
+    if (!is_body && !(crowd->groups[group].features & kNoLimb))
+        if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK)
+            return status;
+    if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
+    Text to({text, size});
+    if (doubt_solve(*crowd, to)) to.add("%s", is_body ? "\n" : " ");
+    if (is_body)
+        explain_body(*crowd, limb, to);
+    else
+        explain(*crowd, group, limb, to);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body, const swivel_pose* pose,
+                             const double shoulder[3], const double elbow[3], const double wrist[3], char* text,
+                             size_t size, int* agrees)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, body, 1); status != SWIVEL_OK) return status;
+    if (crowd->joint_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_compare: this crowd has no bodies, so it has no pose; create it "
+                    "with a skeleton");
+    if (const swivel_status status = check_limbs(*crowd, group, "swivel_compare"); status != SWIVEL_OK) return status;
+    if (!pose) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: pose is null");
+    if (const swivel_status status = check_pose(*crowd, pose); status != SWIVEL_OK) return status;
+    LimbPlaces places{};
+    for (const auto& [from, name, to] : {std::tuple{shoulder, "shoulder", &places.at[0]},
+                                         {elbow, "elbow", &places.at[1]},
+                                         {wrist, "wrist", &places.at[2]}})
+        if (const swivel_status status = take_place(from, name, *to); status != SWIVEL_OK) return status;
+    if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: text is null or of no size");
+    const bool agree = compare(*crowd, group, body, full_pose(pose), places, {text, size});
+    if (agrees) *agrees = agree;
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                                  swivel_euler_order shoulder_order, swivel_euler_order wrist_order, int family,
+                                  swivel_out angles)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_limbs(*crowd, group, "swivel_joint_angles"); status != SWIVEL_OK)
+        return status;
+    for (const auto& [order, name] :
+         {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
+        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX",
+                        name, static_cast<int>(order));
+    if (family != 0 && family != 1)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
+    if (const swivel_status status =
+            check_stride(group, "angles", limb_count, angles.data, angles.stride, 7 * sizeof(double), false);
+        status != SWIVEL_OK)
+        return status;
+    const Group& g = crowd->groups[group];
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        const JointAngles seven = joint_angles(arm_rotors(g, first + n), shoulder_order, wrist_order, family);
+        std::memcpy(static_cast<char*>(angles.data) + n * angles.stride, &seven, sizeof seven);
+    }
+    return SWIVEL_OK;
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+//
+// A limb of a body as its pose has it, beside where the caller has it. Knows when they agree, and no causes.
+#pragma once
+
+#include "batch/explain/compare.h"
+#include "batch/explain/explain_text.h"
+#include "batch/explain/posed_body.h"
+
+namespace swivel {
+
+double distance(const Vector<double>& a, const Vector<double>& b);
+double length(const LimbPlaces& limb);  // of both bones
+template <class Move>
+LimbPlaces moved(const LimbPlaces& limb, const Move& move)
+{
+    return {{move(limb.at[0]), move(limb.at[1]), move(limb.at[2])}};
+}
+inline LimbPlaces scaled_about(const Vector<double>& centre, double factor, const LimbPlaces& limb)
+{
+    return moved(limb, [&](const Vector<double>& v) { return centre + factor * (v - centre); });
+}
+
+// Joints of a limb, as PosedBody numbers them: shoulder, elbow, wrist.
+struct LimbJoints {
+    std::uint32_t at[3];
+};
+
+struct ComparedLimb {
+    const swivel_crowd& crowd;
+    const std::uint32_t group;
+    const swivel_pose& pose;
+    const LimbPlaces& theirs;  // the caller's
+    const PosedBody body;
+    const Reading as_given{pose};  // as a solve reads it, and where it has the limb
+    const LimbJoints joints = joints_of(group);
+    const LimbPlaces posed = places(joints, as_given);
+
+    LimbJoints joints_of(std::uint32_t other_group) const;
+    LimbPlaces places(const LimbJoints& of, const Reading& how) const;
+    // The joint's number in the skeleton; part: 0 to 2.
+    std::uint32_t named(int part) const { return body.skeleton_joint(joints.at[part]); }
+
+    // Of three places, how far the worst is from the caller's; NaN if one is.
+    double worst(const LimbPlaces& ours) const;
+    // How far one may be off. Floats in the world are rounded, by engines too.
+    double allowed(const LimbPlaces& ours) const;
+    double rounding() const;  // of floats as far from the origin
+    bool agrees(const LimbPlaces& ours) const { return worst(ours) <= allowed(ours); }
+    // How much further the caller's places are from a centre than the pose's, by least squares.
+    double factor_about(const Vector<double>& centre) const;
+};
+
+// Whether the three places lie to each other as the pose has them.
+bool has_same_shape(const ComparedLimb& limb);
+
+// Where a difference begins that no mistake explains, and what to look at.
+void describe_difference(const ComparedLimb& limb, Text& text);
+
+}  // namespace swivel

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+//
+// Solves the limb again, in a crowd of its own on the stack (explain_probe.h), and says in words what it meets.
+#include "batch/explain/explain.h"
+
+#include <cmath>
+
+#include "batch/explain/explain_doubts.h"
+#include "batch/explain/explain_ground.h"
+#include "batch/explain/explain_hold.h"
+#include "batch/explain/explain_limits.h"
+#include "batch/explain/explain_look.h"
+#include "batch/explain/explain_plant.h"
+#include "batch/explain/explain_probe.h"
+#include "batch/explain/limb_value.h"
+#include "core/limb_goal.h"
+
+namespace swivel {
+
+namespace {
+
+// The lengths of a field's axis and pairs that must be 1 and are not.
+void explain_lengths(const Probe& probe, swivel_field field, Text& text)
+{
+    const auto length2 = [&](std::uint32_t first, std::uint32_t count) {
+        float sum = 0;  // of floats and in their order, as a solve sums them
+        for (std::uint32_t c = first; c < first + count; ++c) sum += probe.value(field, c) * probe.value(field, c);
+        return sum;
+    };
+    const auto [axis_size, pair_count] = row_of(field).unit;
+    if (const float axis2 = length2(0, axis_size); axis_size > 0 && !is_unit2(axis2))
+        text.add(" (its axis is %.8g long)", std::sqrt(double{axis2}));
+    for (std::uint32_t c = axis_size; c < axis_size + 2 * pair_count; c += 2)
+        if (const float pair2 = length2(c, 2); !is_unit2(pair2))
+            text.add(" (its pair %g, %g is %.8g long)", double{probe.value(field, c)},
+                     double{probe.value(field, c + 1)}, std::sqrt(double{pair2}));
+}
+
+// Names an input and says why it is bad.
+void explain_bad_value(const Probe& probe, swivel_field field, Text& text)
+{
+    text.add("%s (", name_of(field));
+    bool is_number = true, is_given = false;
+    for (std::uint32_t c = 0; c < probe.given_count(field); ++c) {
+        const double x = double{probe.given(field, c)};
+        text.add("%s%g", c == 0 ? "" : ", ", x);
+        is_number = is_number && !std::isnan(x);
+        is_given = is_given || !std::isnan(x);
+    }
+    if (is_number) {
+        text.add(") is out of its range, %s", row_of(field).range);
+        explain_lengths(probe, field, text);
+    } else {
+        text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
+    }
+}
+
+// Inputs that are bad whatever the others are.
+void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+{
+    text.add("Bad input: ");
+    bool is_found = false, is_pose_bad = false;
+    const auto found = [&](swivel_field field) {
+        text.add("%s", is_found ? "; " : "");
+        explain_bad_value(probe, field, text);
+        is_found = true;
+    };
+    for (const FieldRow& row : kFields) {
+        const swivel_field field = row.field;
+        if (row.kind != SWIVEL_FIELD_INPUT) continue;
+        if (is_bad_in_body(group, limb, field)) found(field);
+        // What a limb that is sent goes to is no input.
+        const bool is_goal = field == SWIVEL_TARGET || field == SWIVEL_HAND;
+        if (probe.component_count(field) == 0 || (is_goal && group.features & SWIVEL_SENT)) continue;
+        probe.take();
+        probe.give_up_all_but(field);
+        if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
+        is_pose_bad = is_pose_bad || probe.is_posed(field);
+        if (!probe.is_posed(field)) found(field);
+    }
+    if (holds_bad(crowd, group, limb)) {
+        text.add("%sgroup %u, which it holds, has bad input", is_found ? "; " : "", group.limb.linked_group);
+        is_found = true;
+    }
+    const bool is_planted = group.features & SWIVEL_WITH_PLANT;
+    if (is_pose_bad || (!is_found && probe.is_of_body() && !is_planted))
+        text.add(
+            "%sin the pose, a rotation, place or scale of the limb's joints, of those above or of the root is not a "
+            "number or out of its range",
+            is_found ? "; " : "");
+    else if (!is_found && is_planted)
+        text.add(
+            "in the pose, the root, its time or support was not a number or out of its range, unless an input has been "
+            "written "
+            "since");
+    else if (!is_found)
+        text.add("each input is in its range, but not as the parent's rotation and scale have it");
+    text.add(". The limb %s.", !group.keeps         ? "has its rest pose"
+                               : probe.is_of_body() ? "keeps its incoming pose"
+                                                    : "keeps the pose it had");
+}
+
+// What goes to the target.
+const char* end_of(const Probe& solved)
+{
+    const bool has_effector = solved.component_count(SWIVEL_EFFECTOR) > 0 && !solved.is(SWIVEL_EFFECTOR, {0, 0, 0});
+    return has_effector ? "effector" : "wrist";
+}
+
+const char* zone_of(const Probe& solved)
+{
+    return solved.component_count(SWIVEL_CAP) > 0 ? "The eased zone of its cap" : "A soft zone of reach";
+}
+
+// reached: how far the wrist is from the shoulder; by: what keeps it there. missed() is from the target itself.
+void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reached, const char* by, Text& text)
+{
+    if (flags & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) {
+        const bool is_far = flags & SWIVEL_CLAMPED_FAR;
+        text.add("The blended target is %s: the wrist is %.4g from the shoulder, as %s as %s let it.",
+                 is_far ? "out of reach" : "too near", reached, is_far ? "far" : "near", by);
+    } else if (flags & SWIVEL_SOFTENED) {
+        text.add("%s keeps the %s from its blended target.", zone_of(solved), end_of(solved));
+    } else {
+        text.add("The blended target is reached.");
+    }
+    text.add(" With a position weight of %.3g, the %s is %.4g from the target itself.",
+             double{solved.value(SWIVEL_WEIGHTS, 0)}, end_of(solved), solved.missed());
+}
+
+// What keeps the wrist so far from the shoulder, or so near.
+const char* bound_of(const Probe& solved, std::uint32_t flags, double reached)
+{
+    if (solved.is(SWIVEL_LENGTHS, {0, 0})) return "bones of no length";
+    if (flags & SWIVEL_LIMITED_FLEXION) return "its bones and its flexion limit";
+    const bool is_straight = reached >= (1 - 1e-4) * solved.length();  // a thousand times rounding
+    return flags & SWIVEL_CLAMPED_FAR && solved.component_count(SWIVEL_CAP) > 0 && !is_straight ? "its cap"
+                                                                                                : "its bones";
+}
+
+void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
+{
+    const double missed = solved.missed();
+    const LimbPose pose = solved.pose();
+    const double reached = std::sqrt(len2(pose.wrist - pose.shoulder));
+    const bool aims = solved.component_count(SWIVEL_AIM) > 0;
+    const bool blends = solved.component_count(SWIVEL_WEIGHTS) > 0 && solved.value(SWIVEL_WEIGHTS, 0) < 1;
+    const char* const by = bound_of(solved, flags, reached);
+    if (blends)
+        explain_blended_reach(solved, flags, reached, by, text);
+    else if (aims && flags & SWIVEL_CLAMPED_NEAR)
+        text.add("The target is too near to aim at with this flexion: the hand's ray passes it by %.4g.", missed);
+    else if (aims)
+        text.add("The hand aims at the target, to within %.2g of the limb's length.", solved.missed_share());
+    else if (flags & SWIVEL_CLAMPED_FAR)
+        text.add("The target is %.4g out of reach: the wrist is %.4g from the shoulder, as far as %s let it.", missed,
+                 reached, by);
+    else if (flags & SWIVEL_CLAMPED_NEAR)
+        text.add("The target is %.4g too near: the wrist is %.4g from the shoulder, as near as %s let it.", missed,
+                 reached, by);
+    else if (flags & SWIVEL_SOFTENED)
+        text.add("%s keeps the %s %.4g from its target.", zone_of(solved), end_of(solved), missed);
+    else
+        text.add("The target is reached, to within %.2g of the limb's length.", solved.missed_share());
+    if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
+    if (flags & SWIVEL_SWIVEL_UNDEFINED)
+        text.add(solved.has(SWIVEL_POLE_HAND)
+                     ? " The hand does not say where the elbow goes: it points along the target's line, or that has no "
+                       "length."
+                     : " The pole does not say where the elbow goes: it is of no length or on the target's line.");
+    for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND})
+        if (solved.is(field, {0, 0, 0, 1})) text.add(" Its %s is the identity, as limbs start.", name_of(field));
+}
+
+// Of a body's limb, which is solved from a record, so that its last digits differ: whether these are one pose. The
+// share of the limb is a thousand times rounding, and less than anyone sees. The elbow of a straight limb is only known
+// to the root of rounding.
+bool is_near(const LimbPose& a, const LimbPose& b)
+{
+    constexpr double kShare = 1e-4, kElbowShare = 3e-3;
+    const double size2 = len2(b.elbow - b.shoulder) + len2(b.wrist - b.elbow);
+    const double cos_half = scalar_product(~a.hand, b.hand);
+    return len2(a.elbow - b.elbow) <= kElbowShare * kElbowShare * size2 &&
+           len2(a.wrist - b.wrist) <= kShare * kShare * size2 && 1 - cos_half * cos_half <= kShare * kShare;
+}
+
+// It is a function of its own so that explain_prop, which has a limb on the stack too, has that room.
+[[gnu::noinline]] void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+{
+    Probe probe(group, limb);
+    const std::uint32_t flags_were = probe.flags();
+    if (probe.is_of_body() && flags_were == 0) return text.add("It was never solved, so no pose of it is known.");
+    const LimbPose was = probe.pose();
+    const std::uint32_t flags_now = probe.solve();
+    // The goal of a limb that is sent is that of its last good solve.
+    const bool was_bad = group.features & SWIVEL_SENT && flags_were & SWIVEL_BAD_INPUT;
+    const bool is_kept = was_bad || (group.keeps && flags_now & SWIVEL_BAD_INPUT);
+    const bool is_same = probe.is_of_body() ? is_near(was, probe.pose()) : probe.has_bits_of_limb();
+    // At the borders of reach the solver's own flags count: rounding of a record may have others.
+    const std::uint32_t flags = is_same && !(flags_now & SWIVEL_BAD_INPUT) ? flags_were : flags_now;
+    // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
+    if (!(group.features & kCarryingFeatures) && !is_kept && !is_same)
+        text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
+    if (flags & SWIVEL_BAD_INPUT || was_bad || is_bad_in_body(group, limb))
+        return explain_bad_input(probe, crowd, group, limb, text);
+    if (group.features & SWIVEL_WITH_RECORD) doubt_limb(group, limb, probe, text);
+    if (group.features & SWIVEL_WITH_PLANT) explain_plant(group, limb, flags_were, text);
+    if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
+    if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
+    explain_reach(probe, flags, text);
+    explain_limits(probe, flags_were, flags, text);
+}
+
+}  // namespace
+
+void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, Text& text)
+{
+    const Group& group = crowd.groups[g];
+    if (group.features & SWIVEL_FIT)
+        explain_shift(group, limb, text);
+    else if (group.features & SWIVEL_PROP)
+        explain_prop(crowd, group, limb, text);
+    else if (group.features & SWIVEL_LOOK)
+        explain_look(crowd, group, limb, text);
+    else
+        explain_limb(crowd, group, limb, text);
+}
+
+}  // namespace swivel

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// Why one limb's result is as it is, in words and numbers, for people.
+#pragma once
+
+#include <cstdint>
+
+#include "batch/crowd/crowd.h"
+#include "batch/explain/explain_text.h"
+
+namespace swivel {
+
+// Adds what swivel_explain() promises. group: one of the crowd's; limb: counted within it.
+void explain(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t limb, Text& text);
+
+}  // namespace swivel

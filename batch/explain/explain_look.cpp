@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+//
+// No row says how far a joint turned, or how the root stands. So a cause is named where flags leave no other, and else
+// all that there may be. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
+#include "batch/explain/explain_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "batch/explain/explain_plant.h"
+#include "batch/explain/limb_value.h"
+#include "core/bit_cast.h"
+#include "core/conformal.h"
+
+namespace swivel {
+
+namespace {
+
+struct LookOfBody {
+    const swivel_crowd& crowd;
+    const Group& group;
+    std::uint32_t limb;
+    LimbValue sight{group, limb, SWIVEL_SIGHT}, turns{group, limb, SWIVEL_LOOK_TURNS},
+        target{group, limb, SWIVEL_LOOK_TARGET};
+    const LookRules& rules = group.limb.look;
+    double weight = LimbValue(group, limb, SWIVEL_LOOK_WEIGHT)[0];
+    std::uint32_t flags = bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
+    Vector<double> axis = vector(sight[3], sight[4], sight[5]),
+                   to = vector(target[0] - sight[0], target[1] - sight[1], target[2] - sight[2]);
+
+    bool has_target() const { return !std::isnan(target.length(0, 3)); }
+    bool is_anew() const { return turns[0] == 0; }
+    double distance() const { return std::sqrt(len2(to)); }
+    // By how many radians the line of sight is off its target.
+    double missed() const { return std::atan2(std::sqrt(len2(cross(axis, to))), scalar_product(axis, to)); }
+    // The same that rounding of places and directions may make.
+    double rounding() const
+    {
+        return 1e-5 + 1e-6 * (sight.length(0, 3) + target.length(0, 3)) / std::max(distance(), 1e-30);
+    }
+    // Whether the last solve had another target, as far as its flags tell.
+    bool has_changed() const
+    {
+        if (flags & SWIVEL_REACHED) return !has_target() || missed() > 1e-4 + rounding();
+        return has_target() && missed() < 1e-4 - rounding();
+    }
+
+    // A target in centimetres, or from another origin, is seen as one that is very far away.
+    void doubt_distance(Text& text) const
+    {
+        double chain = 0;
+        for (std::uint32_t at = last_joint_number(); at != 0; at = parent_of(at)) {
+            const float(&v)[3] = crowd.joints[at].translation;
+            chain += std::sqrt(len2(vector<double>(v[0], v[1], v[2])));
+        }
+        if (chain > 0 && distance() > 1e4 * chain)
+            text.add(
+                "Warning: its target is %.3g away, more than ten thousand times as far as the last joint is from the "
+                "root. Is it in another unit, or from another origin? ",
+                distance());
+    }
+    void explain_bad(Text& text) const
+    {
+        text.add("Bad input: ");
+        bool is_found = false;
+        for (const swivel_field field : {SWIVEL_LOOK_TARGET, SWIVEL_LOOK_WEIGHT}) {
+            if (!is_bad_in_body(group, limb, field)) continue;
+            text.add("%s%s (", is_found ? "; " : "", name_of(field));
+            const LimbValue value(group, limb, field);
+            for (std::uint32_t c = 0; c < field_row_count(group.features, field); ++c)
+                text.add("%s%g", c == 0 ? "" : ", ", value[c]);
+            text.add(") is out of its range, %s", row_of(field).range);
+            is_found = true;
+        }
+        if (!is_found)
+            text.add(
+                "in the pose, its time, or a rotation, place or scale of the chain or the root was not a number or out "
+                "of its range, unless an input has been written since");
+        text.add(". The chain keeps its incoming pose.");
+    }
+    void explain_nothing(Text& text) const
+    {
+        text.add("It has nothing to look at");
+        explain_way_back(text);
+    }
+    void explain_way_back(Text& text) const
+    {
+        if (flags & SWIVEL_LIMITED_STEP)
+            text.add(", and the chain is on its way back to its incoming pose, by %.3g degrees a second.",
+                     in_degrees(double{rules.rate}));
+        else
+            text.add(", so the chain has its incoming pose.");
+    }
+    void explain_miss(Text& text) const
+    {
+        text.add("The line of sight misses its target by %.3g degrees.", in_degrees(missed()));
+        const bool is_whole = weight == 1 && !(flags & SWIVEL_FADED);
+        if (weight == 0) text.add(" Its weight is 0");
+        if (weight == 0) return explain_way_back(text);
+        if (weight < 1) text.add(" With a weight of %.3g it takes a part of the turn.", weight);
+        if (flags & SWIVEL_FADED) explain_fade(text);
+        if (flags & SWIVEL_LIMITED_STEP) explain_rate(is_whole && !(flags & SWIVEL_LIMITED_LOOK), text);
+        if (flags & SWIVEL_LIMITED_LOOK) explain_cone(is_whole, text);
+        if (is_whole && !(flags & (SWIVEL_LIMITED_STEP | SWIVEL_LIMITED_LOOK)))
+            text.add(
+                " The target is nearer to joint %u than the line of sight comes: it is %.4g from the eye. Or the pose "
+                "has a "
+                "weight below 1.",
+                last_joint(), distance());
+    }
+
+private:
+    std::uint32_t number_of(std::uint32_t row) const
+    {
+        std::uint32_t n = 0;
+        while (crowd.joints[n].row != row) ++n;
+        return n;
+    }
+    std::uint32_t parent_of(std::uint32_t number) const { return number_of(crowd.joints[number].parent); }
+    std::uint32_t last_joint_number() const { return number_of(group.limb.turned[group.limb.turned_count - 1].row); }
+    std::uint32_t last_joint() const { return crowd.joints[last_joint_number()].skeleton_joint; }
+    // A chain turns its line towards the target. So where the line is still behind, it came so.
+    void explain_fade(Text& text) const
+    {
+        const double cos_full = double{rules.fade.cos_none} + 1 / double{rules.fade.per_cos},
+                     full = in_degrees(std::acos(std::clamp(cos_full, -1.0, 1.0))),
+                     none = in_degrees(std::acos(std::clamp(double{rules.fade.cos_none}, -1.0, 1.0)));
+        const bool is_followed = !(flags & SWIVEL_LIMITED_STEP);
+        const double angle = in_degrees(missed());
+        if (is_followed && angle >= none + 0.01)
+            text.add(" The target is behind, more than %.4g degrees from the incoming line, so the look has faded out.",
+                     none);
+        else if (is_followed && angle >= full + 0.01)
+            text.add(" The target is behind, more than %.4g degrees from the incoming line, so the look fades.", full);
+        else
+            text.add(
+                " The look fades, because its target is more than %.4g degrees from the incoming line, or nearer to "
+                "the eye than %.3g of the last joint's unit: it is %.4g away.",
+                full, double{rules.fade.distance}, distance());
+    }
+    void explain_rate(bool is_alone, Text& text) const
+    {
+        text.add(" Its rate of %.4g degrees a second holds it back", in_degrees(double{rules.rate}));
+        if (is_alone) text.add(" by %.3g degrees", in_degrees(missed()));
+        text.add(".");
+    }
+    // is_whole: the last joint was to take all that was left.
+    void explain_cone(bool is_whole, Text& text) const
+    {
+        const std::uint32_t count = group.limb.turned_count;
+        const LookJoint& last = rules.joint[count - 1];
+        const double most = in_degrees(2 * std::atan2(double{last.sin_half_most}, double{last.cos_half_most}));
+        const bool is_last = count == 1 || (is_whole && !(flags & SWIVEL_LIMITED_STEP));
+        if (!is_last) return text.add(" A cone holds a joint of the chain back.");
+        text.add(" The cone of joint %u, %.4g degrees, holds it back", last_joint(), most);
+        const Vector<double> eye = vector<double>(rules.eye[0], rules.eye[1], rules.eye[2]),
+                             ahead = vector<double>(rules.axis[0], rules.axis[1], rules.axis[2]);
+        if (count > 1 && len2(cross(eye, ahead)) > 0)
+            text.add(", unless the target is nearer to that joint than the line of sight comes");
+        text.add(".");
+    }
+};
+
+}  // namespace
+
+void explain_look(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+{
+    const LookOfBody look{crowd, group, limb};
+    if (look.flags & SWIVEL_BAD_INPUT || is_bad_in_body(group, limb)) return look.explain_bad(text);
+    if (look.is_anew()) return text.add("It was never solved, or was reset: it begins at its next target.");
+    if (look.has_changed()) text.add("Its target changed since it was solved. ");
+    if (!look.has_target()) return look.explain_nothing(text);
+    if (look.has_changed())
+        return text.add("The line of sight is %.3g degrees off the new one.", in_degrees(look.missed()));
+    look.doubt_distance(text);
+    if (!(look.flags & SWIVEL_REACHED)) return look.explain_miss(text);
+    text.add("The line of sight meets its target, %.4g from the eye.", look.distance());
+    if (look.flags & SWIVEL_LIMITED_LOOK)
+        text.add(" A cone holds a joint of the chain back, and those after it make up for that.");
+}
+
+}  // namespace swivel

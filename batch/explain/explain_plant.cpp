@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "batch/explain/explain_plant.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "batch/explain/limb_value.h"
+#include "core/bit_cast.h"
+#include "core/plant_rules.h"
+
+namespace swivel {
+
+namespace {
+
+bool is_within(double x, double least, double most) { return x >= least && x <= most; }
+
+// Whether a value is bad. What NaN leaves out is none: targets and hands of limbs that are sent, and where props lie.
+bool is_bad(const LimbValue& value, swivel_field field)
+{
+    constexpr double kMost = 1e15;
+    switch (field) {
+        case SWIVEL_TARGET:
+        case SWIVEL_PROP_PLACE:
+        case SWIVEL_LOOK_TARGET:
+            return value.length(0, 3) > kMost;
+        case SWIVEL_HAND:
+        case SWIVEL_PROP_TURN:
+            return value.length(0, 4) < 1e-9 || value.length(0, 4) > 1e9;
+        case SWIVEL_GRIP:
+            return !is_within(value.length(0, 3), 0, kMost) || !is_within(value.length(3, 4), 1e-9, 1e9);
+        case SWIVEL_COMING:
+            return !is_within(value.length(0, 3), 0, kMost);
+        case SWIVEL_COMING_TIME:
+            return !is_within(value[0], 0, kMost);
+        case SWIVEL_GROUND_NORMAL:
+            return !is_within(value.length(0, 3), 1e-9, 1e9);
+        case SWIVEL_SHIFT_WISH:
+            return !is_within(value[0], -kMost, kMost);
+        default:
+            return !is_within(value[0], 0, 1);
+    }
+}
+// Whether only a stage of whole bodies reads a field.
+bool is_of_whole_bodies(const Group& group, swivel_field field)
+{
+    switch (field) {
+        case SWIVEL_TARGET:
+        case SWIVEL_HAND:
+            return group.features & SWIVEL_WITH_PLANT || group.limb.holds_prop;
+        case SWIVEL_CLAVICLE:
+            return group.features & SWIVEL_BODY;
+        case SWIVEL_CONTACT:
+        case SWIVEL_FIT_WEIGHT:
+        case SWIVEL_COMING:
+        case SWIVEL_COMING_TIME:
+        case SWIVEL_SHIFT_WISH:
+        case SWIVEL_GROUND_NORMAL:
+        case SWIVEL_GROUND_WEIGHT:
+        case SWIVEL_GRIP:
+        case SWIVEL_PROP_PLACE:
+        case SWIVEL_PROP_TURN:
+        case SWIVEL_PROP_SHARE:
+        case SWIVEL_LOOK_TARGET:
+        case SWIVEL_LOOK_WEIGHT:
+            return true;
+        default:
+            return false;
+    }
+}
+
+// The state that a planted limb carries: the numbers of SWIVEL_PLANT.
+struct CarriedPlant {
+    enum Bit : unsigned { locked = 1, armed = 2, released = 4, begun = 8 };
+    double offset, left;  // in the targets' unit; s
+    bool is_moving;       // its target, while the point is locked
+    unsigned bits;
+
+    CarriedPlant(const Group& group, std::uint32_t limb)
+    {
+        const LimbValue plant(group, limb, SWIVEL_PLANT);
+        offset = plant.length(3, 3);
+        left = plant[9];
+        is_moving = is_fading() && plant.length(3, 6) > 0;
+        const double number = plant[10];  // anybody may have written it
+        bits = number >= 0 && number < 16 ? static_cast<unsigned>(number) : 0;
+    }
+    bool is(Bit bit) const { return bits & bit; }
+    bool is_fading() const { return left > kShortestTime; }
+};
+
+double in_ms(double seconds) { return seconds * 1000; }
+
+// A limb of a group that plants. Shares are of its length, as the rules count.
+struct PlantedLimb {
+    const Group& group;
+    std::uint32_t limb;
+    const PlantRules& rules = group.limb.rules;
+    CarriedPlant state{group, limb};
+
+    bool is_by_motion() const { return group.features & SWIVEL_PLANT_BY_MOTION; }
+    float label() const { return LimbValue(group, limb, SWIVEL_CONTACT).number(0); }
+    bool is_in_contact() const
+    {
+        return is_by_motion() ? LimbValue(group, limb, SWIVEL_MOTION).number(3) > 0.5f : label() > 0.5f;
+    }
+    // As the limb's parent is scaled.
+    double share(double distance) const
+    {
+        return distance / (double{group.limb.rest_length} * LimbValue(group, limb, SWIVEL_RECORD)[kRecordScale]);
+    }
+
+    void explain_locked(Text& text) const
+    {
+        if (state.is_moving)
+            text.add(
+                "It is planted, and its target runs in: it locked %.0f ms ago and comes to rest in %.0f ms, %.4g away.",
+                in_ms(double{rules.stop} - state.left), in_ms(state.left), state.offset);
+        else
+            text.add("It is planted, and its target stands.");
+        if (!is_by_motion() && !is_in_contact())
+            text.add(" Its label of contact is %.3g by now: the next solve releases it.", double{label()});
+    }
+    void explain_released(bool by_distance, Text& text) const
+    {
+        if (by_distance)
+            text.add(
+                "It broke away, though in contact: the animated point was further from where it was locked than "
+                "unlock, "
+                "%.3g limb lengths. It is %.4g from where the point is now.",
+                double{rules.unlock}, state.offset);
+        else
+            text.add("It was just released, because its contact ended: the animated point is %.4g from it.",
+                     state.offset);
+        if (!by_distance && is_by_motion())
+            text.add(" Its motion ends it above %.3g limb lengths a second or %.3g over the root.",
+                     double{rules.speed_off}, double{rules.height_off});
+        text.add(" From the next solve on its target fades back, within %.0f ms.", in_ms(double{rules.blend}));
+    }
+    void explain_fading(Text& text) const
+    {
+        if (state.is_fading())
+            text.add("Its target fades back to the animated point: %.4g is left, for %.0f ms.", state.offset,
+                     in_ms(state.left));
+        else
+            text.add("Its target is the animated point.");
+    }
+    // Why it is not locked.
+    void explain_free(Text& text) const
+    {
+        const bool is_long = share(state.offset) > double{rules.lock};
+        if (!is_in_contact() && is_by_motion())
+            text.add(
+                " Its motion shows no contact, which begins below %.3g limb lengths a second and %.3g over the root.",
+                double{rules.speed_on}, double{rules.height_on});
+        else if (!is_in_contact())
+            text.add(" It is not in contact: its label is %.3g, not above 0.5.", double{label()});
+        else if (!state.is(CarriedPlant::armed))
+            explain_waiting(text);
+        else if (!is_long)
+            text.add(" It is in contact by now: the next solve locks it.");
+        if (is_in_contact() && is_long)
+            text.add(" It cannot lock: %.3g limb lengths are left to fade, more than lock, %.3g.", share(state.offset),
+                     double{rules.lock});
+    }
+    void explain_waiting(Text& text) const
+    {
+        text.add(" It broke away and is still in contact, so it waits to lock until");
+        if (rules.again > 0)
+            text.add(" the animation is slower than again, %.3g limb lengths a second, or", double{rules.again});
+        text.add(" contact ends and begins anew.");
+    }
+};
+
+}  // namespace
+
+bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field)
+{
+    return is_of_whole_bodies(group, field) && field_row_count(group.features, field) > 0 &&
+           is_bad(LimbValue(group, limb, field), field);
+}
+bool is_bad_in_body(const Group& group, std::uint32_t limb)
+{
+    return std::any_of(std::begin(kFields), std::end(kFields), [&](const FieldRow& row) {
+        return row.kind == SWIVEL_FIELD_INPUT && is_bad_in_body(group, limb, row.field);
+    });
+}
+
+void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text)
+{
+    const PlantedLimb planted{group, limb};
+    if (!planted.state.is(CarriedPlant::begun)) return text.add("It was reset, so its planted point starts anew. ");
+    if (planted.state.is(CarriedPlant::locked)) {
+        planted.explain_locked(text);
+    } else if (planted.state.is(CarriedPlant::released)) {
+        planted.explain_released(flags & SWIVEL_BROKE_AWAY, text);
+    } else {
+        planted.explain_fading(text);
+        planted.explain_free(text);
+    }
+    if (flags & SWIVEL_CUT) text.add(" Its speed was too high to be eased away and was cut, so its target jumps.");
+    text.add(" ");
+}
+
+void explain_shift(const Group& group, std::uint32_t limb, Text& text)
+{
+    const auto flags = bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
+    const LimbValue shift(group, limb, SWIVEL_SHIFT), wish(group, limb, SWIVEL_SHIFT_WISH);
+    if (is_bad_in_body(group, limb, SWIVEL_SHIFT_WISH))
+        return text.add("Bad input: shift_wish (%g) is out of its range, %s. The shift stays as it was.", wish[0],
+                        row_of(SWIVEL_SHIFT_WISH).range);
+    if (flags == 0) return text.add("It was never solved, so it has no shift.");
+    if (flags & SWIVEL_BAD_INPUT)
+        return text.add(
+            "Bad input: in the pose, its time, or the root's rotation or scale, was not a number or out of its range. "
+            "The shift stays as it was.");
+    if (shift[2] == 0) return text.add("It was reset: the next solve shifts the body at once.");
+    text.add("The body is shifted by %.4g along up, at %.4g a second.", shift[0], shift[1]);
+    if (flags & SWIVEL_REACHED)
+        text.add(" All limbs that count reach from where it goes.");
+    else
+        text.add(" No shift from %.3g limb lengths down to %.3g up lets all limbs that count reach.",
+                 double{group.limb.drop}, double{group.limb.rise});
+    if (wish[0] != 0) text.add(" The wish is %.4g.", wish[0]);
+}
+
+}  // namespace swivel

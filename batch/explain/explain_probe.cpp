@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "batch/explain/explain_probe.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "batch/explain/explain_text.h"
+#include "batch/explain/joint_angles.h"
+#include "batch/solve/solve.h"
+#include "core/bit_cast.h"
+#include "simd/dispatch.h"
+
+namespace swivel {
+
+namespace {
+
+// A region that allows every direction: its part has no half-spaces.
+constexpr swivel_region kEverywhere = {sizeof(swivel_region), 0, 1, {}, {}};
+
+}  // namespace
+
+void Probe::take()
+{
+    one_.take(limb_);
+    one_.set_region(of_.region);
+}
+
+std::uint32_t Probe::solve()
+{
+    alignas(64) float strip[kStripBlockFloats];
+    solve_group(single_limb_kernels(), group(), {0, 1}, {strip, 1});
+    return flags();
+}
+
+std::uint32_t Probe::flags() const
+{
+    const std::size_t at = std::size_t{field_first_row(group().features, SWIVEL_FLAGS)} * SWIVEL_LANES;
+    return bit_cast<std::uint32_t>(group().results[at]);
+}
+
+double Probe::violation(const FlagRow& limit) const
+{
+    const auto of_region = [&] { return of_.region ? outside_region(arm_rotors(group(), 0), *of_.region) : 0; };
+    return in_degrees(limit.flag == SWIVEL_LIMITED_REGION ? of_region() : outside(limit.limit));
+}
+
+double Probe::outside(swivel_field limit) const
+{
+    float values[kMostComponents] = {};
+    const std::uint32_t count = component_count(limit);
+    for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
+    const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? of_.wrist_order : of_.shoulder_order;
+    return count == 0 ? 0 : outside_limit(arm_rotors(group(), 0), limit, values, order);
+}
+
+double Probe::middle_angle() const
+{
+    return joint_angles(arm_rotors(group(), 0), of_.shoulder_order, of_.wrist_order, 0).shoulder[1];
+}
+
+bool Probe::has_bits_of_limb() const
+{
+    for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
+        const std::size_t theirs = row_offset(limb_, of_.result_row_count, row), ours = row_offset(0, 0, row);
+        if (std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0) return false;
+    }
+    return true;
+}
+
+bool Probe::is(swivel_field field, std::initializer_list<float> wanted) const
+{
+    std::uint32_t c = 0;
+    for (const float x : wanted)
+        if (component_count(field) == 0 || value(field, c++) != x) return false;
+    return true;
+}
+
+bool Probe::is_posed(swivel_field field) const
+{
+    if (!is_of_body()) return false;
+    return row_of(field).excludes & SWIVEL_BODY || (field == SWIVEL_LENGTHS && std::isnan(given(field, 0)));
+}
+
+// It gets the padding's value, from an ordinary arm without limits.
+void Probe::give_up(swivel_field field)
+{
+    float* const rows = group().input + row_offset(0, 0, field_first_row(group().features, field));
+    for (std::uint32_t row = 0; row < component_count(field); ++row)
+        rows[row * SWIVEL_LANES] = rows[row * SWIVEL_LANES + 1];
+}
+
+void Probe::give_up(const FlagRow& limit)
+{
+    if (limit.flag == SWIVEL_LIMITED_REGION)
+        one_.set_region(&kEverywhere);
+    else
+        give_up(limit.limit);
+}
+
+void Probe::give_up_all_but(swivel_field kept)
+{
+    for (const FieldRow& row : kFields)
+        if (row.kind == SWIVEL_FIELD_INPUT && row.field != kept) give_up(row.field);
+}
+
+}  // namespace swivel

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// A limb that is solved alone, to find out why it is as it is. To find a bad input, or what a limit did, the probe
+// replaces the input by a value that asks for nothing. If that input is the cause, the limb is then good, or goes where
+// it was wished to. Degrees are for people.
+#pragma once
+
+#include <initializer_list>
+
+#include "batch/query/forward.h"
+#include "batch/query/one_limb.h"
+#include "simd/rows.h"
+
+namespace swivel {
+
+// It takes nearly half of the stack that a call may take. So there is one, which takes the limb again for each
+// question.
+class Probe {
+public:
+    Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), one_(of) { take(); }
+    // Takes the limb as it is.
+    void take();
+    // Solves the limb and gives its flags.
+    std::uint32_t solve();
+
+    LimbPose pose() const { return forward(group(), 0); }
+    std::uint32_t flags() const;
+    double missed() const { return distance_missed(group(), 0); }
+    double missed_share() const { return residual(group(), 0); }
+    // Of both bones, as they count.
+    double length() const { return length_of(group(), 0); }
+    // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
+    double violation(const FlagRow& limit) const;
+    // Of shoulder_box, in radians.
+    double middle_angle() const;
+    // Whether these are the results that the limb has.
+    bool has_bits_of_limb() const;
+
+    bool has(swivel_features feature) const { return of_.features & feature; }
+    bool is_of_body() const { return has(SWIVEL_BODY); }
+    std::uint32_t component_count(swivel_field field) const { return field_row_count(group().features, field); }
+    float value(swivel_field field, std::uint32_t component) const
+    {
+        return group().input[row_offset(0, 0, field_first_row(group().features, field) + component)];
+    }
+    bool is(swivel_field field, std::initializer_list<float> wanted) const;
+    // The same as the caller gave it: a body's limb is seen otherwise.
+    std::uint32_t given_count(swivel_field field) const { return field_row_count(of_.features, field); }
+    float given(swivel_field field, std::uint32_t component) const
+    {
+        return of_.input[row_offset(limb_, of_.input_row_count, field_first_row(of_.features, field) + component)];
+    }
+    // Whether a body's pose gave the field, and not the caller.
+    bool is_posed(swivel_field field) const;
+
+    // Makes the field, or what a limit is given by, ask for nothing.
+    void give_up(swivel_field field);
+    void give_up(const FlagRow& limit);
+    void give_up_all_but(swivel_field kept);
+
+private:
+    const Group& group() const { return one_.group(); }
+    double outside(swivel_field limit) const;
+
+    const Group& of_;
+    std::uint32_t limb_;
+    OneLimb one_;
+};
+
+}  // namespace swivel

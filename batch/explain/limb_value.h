@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// A value of one limb, an input or a result, as the rows of its group have it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "batch/crowd/crowd.h"
+#include "core/conformal.h"
+#include "simd/rows.h"
+
+namespace swivel {
+
+struct LimbValue {
+    const float* first;
+
+    LimbValue(const Group& group, std::uint32_t limb, swivel_field field)
+    {
+        const bool is_in = is_input(field);
+        first = (is_in ? group.input : group.results) +
+                row_offset(limb, is_in ? group.input_row_count : group.result_row_count,
+                           field_first_row(group.features, field));
+    }
+    float number(std::uint32_t c) const { return first[c * kLanes]; }
+    double operator[](std::uint32_t c) const { return double{number(c)}; }
+    double length(std::uint32_t from, std::uint32_t count) const
+    {
+        double sum = 0;
+        for (std::uint32_t c = from; c < from + count; ++c) sum += (*this)[c] * (*this)[c];
+        return std::sqrt(sum);
+    }
+};
+
+inline Vector<double> vector_of(const LimbValue& value, std::uint32_t first = 0)
+{
+    return vector(value[first], value[first + 1], value[first + 2]);
+}
+// The quaternion as it stands there, of any length.
+inline Rotor<double> rotor_of(const LimbValue& value, std::uint32_t first = 0)
+{
+    return rotor(value[first], value[first + 1], value[first + 2], value[first + 3]);
+}
+
+}  // namespace swivel

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// One body of a pose in double: where its joints are, as a solve reads the pose, or as it would be with a mistake that
+// people make. Knows no limbs and no goals.
+#pragma once
+
+#include <cstdint>
+
+#include "batch/crowd/crowd.h"
+#include "core/joint_frame.h"
+
+namespace swivel {
+
+// How a pose's numbers are taken.
+struct Reading {
+    swivel_pose_form form;
+    swivel_pose_space space;
+    bool joints_w_first = false, root_w_first = false;  // quaternions are stored as w, x, y, z
+    bool joints_inverse = false, root_inverse = false;  // rotations are those of the parent to the joint
+    bool at_rest = false;                               // translations are the skeleton's
+    bool unscaled = false;                              // joints have no scales of their own
+    bool root_in_other_numbers = false;                 // floats for doubles, or doubles for floats
+    int root_place = 1, root_turn = 1, root_scale = 1;  // how often each counts: 0, 1 or 2 times
+
+    // As a solve takes them.
+    explicit Reading(const swivel_pose& pose) : form(pose.form), space(pose.space) {}
+};
+
+// Joints are numbered as the crowd lists those that some group needs. 0 is the root, and parents come before joints.
+class PosedBody {
+public:
+    // The pose must be right, and whole. Both must live as long as this.
+    PosedBody(const swivel_crowd& crowd, const swivel_pose& pose, std::uint32_t body)
+        : crowd_(crowd), pose_(pose), body_(body)
+    {
+    }
+    // In the world; NaN where a number that it depends on is bad.
+    Vector<double> place(std::uint32_t joint, const Reading& how) const;
+    // In the world, of unit length.
+    Rotor<double> rotation(std::uint32_t joint, const Reading& how) const;
+    // The length of a quaternion as it is stored; 1 for matrices.
+    double rotation_length(std::uint32_t joint) const;
+    // Whether joints have translations of their own, and not the skeleton's.
+    bool has_translations(const Reading& how) const;
+    // Whether the root's place has room for doubles: floats of the last body may end before these.
+    bool may_have_double_root() const;
+    Vector<double> root_place(const Reading& how) const;
+    Vector<double> root_place() const { return root_place(Reading(pose_)); }
+    double root_scale() const;
+    double time() const;  // 0 without
+
+    std::uint32_t joint_at(std::uint32_t row) const;
+    std::uint32_t parent(std::uint32_t joint) const { return joint_at(crowd_.joints[joint].parent); }
+    std::uint32_t skeleton_joint(std::uint32_t joint) const { return crowd_.joints[joint].skeleton_joint; }
+    // How many joints the first is below the second; 0 for the same and where it is not below.
+    std::uint32_t steps_up(std::uint32_t joint, std::uint32_t above) const;
+    // Whether a joint's 16 floats may be read and can be a matrix of columns, though the form has 12. These are then no
+    // matrix of the form, or one without a translation.
+    bool may_be_columns(std::uint32_t joint) const;
+
+private:
+    struct Given {
+        Rotor<double> rotation;
+        Vector<double> translation;
+        double scale;
+    };
+    Given given(std::uint32_t joint, const Reading& how) const;
+    Given given_matrix(std::uint32_t joint, const Reading& how) const;
+    Vector<double> rest(std::uint32_t joint) const;
+    // From the root, in its frame.
+    Vector<double> place_along(std::uint32_t joint, const Reading& how) const;
+    Vector<double> place_in_body(std::uint32_t joint, const Reading& how) const;
+    const char* value_of(const swivel_joint_values& values, std::uint32_t joint) const;
+
+    const swivel_crowd& crowd_;
+    const swivel_pose& pose_;
+    std::uint32_t body_;
+};
+
+}  // namespace swivel

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+//
+// Values of limit fields from angles, and for the other side of the body. Trigonometry is allowed here and in the joint
+// angles: before a solve, never in it.
+#include <cmath>
+#include <numbers>
+
+#include "batch/api/check.h"
+#include "batch/refusal/status.h"
+#include "core/limits.h"
+#include "simd/float_env.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSlack = 1e-6;  // angles that were floats once
+
+void store_turn(double angle, float* turn)
+{
+    turn[0] = static_cast<float>(std::cos(angle));
+    turn[1] = static_cast<float>(std::sin(angle));
+}
+// Of 0 to pi: neither end may round to a sine below 0.
+void store_half_turn(double angle, float* turn)
+{
+    store_turn(std::fmin(std::fmax(angle, 0), kPi), turn);
+    turn[1] = std::fabs(turn[1]);
+}
+
+// An axis, scaled to unit length. function: for the message.
+swivel_status store_unit(const char* function, const double axis[3], float* unit)
+{
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    if (!(length > 0) || !std::isfinite(length))
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s: axis (%g, %g, %g) has no direction", function, axis[0], axis[1],
+                    axis[2]);
+    for (int n = 0; n < 3; ++n) unit[n] = static_cast<float>(axis[n] / length);
+    return SWIVEL_OK;
+}
+
+// A range as a mirror sees it: its middle turned the other way.
+void mirror_range(const float* from, float* to)
+{
+    const float middle_cos = from[0], middle_sin = from[1], half_cos = from[2], half_sin = from[3];
+    to[0] = middle_cos;
+    to[1] = -middle_sin;
+    to[2] = half_cos;
+    to[3] = half_sin;
+}
+
+}  // namespace
+
+swivel_status swivel_range(double least, double most, float range[4])
+{
+    const FloatEnv env(least, most);
+    if (!range) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: range is null");
+    if (!std::isfinite(least) || !std::isfinite(most))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is not finite", least, most);
+    if (least > most) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: least %g is above most %g", least, most);
+    if (most - least > 2 * kPi + kSlack)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_range: %g to %g is wider than a whole turn, 2 pi; angles are in radians", least, most);
+    store_turn(0.5 * least + 0.5 * most, range);
+    store_half_turn(0.5 * most - 0.5 * least, range + 2);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_cone(const double axis[3], double most, float cone[4])
+{
+    const FloatEnv env(most);
+    if (!axis || !cone) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: %s is null", axis ? "cone" : "axis");
+    if (!(most >= 0 && most <= kPi + kSlack))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi; angles are in radians",
+                    most);
+    if (const swivel_status status = store_unit("swivel_cone", axis, cone); status != SWIVEL_OK) return status;
+    cone[3] = static_cast<float>(std::cos(std::fmin(most, kPi)));
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_flexion(double least, double most, float flexion[2])
+{
+    const FloatEnv env(least, most);
+    if (!flexion) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: flexion is null");
+    if (!(least >= 0 && least <= most && most <= kPi + kSlack))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_flexion: %g to %g is not a range within 0 to pi; angles are in radians", least, most);
+    flexion[0] = least >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * least));
+    flexion[1] = most >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * most));
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_aim(const double axis[3], double flexion, float aim[5])
+{
+    const FloatEnv env(flexion);
+    if (!axis || !aim) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: %s is null", axis ? "aim" : "axis");
+    if (!(flexion >= 0 && flexion <= kPi + kSlack))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: flexion %g is not in 0 to pi; angles are in radians",
+                    flexion);
+    if (const swivel_status status = store_unit("swivel_aim", axis, aim); status != SWIVEL_OK) return status;
+    const float cos_half = static_cast<float>(std::cos(0.5 * flexion));
+    aim[3] = std::fmax(cos_half, 0.0f);
+    aim[4] = static_cast<float>(std::sin(0.5 * flexion));
+    return SWIVEL_OK;
+}
+
+void swivel_turn(double angle, float turn[2])
+{
+    const FloatEnv env(angle);
+    store_turn(angle, turn);
+}
+
+// The arm frame of the other side is the mirror image with its hinge turned over. So coordinates of vectors change sign
+// along the hinge, and turns about the two other axes change their sense.
+swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to)
+{
+    const FloatEnv env;
+    if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
+    if (const swivel_status status = check_field(field); status != SWIVEL_OK) return status;
+    if (!is_input(field))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", name_of(field));
+    if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
+    float value[kMostComponents] = {};
+    const std::uint32_t count = row_of(field).component_count;
+    for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
+    switch (field) {
+        case SWIVEL_ANGLE:
+            value[1] = -value[1];
+            break;
+        case SWIVEL_SHOULDER_CONE:
+        case SWIVEL_HAND_CONE:
+            value[0] = -value[0];
+            break;
+        case SWIVEL_HUMERAL_TWIST:
+        case SWIVEL_FOREARM_TWIST:
+            mirror_range(value, value);
+            break;
+        case SWIVEL_HAND_TWIST:  // a turn about the axis becomes one the other way about the axis' mirror image
+            value[0] = -value[0];
+            mirror_range(value + 3, value + 3);
+            break;
+        case SWIVEL_SHOULDER_BOX:
+        case SWIVEL_WRIST_BOX:
+            if (kEulerOrders[order].first != 0) mirror_range(value, value);
+            if (kEulerOrders[order].middle != 0) mirror_range(value + 4, value + 4);
+            if (kEulerOrders[order].last != 0) mirror_range(value + 8, value + 8);
+            break;
+        default:
+            break;
+    }
+    for (std::uint32_t n = 0; n < count; ++n) to[n] = value[n];
+    return SWIVEL_OK;
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+//
+// The C entry point that changes what planted points stand on.
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+
+#include "batch/api/check.h"
+#include "batch/api/use.h"
+#include "batch/refusal/status.h"
+#include "core/joint_frame.h"
+#include "simd/float_env.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+namespace {
+
+struct Support {
+    Vector<double> position;
+    Rotor<double> rotation;
+};
+Support support_at(const swivel_supports& supports, std::size_t n)
+{
+    double p[3] = {};
+    float q[4] = {0, 0, 0, 1};
+    const auto read = [n](const swivel_in& values, auto& to) {
+        if (values.data) std::memcpy(to, static_cast<const char*>(values.data) + n * values.stride, sizeof to);
+    };
+    read(supports.position, p);
+    read(supports.rotation, q);
+    return {vector(p[0], p[1], p[2]), normalise(rotor<double>(q[0], q[1], q[2], q[3]))};
+}
+
+// Numbers of a carried value of one limb, from one of them on.
+class Carried {
+public:
+    Carried(const Group& group, std::uint32_t limb, swivel_field field, std::uint32_t first)
+        : at_(group.results + row_offset(limb, group.result_row_count, field_first_row(group.features, field) + first))
+    {
+    }
+    template <class Change>
+    void change(const Change& change) const
+    {
+        const Vector<double> is = change(vector<double>(at_[0], at_[kLanes], at_[2 * kLanes]));
+        set({is.at<kE1>(), is.at<kE2>(), is.at<kE3>()});
+    }
+    // A rotation's.
+    void turn(const Rotor<double>& by) const
+    {
+        const Rotor<double> is = by * rotor<double>(at_[0], at_[kLanes], at_[2 * kLanes], at_[3 * kLanes]);
+        set({is.at<kI>(), is.at<kJ>(), is.at<kK>(), is.at<kScalar>()});
+    }
+
+private:
+    float* at_;
+
+    void set(std::initializer_list<double> numbers) const
+    {
+        float* to = at_;
+        for (const double x : numbers) *to = static_cast<float>(x), to += kLanes;
+    }
+};
+
+// Whether a limb carries anything.
+bool has_begun(const Group& group, std::uint32_t limb)
+{
+    const std::uint32_t state = field_first_row(group.features, SWIVEL_PLANT) + 10;
+    return group.results[row_offset(limb, group.result_row_count, state)] != 0;
+}
+
+swivel_status check_supports(std::uint32_t limb_count, const swivel_supports& supports)
+{
+    struct Values {
+        const char* name;
+        swivel_in values;
+        std::size_t bytes;
+    };
+    for (const auto& [name, values, bytes] : {Values{"position", supports.position, 3 * sizeof(double)},
+                                              Values{"rotation", supports.rotation, 4 * sizeof(float)}})
+        if (values.data && values.stride != 0 && values.stride < bytes)
+            return fail(SWIVEL_INVALID_ARGUMENT,
+                        "swivel_change_support: the %s's stride %zu is smaller than a value, %zu bytes", name,
+                        values.stride, bytes);
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        const Support support = support_at(supports, n);
+        const double sizes[] = {len2(support.position), len2(support.rotation)};
+        if (!(sizes[0] <= kHuge2 && std::isfinite(sizes[1])))
+            return fail(SWIVEL_INVALID_ARGUMENT,
+                        "swivel_change_support: support %u is not finite or has a rotation of no length", n);
+    }
+    return SWIVEL_OK;
+}
+
+}  // namespace
+
+swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                                    swivel_supports from, swivel_supports to)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::alone);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    const Group& of = crowd->groups[group];
+    if (!(of.features & SWIVEL_WITH_PLANT))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_change_support: group %u does not plant; create it with "
+                    "SWIVEL_WITH_PLANT",
+                    group);
+    for (const swivel_supports& supports : {from, to})
+        if (const swivel_status status = check_supports(limb_count, supports); status != SWIVEL_OK) return status;
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        const Support was = support_at(from, n), is = support_at(to, n);
+        const Rotor<double> turn = ~is.rotation * was.rotation;
+        const auto along = [&](const Vector<double>& v) { return sandwich(turn, v); };
+        const auto place = [&](const Vector<double>& v) {
+            return sandwich(~is.rotation, sandwich(was.rotation, v) + (was.position - is.position));
+        };
+        const std::uint32_t limb = first + n;
+        if (!has_begun(of, limb)) continue;
+        Carried(of, limb, SWIVEL_PLANT, 0).change(place);
+        Carried(of, limb, SWIVEL_PLANT, 3).change(along);
+        Carried(of, limb, SWIVEL_PLANT, 6).change(along);
+        if (of.features & SWIVEL_PLANT_BY_MOTION) Carried(of, limb, SWIVEL_MOTION, 0).change(place);
+        if (!(of.features & SWIVEL_WITH_PLANT_TURN)) continue;
+        Carried(of, limb, SWIVEL_PLANT_TURN, 0).turn(turn);
+        Carried(of, limb, SWIVEL_PLANT_TURN, 4).change(along);
+        Carried(of, limb, SWIVEL_PLANT_TURN, 7).change(along);
+    }
+    return SWIVEL_OK;
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+//
+// The C entry points about single poses: the swivels that limits allow, and the solved pose as positions and errors.
+#include <cstring>
+#include <tuple>
+
+#include "batch/api/check.h"
+#include "batch/api/use.h"
+#include "batch/crowd/streams.h"
+#include "batch/query/forward.h"
+#include "batch/query/one_limb.h"
+#include "batch/refusal/status.h"
+#include "batch/solve/solve.h"
+#include "simd/float_env.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+namespace {
+
+void store(const swivel_out& out, std::size_t n, const Vector<double>& v)
+{
+    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, v.c, sizeof v.c);
+}
+void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
+{
+    const double xyzw[4] = {q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>()};
+    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
+}
+
+// Calls take(group, limb, n) for the nth limb from `first` on; a body's as a free limb.
+template <class Take>
+void for_each_free_limb(const Group& of, std::uint32_t first, std::uint32_t limb_count, const Take& take)
+{
+    if (of.features & SWIVEL_BODY) {
+        OneLimb one(of);
+        for (std::uint32_t n = 0; n < limb_count; ++n) {
+            one.take(first + n);
+            take(one.group(), 0, n);
+        }
+    } else {
+        for (std::uint32_t n = 0; n < limb_count; ++n) take(of, first + n, n);
+    }
+}
+
+std::uint32_t flags_of(const Group& group, std::size_t limb)
+{
+    const std::size_t at = row_offset(limb, group.result_row_count, field_first_row(group.features, SWIVEL_FLAGS));
+    std::uint32_t flags = 0;
+    std::memcpy(&flags, group.results + at, sizeof flags);
+    return flags;
+}
+
+}  // namespace
+
+int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb)
+{
+    if (!crowd || !group || !limb) return 0;
+    std::uint32_t n = *limb;
+    for (std::uint32_t g = *group; g < crowd->group_count; ++g, n = 0)
+        for (; n < crowd->groups[g].limb_count; ++n) {
+            if (!(flags_of(crowd->groups[g], n) & flags)) continue;
+            *group = g;
+            *limb = n;
+            return 1;
+        }
+    return 0;
+}
+
+swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
+{
+    const Use use(crowd, Sharing::alone);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    const Group& of = crowd->groups[group];
+    constexpr float zeros[kMostComponents] = {};
+    for (const FieldRow& row : kFields)
+        if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(of.features, row.field) > 0)
+            copy_in(rows_of(of, row.field), first, limb_count, {zeros, 0});
+    crowd->reset_limbs.fetch_add(limb_count, std::memory_order_relaxed);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
+                                  uint32_t capacity, uint32_t* arc_count)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_kept(*crowd, group, "swivel_allowed_arcs"); status != SWIVEL_OK)
+        return status;
+    if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
+    if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
+    for_each_free_limb(crowd->groups[group], limb, 1, [&](const Group& of, std::uint32_t at, std::uint32_t) {
+        *arc_count = allowed_arcs(of, at, arcs, capacity);
+    });
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                             swivel_out elbow, swivel_out wrist, swivel_out hand)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_kept(*crowd, group, "swivel_forward"); status != SWIVEL_OK) return status;
+    if (hand.data && !(crowd->groups[group].features & SWIVEL_WITH_HAND))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND",
+                    group);
+    for (const auto& [name, out, component_count] :
+         {std::tuple{"elbow", elbow, 3u}, {"wrist", wrist, 3u}, {"hand", hand, 4u}})
+        if (out.data)
+            if (const swivel_status status = check_stride(group, name, limb_count, out.data, out.stride,
+                                                          component_count * sizeof(double), false);
+                status != SWIVEL_OK)
+                return status;
+    const Group& all = crowd->groups[group];
+    const Rotor<double> joint = hand_from_arm(all);
+    for_each_free_limb(all, first, limb_count, [&](const Group& of, std::uint32_t limb, std::uint32_t n) {
+        const LimbPose pose = forward(of, limb);
+        store(elbow, n, pose.elbow);
+        store(wrist, n, pose.wrist);
+        store(hand, n, pose.hand * joint);
+    });
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                               swivel_out distance)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_kept(*crowd, group, "swivel_residuals"); status != SWIVEL_OK) return status;
+    if (const swivel_status status =
+            check_stride(group, "distance", limb_count, distance.data, distance.stride, sizeof(double), false);
+        status != SWIVEL_OK)
+        return status;
+    for_each_free_limb(crowd->groups[group], first, limb_count,
+                       [&](const Group& of, std::uint32_t limb, std::uint32_t n) {
+                           const double value = residual(of, limb);
+                           std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
+                       });
+    return SWIVEL_OK;
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// The C entry points that describe features, fields and flags: rows of the table in simd/fields.h.
+#include <iterator>
+
+#include "batch/api/check.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+int swivel_describe_feature(uint32_t index, swivel_feature_info* info)
+{
+    if (index >= std::size(kFeatures) || !info) return 0;
+    const FeatureRow& row = kFeatures[index];
+    *info = {row.feature, row.name, row.needs, row.excludes};
+    return 1;
+}
+
+int swivel_describe_field(uint32_t index, swivel_field_info* info)
+{
+    if (index >= std::size(kFields) || !info) return 0;
+    const FieldRow& row = kFields[index];
+    *info = {row.field, row.kind, row.name, row.range, row.needs, excludes_of(row), is_position(row.field), 0};
+    return 1;
+}
+
+uint32_t swivel_component_count(swivel_field field, swivel_features features)
+{
+    return is_field(field) ? field_row_count(with_sent(features), field) : 0;
+}
+
+const char* swivel_flag_name(uint32_t flags)
+{
+    const uint32_t lowest = flags & (~flags + 1);
+    for (const FlagRow& row : kFlags)
+        if (row.flag == lowest) return row.name;
+    return nullptr;
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "batch/query/one_limb.h"
+
+#include <algorithm>
+
+#include "batch/query/forward.h"
+#include "batch/solve/rest.h"
+#include "simd/rows.h"
+
+namespace swivel {
+
+namespace {
+
+constexpr swivel_features free_features(swivel_features features)
+{
+    if (!(features & SWIVEL_BODY)) return features;
+    // An aim sees the hand that the record has.
+    const swivel_features hand = features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0;
+    constexpr swivel_features of_bodies = SWIVEL_BODY | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
+                                          SWIVEL_WITH_PLANT_TURN | SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_FIT |
+                                          SWIVEL_WITH_COMING | SWIVEL_WITH_HAND_FRAME | SWIVEL_WITH_LINK |
+                                          SWIVEL_WITH_GROUND | SWIVEL_SENT;
+    return (features & ~(of_bodies | SWIVEL_WITH_CLAVICLE | kTwistBones)) | hand;
+}
+
+// A value of a limb, among the input or the result rows.
+float* value_of(const Group& group, std::uint32_t limb, swivel_field field)
+{
+    float* const rows = is_input(field) ? group.input : group.results;
+    const std::uint32_t row_count = is_input(field) ? group.input_row_count : group.result_row_count;
+    return rows + row_offset(limb, row_count, field_first_row(group.features, field));
+}
+
+}  // namespace
+
+Rotor<double> hand_from_arm(const Group& group)
+{
+    if (!(group.features & SWIVEL_BODY)) return rotor(0.0, 0.0, 0.0, 1.0);
+    return normalise(~rotor_of(group.binding.wrist_parent_from_arm) * rotor_of(group.binding.wrist_rest));
+}
+
+OneLimb::OneLimb(const Group& of) : of_(of), crowd_(nullptr)
+{
+    static_assert(block_bytes(free_features(kEveryFeature | SWIVEL_BODY)) + 4096 <= kArenaBytes,
+                  "with what stands before");
+    static_assert(sizeof(swivel_crowd) + sizeof(Group) + sizeof(swivel_region) + 4 * 64 <= 4096);
+    swivel_group_def alone = swivel_default_group_def(1);
+    alone.features = free_features(of.features);
+    alone.shoulder_order = of.shoulder_order;
+    alone.wrist_order = of.wrist_order;
+    alone.binding = of.binding;
+    alone.region = of.region;
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = &alone;
+    def.group_count = 1;
+    def.workspace_count = 0;
+    crowd_ = place_crowd(def, arena_);
+    rest(*crowd_);
+}
+
+void OneLimb::take(std::uint32_t limb)
+{
+    for (const FieldRow& row : kFields) {
+        const std::uint32_t count = field_row_count(group().features, row.field);
+        if (count == 0 || field_row_count(of_.features, row.field) != count) continue;
+        copy_lane(count, value_of(of_, limb, row.field), value_of(group(), 0, row.field));
+    }
+    if (of_.features & SWIVEL_BODY) take_record(limb);
+}
+
+void OneLimb::take_record(std::uint32_t limb)
+{
+    const float* const record = value_of(of_, limb, SWIVEL_RECORD);
+    const auto number = [&](int n) { return static_cast<double>(record[static_cast<std::size_t>(n) * kLanes]); };
+    const auto rotor_at = [&](int n) { return rotor(number(n), number(n + 1), number(n + 2), number(n + 3)); };
+    const auto vector_of = [&](swivel_field field) {
+        const float* const v = value_of(of_, limb, field);
+        return vector<double>(v[0], v[kLanes], v[2 * kLanes]);
+    };
+    set(SWIVEL_SHOULDER_POSITION,
+        vector(number(kRecordShoulder), number(kRecordShoulder + 1), number(kRecordShoulder + 2)));
+    set(SWIVEL_PARENT_ROTATION, rotor_at(kRecordArm));
+    set(SWIVEL_PARENT_SCALE, 0, number(kRecordScale));
+    set(SWIVEL_LENGTHS, 0, number(kRecordLengths));
+    set(SWIVEL_LENGTHS, 1, number(kRecordLengths + 1));
+    set(SWIVEL_INCOMING_SHOULDER, rotor_at(kRecordIncoming));
+    set(SWIVEL_INCOMING_ELBOW, rotor_at(kRecordIncoming + 4));
+    const swivel_features features = of_.features;
+    const Rotor<double> hand = hand_from_arm(of_);
+    if (group().features & SWIVEL_WITH_HAND) set(SWIVEL_INCOMING_WRIST, rotor_at(kRecordIncoming + 8));
+    if (features & SWIVEL_WITH_AIM) {
+        set(SWIVEL_HAND, rotor_at(kRecordIncoming + 8));
+        if (!(features & SWIVEL_WITH_HAND)) set(SWIVEL_WRIST, rotor_at(kRecordIncoming + 8));
+        set(SWIVEL_AIM, sandwich(hand, vector_of(SWIVEL_AIM)));
+    } else if (features & SWIVEL_WITH_HAND) {
+        const float* const q =
+            features & SWIVEL_SENT ? value_of(of_, limb, SWIVEL_GOAL) + 3 * kLanes : value_of(of_, limb, SWIVEL_HAND);
+        set(SWIVEL_HAND, rotor<double>(q[0], q[kLanes], q[2 * kLanes], q[3 * kLanes]) * ~hand);
+    }
+    if (features & SWIVEL_SENT) set(SWIVEL_TARGET, vector_of(SWIVEL_GOAL));
+    if (features & SWIVEL_WITH_EFFECTOR) set(SWIVEL_EFFECTOR, sandwich(hand, vector_of(SWIVEL_EFFECTOR)));
+}
+
+void OneLimb::set(swivel_field field, std::uint32_t component, double value)
+{
+    value_of(group(), 0, field)[component * kLanes] = static_cast<float>(value);
+}
+void OneLimb::set(swivel_field field, const Vector<double>& v)
+{
+    for (std::uint32_t c = 0; c < 3; ++c) set(field, c, v.c[c]);
+}
+void OneLimb::set(swivel_field field, const Rotor<double>& q)
+{
+    set(field, 0, q.at<kI>());
+    set(field, 1, q.at<kJ>());
+    set(field, 2, q.at<kK>());
+    set(field, 3, q.at<kScalar>());
+}
+
+}  // namespace swivel

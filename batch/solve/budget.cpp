@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+//
+// Picks the most urgent blocks. Urgencies are positive floats, whose bits are in the same order as the numbers. The
+// code counts how many blocks have which leading digits. The counts give the least urgency that is picked, without
+// sorting and without allocating memory.
+#include "batch/solve/budget.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "batch/crowd/lane_mask.h"
+#include "core/bit_cast.h"
+#include "simd/float_env.h"
+
+namespace swivel {
+
+namespace {
+
+constexpr float kMostPriority = 1e15f;  // as for lengths
+
+// The largest priority of a block's limbs, within 0 ... kMostPriority. NaN fails every comparison.
+float largest(const char* priority, std::size_t stride, std::uint32_t limb_count)
+{
+    float most = 0;
+    for (std::uint32_t n = 0; n < limb_count; ++n, priority += stride) {
+        float each;
+        std::memcpy(&each, priority, sizeof each);
+        most = each > most ? each : most;
+    }
+    return most < kMostPriority ? most : kMostPriority;
+}
+
+// Adds priorities to the urgency of a group's blocks. The urgency of blocks that are not wanted now becomes negative,
+// or 0. Returns how many are wanted.
+std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& priorities)
+{
+    const char* at = static_cast<const char*>(priorities.data);
+    std::uint32_t wanted = 0;
+    for (std::uint32_t block = 0; block < group.block_count; ++block, ++urgency) {
+        const float priority = largest(at, priorities.stride, limb_count_of(group, block));
+        const float size = *urgency < 0 ? -*urgency : *urgency,
+                    waited = size <= std::numeric_limits<float>::max() ? size : 0;
+        *urgency = priority > 0 ? waited + priority : -waited;
+        wanted += priority > 0;
+        at += SWIVEL_LANES * priorities.stride;
+    }
+    return wanted;
+}
+
+// An urgency as a number to pick by: above 0 for blocks that are wanted, 0 for others.
+std::uint32_t key_of(float urgency) { return urgency > 0 ? bit_cast<std::uint32_t>(urgency) : 0; }
+
+// Blocks of a larger key are picked, and equal_count blocks of just this key, in the crowd's order.
+struct Threshold {
+    std::uint32_t key, equal_count;
+};
+
+// Finds the most_blocks largest keys, digit by digit, the leading one first. More keys than that are above 0.
+Threshold find_threshold(const float* urgency, std::uint32_t block_count, std::uint32_t most_blocks)
+{
+    constexpr std::uint32_t kMostBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart
+    std::uint32_t prefix = 0, left = most_blocks, known = 31;  // bits not yet known; floats above 0 have no sign
+    for (const std::uint32_t shift : {20u, 10u, 0u}) {
+        std::uint32_t counts[1u << kMostBits] = {}, digit = (1u << (known - shift)) - 1;
+        for (std::uint32_t block = 0; block < block_count; ++block) {
+            const std::uint32_t key = key_of(urgency[block]);
+            if (key >> known == prefix) ++counts[key >> shift & digit];
+        }
+        for (; counts[digit] < left; --digit) left -= counts[digit];
+        prefix = prefix << (known - shift) | digit;
+        known = shift;
+    }
+    return {prefix, left};
+}
+
+}  // namespace
+
+std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, float* urgency, std::uint32_t most_blocks,
+                     std::uint32_t* words)
+{
+    const FloatEnv env;
+    if (!urgency) std::fill_n(urgency = crowd.urgency, crowd.block_count, 0.0f);
+    std::uint32_t wanted = 0, limb_count = 0;
+    for (std::uint32_t g = 0; g < lane_group_count(crowd); ++g)
+        wanted += add_urgency(urgency + crowd.groups[g].first_block, crowd.groups[g], priorities[g]);
+    std::fill_n(words, mask_word_count(crowd.block_count), 0u);
+    if (most_blocks == 0) return 0;
+    Threshold least = wanted > most_blocks ? find_threshold(urgency, crowd.block_count, most_blocks) : Threshold{0, 0};
+    for (std::uint32_t g = 0; g < lane_group_count(crowd); ++g) {
+        const Group& group = crowd.groups[g];
+        for (std::uint32_t n = 0, block = group.first_block; n < group.block_count; ++n, ++block) {
+            const std::uint32_t key = key_of(urgency[block]);
+            const bool equal = key == least.key && least.equal_count > 0;
+            if (key <= least.key && !equal) continue;
+            least.equal_count -= equal;
+            add_lanes(words, block, lanes_of_limbs(group, n));
+            limb_count += limb_count_of(group, n);
+            urgency[block] = 0;
+        }
+    }
+    return limb_count;
+}
+
+}  // namespace swivel

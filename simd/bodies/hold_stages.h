@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages of limbs that hold something: where each hand has a prop, where the prop goes, the goal of a hand on it or
+// on another limb's hand, and where a hand is once its limb is solved.
+#pragma once
+
+#include "core/plant.h"
+#include "core/prop.h"
+#include "simd/bodies/sent_rows.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// A limb's grip, with a rotation of unit length.
+template <class S>
+SWIVEL_INLINE HeldFrame<typename S::T> grip_of(const S& s)
+{
+    using T = typename S::T;
+    const Vector<T> place = s.io.load_vector(SWIVEL_GRIP);
+    const Rotor<T> rotation = s.io.load_rotor(SWIVEL_GRIP, 3);
+    s.require((len2(place) <= T(kHuge2)) & is_orientation(rotation));
+    return {normalise(rotation), place};
+}
+
+// Frames in the rows of a body.
+template <class S>
+SWIVEL_INLINE HeldFrame<typename S::T> get_held(const S& s, std::uint32_t row)
+{
+    return {s.body_rotor(row + kHeldTurnRow), s.body_vector(row + kHeldPlaceRow)};
+}
+template <class S>
+SWIVEL_INLINE void set_held(const S& s, std::uint32_t row, const HeldFrame<typename S::T>& frame)
+{
+    s.set_body_rotor(row + kHeldTurnRow, frame.rotation);
+    s.set_body_vector(row + kHeldPlaceRow, frame.place);
+}
+static_assert(std::uint32_t{kHolderTurnRow} == kHeldTurnRow && std::uint32_t{kHolderPlaceRow} == kHeldPlaceRow);
+
+template <>
+struct StageBody<Stage::grasp> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        if (!limb.holds_prop) return;
+        const AnimatedHand<T> animated = animated_hand(s);
+        const HeldFrame<T> grip = grip_of(s);
+        const LimbReach<T> reach = limb_reach(s);
+        Vector<T> wrist = grip.place;
+        if (s.has(SWIVEL_WITH_EFFECTOR))
+            wrist =
+                wrist - s.body_row(limb.parent + kScaleRow) * turned(grip.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
+        const HeldFrame<T> prop = held_by({animated.rotation, animated.point}, grip);
+        s.require(is_posed(s) & (len2(prop.place) <= T(kHuge2)) & (len2(wrist) <= T(kHuge2)));
+        const T nan = T(__builtin_nan(""));
+        const Vector<T> place = select(lanes_where<T>(s.good()), prop.place, vector(nan, nan, nan));
+        set_held(s, limb.holder, {prop.rotation, place});
+        s.set_body_vector(limb.holder + kHolderWristRow, wrist);
+        s.set_body_vector(limb.holder + kHolderShoulderRow, s.body_vector(limb.shoulder + kPlaceRow));
+        // A hand that does not hold, by its weight, asks for nothing.
+        T far = reach.exact, near = reach.near;
+        if (s.has(SWIVEL_WITH_WEIGHTS)) {
+            const Mask<T> asks_nothing = s.io.load(SWIVEL_WEIGHTS, 0) == T(0);
+            far = select(asks_nothing, T(kHuge), far);
+            near = select(asks_nothing, T(0), near);
+        }
+        s.set_body(limb.holder + kHolderReachRow, far);
+        s.set_body(limb.holder + kHolderNearRow, near);
+        // A hand that is written goes on as it is, of any length, as it would if the limb held nothing.
+        const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+        const T length2 = len2(hand);
+        send(s, animated.point, select(length2 == length2, hand, animated.rotation));
+        const T lengths = s.io.load(SWIVEL_LENGTHS, 0) + s.io.load(SWIVEL_LENGTHS, 1);  // NaN: the pose's
+        s.set_body(limb.goal + kGoalOwnRow, select(animated.is_posed & !(lengths == lengths), T(1), T(0)));
+    }
+};
+
+// A prop, as its holders and the caller have it.
+template <class S>
+struct PropAtHand {
+    using T = typename S::T;
+    const S& s;
+    const BodyLimb& prop = *s.strip.run.limb;
+    HeldFrame<T> frame;
+    Mask<T> is_of_hands;  // the caller says nothing of it
+    T share;
+
+    // told: where the caller or the joint has it, which counts by the prop's weight.
+    SWIVEL_INLINE void weigh(const HeldFrame<T>& hands, const HeldFrame<T>& told)
+    {
+        const T weight = s.io.load(SWIVEL_PROP_WEIGHT, 0);
+        s.require(is_share(weight));
+        is_of_hands = is_of_hands | (weight == T(0));
+        frame = between(hands, told, select(is_of_hands, T(0), weight));
+    }
+    SWIVEL_INLINE explicit PropAtHand(const S& of)
+        : s(of), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_PROP_SHARE, 0))
+    {
+        s.require(is_share(share));
+        if (prop.holder_count == 1) share = T(0);
+        const HeldFrame<T> hands = between(get_held(s, holder(0)), get_held(s, holder(prop.holder_count - 1)), share);
+        const Rotor<T> turn = s.io.load_rotor(SWIVEL_PROP_TURN);
+        const Vector<T> at = s.io.load_vector(SWIVEL_PROP_PLACE);
+        const T turn2 = len2(turn), at2 = len2(at);
+        const Mask<T> has_turn = turn2 == turn2, has_place = at2 == at2;
+        s.require((is_orientation(turn) | !has_turn) & ((at2 <= T(kHuge2)) | !has_place));
+        const Rotor<T> unit = normalise(select(has_turn, turn, one<T>()));
+        if (prop.joint != 0) {
+            const Rotor<T> rotation = s.body_rotor(prop.joint + kTurnRow);
+            const Vector<T> given = select(has_place, at, vector(T(0), T(0), T(0)));
+            weigh(hands,
+                  {unit_rotation(rotation * unit), s.body_vector(prop.joint + kPlaceRow) + turned(rotation, given)});
+            return;
+        }
+        is_of_hands = !(has_turn | has_place);
+        weigh(hands,
+              {select(has_turn, unit, hands.rotation), select(has_place, at - s.body_vector(kRootRow), hands.place)});
+    }
+    SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return prop.frame + kHoldersRow + n * kHolderRows; }
+    // The moves by which a holder's arm reaches; all of them where that is bad input.
+    SWIVEL_INLINE ReachingMoves<T> reaching(std::uint32_t n) const
+    {
+        const std::uint32_t at = holder(n);
+        const Vector<T> wrist = frame.place + turned(frame.rotation, s.body_vector(at + kHolderWristRow)),
+                        middle = s.body_vector(at + kHolderShoulderRow) - wrist,
+                        place = s.body_vector(at + kHolderPlaceRow);
+        const Mask<T> is_good = len2(place) <= T(kHuge2);
+        return {select(is_good, middle, vector(T(0), T(0), T(0))),
+                select(is_good, s.body_row(at + kHolderReachRow), T(kHuge))};
+    }
+    // Whether a holder's grip is nearer to its shoulder than its arm gets.
+    SWIVEL_INLINE Mask<T> is_too_near(std::uint32_t n) const
+    {
+        const std::uint32_t at = holder(n);
+        const T length2 = len2(reaching(n).middle),
+                near = s.body_row(at + kHolderNearRow) - T(kReachSlack) * sqrt(length2);
+        return (len2(s.body_vector(at + kHolderPlaceRow)) <= T(kHuge2)) & (near > T(0)) & (length2 < near * near);
+    }
+};
+
+template <>
+struct StageBody<Stage::prop> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& prop = *s.strip.run.limb;
+        PropAtHand<S> is(s);
+        const ReachingMoves<T> a = is.reaching(0), b = is.reaching(prop.holder_count - 1);
+        // So much less that what rounds still reaches, of a far move and of the shorter arm, too.
+        const T size = lo(a.reach, b.reach) + sqrt(len2(a.middle)) + sqrt(len2(b.middle));
+        const auto within = [&](const ReachingMoves<T>& of) SWIVEL_INLINE_LAMBDA {
+            return ReachingMoves<T>{of.middle, hi(of.reach - T(2 * kReachSlack) * size, T(0))};
+        };
+        const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
+        Mask<T> is_longer = T(1) < T(0);
+        const Vector<T> none = vector(T(0), T(0), T(0));
+        const Mask<T> rests = a.has(none) & b.has(none);
+        const Vector<T> move =
+            all(rests) ? none : select(rests, none, at_most(least_move(within(a), within(b)), most, !rests, is_longer));
+        is.frame.place = is.frame.place + move;
+        const Mask<T> is_far = !(rests | (a.has(move) & b.has(move))),
+                      is_near = (!is_far) & (is.is_too_near(0) | is.is_too_near(prop.holder_count - 1)),
+                      stays = !(len2(move) > T(0));
+        s.require((len2(is.frame.place) <= T(kHuge2)) & is_within(len2(is.frame.rotation), 0.99, 1.01) &
+                  (len2(s.body_vector(kRootRow)) <= T(kHuge2)));
+        const T nan = T(__builtin_nan(""));
+        const Mask<T> valid = lanes_where<T>(s.good());
+        set_held(s, prop.frame, {is.frame.rotation, select(valid, is.frame.place, vector(nan, nan, nan))});
+        s.set_body(prop.frame + kHeldScaleRow, T(1));
+        const Mask<T> says = is.is_of_hands & stays;
+        s.set_body(prop.frame + kSayerRow,
+                   select(says & (is.share == T(0)), T(0), select(says & (is.share == T(1)), T(1), T(-1))));
+
+        const Rows<T, kTold> out = good_rows(s);
+        out.store_vector(SWIVEL_PROP_FRAME, is.frame.place + s.body_vector(kRootRow));
+        out.store_rotor(SWIVEL_PROP_FRAME, hemisphere(is.frame.rotation), 3);
+        Rows<T, kTold> all_rows = s.io;
+        all_rows.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
+        all_rows.store(SWIVEL_FLAGS, 0,
+                       select(valid,
+                              word_where(!(is_far | is_near), SWIVEL_REACHED) | word_where(is_far, SWIVEL_CLAMPED_FAR) |
+                                  word_where(is_near, SWIVEL_CLAMPED_NEAR),
+                              word<T>(SWIVEL_BAD_INPUT)));
+    }
+};
+
+template <>
+struct StageBody<Stage::link> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        HeldFrame<T> goal = gripped(get_held(s, limb.link), grip_of(s), s.body_row(limb.link + kHeldScaleRow));
+        T own = T(0);
+        if (limb.holds_prop) {
+            const Mask<T> says = s.body_row(limb.link + kSayerRow) == T(limb.holder_number);
+            goal = {select(says, s.body_rotor(limb.goal + kGoalHandRow), goal.rotation),
+                    select(says, s.body_vector(limb.goal + kGoalPlaceRow), goal.place)};
+            own = select(says, s.body_row(limb.goal + kGoalOwnRow), T(0));
+        }
+        s.set_body(limb.goal + kGoalOwnRow, own);
+        s.set_body(limb.goal + kGoalFlagsRow, word<T>(0));
+        send(s, goal.place, goal.rotation);
+        if (s.has(SWIVEL_WITH_RECORD)) {
+            const Rows<T, kTold> out = waiting_rows(s);
+            out.store_vector(SWIVEL_GOAL, goal.place + s.body_vector(kRootRow));
+            out.store_rotor(SWIVEL_GOAL, goal.rotation, 3);
+        }
+    }
+};
+
+// By the arm's own forward kinematics. A limb that keeps its pose has its hand where it came.
+template <>
+struct StageBody<Stage::hand_frame> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        const ArmFrame<T> arm = arm_frame(s);
+        const T scale = s.body_row(limb.parent + kScaleRow),
+                stretch = s.has(SWIVEL_WITH_REACH) ? s.io.load_result(SWIVEL_STRETCH, 0) : T(1);
+        const Rotor<T> upper = arm.rotation * s.io.load_result_rotor(SWIVEL_SHOULDER, 0),
+                       fore = upper * hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
+        const auto bone = [&](const Rotor<T>& frame, std::uint32_t n) SWIVEL_INLINE_LAMBDA {
+            return turned(frame, vector(T(0), T(0), s.body_row(kLengthsRow + n)));
+        };
+        const HeldFrame<T> solved{
+            unit_rotation(fore * s.get_rotor(kTwistRow) * broadcast<T>(s.strip.bind.hand_from_arm)),
+            arm.shoulder + (scale * stretch) * (bone(upper, 0) + bone(fore, 1))};
+        const Mask<T> kept = s.body_row(kKeptRow) > T(0.5), valid = lanes_where<T>(s.good()) | kept;
+        const T nan = T(__builtin_nan(""));
+        const Vector<T> place = select(kept, s.body_vector(limb.wrist + kPlaceRow), solved.place);
+        const Rotor<T> turn = select(kept, s.body_rotor(limb.wrist + kTurnRow), solved.rotation);
+        const Mask<T> is_known = valid & (len2(place) <= T(kHuge2)) & is_within(len2(turn), 0.99, 1.01) &
+                                 (len2(s.body_vector(kRootRow)) <= T(kHuge2));
+        const HeldFrame<T> is{select(is_known, turn, rotor(nan, nan, nan, nan)),
+                              select(is_known, place, vector(nan, nan, nan))};
+        set_held(s, limb.frame, is);
+        s.set_body(limb.frame + kHeldScaleRow, scale);
+        Rows<T, kTold> out = s.io;
+        out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
+        out.store_vector(SWIVEL_HAND_FRAME, with_one_nan(is.place + s.body_vector(kRootRow)));
+        out.store_rotor(SWIVEL_HAND_FRAME, with_one_nan(hemisphere(is.rotation)), 3);
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA

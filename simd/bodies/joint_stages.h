@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+//
+// What stages write of a body's joints: local rotations in place of the incoming ones, and the axes of matrices.
+#pragma once
+
+#include "core/joint_frame.h"
+#include "simd/limbs/goal_stages.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// How much of a body's corrections counts: a share, in lanes that are good.
+template <class S>
+SWIVEL_INLINE typename S::T body_weight(const S& s)
+{
+    using T = typename S::T;
+    return s.strip.run.strip.pose->weight.data ? s.body_row(kWeightRow) : T(1);
+}
+
+// Turns the axes of a joint's matrix; those of lanes that are not valid from the axes of no rotation.
+template <class S>
+SWIVEL_INLINE void turn_axes(const S& s, std::uint32_t joint, const Rotor<typename S::T>& turn,
+                             const Mask<typename S::T>& valid, const Mask<typename S::T>& kept)
+{
+    using T = typename S::T;
+    const bool by_rows = s.strip.run.strip.pose->form == SWIVEL_MATRIX_ROWS;
+    const std::uint32_t first = joint + kAxesRow;
+    for (std::uint32_t n = 0; n < 3; ++n) {
+        const auto row = [&](std::uint32_t c)
+                             SWIVEL_INLINE_LAMBDA { return first + (by_rows ? 3 * c + n : 3 * n + c); };
+        const Vector<T> was = vector(s.body_row(row(0)), s.body_row(row(1)), s.body_row(row(2)));
+        const Vector<T> none = vector(T(n == 0), T(n == 1), T(n == 2));
+        const Vector<T> is = select(kept, was, turned(turn, select(valid, was, none)));
+        s.set_body(row(0), is.template at<kE1>());
+        s.set_body(row(1), is.template at<kE2>());
+        s.set_body(row(2), is.template at<kE3>());
+    }
+}
+// Gives a joint its local rotation: what was solved, or a rest rotation in lanes that are not valid. In kept lanes the
+// incoming one stays.
+template <class S>
+SWIVEL_INLINE void set_local(const S& s, std::uint32_t joint, const Rotor<typename S::T>& solved,
+                             const Rotor<typename S::T>& rest, const Mask<typename S::T>& valid,
+                             const Mask<typename S::T>& kept)
+{
+    using T = typename S::T;
+    const swivel_pose& pose = *s.strip.run.strip.pose;
+    const Rotor<T> was = s.body_rotor(joint + kLocalRow), q = select(valid, solved, rest);
+    const T side = select(valid, scalar_product(~was, q), T(1));
+    if (pose.form != SWIVEL_ROTATIONS && pose.space == SWIVEL_LOCAL)
+        turn_axes(s, joint, unit_rotation(select(valid, q * ~was, q)), valid, kept);
+    s.set_body_rotor(joint + kLocalRow, select(kept, was, with_sign_of(side, q)));
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

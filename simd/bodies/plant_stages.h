@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages of limbs that are planted: where their points go, on flat ground and on other, and how they stand then.
+#pragma once
+
+#include "core/plant_turn.h"
+#include "simd/bodies/sent_rows.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// A planted state in its row, besides its vectors: kBegun plus a bit each.
+constexpr float kBegun = 8, kIsWaiting = 4, kIsArmed = 2, kIsLocked = 1;
+enum PlantNumber : int { kMark, kOffset = 3, kVelocity = 6, kLeft = 9, kState = 10 };
+enum TurnNumber : int { kTurnMark, kTurnOffset = 4, kTurnVelocity = 7 };
+
+template <class S>
+SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
+{
+    using T = typename S::T;
+    T rest = s.io.load_result(SWIVEL_PLANT, kState);
+    const auto next = [&](float bit) SWIVEL_INLINE_LAMBDA {
+        const Mask<T> is = rest >= T(bit);
+        rest = select(is, rest - T(bit), rest);
+        return is;
+    };
+    PlantState<T> state;
+    state.fresh = !next(kBegun);
+    state.waiting = next(kIsWaiting);
+    state.armed = next(kIsArmed);
+    state.locked = next(kIsLocked);
+    state.mark = s.io.load_result_vector(SWIVEL_PLANT, kMark);
+    state.offset = s.io.load_result_vector(SWIVEL_PLANT, kOffset);
+    state.velocity = s.io.load_result_vector(SWIVEL_PLANT, kVelocity);
+    state.left = s.io.load_result(SWIVEL_PLANT, kLeft);
+    return state;
+}
+template <class T>
+SWIVEL_INLINE void store_plant(const Rows<T, kTold>& out, const PlantState<T>& state)
+{
+    const auto bit = [](const Mask<T>& is, float value) SWIVEL_INLINE_LAMBDA { return select(is, T(value), T(0)); };
+    out.store_vector(SWIVEL_PLANT, state.mark, kMark);
+    out.store_vector(SWIVEL_PLANT, state.offset, kOffset);
+    out.store_vector(SWIVEL_PLANT, state.velocity, kVelocity);
+    out.store(SWIVEL_PLANT, kLeft, state.left);
+    out.store(SWIVEL_PLANT, kState,
+              T(kBegun) + bit(state.waiting, kIsWaiting) + bit(state.armed, kIsArmed) + bit(state.locked, kIsLocked));
+}
+
+// Whether a limb's point is in contact: as it is labelled, or as its motion shows.
+template <class S>
+SWIVEL_INLINE Mask<typename S::T> in_contact(const S& s, const Mask<typename S::T>& fresh,
+                                             const PlantInput<typename S::T>& in, const Vector<typename S::T>& point)
+{
+    using T = typename S::T;
+    if (!s.has(SWIVEL_PLANT_BY_MOTION)) {
+        const T contact = s.io.load(SWIVEL_CONTACT, 0);
+        s.require(is_share(contact));
+        return contact > T(0.5);
+    }
+    const BodyLimb& limb = *s.strip.run.limb;
+    MotionState<T> motion{s.io.load_result_vector(SWIVEL_MOTION, 0), s.io.load_result(SWIVEL_MOTION, 3) > T(0.5)};
+    const Mask<T> is = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.rules);
+    const Rows<T, kTold> out = waiting_rows(s);
+    out.store_vector(SWIVEL_MOTION, motion.place);
+    out.store(SWIVEL_MOTION, 3, select(motion.contact, T(1), T(0)));
+    return is;
+}
+
+// The planted rotation of the hand.
+template <class S>
+SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<typename S::T>& step,
+                                                const Mask<typename S::T>& locked, const Rotor<typename S::T>& support,
+                                                const Rotor<typename S::T>& hand)
+{
+    using T = typename S::T;
+    TurnState<T> turn{s.io.load_result_rotor(SWIVEL_PLANT_TURN, kTurnMark),
+                      s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnOffset),
+                      s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnVelocity)};
+    const Rotor<T> is = plant_turn(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
+    const Rows<T, kTold> out = waiting_rows(s);
+    out.store_rotor(SWIVEL_PLANT_TURN, turn.mark, kTurnMark);
+    out.store_vector(SWIVEL_PLANT_TURN, turn.offset, kTurnOffset);
+    out.store_vector(SWIVEL_PLANT_TURN, turn.velocity, kTurnVelocity);
+    return support * is;
+}
+
+// A limb's point in a step of its plant.
+template <class S>
+struct PlantedPoint {
+    using T = typename S::T;
+    const S& s;
+    const BodyLimb& limb = *s.strip.run.limb;
+    SupportFrame<T> support = SupportFrame<T>::of(s);
+    AnimatedHand<T> animated = animated_hand(s);
+    PlantState<T> state = load_plant(s);
+    Planted<T> planted;
+    EasedHeight<T> lift;  // on ground that is not flat
+
+    // sees_ground: else it is lifted as in the last step.
+    SWIVEL_INLINE PlantedPoint(const S& of, bool sees_ground) : s(of)
+    {
+        s.require(is_posed(s) & is_within(len2(support.rotation), 0.99, 1.01));
+        PlantInput<T> in;
+        in.time = s.body_row(kTimeRow);
+        in.length = T(limb.rest_length) * s.body_row(kRootJoint + kScaleRow);
+        forget_old(state, in.time, limb.rules);
+        Vector<T> point = animated.point;
+        if (s.has(SWIVEL_WITH_GROUND)) point = point + (sees_ground ? lifted_by_ground() : lifted_so_far());
+        in.point = support.from_root(point);
+        s.require((len2(in.point) <= T(kHuge2)) & is_within(in.time, 0, kHuge));
+        in.label = in_contact(s, state.fresh, in, animated.point);
+        planted = plant(state, in, limb.rules);
+    }
+    SWIVEL_INLINE Vector<T> place() const { return support.to_root(planted.target); }
+    SWIVEL_INLINE void lock_to_ground()
+    {
+        if (!any(planted.step.locks)) return;
+        const Vector<T> up = up_of(s);
+        const T clearance = T(limb.ground.toe_clearance) * s.body_row(limb.parent + kScaleRow);
+        lock_on_ground(state, planted.step.locks, support.turned_back(up),
+                       ground_of(s, up).way_up(support.to_root(state.mark), clearance));
+    }
+
+    SWIVEL_INLINE Spring<Vector<T>> normal() const
+    {
+        const Vector<T> up = up_of(s);
+        return eased_normal(s, ground_of(s, up).slope(up), up, planted.step.fresh, state.locked, limb.ground.lift);
+    }
+
+private:
+    SWIVEL_INLINE Vector<T> lifted_so_far() const
+    {
+        const T was = s.io.load_result(SWIVEL_LIFT, 0);
+        const Mask<T> has_begun = (s.io.load_result(SWIVEL_LIFT, 2) > T(0.5)) & (was == was) & !state.fresh;
+        return select(has_begun, was, T(0)) * up_of(s);
+    }
+    // From the root's level to the ground below the animated point.
+    SWIVEL_INLINE Vector<T> lifted_by_ground()
+    {
+        const Vector<T> up = up_of(s), level = animated.point - scalar_product(up, animated.point) * up;
+        lift = eased(s, SWIVEL_LIFT, ground_of(s, up).way_up(level, T(0)), state.fresh, limb.ground.lift);
+        return lift.at * up;
+    }
+};
+
+// Where to sample the ground, whatever was given of it so far. The height does not matter.
+template <>
+struct StageBody<Stage::probe> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const PlantedPoint<S> point(s, false);
+        const Vector<T> place = point.place() + s.body_vector(kRootRow);
+        s.require(len2(place) <= T(kHuge2));
+        good_rows(s).store_vector(SWIVEL_PROBE, place);
+    }
+};
+
+template <>
+struct StageBody<Stage::plant> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        PlantedPoint<S> point(s, true);
+        const Planted<T>& planted = point.planted;
+        const Vector<T> place = point.place();
+        s.require(len2(place) <= T(kHuge2));
+        const Rotor<T> hand =
+            s.has(SWIVEL_WITH_PLANT_TURN)
+                ? planted_turn(s, planted.step, point.state.locked, point.support.rotation, point.animated.rotation)
+                : point.animated.rotation;
+        const Rows<T, kTold> out = waiting_rows(s);
+        const Vector<T> in_world = place + s.body_vector(kRootRow);
+        if (s.has(SWIVEL_WITH_GROUND)) {
+            point.lock_to_ground();
+            out.store_vector(SWIVEL_PROBE, in_world);
+            store_eased(out, SWIVEL_LIFT, point.lift);
+            const Spring<Vector<T>> normal = point.normal();
+            out.store_vector(SWIVEL_LIFT, normal.at, kSlope);
+            out.store_vector(SWIVEL_LIFT, normal.rate, kSlopeRate);
+        }
+        store_plant(out, point.state);
+        send(s, place, hand);
+        s.set_body(point.limb.goal + kGoalFlagsRow,
+                   word_where(point.state.locked, SWIVEL_PLANTED) | word_where(planted.step.releases, SWIVEL_RELEASED) |
+                       word_where(planted.too_far, SWIVEL_BROKE_AWAY) | word_where(planted.cut, SWIVEL_CUT));
+        if (s.has(SWIVEL_WITH_RECORD)) {
+            out.store_vector(SWIVEL_GOAL, in_world);
+            out.store_rotor(SWIVEL_GOAL, hand, 3);
+        }
+    }
+};
+
+template <>
+struct StageBody<Stage::ground> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        const GroundRules& rules = limb.ground;
+        const Vector<T> up = up_of(s);
+        const T scale = s.body_row(limb.parent + kScaleRow), share = s.io.load(SWIVEL_GROUND_WEIGHT, 0);
+        const Vector<T> heel = vector(T(rules.heel[0]), T(rules.heel[1]), T(rules.heel[2]));
+        const Vector<T> heel_from_toe = scale * (heel - s.io.load_vector(SWIVEL_EFFECTOR));
+        s.require(is_share(share) & (len2(heel_from_toe) <= T(kHuge2)));
+        const Foot<T> sent{s.body_vector(limb.goal + kGoalPlaceRow), s.body_rotor(limb.goal + kGoalHandRow)};
+        const Vector<T> normal = waiting_rows(s).load_result_vector(SWIVEL_LIFT, kSlope);
+        const GroundPlane<T> ground = ground_of(s, up);
+        const Foot<T> foot =
+            foot_on_ground(ground, leaning(ground, normal, up), up, sent, heel_from_toe, scale, share, rules);
+        send(s, foot.toe, foot.rotation);
+        if (s.has(SWIVEL_WITH_RECORD)) {
+            const Rows<T, kTold> out = waiting_rows(s);
+            out.store_vector(SWIVEL_GOAL, foot.toe + s.body_vector(kRootRow));
+            out.store_rotor(SWIVEL_GOAL, foot.rotation, 3);
+        }
+    }
+};
+
+// Stores what waited. Bad input keeps what is carried, or clears it where limbs go to rest.
+template <>
+struct StageBody<Stage::stand> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const Rows<T, kTold> from = waiting_rows(s), out = good_rows(s);
+        Rows<T, kTold> cleared = s.io;
+        cleared.chosen = s.strip.run.keeps ? 0 : s.chosen() & ~s.good();
+        for (const swivel_field field : kSentResults) {
+            const FieldRow& row = row_of(field);
+            if ((s.strip.run.features & row.needs) != row.needs) continue;
+            for (int c = 0; c < static_cast<int>(row.component_count); ++c) {
+                out.store(field, c, from.load_result(field, c));
+                if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED) cleared.store(field, c, T(0));
+            }
+        }
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA

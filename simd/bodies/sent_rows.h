@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+//
+// What the stages share that send a body's limb to a goal of their own: its frame, where it is animated, and the rows
+// in which their results wait.
+#pragma once
+
+#include <cstddef>
+
+#include "core/ground.h"
+#include "core/limb_bones.h"
+#include "core/spring.h"
+#include "core/yielding_hand.h"
+#include "simd/limbs/goal_stages.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// A run's lanes of what they write: those of a slice that are good.
+template <class S>
+SWIVEL_INLINE Rows<typename S::T, kTold> good_rows(const S& s)
+{
+    Rows<typename S::T, kTold> rows = s.io;
+    rows.chosen = s.good() == S::kEvery ? kEveryLane : s.good();
+    return rows;
+}
+
+// The results of a limb that is sent that it has before all of its input is known to be good. Their rows lie side by
+// side.
+inline constexpr swivel_field kSentResults[] = {SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION,
+                                                SWIVEL_GOAL,  SWIVEL_PROBE,      SWIVEL_LIFT};
+static_assert([] {
+    std::uint32_t count = 0;
+    for (const swivel_field field : kSentResults) count += row_of(field).component_count;
+    return kGoalResultsRow + count == kGoalRows;
+}());
+// The same rows, where they wait for that.
+template <class S>
+SWIVEL_INLINE Rows<typename S::T, kTold> waiting_rows(const S& s)
+{
+    Rows<typename S::T, kTold> rows = s.io;
+    const std::ptrdiff_t from = s.strip.run.limb->goal + kGoalResultsRow, first = rows.row(SWIVEL_PLANT, 0);
+    rows.results = s.body + (from - first) * std::ptrdiff_t{kLanes};
+    return rows;
+}
+
+// A body's axis of heights and shifts, in the world.
+template <class S>
+SWIVEL_INLINE Vector<typename S::T> up_of(const S& s)
+{
+    using T = typename S::T;
+    const float(&up)[3] = s.strip.run.limb->up;
+    return turned(s.body_rotor(kRootJoint + kTurnRow), vector(T(up[0]), T(up[1]), T(up[2])));
+}
+
+// The ground below a foot.
+template <class S>
+SWIVEL_INLINE GroundPlane<typename S::T> ground_of(const S& s, const Vector<typename S::T>& up)
+{
+    using T = typename S::T;
+    const Vector<T> normal = s.io.load_vector(SWIVEL_GROUND_NORMAL);
+    s.require(is_within(len2(normal), 1e-18, 1e18));
+    return ground_plane(s.io.load_vector(SWIVEL_GROUND) - s.body_vector(kRootRow), normal, up);
+}
+
+// The frame that planted points are carried in, as the body's root sees it.
+template <class T>
+struct SupportFrame {
+    bool is_turned;  // of no body, if the pose has no rotations of supports
+    Rotor<T> rotation;
+    Vector<T> root;  // the root's place from the support's, along the world's axes
+
+    template <class S>
+    SWIVEL_INLINE static SupportFrame of(const S& s)
+    {
+        const bool is_turned = s.strip.run.strip.pose->support_rotation.data != nullptr;
+        return {is_turned, is_turned ? s.body_rotor(kSupportRow) : one<T>(), s.body_vector(kRootFromSupportRow)};
+    }
+    SWIVEL_INLINE Vector<T> from_root(const Vector<T>& place) const
+    {
+        return is_turned ? turned(~rotation, place + root) : place + root;
+    }
+    SWIVEL_INLINE Vector<T> turned_back(const Vector<T>& v) const { return is_turned ? turned(~rotation, v) : v; }
+    SWIVEL_INLINE Vector<T> to_root(const Vector<T>& place) const
+    {
+        return (is_turned ? turned(rotation, place) : place) - root;
+    }
+};
+
+// Where a limb's point is as animated, from the root's place, and the hand's rotation. What the caller has written
+// counts instead of the pose's.
+template <class T>
+struct AnimatedHand {
+    Vector<T> point;
+    Rotor<T> rotation;
+    Mask<T> is_posed;  // nothing was written
+};
+template <class S>
+SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    AnimatedHand<T> is{s.body_vector(limb.wrist + kPlaceRow), s.body_rotor(limb.wrist + kTurnRow), T(0) == T(0)};
+    if (s.has(SWIVEL_WITH_EFFECTOR))
+        is.point =
+            is.point + s.body_row(limb.parent + kScaleRow) * turned(is.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
+    const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
+    const T distance2 = len2(target);
+    if (const Mask<T> is_given = distance2 == distance2; any(is_given)) {
+        is.point = select(is_given, target - s.body_vector(kRootRow), is.point);
+        is.is_posed = !is_given;
+    }
+    if (s.has(SWIVEL_WITH_HAND)) {
+        const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+        const T length2 = len2(hand);
+        if (const Mask<T> is_given = length2 == length2; any(is_given)) {
+            s.require(is_orientation(hand) | !is_given);
+            is.rotation = select(is_given, normalise(hand), is.rotation);
+            is.is_posed = is.is_posed & !is_given;
+        }
+    }
+    return is;
+}
+
+// Sends a limb to a goal, from the root's place as kGoalPlaceRow has it.
+template <class S>
+SWIVEL_INLINE void send(const S& s, const Vector<typename S::T>& place, const Rotor<typename S::T>& hand)
+{
+    using T = typename S::T;
+    const std::uint32_t goal = s.strip.run.limb->goal;
+    // The limb finds bad input here.
+    const T nan = T(__builtin_nan(""));
+    s.set_body_vector(goal + kGoalPlaceRow, select(lanes_where<T>(s.good()), place, vector(nan, nan, nan)));
+    s.set_body_rotor(goal + kGoalHandRow, hand);
+}
+
+// A height that a spring eases towards a goal. What is carried of it: where it is, its rate, and 1 once it has begun.
+// It begins at the goal, and anew where that is asked for.
+template <class T>
+struct EasedHeight {
+    T at, rate;
+    T was;  // before this step; 0 where it had not begun
+};
+template <class S>
+SWIVEL_INLINE EasedHeight<typename S::T> eased(const S& s, swivel_field carried, const typename S::T& goal,
+                                               const Mask<typename S::T>& anew, const SpringRule& rule)
+{
+    using T = typename S::T;
+    const T time = s.body_row(kTimeRow);
+    const Spring<T> was{s.io.load_result(carried, 0), s.io.load_result(carried, 1)};
+    const Mask<T> is_number = (was.at == was.at) & (was.rate == was.rate), stands = time == T(0),
+                  begun = (s.io.load_result(carried, 2) > T(0.5)) & is_number & !anew;
+    const Spring<T> next = sprung(was, goal, time, rule);
+    const EasedHeight<T> is{select(begun, select(stands, was.at, next.at), goal),
+                            select(begun, select(stands, was.rate, next.rate), T(0)), select(begun, was.at, T(0))};
+    s.require(is_within(is.at, -kHuge, kHuge) & (is.rate == is.rate));
+    return is;
+}
+template <class T>
+SWIVEL_INLINE void store_eased(const Rows<T, kTold>& out, swivel_field carried, const EasedHeight<T>& is)
+{
+    out.store(carried, 0, is.at);
+    out.store(carried, 1, is.rate);
+    out.store(carried, 2, T(1));
+}
+
+// The normal that a foot turns with, of any length but 0. A spring eases it towards `goal`. A planted foot takes its
+// goal at once, and so does one where `fresh` holds or nothing usable is carried. Where time stands still no bit
+// changes.
+template <class S>
+SWIVEL_INLINE Spring<Vector<typename S::T>> eased_normal(const S& s, const Vector<typename S::T>& goal,
+                                                         const Vector<typename S::T>& up,
+                                                         const Mask<typename S::T>& fresh,
+                                                         const Mask<typename S::T>& planted, const SpringRule& rule)
+{
+    using T = typename S::T;
+    const T time = s.body_row(kTimeRow);
+    const Spring<Vector<T>> carried{s.io.load_result_vector(SWIVEL_LIFT, kSlope),
+                                    s.io.load_result_vector(SWIVEL_LIFT, kSlopeRate)};
+    const Spring<Vector<T>> next = sprung(carried, goal, time, rule);
+    const Mask<T> usable = (scalar_product(carried.at, up) > T(1e-3)) & (len2(carried.at) <= T(1e6)) &
+                           (len2(carried.rate) <= T(kHuge2)) & !fresh,
+                  stays = usable & (time == T(0)), eases = usable & !planted & !stays;
+    const Vector<T> none = vector(T(0), T(0), T(0));
+    return {select(stays, carried.at, select(eases, next.at, goal)),
+            select(stays, carried.rate, select(eases, next.rate, none))};
+}
+
+// How far a limb's wrist gets from its shoulder, and from where on it is eased before that; and how near it gets.
+template <class T>
+struct LimbReach {
+    T far, exact, near;
+};
+template <class S>
+SWIVEL_INLINE LimbReach<typename S::T> limb_reach(const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    const T scale = s.body_row(limb.parent + kScaleRow);
+    const Vector<T> shoulder = s.body_vector(limb.shoulder + kPlaceRow), elbow = s.body_vector(limb.elbow + kPlaceRow),
+                    wrist = s.body_vector(limb.wrist + kPlaceRow);
+    const auto length = [&](int bone, const Vector<T>& posed) SWIVEL_INLINE_LAMBDA {
+        const T given = s.io.load(SWIVEL_LENGTHS, bone);
+        s.require(is_length(given) | !(given == given));
+        return select(given == given, scale * given, sqrt(len2(posed)));
+    };
+    const T upper = length(0, elbow - shoulder), fore = length(1, wrist - elbow), bones = upper + fore;
+    T far = bones, near = abs(upper - fore);
+    if (s.has(SWIVEL_WITH_FLEXION_LIMIT)) {
+        const T cos_half = s.io.load(SWIVEL_FLEXION_LIMIT, 0), cos_half_most = s.io.load(SWIVEL_FLEXION_LIMIT, 1);
+        s.require(is_within(cos_half, 0, 1) & is_within(cos_half_most, 0, 1));
+        far = lo(bent_reach(upper, fore, cos_half), far);
+        near = hi(bent_reach(upper, fore, cos_half_most), near);
+    }
+    if (s.has(SWIVEL_WITH_REACH)) {
+        const ReachGoal<T> reach{s.io.load(SWIVEL_REACH, 0), s.io.load(SWIVEL_REACH, 1), s.io.load(SWIVEL_REACH, 2),
+                                 s.io.load(SWIVEL_REACH, 3)};
+        s.require(is_valid(reach));
+        return {far, hi(far - reach.soft_far * bones, T(0)), hi(near, reach.least_distance * far)};
+    }
+    if (!s.has(SWIVEL_WITH_CAP)) return {far, far, near};
+    const Cap<T> cap{s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
+                     sqrt(len2(wrist - shoulder))};
+    s.require(is_valid(cap));
+    const CappedReach<T> capped = capped_reach(cap, far, bones);
+    return {capped.far, hi(capped.far - capped.zone, T(0)), near};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages that lay the limb along the line to its wrist: how its bones reach, and the swivel plane that is wished
+// for.
+#pragma once
+
+#include "core/aim.h"
+#include "simd/limbs/goal_stages.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// What lies along the line from shoulder to wrist.
+template <class T>
+struct Laid {
+    Vector<T> line;  // unit
+    Word<T> flags;
+};
+// bones_of(distance): the bones for a wanted distance.
+template <class S, class BonesOf>
+SWIVEL_INLINE Laid<typename S::T> lay_bones(const S& s, const BonesOf& bones_of)
+{
+    using T = typename S::T;
+    const bool is_in_goal = s.has(SWIVEL_WITH_HAND) || s.has(SWIVEL_WITH_WEIGHTS);
+    const Vector<T> wrist = s.goal_vector(s.has(SWIVEL_WORLD) || is_in_goal, kWristRow, SWIVEL_TARGET);
+    if (!is_in_goal) s.require(len2(wrist) <= T(kHuge2));  // the stage `goal` has not seen it
+    const WristLine<T> to = wrist_line(wrist);
+    const auto bones = bones_of(to.wanted);
+    if constexpr (std::is_same_v<decltype(bones.lift), Rotor<T>>) {
+        s.set_rotor(kLiftRow, bones.lift);
+    } else {
+        s.set(kLiftRow, bones.lift.template at<kScalar>());
+        s.set(kLiftRow + 1, bones.lift.template at<kI>());
+    }
+    s.set(kFlexionRow, bones.cos_half);
+    s.set(kFlexionRow + 1, bones.sin_half);
+    s.set(kStretchRow, bones.stretch);
+    s.set_vector(kLineRow, to.line);
+    return {to.line, bones.flags | word_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED)};
+}
+template <class S>
+SWIVEL_INLINE void load_lengths(const S& s, ArmGoal<typename S::T>& arm)
+{
+    arm.upper = length(s, 0);
+    arm.fore = length(s, 1);
+    s.require(is_length(arm.upper) & is_length(arm.fore));
+}
+
+template <class S>
+SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, const LimbUse& use)
+{
+    using T = typename S::T;
+    LimbGoal<T> goal;
+    load_lengths(s, goal.arm);
+    if (use.reach) {
+        goal.reach = {s.io.load(SWIVEL_REACH, 0), s.io.load(SWIVEL_REACH, 1), s.io.load(SWIVEL_REACH, 2),
+                      s.io.load(SWIVEL_REACH, 3)};
+        s.require(is_valid(goal.reach));
+    }
+    if (use.cap) {
+        goal.cap = {s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
+                    s.has(SWIVEL_BODY) ? s.body_row(kReachRow)
+                                       : incoming_reach(normalise(s.get_rotor(kIncomingRow + 4)), goal.arm)};
+        s.require(is_valid(goal.cap));
+    }
+    if (use.limits.flexion) {
+        goal.limits.flexion = {s.io.load(SWIVEL_FLEXION_LIMIT, 0), s.io.load(SWIVEL_FLEXION_LIMIT, 1)};
+        s.require(is_valid(goal.limits.flexion));
+    }
+    return lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return place_bones(use, goal, wanted); });
+}
+template <>
+struct StageBody<Stage::bones> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        s.set(kFlagsRow, lay_reaching_bones(s, use_of(s)).flags);
+    }
+};
+
+template <>
+struct StageBody<Stage::capped> : StageBody<Stage::bones> {
+};
+
+template <>
+struct StageBody<Stage::aim> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const LimbUse use = use_of(s);
+        LimbGoal<T> goal;
+        load_lengths(s, goal.arm);
+        // Checked as given: a turn's rounding is no fault of the axis.
+        const Vector<T> axis = s.io.load_vector(SWIVEL_AIM);
+        goal.aim = {in_hand(s, axis), s.io.load(SWIVEL_AIM, 3), s.io.load(SWIVEL_AIM, 4)};
+        s.require(is_unit2(len2(axis)) & is_valid(goal.aim));
+        if (use.effector) {
+            goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
+            s.require(len2(goal.effector) <= T(kHuge2));
+        }
+        const Rotor<T> hand = use.hand             ? s.get_rotor(kHandRow)
+                              : s.has(SWIVEL_BODY) ? s.get_rotor(kIncomingRow + 8)
+                                                   : one<T>();
+        const Laid<T> laid =
+            lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(use, goal, hand, wanted); });
+        s.set(kFlagsRow, laid.flags);
+    }
+};
+
+template <class S>
+SWIVEL_INLINE void load_continuity(const S& s, Continuity<typename S::T>& continuity)
+{
+    using T = typename S::T;
+    continuity = {vector(s.io.load_result(SWIVEL_NORMAL, 0), s.io.load_result(SWIVEL_NORMAL, 1),
+                         s.io.load_result(SWIVEL_NORMAL, 2)),
+                  s.io.load_turned(SWIVEL_MOST_SWIVEL)};
+    if (!s.has(SWIVEL_BODY) || !s.strip.run.strip.pose->time.data) return;
+    const T time = s.body_row(kTimeRow);
+    s.require(is_within(time, 0, kHuge) & is_valid(continuity));
+    continuity.most = timed_step(continuity.most, time);
+}
+
+template <class S>
+SWIVEL_INLINE void wish_for_normal(const S& s, const LimbUse& use, const Laid<typename S::T>& laid)
+{
+    using T = typename S::T;
+    LimbGoal<T> goal;
+    if (has_pole(s)) {
+        goal.arm.pole = s.goal_vector(s.has(SWIVEL_WORLD), kPoleRow, SWIVEL_POLE);
+        s.require(len2(goal.arm.pole) <= T(kHuge2));
+    }
+    if (use.angle) {
+        goal.angle = s.io.load_turned(SWIVEL_ANGLE);
+        s.require(is_valid(goal.angle));
+    }
+    if (use.incoming) goal.incoming.shoulder = s.get_rotor(kIncomingRow);
+    if (use.weights) goal.weights.pole = s.io.load(SWIVEL_WEIGHTS, 2);
+    if (use.continuity) {
+        load_continuity(s, goal.continuity);
+        s.require(is_valid(goal.continuity));
+    }
+    const Rotor<T> hand = use.wish == Wish::hand ? s.get_rotor(kHandRow) : one<T>();
+    const LimbNormal<T> found = limb_normal(use, goal, hand, laid.line);
+    s.set_vector(kNormalRow, found.normal);
+    s.set(kFlagsRow, laid.flags | found.flags);
+}
+template <>
+struct StageBody<Stage::wish> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        wish_for_normal(s, use_of(s), Laid<typename S::T>{s.get_vector(kLineRow), s.get_flags()});
+    }
+};
+
+template <>
+struct StageBody<Stage::place> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        LimbUse use;
+        use.wish = S::template is<SWIVEL_POLE_NORMAL>() ? Wish::normal : Wish::pole;
+        use.angle = S::template is<SWIVEL_WITH_ANGLE>();
+        wish_for_normal(s, use, lay_reaching_bones(s, use));
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+//
+// The first stages of the whole limb: they bring the goal and the incoming pose into the arm frame.
+#pragma once
+
+#include "core/clavicle.h"
+#include "core/wrist_goal.h"
+#include "simd/limbs/strip.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// StageBody<stage>::slice(s) takes a slice one stage further.
+template <Stage stage>
+struct StageBody;
+
+// What a group's features make the formula use, but for limits of the swivel, which have stages of their own.
+template <class S>
+SWIVEL_INLINE LimbUse use_of(const S& s)
+{
+    LimbUse use;
+    use.hand = s.has(SWIVEL_WITH_HAND);
+    use.effector = s.has(SWIVEL_WITH_EFFECTOR);
+    use.angle = s.has(SWIVEL_WITH_ANGLE);
+    use.incoming = s.has(SWIVEL_WITH_INCOMING);
+    use.weights = s.has(SWIVEL_WITH_WEIGHTS);
+    use.reach = s.has(SWIVEL_WITH_REACH);
+    use.cap = s.has(SWIVEL_WITH_CAP);
+    use.continuity = s.has(SWIVEL_WITH_MOST_SWIVEL);
+    use.step_wins = s.has(SWIVEL_STEP_WINS);
+    use.aim = s.has(SWIVEL_WITH_AIM);
+    use.yields = s.has(SWIVEL_HAND_YIELDS);
+    use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming
+               : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal
+               : s.has(SWIVEL_POLE_HAND)   ? Wish::hand
+                                           : Wish::pole;
+    use.limits.flexion = s.has(SWIVEL_WITH_FLEXION_LIMIT);
+    return use;
+}
+// Whether the caller gives a pole; and whether it is a point.
+template <class S>
+SWIVEL_INLINE bool has_pole(const S& s)
+{
+    return !s.has(SWIVEL_POLE_INCOMING) && !s.has(SWIVEL_POLE_HAND);
+}
+template <class S>
+SWIVEL_INLINE bool pole_is_point(const S& s)
+{
+    return has_pole(s) && !s.has(SWIVEL_POLE_DIRECTION) && !s.has(SWIVEL_POLE_NORMAL);
+}
+// Whether its joints have frames of their own.
+template <class S>
+SWIVEL_INLINE bool is_bound(const S& s)
+{
+    return s.has(SWIVEL_JOINTS) || s.has(SWIVEL_BODY);
+}
+// The parent's frame of a body's limb.
+template <class S>
+SWIVEL_INLINE ParentFrame<typename S::T> posed_parent(const S& s)
+{
+    const BodyLimb& limb = *s.strip.run.limb;
+    return {s.body_vector(limb.shoulder + kPlaceRow), s.body_rotor(limb.parent + kTurnRow),
+            s.body_row(limb.parent + kScaleRow)};
+}
+// The arm frame of a body's limb, with the clavicle as turned, from the root's place.
+template <class T>
+struct ArmFrame {
+    Rotor<T> rotation;
+    Vector<T> shoulder;
+};
+template <class S>
+SWIVEL_INLINE ArmFrame<typename S::T> arm_frame(const S& s)
+{
+    using T = typename S::T;
+    const ParentFrame<T> parent = posed_parent(s);
+    const Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+    if (!s.has(SWIVEL_WITH_CLAVICLE)) return {arm, parent.position};
+    const Vector<T> clavicle = s.body_vector(s.strip.run.limb->parent + kPlaceRow);
+    const Rotor<T> is = arm * s.get_rotor(kClavicleRow);
+    return {is, clavicle + sandwich(is * ~arm, parent.position - clavicle)};
+}
+// Whether the pose is good in all that a limb takes of it. What is bad in a joint shows in all below it.
+template <class S>
+SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    const auto is_joint = [&](std::uint32_t joint) SWIVEL_INLINE_LAMBDA {
+        return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
+               (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
+               is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
+    };
+    Mask<T> good = is_joint(limb.wrist);
+    for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
+        good = good & is_joint(limb.twist_bones[n]);
+    return good;
+}
+
+// A bone's length.
+template <class S>
+SWIVEL_INLINE typename S::T length(const S& s, int bone)
+{
+    return s.has(SWIVEL_BODY) ? s.body_row(kLengthsRow + static_cast<std::uint32_t>(bone))
+                              : s.io.load(SWIVEL_LENGTHS, bone);
+}
+// A vector of the hand joint's own frame.
+template <class S>
+SWIVEL_INLINE Vector<typename S::T> in_hand(const S& s, const Vector<typename S::T>& v)
+{
+    return is_bound(s) ? sandwich(broadcast<typename S::T>(s.strip.bind.hand_from_arm), v) : v;
+}
+
+template <>
+struct StageBody<Stage::see> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
+        const Vector<T> pole = has_pole(s) ? s.io.load_vector(SWIVEL_POLE) : vector(T(0), T(0), T(0));
+        const ParentFrame<T> parent = s.io.load_parent();
+        s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
+        // The arm frame goes with the parent.
+        Rotor<T> rotation = parent.rotation;
+        if constexpr (S::template is<SWIVEL_JOINTS>()) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+        const SeenGoal<T> seen =
+            seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
+        const T shrink = T(1) / seen.size;
+        s.set_vector(kWristRow, shrink * seen.wrist);
+        s.set_vector(kPoleRow, shrink * seen.pole);
+        if constexpr (S::template is<SWIVEL_WITH_HAND>()) {
+            const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+            s.require(is_orientation(hand));
+            s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
+        }
+    }
+};
+
+// Places from the clavicle's joint, in the arm frame: the shoulder's, and what the clavicle turns from towards the
+// target.
+template <class T>
+struct ClavicleEnds {
+    Vector<T> shoulder, from;
+};
+// Of a free limb: the clavicle's own bone.
+template <class S>
+SWIVEL_INLINE ClavicleEnds<typename S::T> resting_clavicle(const S& s)
+{
+    using T = typename S::T;
+    const Vector<T> bone = sandwich(~broadcast<T>(s.strip.bind.parent_from_arm), s.io.load_vector(SWIVEL_CLAVICLE));
+    return {bone, bone};
+}
+// Of a body's limb: what goes to the target, as it comes. With an aim that is the ray's point as far as the target is.
+template <class S>
+SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    const ParentFrame<T> parent = posed_parent(s);
+    const Turn<T> back = turn_by(~(parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm)));
+    const Vector<T> clavicle = s.body_vector(limb.parent + kPlaceRow);
+    const auto seen = [&](const Vector<T>& place)
+                          SWIVEL_INLINE_LAMBDA { return (T(1) / parent.scale) * back(place - clavicle); };
+    const Turn<T> hand = turn_by(s.body_rotor(limb.wrist + kTurnRow));
+    const Vector<T> shoulder = seen(parent.position);
+    Vector<T> from = seen(s.body_vector(limb.wrist + kPlaceRow));
+    if (s.has(SWIVEL_WITH_EFFECTOR)) from = from + back(hand(s.io.load_vector(SWIVEL_EFFECTOR)));
+    if (s.has(SWIVEL_WITH_AIM)) {
+        const Vector<T> way = s.get_vector(kWristRow) + shoulder - from;
+        from = from + sqrt(len2(way)) * back(hand(s.io.load_vector(SWIVEL_AIM)));
+    }
+    return {shoulder, from};
+}
+
+// Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
+template <>
+struct StageBody<Stage::clavicle> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const bool is_posed = s.has(SWIVEL_BODY);
+        const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
+        const Vector<T>& bone = ends.shoulder;
+        const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
+        const Vector<T> target = s.get_vector(kWristRow) + bone;
+        s.require((len2(bone) <= T(kHuge2)) & is_share(share));
+        const Rotor<T> turn =
+            clavicle_turn(ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
+        const Turn<T> back = turn_by(~turn);
+        s.set_vector(kWristRow, back(target) - bone);
+        if (has_pole(s)) {
+            const Vector<T> pole = s.get_vector(kPoleRow);
+            s.set_vector(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
+        }
+        if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM)) s.set_rotor(kHandRow, ~turn * s.get_rotor(kHandRow));
+        s.set_rotor(kClavicleRow, turn);
+    }
+};
+
+template <>
+struct StageBody<Stage::incoming> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const Binding& bind = s.strip.bind;
+        load(s, SWIVEL_INCOMING_SHOULDER, kIncomingRow, bind.parent_from_arm, bind.upper_from_arm);
+        load(s, SWIVEL_INCOMING_ELBOW, kIncomingRow + 4, bind.elbow_parent_from_arm, bind.fore_from_arm);
+        if (s.has(SWIVEL_WITH_HAND))
+            load(s, SWIVEL_INCOMING_WRIST, kIncomingRow + 8, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
+    }
+
+private:
+    template <class S>
+    SWIVEL_INLINE static void load(const S& s, swivel_field field, std::uint32_t row, const Rotor<float>& from,
+                                   const Rotor<float>& to)
+    {
+        using T = typename S::T;
+        const Rotor<T> local = s.io.load_rotor(field);
+        Rotor<T> of_arm = local;
+        if constexpr (S::template is<SWIVEL_JOINTS>()) of_arm = ~broadcast<T>(from) * local * broadcast<T>(to);
+        of_arm = scaled(of_arm);
+        s.require(is_orientation(local) & is_orientation(of_arm));
+        s.set_rotor(row, of_arm);
+    }
+};
+
+template <>
+struct StageBody<Stage::goal> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const Binding& bind = s.strip.bind;
+        const LimbUse use = use_of(s);
+        const bool seen = s.has(SWIVEL_WORLD);
+        LimbGoal<T> goal;
+        goal.arm.wrist = s.goal_vector(seen, kWristRow, SWIVEL_TARGET);
+        Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
+        if (use.hand) {
+            goal.hand = seen ? s.get_rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
+            if (!seen) valid = valid & is_orientation(goal.hand);
+            if (is_bound(s)) {
+                const Rotor<T> wrist_parent = s.has(SWIVEL_BODY) ? s.body_rotor(s.strip.run.limb->wrist_parent_row())
+                                                                 : broadcast<T>(bind.wrist_parent_from_arm);
+                goal.hand = (use.aim ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
+            }
+            valid = valid & is_product(goal.hand);
+        }
+        if (use.effector && !use.aim) {
+            goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
+            valid = valid & (len2(goal.effector) <= T(kHuge2));
+        }
+        if (use.weights) {
+            goal.arm.upper = length(s, 0);
+            goal.arm.fore = length(s, 1);
+            goal.incoming = {s.get_rotor(kIncomingRow), s.get_rotor(kIncomingRow + 4),
+                             use.hand ? s.get_rotor(kIncomingRow + 8) : one<T>()};
+            goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};
+            valid = valid & is_valid(goal.weights);
+        }
+        const WristGoal<T> wrist = wrist_goal(use, goal);
+        s.set_vector(kWristRow, wrist.place);
+        if (use.hand) s.set_rotor(kHandRow, wrist.hand);
+        s.require(valid);
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA

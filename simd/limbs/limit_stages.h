@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages of the joint limits, one for each. A stage writes what its limit says of the swivel: a line, or a box's
+// curves.
+#pragma once
+
+#include "core/joint_limits.h"
+#include "core/region.h"
+#include "simd/limbs/goal_stages.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// How far the upper arm is off the line to the wrist: about the hinge, or any rotation where a line of the hand aims.
+template <class S>
+SWIVEL_INLINE auto hinged_lift(const S& s)
+{
+    return hinge(s.get(kLiftRow), s.get(kLiftRow + 1));
+}
+template <class S>
+SWIVEL_INLINE auto lift_of(const S& s)
+{
+    if constexpr (S::template is<SWIVEL_WITH_AIM>())
+        return s.get_rotor(kLiftRow);
+    else
+        return hinged_lift(s);
+}
+template <class S, class Lift>
+SWIVEL_INLINE auto swivelling_arm(const S& s, const Lift& lift)
+{
+    using T = typename S::T;
+    return SwivellingArm<T, Lift>{s.get_vector(kLineRow), s.get_vector(kNormalRow), lift, s.get_elbow(),
+                                  s.get_rotor(kHandRow)};
+}
+
+// The arm, for limits of the upper arm.
+template <class S>
+SWIVEL_INLINE auto arm_of(const S& s)
+{
+    return swivelling_arm(s, lift_of(s));
+}
+// The arm, for limits of the hand. Groups that aim have none of these (fields.h), so its lift is about the hinge.
+template <class S>
+SWIVEL_INLINE auto hand_arm_of(const S& s)
+{
+    return swivelling_arm(s, hinged_lift(s));
+}
+
+template <class S>
+SWIVEL_INLINE void set_line(const S& s, std::uint32_t row, const OnCircle<typename S::T>& line)
+{
+    s.set(row, line.a);
+    s.set(row + 1, line.b);
+    s.set(row + 2, line.c);
+}
+// The line of a limit comes after those of the features before it.
+template <class S, class Limit>
+SWIVEL_INLINE void set_limit(const S& s, swivel_features feature, const Limit& limit,
+                             const OnCircle<typename S::T>& line)
+{
+    s.require(is_valid(limit));
+    set_line(s, kLimitRow + 3 * line_count(s.strip.run.features & (feature - 1)), line);
+}
+
+template <>
+struct StageBody<Stage::shoulder_cone> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const auto cone = s.io.load_cone(SWIVEL_SHOULDER_CONE);
+        set_limit(s, SWIVEL_WITH_SHOULDER_CONE, cone, shoulder_cone_limit(arm_of(s), cone));
+    }
+};
+template <>
+struct StageBody<Stage::humeral_twist> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const auto range = s.io.load_range(SWIVEL_HUMERAL_TWIST);
+        set_limit(s, SWIVEL_WITH_HUMERAL_TWIST, range, humeral_twist_limit(arm_of(s), range));
+    }
+};
+template <>
+struct StageBody<Stage::hand_cone> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const auto cone = s.io.load_cone(SWIVEL_HAND_CONE);
+        set_limit(s, SWIVEL_WITH_HAND_CONE, cone, hand_cone_limit(hand_arm_of(s), cone));
+    }
+};
+template <>
+struct StageBody<Stage::forearm_twist> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const auto range = s.io.load_range(SWIVEL_FOREARM_TWIST);
+        set_limit(s, SWIVEL_WITH_FOREARM_TWIST, range, forearm_twist_limit(hand_arm_of(s), range));
+    }
+};
+template <>
+struct StageBody<Stage::hand_twist> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const Twist<typename S::T> twist{s.io.load_vector(SWIVEL_HAND_TWIST), s.io.load_range(SWIVEL_HAND_TWIST, 3)};
+        set_limit(s, SWIVEL_WITH_HAND_TWIST, twist, hand_twist_limit(hand_arm_of(s), twist));
+    }
+};
+
+// Stores the curves of the nth box. Its ranges stay among the inputs.
+template <class S>
+SWIVEL_INLINE void set_box(const S& s, std::uint32_t n, swivel_field field, const EulerCurves<typename S::T>& curves)
+{
+    using T = typename S::T;
+    const Range<T> ranges[3] = {s.io.load_range(field), s.io.load_range(field, 4), s.io.load_range(field, 8)};
+    s.require(is_valid(ranges));
+    const std::uint32_t row = kBoxRow + 15 * n;
+    set_line(s, row, curves.sine);
+    set_line(s, row + 3, curves.first_cos);
+    set_line(s, row + 6, curves.first_sin);
+    set_line(s, row + 9, curves.last_cos);
+    set_line(s, row + 12, curves.last_sin);
+}
+template <>
+struct StageBody<Stage::shoulder_box> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const EulerOrder& order = kEulerOrders[s.strip.run.shoulder_order];
+        set_box(s, 0, SWIVEL_SHOULDER_BOX, shoulder_box_curves(arm_of(s), order));
+    }
+};
+template <>
+struct StageBody<Stage::wrist_box> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const EulerOrder& order = kEulerOrders[s.strip.run.wrist_order];
+        set_box(s, s.has(SWIVEL_WITH_SHOULDER_BOX), SWIVEL_WRIST_BOX, wrist_box_curves(hand_arm_of(s), order));
+    }
+};
+template <>
+struct StageBody<Stage::region> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const auto on = region_limit(arm_of(s), s.strip.run.region);
+        set_line(s, kRegionRows[0], on.x);
+        set_line(s, kRegionRows[1], on.y);
+        set_line(s, kRegionRows[2], on.z);
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA
