@@ -23,7 +23,7 @@ constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignmen
 
 std::uint32_t blocks_in(const swivel_group_def& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
 
-std::uint64_t row_bytes(const swivel_group_def& group)
+std::uint64_t group_row_bytes(const swivel_group_def& group)
 {
     return aligned(std::uint64_t{blocks_in(group)} * block_bytes(group.features));
 }
@@ -36,19 +36,48 @@ std::uint32_t body_run_blocks(std::uint32_t row_count)
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(blocks, 1, kStripBlocks));
 }
 
+// Gives places in an arena, one behind the other, each aligned. Without memory it only counts their bytes.
+class Arena {
+public:
+    explicit Arena(void* memory) : memory_(static_cast<char*>(memory)) {}
+    template <class T>
+    T* take(std::uint64_t count)
+    {
+        T* const place = memory_ ? reinterpret_cast<T*>(memory_ + bytes_) : nullptr;
+        bytes_ += aligned(count * sizeof(T));
+        return place;
+    }
+    std::uint64_t bytes() const { return bytes_; }
+
+private:
+    char* memory_;
+    std::uint64_t bytes_ = 0;  // also of a crowd that is too large for any memory
+};
+
+// What a crowd has in its arena.
 struct Layout {
     std::uint32_t block_count = 0, strip_blocks = 0;
     BodySize bodies{};
-    std::uint64_t groups, regions, joints, moved, following, chosen, urgency, done, workspaces, rows,
-        end;  // byte offsets in the arena, also of one too large
+    std::uint64_t row_bytes = 0, bytes;  // of all groups' rows; of everything
+    swivel_crowd* crowd;
+    Group* groups;
+    swivel_region* regions;
+    BodyJoint* joints;
+    MovedJoint* moved;
+    FollowingJoint* following;
+    std::uint32_t* chosen;
+    float* urgency;
+    std::uint8_t* done;
+    float* workspaces;
+    char* rows;
 
-    explicit Layout(const swivel_crowd_def& def)
+    Layout(const swivel_crowd_def& def, void* memory)
     {
-        std::uint64_t bytes = 0, region_count = 0;
+        std::uint64_t region_count = 0;
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
             const swivel_group_def group = group_at(def, g);
             block_count = def.skeleton ? blocks_in(group) : block_count + blocks_in(group);
-            bytes += row_bytes(group);
+            row_bytes += group_row_bytes(group);
             region_count += group.features & SWIVEL_WITH_REGION ? 1 : 0;
             if (group.features & kLimbFeatures)
                 strip_blocks = std::max(strip_blocks, std::min(blocks_in(group), kStripBlocks));
@@ -57,17 +86,19 @@ struct Layout {
             bodies = body_size(def);
             strip_blocks = std::min(strip_blocks, body_run_blocks(bodies.row_count));
         }
-        groups = aligned(sizeof(swivel_crowd));
-        regions = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
-        joints = regions + aligned(region_count * sizeof(swivel_region));
-        moved = joints + aligned(std::uint64_t{bodies.joint_count} * sizeof(BodyJoint));
-        following = moved + aligned(std::uint64_t{bodies.moved_count} * sizeof(MovedJoint));
-        chosen = following + aligned(std::uint64_t{bodies.following_count} * sizeof(FollowingJoint));
-        urgency = chosen + aligned(std::uint64_t{mask_word_count(block_count)} * sizeof(std::uint32_t));
-        done = urgency + aligned(std::uint64_t{block_count} * sizeof(float));
-        workspaces = done + aligned(block_count);
-        rows = workspaces + def.workspace_count * workspace_floats(strip_blocks, bodies.row_count) * sizeof(float);
-        end = rows + bytes;
+        Arena arena(memory);
+        crowd = arena.take<swivel_crowd>(1);
+        groups = arena.take<Group>(def.group_count);
+        regions = arena.take<swivel_region>(region_count);
+        joints = arena.take<BodyJoint>(bodies.joint_count);
+        moved = arena.take<MovedJoint>(bodies.moved_count);
+        following = arena.take<FollowingJoint>(bodies.following_count);
+        chosen = arena.take<std::uint32_t>(mask_word_count(block_count));
+        urgency = arena.take<float>(block_count);
+        done = arena.take<std::uint8_t>(block_count);
+        workspaces = arena.take<float>(def.workspace_count * workspace_floats(strip_blocks, bodies.row_count));
+        rows = arena.take<char>(row_bytes);
+        bytes = arena.bytes();
     }
 };
 
@@ -154,55 +185,50 @@ swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
     return group;
 }
 
-std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end; }
+std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def, nullptr).bytes; }
 
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
 {
     const FloatEnv env;
-    const Layout layout(def);
-    char* const base = static_cast<char*>(arena);
-    std::memset(base, 0, static_cast<std::size_t>(layout.end));
-    swivel_crowd* const crowd = new (base) swivel_crowd{};
+    Layout layout(def, arena);
+    std::memset(arena, 0, static_cast<std::size_t>(layout.bytes));
+    swivel_crowd* const crowd = new (layout.crowd) swivel_crowd{};
     crowd->alive = swivel_crowd::kAlive;
     crowd->doubted_time = kNoDoubt;
     crowd->group_count = def.group_count;
     crowd->block_count = layout.block_count;
-    crowd->block_bytes = static_cast<std::size_t>((layout.end - layout.rows) / layout.block_count);
-    crowd->groups = reinterpret_cast<Group*>(base + layout.groups);
+    crowd->block_bytes = static_cast<std::size_t>(layout.row_bytes / layout.block_count);
+    crowd->groups = layout.groups;
     crowd->arena = arena;
-    crowd->arena_bytes = static_cast<std::size_t>(layout.end);
-    crowd->chosen = reinterpret_cast<std::uint32_t*>(base + layout.chosen);
-    crowd->urgency = reinterpret_cast<float*>(base + layout.urgency);
-    crowd->done = reinterpret_cast<std::uint8_t*>(base + layout.done);
+    crowd->arena_bytes = static_cast<std::size_t>(layout.bytes);
+    crowd->chosen = layout.chosen;
+    crowd->urgency = layout.urgency;
+    crowd->done = layout.done;
     crowd->strip_blocks = layout.strip_blocks;
     crowd->workspace_count = def.workspace_count;
-    crowd->workspaces = reinterpret_cast<float*>(base + layout.workspaces);
+    crowd->workspaces = layout.workspaces;
     crowd->joint_count = layout.bodies.joint_count;
     crowd->body_row_count = layout.bodies.row_count;
     if (def.skeleton) {
-        auto* const joints = reinterpret_cast<BodyJoint*>(base + layout.joints);
-        plan_joints(def, joints);
-        crowd->joints = joints;
+        plan_joints(def, layout.joints);
+        crowd->joints = layout.joints;
     }
-    char* rows = base + layout.rows;
-    auto* region = reinterpret_cast<swivel_region*>(base + layout.regions);
-    auto* moved = reinterpret_cast<MovedJoint*>(base + layout.moved);
-    auto* following = reinterpret_cast<FollowingJoint*>(base + layout.following);
     std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
-        const swivel_group_def of = group_at(def, g);
+        const swivel_group_def group_def = group_at(def, g);
         Group& group = *new (crowd->groups + g) Group{};
-        if (of.features & SWIVEL_WITH_REGION) group.region = new (region++) swivel_region(*of.region);
-        place_group(def, of, *crowd, first_block, rows, group);
+        if (group_def.features & SWIVEL_WITH_REGION)
+            group.region = new (layout.regions++) swivel_region(*group_def.region);
+        place_group(def, group_def, *crowd, first_block, layout.rows, group);
         if (def.skeleton) {
-            plan_moved(def, of, {crowd->joints, crowd->joint_count}, group.limb, moved, following);
-            plan_group(def, of, group.limb);
+            plan_moved(def, group_def, {crowd->joints, crowd->joint_count}, group.limb, layout.moved, layout.following);
+            plan_group(def, group_def, group.limb);
         }
-        moved += group.limb.moved_count;
-        following += group.limb.following_count;
-        own_rows = plan_own_rows(of.features, own_rows, group.limb);
-        if (!def.skeleton) first_block += blocks_in(of);
-        rows += row_bytes(of);
+        layout.moved += group.limb.moved_count;
+        layout.following += group.limb.following_count;
+        own_rows = plan_own_rows(group_def.features, own_rows, group.limb);
+        if (!def.skeleton) first_block += blocks_in(group_def);
+        layout.rows += group_row_bytes(group_def);
     }
     if (def.skeleton) plan_links(def, *crowd);
     return crowd;
