@@ -109,7 +109,7 @@ SWIVEL_INLINE constexpr void for_each_peak(const Limits<T, Boxes>& limits, const
     };
     const auto consider = [&](const Candidate& candidate)
                               SWIVEL_INLINE_LAMBDA { take(candidate.swivel, candidate.exists); };
-    const Mask<T> never = T(1) < T(0);
+    const Mask<T> never = no_lanes<T>();
     for (int n = 0; n < count; ++n) {
         const OnCircle<T> line = edge[n].line();
         const T r2 = line.a * line.a + line.b * line.b;

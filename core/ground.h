@@ -20,15 +20,15 @@ template <class T>
 struct GroundPlane {
     Vector<T> place, normal;  // the normal is of unit length
     T rise;                   // its share along up
-    Mask<T> is;               // whether there is ground to stand on
+    Mask<T> exists;           // whether there is ground to stand on
 
     // The normal that a foot turns to; up without ground.
-    SWIVEL_INLINE constexpr Vector<T> slope(const Vector<T>& up) const { return select(is, normal, up); }
+    SWIVEL_INLINE constexpr Vector<T> slope(const Vector<T>& up) const { return select(exists, normal, up); }
     SWIVEL_INLINE constexpr T distance(const Vector<T>& point) const { return scalar_product(normal, point - place); }
     // How far up a point must go to be at a distance from the plane; without ground not at all.
     SWIVEL_INLINE constexpr T way_up(const Vector<T>& point, const T& clearance) const
     {
-        return select(is, (clearance - distance(point)) / select(is, rise, T(1)), T(0));
+        return select(exists, (clearance - distance(point)) / select(exists, rise, T(1)), T(0));
     }
 };
 // place: NaN where no ground is known. up: unit.
@@ -38,8 +38,8 @@ SWIVEL_INLINE constexpr GroundPlane<T> ground_plane(const Vector<T>& place, cons
 {
     const Vector<T> unit = normalise(normal);
     const T rise = scalar_product(unit, up);
-    const Mask<T> is = (len2(place) <= T(kHuge2)) & (rise > T(kSteepest));
-    return {place, unit, rise, is};
+    const Mask<T> exists = (len2(place) <= T(kHuge2)) & (rise > T(kSteepest));
+    return {place, unit, rise, exists};
 }
 
 // The plane through the same point with another normal, as a foot in the air has it.
@@ -110,9 +110,9 @@ SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, con
     const Rotor<T> on_slope = unit_rotation(with_ground);
 
     const T wanted = T(rules.heel_clearance) * scale - slope.distance(toe);
-    const Rotor<T> lift = lifting_turn(ground.is, slope.normal, turned(on_slope, heel_from_toe), wanted);
+    const Rotor<T> lift = lifting_turn(ground.exists, slope.normal, turned(on_slope, heel_from_toe), wanted);
     // Where the ground ends below a foot, its turn fades.
-    const Mask<T> turns = ground.is | (len2(slope.normal - up) > T(kUpright2));
+    const Mask<T> turns = ground.exists | (len2(slope.normal - up) > T(kUpright2));
     return {toe, select(turns, unit_rotation(lift * on_slope), foot.rotation)};
 }
 

@@ -167,7 +167,7 @@ SWIVEL_INLINE constexpr Mask<T> is_product(const Rotor<T>& q)
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const LimitUse& use, const JointLimits<T>& limits)
 {
-    Mask<T> valid = T(0) == T(0);
+    Mask<T> valid = all_lanes<T>();
     if (use.flexion) valid = valid & is_valid(limits.flexion);
     if (use.shoulder_cone) valid = valid & is_valid(limits.shoulder_cone);
     if (use.hand_cone) valid = valid & is_valid(limits.hand_cone);

@@ -228,7 +228,7 @@ struct Edge {
         return kind == past_turn ? past(*turn, *x, *y) : along(*turn, *x, *y);
     }
     // The lanes in which it is an edge at all.
-    SWIVEL_INLINE constexpr Mask<T> live() const { return kind == sine ? abs(*bound) <= T(1) : T(0) == T(0); }
+    SWIVEL_INLINE constexpr Mask<T> live() const { return kind == sine ? abs(*bound) <= T(1) : all_lanes<T>(); }
 };
 
 // The edges of all limits, which must outlive them. middles: also gives those that matter only where nothing is

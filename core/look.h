@@ -59,8 +59,8 @@ SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vect
         rotor(per * axis.template at<kE1>(), per * axis.template at<kE2>(), per * axis.template at<kE3>(), per * sum);
     if (!any(back)) return turn;
     const Mask<T> none = !(length > T(kTiny));
-    const auto direction = [&](const Vector<T>& of)
-                               SWIVEL_INLINE_LAMBDA { return (T(1) / sqrt(select(none, T(1), len2(of)))) * of; };
+    const auto direction = [&](const Vector<T>& v)
+                               SWIVEL_INLINE_LAMBDA { return (T(1) / sqrt(select(none, T(1), len2(v)))) * v; };
     const Vector<T> a = direction(from), b = direction(to), across = b - scalar_product(a, b) * a;
     const Mask<T> opposite = (len2(across) < T(1e-12)) & !none;
     const Vector<T> e1 = vector(T(1), T(0), T(0)), e2 = vector(T(0), T(1), T(0)), start = select(none, e1, a),
@@ -136,9 +136,9 @@ struct LookWay {
     T tangent;  // its length
 };
 template <class T>
-SWIVEL_INLINE constexpr LookWay<T> look_way(const Rotor<T>& was, const Rotor<T>& goal)
+SWIVEL_INLINE constexpr LookWay<T> look_way(const Rotor<T>& from, const Rotor<T>& goal)
 {
-    const Rotor<T> way = goal * ~was;
+    const Rotor<T> way = goal * ~from;
     const Vector<T> axis = (T(1) / hi(way.template at<kScalar>(), T(1e-3))) *
                            vector(way.template at<kI>(), way.template at<kJ>(), way.template at<kK>());
     return {axis, sqrt(len2(axis))};
@@ -147,10 +147,10 @@ inline constexpr double kStillTurn = 1e-6;  // a sum of such tangents below this
 // A part of it, 0 to 1. As the tangent of an angle is at least the angle, it turns by no more than 2 * part * tangent.
 // It lies between both turns, so within a cone that holds both.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> on_way(const Rotor<T>& was, const LookWay<T>& way, const T& part)
+SWIVEL_INLINE constexpr Rotor<T> on_way(const Rotor<T>& from, const LookWay<T>& way, const T& part)
 {
     const Vector<T> v = part * way.axis;
-    return normalise(rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), T(1)) * was);
+    return normalise(rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), T(1)) * from);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -55,6 +55,17 @@ SWIVEL_ALWAYS_INLINE float select(bool mask, float a, float b) { return mask ? a
 SWIVEL_ALWAYS_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
 SWIVEL_ALWAYS_INLINE bool any(bool mask) { return mask; }
 SWIVEL_ALWAYS_INLINE bool all(bool mask) { return mask; }
+// A mask that holds in no lane, and one that holds in all.
+template <class T>
+SWIVEL_ALWAYS_INLINE Mask<T> no_lanes()
+{
+    return T(1) < T(0);
+}
+template <class T>
+SWIVEL_ALWAYS_INLINE Mask<T> all_lanes()
+{
+    return T(0) == T(0);
+}
 
 // The smaller and the larger of two numbers; b where they do not compare.
 template <class T>

@@ -79,7 +79,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     const Vector<T> none = vector(T(0), T(0), T(0)), x = in.point;
     const T lock = T(rules.lock) * in.length, unlock = T(rules.unlock) * in.length, again = T(rules.again) * in.length;
     Planted<T> out;
-    out.cut = T(1) < T(0);
+    out.cut = no_lanes<T>();
     const Mask<T> fresh = s.fresh;
     const Mask<T> moves = (in.time > T(0)) & !fresh, was_locked = s.locked & !fresh, acts = moves | fresh;
     const T per_time = select(moves, T(1), T(0)) / select(moves, hi(in.time, T(kShortestTime)), T(1));
@@ -119,7 +119,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     s.offset = select(locks, out.target - anchor, select(releases, out.target - x, offset));
     s.velocity = select(locks, entry, velocity);
     s.left = select(locks, T(rules.stop), left);
-    s.fresh = T(1) < T(0);
+    s.fresh = no_lanes<T>();
     s.locked = (was_locked & !releases) | locks;
     s.armed = armed & !locks;
     s.waiting = (waiting & !locks) | releases;
@@ -141,11 +141,13 @@ template <class T>
 SWIVEL_INLINE constexpr Mask<T> contact_by_motion(MotionState<T>& s, const Mask<T>& fresh, const PlantInput<T>& in,
                                                   const T& height, const PlantRules& rules)
 {
-    const Mask<T> moves = (in.time > T(0)) & !fresh, was = s.contact & !fresh;
-    const auto bar = [&](float on, float off) SWIVEL_INLINE_LAMBDA { return select(was, T(off), T(on)) * in.length; };
+    const Mask<T> moves = (in.time > T(0)) & !fresh, was_in_contact = s.contact & !fresh;
+    const auto bar = [&](float on, float off)
+                         SWIVEL_INLINE_LAMBDA { return select(was_in_contact, T(off), T(on)) * in.length; };
     const T way = bar(rules.speed_on, rules.speed_off) * in.time;
-    const Mask<T> is = (len2(in.point - s.place) <= way * way) & (height <= bar(rules.height_on, rules.height_off));
-    s.contact = (moves & is) | (was & !moves);
+    const Mask<T> is_at_rest =
+        (len2(in.point - s.place) <= way * way) & (height <= bar(rules.height_on, rules.height_off));
+    s.contact = (moves & is_at_rest) | (was_in_contact & !moves);
     s.place = select(moves | fresh, in.point, s.place);
     return s.contact;
 }

@@ -16,9 +16,9 @@ struct HeldFrame {
 };
 // grip: a frame in another one. scale: of places in that.
 template <class T>
-SWIVEL_INLINE constexpr HeldFrame<T> gripped(const HeldFrame<T>& of, const HeldFrame<T>& grip, const T& scale)
+SWIVEL_INLINE constexpr HeldFrame<T> gripped(const HeldFrame<T>& outer, const HeldFrame<T>& grip, const T& scale)
 {
-    return {unit_rotation(of.rotation * grip.rotation), of.place + turned(of.rotation, scale * grip.place)};
+    return {unit_rotation(outer.rotation * grip.rotation), outer.place + turned(outer.rotation, scale * grip.place)};
 }
 // The frame on which that grip is.
 template <class T>

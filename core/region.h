@@ -99,7 +99,7 @@ template <class T, class Take>
 SWIVEL_INLINE constexpr void for_each_peak(const RegionOnCircle<T>& on, const Take& take)
 {
     const swivel_region& region = *on.region;
-    const auto of = [&](std::uint32_t n, std::uint32_t part_first) SWIVEL_OUT_OF_LINE_LAMBDA {
+    const auto take_peaks = [&](std::uint32_t n, std::uint32_t part_first) SWIVEL_OUT_OF_LINE_LAMBDA {
         const OnCircle<T> line = on.line(n);
         const T r2 = line.a * line.a + line.b * line.b;
         const Mask<T> peaks = r2 > T(kFlat2);
@@ -108,9 +108,9 @@ SWIVEL_INLINE constexpr void for_each_peak(const RegionOnCircle<T>& on, const Ta
         for (std::uint32_t cut = 0; cut < n && cut < region.cut_count; ++cut) for_equal(line, on.line(cut), take);
         for (std::uint32_t m = part_first; m < n; ++m) for_equal(line, on.line(m), take);
     };
-    for (std::uint32_t n = 0; n < region.cut_count; ++n) of(n, n);
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) take_peaks(n, n);
     for (std::uint32_t part = 0; part < region.part_count; ++part)
-        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) of(n, region.first[part]);
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) take_peaks(n, region.first[part]);
 }
 
 // An arm's other limits, and the region of its upper arm.

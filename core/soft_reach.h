@@ -27,7 +27,7 @@ struct SoftReach {
 template <class T>
 SWIVEL_INLINE constexpr SoftReach<T> hard_reach(const T& wanted, const T& near, const T& far)
 {
-    return {lo(hi(wanted, near), far), T(1), wanted > far, wanted < near, T(1) < T(0)};
+    return {lo(hi(wanted, near), far), T(1), wanted > far, wanted < near, no_lanes<T>()};
 }
 
 // At the far end, the zone is d = far - w .. far + w. There the distance becomes d - (d - far + w)^2 / (4 w), a

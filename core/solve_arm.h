@@ -102,7 +102,7 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
     const BentElbow<T> elbow = bend_elbow(plane.start, goal.upper, goal.fore);
     const Rotor<T> shoulder = turn_shoulder(goal.wrist, plane, elbow);
     const Mask<T> holds = plane.holds & elbow.holds;
-    return {{shoulder, elbow.cos_half, elbow.sin_half, elbow.flags, T(0) == T(0)}, holds};
+    return {{shoulder, elbow.cos_half, elbow.sin_half, elbow.flags, all_lanes<T>()}, holds};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

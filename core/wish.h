@@ -35,11 +35,11 @@ inline constexpr double kSureHand = 0.342;
 // With an incoming normal, which exists in some lanes: a normal by the hand, and so much of the incoming one as it
 // lacks.
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> faded(const Vector<T>& by_hand, const Vector<T>& was, const Mask<T>& exists,
-                                        const T& hand_length)
+SWIVEL_INLINE constexpr Vector<T> faded(const Vector<T>& by_hand, const Vector<T>& incoming_normal,
+                                        const Mask<T>& exists, const T& hand_length)
 {
     const T lacks = hi(T(kSureHand) * hand_length - sqrt(len2(by_hand)), T(0));
-    return by_hand + select(exists, lacks / sqrt(select(exists, len2(was), T(1))), T(0)) * was;
+    return by_hand + select(exists, lacks / sqrt(select(exists, len2(incoming_normal), T(1))), T(0)) * incoming_normal;
 }
 
 // The normal of the swivel plane that the goal wishes for, across the line.
@@ -57,27 +57,27 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
     // normal.
     const auto is_off = [](const Vector<T>& normal, const T& of2)
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
-    Vector<T> was = vector(T(0), T(0), T(0));
-    Mask<T> was_off = T(1) < T(0);
+    Vector<T> incoming_normal = vector(T(0), T(0), T(0));
+    Mask<T> was_off = no_lanes<T>();
     if (use.incoming) {
         const T length2 = len2(goal.incoming.shoulder);
-        was = across(sandwich(goal.incoming.shoulder, unit<T, kE1>()), line);
-        was_off = is_off(was, length2 * length2);
+        incoming_normal = across(sandwich(goal.incoming.shoulder, unit<T, kE1>()), line);
+        was_off = is_off(incoming_normal, length2 * length2);
     }
 
-    Vector<T> normal = was;  // of any length until the end
+    Vector<T> normal = incoming_normal;  // of any length until the end
     Mask<T> says = was_off, kept = was_off;
     if (use.wish != Wish::incoming) {
         const Vector<T> given = use.wish == Wish::hand ? behind(hand) : goal.arm.pole, pole = scaled(given);
         normal = across(use.wish == Wish::normal ? pole : cross(line, pole), line);
-        if (use.wish == Wish::hand && use.incoming) normal = faded(normal, was, was_off, sqrt(len2(pole)));
+        if (use.wish == Wish::hand && use.incoming) normal = faded(normal, incoming_normal, was_off, sqrt(len2(pole)));
         says = is_off(normal, len2(pole)) & (len2(given) >= T(kTiny2));
     }
     const Mask<T> undefined = !says;
     if (any(undefined)) {  // the stand-ins, the best last
         const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
         Vector<T> instead = select(is_off(across(hinge, line), T(1)), across(hinge, line), across(other, line));
-        if (use.incoming) instead = select(was_off, was, instead);
+        if (use.incoming) instead = select(was_off, incoming_normal, instead);
         if (use.continuity) {
             const Vector<T> previous = across(goal.continuity.previous_normal, line);
             const Mask<T> off = is_off(previous, T(1));
@@ -91,7 +91,7 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
         normal = select(undefined & kept, normal, turned);
     }
     if (use.weights) {
-        const Vector<T> from = select(was_off, was, normal);
+        const Vector<T> from = select(was_off, incoming_normal, normal);
         const T from2 = len2(from);
         const Vector<T> to = sqrt(from2 / len2(normal)) * normal, between = from + goal.weights.pole * (to - from);
         normal = select(is_off(between, from2), between, from);

@@ -36,10 +36,11 @@ SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGo
         // Each rotor also scales a bone by the square of its length.
         const auto e3 = unit<T, kE3>();
         const T shoulder2 = len2(shoulder), elbow2 = len2(elbow);
-        const Vector<T> was = (T(1) / (shoulder2 * elbow2)) * ((goal.arm.upper * elbow2) * sandwich(shoulder, e3) +
-                                                               goal.arm.fore * sandwich(shoulder * elbow, e3));
+        const Vector<T> incoming_wrist =
+            (T(1) / (shoulder2 * elbow2)) *
+            ((goal.arm.upper * elbow2) * sandwich(shoulder, e3) + goal.arm.fore * sandwich(shoulder * elbow, e3));
         const T weight = goal.weights.position;
-        wrist.place = (T(1) - weight) * was + weight * wrist.place;  // exactly one of them at 0 and at 1
+        wrist.place = (T(1) - weight) * incoming_wrist + weight * wrist.place;  // exactly one of them at 0 and at 1
     }
     return wrist;
 }

@@ -158,38 +158,40 @@ uint32_t swivel_group_count(const swivel_crowd* crowd) { return crowd ? crowd->g
 uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd ? crowd->block_count : 0; }
 uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group)
 {
-    const Group* const of = group_of(crowd, group);
-    return of ? of->first_block * SWIVEL_LANES : 0;
+    const Group* const found = group_of(crowd, group);
+    return found ? found->first_block * SWIVEL_LANES : 0;
 }
 uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group)
 {
-    const Group* const of = group_of(crowd, group);
-    return of ? of->limb_count : 0;
+    const Group* const found = group_of(crowd, group);
+    return found ? found->limb_count : 0;
 }
 swivel_features swivel_group_features(const swivel_crowd* crowd, uint32_t group)
 {
-    const Group* const of = group_of(crowd, group);
-    return of ? of->features : 0;
+    const Group* const found = group_of(crowd, group);
+    return found ? found->features : 0;
 }
 uint32_t swivel_field_first_row(const swivel_crowd* crowd, uint32_t group, swivel_field field)
 {
-    const Group* const of = group_of(crowd, group);
-    return of && is_field(field) && field_row_count(of->features, field) > 0 ? field_first_row(of->features, field) : 0;
+    const Group* const found = group_of(crowd, group);
+    return found && is_field(field) && field_row_count(found->features, field) > 0
+               ? field_first_row(found->features, field)
+               : 0;
 }
 uint32_t swivel_field_row_count(const swivel_crowd* crowd, uint32_t group, swivel_field field)
 {
-    const Group* const of = group_of(crowd, group);
-    return of && is_field(field) ? field_row_count(of->features, field) : 0;
+    const Group* const found = group_of(crowd, group);
+    return found && is_field(field) ? field_row_count(found->features, field) : 0;
 }
 swivel_rows swivel_input_rows(swivel_crowd* crowd, uint32_t group)
 {
-    const Group* const of = group_of(crowd, group);
-    return of ? swivel_rows{of->input, of->block_count, of->input_row_count} : swivel_rows{};
+    const Group* const found = group_of(crowd, group);
+    return found ? swivel_rows{found->input, found->block_count, found->input_row_count} : swivel_rows{};
 }
 swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group)
 {
-    const Group* const of = group_of(crowd, group);
-    return of ? swivel_rows{of->results, of->block_count, of->result_row_count} : swivel_rows{};
+    const Group* const found = group_of(crowd, group);
+    return found ? swivel_rows{found->results, found->block_count, found->result_row_count} : swivel_rows{};
 }
 swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
                            swivel_in values)
@@ -210,20 +212,20 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     swivel_status status = use.of(group, first, limb_count);
     if (status == SWIVEL_OK) status = check_field(*crowd, group, field, true);
     if (status != SWIVEL_OK) return status;
-    const Group& of = crowd->groups[group];
+    const Group& target_group = crowd->groups[group];
     if (!is_position(field))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u, %s: not a position; doubles are for target, pole, shoulder_position, coming, "
                     "ground and prop_place",
                     group, name_of(field));
-    if (origins.data && !has_origin(of, field))
+    if (origins.data && !has_origin(target_group, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is %s here, which has no origin; give null", group,
                     name_of(field), field == SWIVEL_POLE ? "a direction" : "in a joint's frame");
     status = check_values(*crowd, group, field, limb_count, values.data, values.stride, true, sizeof(double));
     if (status == SWIVEL_OK && origins.data)
         status = check_stride(group, "origin", limb_count, origins.data, origins.stride, 3 * sizeof(double), true);
     if (status != SWIVEL_OK) return status;
-    copy_doubles_in(rows_of(of, field), first, limb_count, values, origins);
+    copy_doubles_in(rows_of(target_group, field), first, limb_count, values, origins);
     return SWIVEL_OK;
 }
 

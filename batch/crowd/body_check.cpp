@@ -43,11 +43,11 @@ struct Constant {
     float value;
     double most;
 };
-swivel_status check_constants(std::uint32_t g, const char* of, std::initializer_list<Constant> constants)
+swivel_status check_constants(std::uint32_t g, const char* structure, std::initializer_list<Constant> constants)
 {
     for (const Constant& each : constants)
         if (!(each.value >= 0 && each.value <= each.most))
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s is %g; it is 0 to %g", g, of, each.name,
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s is %g; it is 0 to %g", g, structure, each.name,
                         double(each.value), each.most);
     return SWIVEL_OK;
 }

@@ -77,8 +77,9 @@ void for_each_following(const swivel_crowd_def& def, const swivel_skeleton& skel
     if (!(group.features & SWIVEL_LOOK)) return;
     const TurnedJoints turned(skeleton, group);
     for_each_needed(def, skeleton, [&](std::uint32_t joint) {
-        const auto is = static_cast<std::int32_t>(joint);
-        if (const std::int32_t mover = mover_of(skeleton, turned, is); mover >= 0 && mover != is) take(joint, mover);
+        const auto number = static_cast<std::int32_t>(joint);
+        if (const std::int32_t mover = mover_of(skeleton, turned, number); mover >= 0 && mover != number)
+            take(joint, mover);
     });
 }
 
@@ -151,18 +152,19 @@ BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, c
     BodyLimb limb{};
     if (!group.joints) return limb;
     const swivel_skeleton skeleton = skeleton_of(def);
-    const swivel_limb_joints of = joints_of(group);
+    const swivel_limb_joints limb_joints = joints_of(group);
     const TurnedJoints turned(skeleton, group);
     const auto row = [&](std::uint32_t joint) { return row_of(joints, static_cast<std::int32_t>(joint)); };
     const auto parent = [&](std::uint32_t joint) { return row_of(joints, parent_of(skeleton, joint)); };
     const float(&q)[4] = binding.upper_from_arm;
     const Vector<float> hinge = swivel::turned(rotor(q[0], q[1], q[2], q[3]), vector(1.0f, 0.0f, 0.0f));
-    limb.parent = parent(of.shoulder), limb.shoulder = row(of.shoulder);
-    limb.elbow_parent = parent(of.elbow), limb.elbow = row(of.elbow);
-    limb.wrist_parent = parent(of.wrist), limb.wrist = row(of.wrist);
+    limb.parent = parent(limb_joints.shoulder), limb.shoulder = row(limb_joints.shoulder);
+    limb.elbow_parent = parent(limb_joints.elbow), limb.elbow = row(limb_joints.elbow);
+    limb.wrist_parent = parent(limb_joints.wrist), limb.wrist = row(limb_joints.wrist);
     for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) {
-        limb.twist_bones[n] = row(of.twist_bones[n]), limb.twist_parents[n] = parent(of.twist_bones[n]);
-        store(normalise(rest_of(skeleton, of.twist_bones[n]).rotation), limb.twist_rest[n]);
+        limb.twist_bones[n] = row(limb_joints.twist_bones[n]),
+        limb.twist_parents[n] = parent(limb_joints.twist_bones[n]);
+        store(normalise(rest_of(skeleton, limb_joints.twist_bones[n]).rotation), limb.twist_rest[n]);
     }
     std::copy(std::begin(hinge.c), std::end(hinge.c), limb.hinge);
     if (group.features & SWIVEL_WITH_CLAVICLE)
@@ -194,53 +196,53 @@ void plan_moved(const swivel_crowd_def& def, const swivel_group_def& group, Plan
 
 namespace {
 
-constexpr PlantRules plant_rules(const swivel_plant& of)
+constexpr PlantRules plant_rules(const swivel_plant& plant)
 {
     const auto per = [](float time) { return 1 / (time > kShortestTime ? double(time) : kShortestTime); };
-    const double lock = of.lock;
+    const double lock = plant.lock;
     return {
-        of.lock,
-        of.unlock,
-        of.again,
-        of.longest,
-        of.stop,
-        of.blend,
-        static_cast<float>(double(of.run) * of.stop / 3),
-        static_cast<float>(3 * lock * per(of.stop)),
-        static_cast<float>(6.75 * lock * per(of.blend)),  // an offset swings out by at most 4/27 of speed times time
-        static_cast<float>(per(of.stop)),
-        static_cast<float>(2 * per(of.blend)),
-        of.speed[0],
-        of.speed[1],
-        of.height[0],
-        of.height[1]};
+        plant.lock,
+        plant.unlock,
+        plant.again,
+        plant.longest,
+        plant.stop,
+        plant.blend,
+        static_cast<float>(double(plant.run) * plant.stop / 3),
+        static_cast<float>(3 * lock * per(plant.stop)),
+        static_cast<float>(6.75 * lock * per(plant.blend)),  // an offset swings out by at most 4/27 of speed times time
+        static_cast<float>(per(plant.stop)),
+        static_cast<float>(2 * per(plant.blend)),
+        plant.speed[0],
+        plant.speed[1],
+        plant.height[0],
+        plant.height[1]};
 }
 
-GroundRules ground_rules(const swivel_ground& of)
+GroundRules ground_rules(const swivel_ground& ground)
 {
-    const double cos = of.cos_most;  // of the whole angle
-    return {{of.heel[0], of.heel[1], of.heel[2]},
-            of.toe_clearance,
-            of.heel_clearance,
+    const double cos = ground.cos_most;  // of the whole angle
+    return {{ground.heel[0], ground.heel[1], ground.heel[2]},
+            ground.toe_clearance,
+            ground.heel_clearance,
             static_cast<float>(sqrt(0.5 + 0.5 * cos)),
             static_cast<float>(sqrt(0.5 - 0.5 * cos)),
-            spring_rule(of.half)};
+            spring_rule(ground.half)};
 }
 
-LookRules look_rules(const swivel_look& of)
+LookRules look_rules(const swivel_look& look)
 {
     LookRules rules{};
     double left = 0;
-    for (std::uint32_t n = of.joint_count; n-- > 0;) {
-        left += double(of.share[n]);
-        const double cos = of.cos_most[n];  // of the whole angle
-        rules.joint[n] = {static_cast<float>(of.share[n] / left), static_cast<float>(sqrt(0.5 + 0.5 * cos)),
+    for (std::uint32_t n = look.joint_count; n-- > 0;) {
+        left += double(look.share[n]);
+        const double cos = look.cos_most[n];  // of the whole angle
+        rules.joint[n] = {static_cast<float>(look.share[n] / left), static_cast<float>(sqrt(0.5 + 0.5 * cos)),
                           static_cast<float>(sqrt(0.5 - 0.5 * cos))};
     }
-    rules.fade = {of.cos_none, static_cast<float>(1 / (double(of.cos_full) - of.cos_none)), of.fade_distance};
-    const Vector<double> axis = normalise(vector<double>(of.axis[0], of.axis[1], of.axis[2]));
-    for (std::size_t c = 0; c < 3; ++c) rules.eye[c] = of.eye[c], rules.axis[c] = static_cast<float>(axis.c[c]);
-    rules.rate = of.rate;
+    rules.fade = {look.cos_none, static_cast<float>(1 / (double(look.cos_full) - look.cos_none)), look.fade_distance};
+    const Vector<double> axis = normalise(vector<double>(look.axis[0], look.axis[1], look.axis[2]));
+    for (std::size_t c = 0; c < 3; ++c) rules.eye[c] = look.eye[c], rules.axis[c] = static_cast<float>(axis.c[c]);
+    rules.rate = look.rate;
     return rules;
 }
 
@@ -253,8 +255,8 @@ swivel_group_def first_with(const swivel_crowd_def& def, swivel_features feature
 }
 float rest_length(const swivel_crowd_def& def, const swivel_group_def& group)
 {
-    const swivel_binding of = body_binding(def, group);
-    return of.lengths[0] + of.lengths[1];
+    const swivel_binding binding = body_binding(def, group);
+    return binding.lengths[0] + binding.lengths[1];
 }
 
 }  // namespace

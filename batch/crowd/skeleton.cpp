@@ -90,12 +90,12 @@ swivel_status name_parts(const swivel_limb_joints& joints, Parts& parts)
 
 }  // namespace
 
-swivel_status check_parents(const swivel_skeleton& skeleton, const char* name, std::uint32_t of)
+swivel_status check_parents(const swivel_skeleton& skeleton, const char* name, std::uint32_t first_joint)
 {
-    if (of >= skeleton.joint_count)
+    if (first_joint >= skeleton.joint_count)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: %s is joint %u, but the skeleton has %u joints", name,
-                    of, skeleton.joint_count);
-    std::uint32_t joint = of;
+                    first_joint, skeleton.joint_count);
+    std::uint32_t joint = first_joint;
     for (std::uint32_t seen = 0; seen < skeleton.joint_count; ++seen) {
         const std::int32_t parent = parent_of(skeleton, joint);
         if (parent == -1) return SWIVEL_OK;
@@ -107,7 +107,7 @@ swivel_status check_parents(const swivel_skeleton& skeleton, const char* name, s
     }
     return fail(SWIVEL_INVALID_ARGUMENT,
                 "swivel_bind_joints: the parents of %s, joint %u, go round in a circle; a root's parent is -1", name,
-                of);
+                first_joint);
 }
 
 namespace {

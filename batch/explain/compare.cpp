@@ -438,7 +438,7 @@ private:
     void guess_axes()
     {
         struct Axes {
-            int of[3], sign[3];
+            int from[3], sign[3];
             const char* sentence;
         };
         constexpr const char* left =
@@ -450,8 +450,8 @@ private:
                                 {{0, 2, 1}, {1, -1, 1}, up},   {{0, 2, 1}, {1, 1, -1}, up}};
         for (const Axes& axes : all) {
             const auto turn = [&](const Vector<double>& v) {
-                return vector(axes.sign[0] * v.c[axes.of[0]], axes.sign[1] * v.c[axes.of[1]],
-                              axes.sign[2] * v.c[axes.of[2]]);
+                return vector(axes.sign[0] * v.c[axes.from[0]], axes.sign[1] * v.c[axes.from[1]],
+                              axes.sign[2] * v.c[axes.from[2]]);
             };
             if (guess(moved(limb_.posed, turn), axes.sentence)) return;
         }

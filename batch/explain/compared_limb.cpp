@@ -15,9 +15,9 @@ LimbJoints ComparedLimb::joints_of(std::uint32_t other_group) const
     const BodyLimb& limb = crowd.groups[other_group].limb;
     return {{body.joint_at(limb.shoulder), body.joint_at(limb.elbow), body.joint_at(limb.wrist)}};
 }
-LimbPlaces ComparedLimb::places(const LimbJoints& of, const Reading& how) const
+LimbPlaces ComparedLimb::places(const LimbJoints& chosen, const Reading& how) const
 {
-    return {{body.place(of.at[0], how), body.place(of.at[1], how), body.place(of.at[2], how)}};
+    return {{body.place(chosen.at[0], how), body.place(chosen.at[1], how), body.place(chosen.at[2], how)}};
 }
 
 double ComparedLimb::worst(const LimbPlaces& ours) const

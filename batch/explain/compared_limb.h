@@ -37,7 +37,7 @@ struct ComparedLimb {
     const LimbPlaces posed = places(joints, as_given);
 
     LimbJoints joints_of(std::uint32_t other_group) const;
-    LimbPlaces places(const LimbJoints& of, const Reading& how) const;
+    LimbPlaces places(const LimbJoints& chosen, const Reading& how) const;
     // The joint's number in the skeleton; part: 0 to 2.
     std::uint32_t named(int part) const { return body.skeleton_joint(joints.at[part]); }
 

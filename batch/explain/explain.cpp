@@ -190,12 +190,12 @@ bool is_near(const LimbPose& a, const LimbPose& b)
     Probe probe(group, limb);
     const std::uint32_t flags_were = probe.flags();
     if (probe.is_of_body() && flags_were == 0) return text.add("It was never solved, so no pose of it is known.");
-    const LimbPose was = probe.pose();
+    const LimbPose explained = probe.pose();
     const std::uint32_t flags_now = probe.solve();
     // The goal of a limb that is sent is that of its last good solve.
     const bool was_bad = group.features & SWIVEL_SENT && flags_were & SWIVEL_BAD_INPUT;
     const bool is_kept = was_bad || (group.keeps && flags_now & SWIVEL_BAD_INPUT);
-    const bool is_same = probe.is_of_body() ? is_near(was, probe.pose()) : probe.has_bits_of_limb();
+    const bool is_same = probe.is_of_body() ? is_near(explained, probe.pose()) : probe.has_bits_of_limb();
     // At the borders of reach the solver's own flags count: rounding of a record may have others.
     const std::uint32_t flags = is_same && !(flags_now & SWIVEL_BAD_INPUT) ? flags_were : flags_now;
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.

@@ -90,7 +90,7 @@ void explain_ground(const Group& group, std::uint32_t limb, Text& text)
         text.add("No ground is known below its foot, which goes as it is animated. ");
         return;
     }
-    if (!foot.ground.is) {
+    if (!foot.ground.exists) {
         text.add("The ground below its foot is %.1f degrees steep and counts as none. ",
                  in_degrees(std::acos(std::clamp(foot.ground.rise, -1.0, 1.0))));
         return;

@@ -22,7 +22,7 @@ constexpr swivel_region kEverywhere = {sizeof(swivel_region), 0, 1, {}, {}};
 void Probe::take()
 {
     one_.take(limb_);
-    one_.set_region(of_.region);
+    one_.set_region(source_.region);
 }
 
 std::uint32_t Probe::solve()
@@ -40,7 +40,7 @@ std::uint32_t Probe::flags() const
 
 double Probe::violation(const FlagRow& limit) const
 {
-    const auto of_region = [&] { return of_.region ? outside_region(arm_rotors(group(), 0), *of_.region) : 0; };
+    const auto of_region = [&] { return source_.region ? outside_region(arm_rotors(group(), 0), *source_.region) : 0; };
     return in_degrees(limit.flag == SWIVEL_LIMITED_REGION ? of_region() : outside(limit.limit));
 }
 
@@ -49,20 +49,20 @@ double Probe::outside(swivel_field limit) const
     float values[kMostComponents] = {};
     const std::uint32_t count = component_count(limit);
     for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
-    const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? of_.wrist_order : of_.shoulder_order;
+    const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? source_.wrist_order : source_.shoulder_order;
     return count == 0 ? 0 : outside_limit(arm_rotors(group(), 0), limit, values, order);
 }
 
 double Probe::middle_angle() const
 {
-    return joint_angles(arm_rotors(group(), 0), of_.shoulder_order, of_.wrist_order, 0).shoulder[1];
+    return joint_angles(arm_rotors(group(), 0), source_.shoulder_order, source_.wrist_order, 0).shoulder[1];
 }
 
 bool Probe::has_bits_of_limb() const
 {
-    for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
-        const std::size_t theirs = row_offset(limb_, of_.result_row_count, row), ours = row_offset(0, 0, row);
-        if (std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0) return false;
+    for (std::uint32_t row = 0; row < source_.result_row_count; ++row) {
+        const std::size_t theirs = row_offset(limb_, source_.result_row_count, row), ours = row_offset(0, 0, row);
+        if (std::memcmp(source_.results + theirs, group().results + ours, sizeof(float)) != 0) return false;
     }
     return true;
 }

@@ -17,7 +17,7 @@ namespace swivel {
 // question.
 class Probe {
 public:
-    Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), one_(of) { take(); }
+    Probe(const Group& group, std::uint32_t limb) : source_(group), limb_(limb), one_(group) { take(); }
     // Takes the limb as it is.
     void take();
     // Solves the limb and gives its flags.
@@ -36,7 +36,7 @@ public:
     // Whether these are the results that the limb has.
     bool has_bits_of_limb() const;
 
-    bool has(swivel_features feature) const { return of_.features & feature; }
+    bool has(swivel_features feature) const { return source_.features & feature; }
     bool is_of_body() const { return has(SWIVEL_BODY); }
     std::uint32_t component_count(swivel_field field) const { return field_row_count(group().features, field); }
     float value(swivel_field field, std::uint32_t component) const
@@ -45,10 +45,11 @@ public:
     }
     bool is(swivel_field field, std::initializer_list<float> wanted) const;
     // The same as the caller gave it: a body's limb is seen otherwise.
-    std::uint32_t given_count(swivel_field field) const { return field_row_count(of_.features, field); }
+    std::uint32_t given_count(swivel_field field) const { return field_row_count(source_.features, field); }
     float given(swivel_field field, std::uint32_t component) const
     {
-        return of_.input[row_offset(limb_, of_.input_row_count, field_first_row(of_.features, field) + component)];
+        return source_
+            .input[row_offset(limb_, source_.input_row_count, field_first_row(source_.features, field) + component)];
     }
     // Whether a body's pose gave the field, and not the caller.
     bool is_posed(swivel_field field) const;
@@ -62,7 +63,7 @@ private:
     const Group& group() const { return one_.group(); }
     double outside(swivel_field limit) const;
 
-    const Group& of_;
+    const Group& source_;
     std::uint32_t limb_;
     OneLimb one_;
 };

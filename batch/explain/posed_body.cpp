@@ -48,7 +48,7 @@ std::uint32_t PosedBody::joint_at(std::uint32_t row) const
 {
     const BodyJoint* const end = crowd_.joints + crowd_.joint_count;
     const BodyJoint* const at = std::lower_bound(
-        crowd_.joints, end, row, [](const BodyJoint& joint, std::uint32_t of) { return joint.row < of; });
+        crowd_.joints, end, row, [](const BodyJoint& joint, std::uint32_t wanted) { return joint.row < wanted; });
     return static_cast<std::uint32_t>(at - crowd_.joints);
 }
 

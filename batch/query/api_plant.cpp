@@ -42,14 +42,14 @@ public:
     template <class Change>
     void change(const Change& change) const
     {
-        const Vector<double> is = change(vector<double>(at_[0], at_[kLanes], at_[2 * kLanes]));
-        set({is.at<kE1>(), is.at<kE2>(), is.at<kE3>()});
+        const Vector<double> changed = change(vector<double>(at_[0], at_[kLanes], at_[2 * kLanes]));
+        set({changed.at<kE1>(), changed.at<kE2>(), changed.at<kE3>()});
     }
     // A rotation's.
     void turn(const Rotor<double>& by) const
     {
-        const Rotor<double> is = by * rotor<double>(at_[0], at_[kLanes], at_[2 * kLanes], at_[3 * kLanes]);
-        set({is.at<kI>(), is.at<kJ>(), is.at<kK>(), is.at<kScalar>()});
+        const Rotor<double> turned = by * rotor<double>(at_[0], at_[kLanes], at_[2 * kLanes], at_[3 * kLanes]);
+        set({turned.at<kI>(), turned.at<kJ>(), turned.at<kK>(), turned.at<kScalar>()});
     }
 
 private:
@@ -100,8 +100,8 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
     const FloatEnv env;
     const Use use(crowd, Sharing::alone);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
-    const Group& of = crowd->groups[group];
-    if (!(of.features & SWIVEL_WITH_PLANT))
+    const Group& planted = crowd->groups[group];
+    if (!(planted.features & SWIVEL_WITH_PLANT))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_change_support: group %u does not plant; create it with "
                     "SWIVEL_WITH_PLANT",
@@ -109,22 +109,22 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
     for (const swivel_supports& supports : {from, to})
         if (const swivel_status status = check_supports(limb_count, supports); status != SWIVEL_OK) return status;
     for (std::uint32_t n = 0; n < limb_count; ++n) {
-        const Support was = support_at(from, n), is = support_at(to, n);
-        const Rotor<double> turn = ~is.rotation * was.rotation;
+        const Support before = support_at(from, n), after = support_at(to, n);
+        const Rotor<double> turn = ~after.rotation * before.rotation;
         const auto along = [&](const Vector<double>& v) { return sandwich(turn, v); };
         const auto place = [&](const Vector<double>& v) {
-            return sandwich(~is.rotation, sandwich(was.rotation, v) + (was.position - is.position));
+            return sandwich(~after.rotation, sandwich(before.rotation, v) + (before.position - after.position));
         };
         const std::uint32_t limb = first + n;
-        if (!has_begun(of, limb)) continue;
-        Carried(of, limb, SWIVEL_PLANT, 0).change(place);
-        Carried(of, limb, SWIVEL_PLANT, 3).change(along);
-        Carried(of, limb, SWIVEL_PLANT, 6).change(along);
-        if (of.features & SWIVEL_PLANT_BY_MOTION) Carried(of, limb, SWIVEL_MOTION, 0).change(place);
-        if (!(of.features & SWIVEL_WITH_PLANT_TURN)) continue;
-        Carried(of, limb, SWIVEL_PLANT_TURN, 0).turn(turn);
-        Carried(of, limb, SWIVEL_PLANT_TURN, 4).change(along);
-        Carried(of, limb, SWIVEL_PLANT_TURN, 7).change(along);
+        if (!has_begun(planted, limb)) continue;
+        Carried(planted, limb, SWIVEL_PLANT, 0).change(place);
+        Carried(planted, limb, SWIVEL_PLANT, 3).change(along);
+        Carried(planted, limb, SWIVEL_PLANT, 6).change(along);
+        if (planted.features & SWIVEL_PLANT_BY_MOTION) Carried(planted, limb, SWIVEL_MOTION, 0).change(place);
+        if (!(planted.features & SWIVEL_WITH_PLANT_TURN)) continue;
+        Carried(planted, limb, SWIVEL_PLANT_TURN, 0).turn(turn);
+        Carried(planted, limb, SWIVEL_PLANT_TURN, 4).change(along);
+        Carried(planted, limb, SWIVEL_PLANT_TURN, 7).change(along);
     }
     return SWIVEL_OK;
 }

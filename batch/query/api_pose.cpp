@@ -30,16 +30,16 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
 
 // Calls take(group, limb, n) for the nth limb from `first` on; a body's as a free limb.
 template <class Take>
-void for_each_free_limb(const Group& of, std::uint32_t first, std::uint32_t limb_count, const Take& take)
+void for_each_free_limb(const Group& group, std::uint32_t first, std::uint32_t limb_count, const Take& take)
 {
-    if (of.features & SWIVEL_BODY) {
-        OneLimb one(of);
+    if (group.features & SWIVEL_BODY) {
+        OneLimb one(group);
         for (std::uint32_t n = 0; n < limb_count; ++n) {
             one.take(first + n);
             take(one.group(), 0, n);
         }
     } else {
-        for (std::uint32_t n = 0; n < limb_count; ++n) take(of, first + n, n);
+        for (std::uint32_t n = 0; n < limb_count; ++n) take(group, first + n, n);
     }
 }
 
@@ -71,11 +71,11 @@ swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, 
 {
     const Use use(crowd, Sharing::alone);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
-    const Group& of = crowd->groups[group];
+    const Group& limbs = crowd->groups[group];
     constexpr float zeros[kMostComponents] = {};
     for (const FieldRow& row : kFields)
-        if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(of.features, row.field) > 0)
-            copy_in(rows_of(of, row.field), first, limb_count, {zeros, 0});
+        if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(limbs.features, row.field) > 0)
+            copy_in(rows_of(limbs, row.field), first, limb_count, {zeros, 0});
     crowd->reset_limbs.fetch_add(limb_count, std::memory_order_relaxed);
     return SWIVEL_OK;
 }
@@ -90,8 +90,8 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
         return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
-    for_each_free_limb(crowd->groups[group], limb, 1, [&](const Group& of, std::uint32_t at, std::uint32_t) {
-        *arc_count = allowed_arcs(of, at, arcs, capacity);
+    for_each_free_limb(crowd->groups[group], limb, 1, [&](const Group& free_limbs, std::uint32_t at, std::uint32_t) {
+        *arc_count = allowed_arcs(free_limbs, at, arcs, capacity);
     });
     return SWIVEL_OK;
 }
@@ -115,8 +115,8 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
                 return status;
     const Group& all = crowd->groups[group];
     const Rotor<double> joint = hand_from_arm(all);
-    for_each_free_limb(all, first, limb_count, [&](const Group& of, std::uint32_t limb, std::uint32_t n) {
-        const LimbPose pose = forward(of, limb);
+    for_each_free_limb(all, first, limb_count, [&](const Group& free_limbs, std::uint32_t limb, std::uint32_t n) {
+        const LimbPose pose = forward(free_limbs, limb);
         store(elbow, n, pose.elbow);
         store(wrist, n, pose.wrist);
         store(hand, n, pose.hand * joint);
@@ -136,8 +136,8 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
         status != SWIVEL_OK)
         return status;
     for_each_free_limb(crowd->groups[group], first, limb_count,
-                       [&](const Group& of, std::uint32_t limb, std::uint32_t n) {
-                           const double value = residual(of, limb);
+                       [&](const Group& free_limbs, std::uint32_t limb, std::uint32_t n) {
+                           const double value = residual(free_limbs, limb);
                            std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
                        });
     return SWIVEL_OK;

@@ -39,17 +39,17 @@ Rotor<double> hand_from_arm(const Group& group)
     return normalise(~rotor_of(group.binding.wrist_parent_from_arm) * rotor_of(group.binding.wrist_rest));
 }
 
-OneLimb::OneLimb(const Group& of) : of_(of), crowd_(nullptr)
+OneLimb::OneLimb(const Group& group) : source_(group), crowd_(nullptr)
 {
     static_assert(block_bytes(free_features(kEveryFeature | SWIVEL_BODY)) + 4096 <= kArenaBytes,
                   "with what stands before");
     static_assert(sizeof(swivel_crowd) + sizeof(Group) + sizeof(swivel_region) + 4 * 64 <= 4096);
     swivel_group_def alone = swivel_default_group_def(1);
-    alone.features = free_features(of.features);
-    alone.shoulder_order = of.shoulder_order;
-    alone.wrist_order = of.wrist_order;
-    alone.binding = of.binding;
-    alone.region = of.region;
+    alone.features = free_features(group.features);
+    alone.shoulder_order = group.shoulder_order;
+    alone.wrist_order = group.wrist_order;
+    alone.binding = group.binding;
+    alone.region = group.region;
     swivel_crowd_def def = swivel_default_crowd_def();
     def.groups = &alone;
     def.group_count = 1;
@@ -62,19 +62,19 @@ void OneLimb::take(std::uint32_t limb)
 {
     for (const FieldRow& row : kFields) {
         const std::uint32_t count = field_row_count(group().features, row.field);
-        if (count == 0 || field_row_count(of_.features, row.field) != count) continue;
-        copy_lane(count, value_of(of_, limb, row.field), value_of(group(), 0, row.field));
+        if (count == 0 || field_row_count(source_.features, row.field) != count) continue;
+        copy_lane(count, value_of(source_, limb, row.field), value_of(group(), 0, row.field));
     }
-    if (of_.features & SWIVEL_BODY) take_record(limb);
+    if (source_.features & SWIVEL_BODY) take_record(limb);
 }
 
 void OneLimb::take_record(std::uint32_t limb)
 {
-    const float* const record = value_of(of_, limb, SWIVEL_RECORD);
+    const float* const record = value_of(source_, limb, SWIVEL_RECORD);
     const auto number = [&](int n) { return static_cast<double>(record[static_cast<std::size_t>(n) * kLanes]); };
     const auto rotor_at = [&](int n) { return rotor(number(n), number(n + 1), number(n + 2), number(n + 3)); };
     const auto vector_of = [&](swivel_field field) {
-        const float* const v = value_of(of_, limb, field);
+        const float* const v = value_of(source_, limb, field);
         return vector<double>(v[0], v[kLanes], v[2 * kLanes]);
     };
     set(SWIVEL_SHOULDER_POSITION,
@@ -85,16 +85,16 @@ void OneLimb::take_record(std::uint32_t limb)
     set(SWIVEL_LENGTHS, 1, number(kRecordLengths + 1));
     set(SWIVEL_INCOMING_SHOULDER, rotor_at(kRecordIncoming));
     set(SWIVEL_INCOMING_ELBOW, rotor_at(kRecordIncoming + 4));
-    const swivel_features features = of_.features;
-    const Rotor<double> hand = hand_from_arm(of_);
+    const swivel_features features = source_.features;
+    const Rotor<double> hand = hand_from_arm(source_);
     if (group().features & SWIVEL_WITH_HAND) set(SWIVEL_INCOMING_WRIST, rotor_at(kRecordIncoming + 8));
     if (features & SWIVEL_WITH_AIM) {
         set(SWIVEL_HAND, rotor_at(kRecordIncoming + 8));
         if (!(features & SWIVEL_WITH_HAND)) set(SWIVEL_WRIST, rotor_at(kRecordIncoming + 8));
         set(SWIVEL_AIM, sandwich(hand, vector_of(SWIVEL_AIM)));
     } else if (features & SWIVEL_WITH_HAND) {
-        const float* const q =
-            features & SWIVEL_SENT ? value_of(of_, limb, SWIVEL_GOAL) + 3 * kLanes : value_of(of_, limb, SWIVEL_HAND);
+        const float* const q = features & SWIVEL_SENT ? value_of(source_, limb, SWIVEL_GOAL) + 3 * kLanes
+                                                      : value_of(source_, limb, SWIVEL_HAND);
         set(SWIVEL_HAND, rotor<double>(q[0], q[kLanes], q[2 * kLanes], q[3 * kLanes]) * ~hand);
     }
     if (features & SWIVEL_SENT) set(SWIVEL_TARGET, vector_of(SWIVEL_GOAL));

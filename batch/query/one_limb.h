@@ -14,7 +14,7 @@ Rotor<double> hand_from_arm(const Group& group);
 
 class OneLimb {
 public:
-    explicit OneLimb(const Group& of);
+    explicit OneLimb(const Group& group);
     // Takes a limb, its results too. Of a body it must have SWIVEL_WITH_RECORD.
     void take(std::uint32_t limb);
     const Group& group() const { return crowd_->groups[0]; }
@@ -29,7 +29,7 @@ private:
 
     static constexpr std::size_t kArenaBytes = 14 * 1024;
     alignas(64) unsigned char arena_[kArenaBytes];
-    const Group& of_;
+    const Group& source_;
     swivel_crowd* crowd_;
 };
 

@@ -66,16 +66,17 @@ swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_bloc
     const Use use(crowd, Sharing::shared);
     swivel_status status = use.of(group, 0, 0);
     if (status != SWIVEL_OK) return status;
-    const Group& of = crowd->groups[group];
-    if (blocks.count > of.block_count || blocks.first > of.block_count - blocks.count)
+    const Group& whole_group = crowd->groups[group];
+    if (blocks.count > whole_group.block_count || blocks.first > whole_group.block_count - blocks.count)
         return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u + %u are out of range; group %u has %u", blocks.first,
-                    blocks.count, group, of.block_count);
+                    blocks.count, group, whole_group.block_count);
     if (!words && blocks.count > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_pack: words is null");
     const Isa* const isa = usable_isa(status);
     if (!isa) return status;
-    const PackedValues packed(of);
-    isa->kernels.arms.pack({of.results + row_offset(std::size_t{blocks.first} * SWIVEL_LANES, of.result_row_count, 0),
-                            words, blocks.count, of.result_row_count, packed.word_rows, packed.values, packed.count});
+    const PackedValues packed(whole_group);
+    isa->kernels.arms.pack(
+        {whole_group.results + row_offset(std::size_t{blocks.first} * SWIVEL_LANES, whole_group.result_row_count, 0),
+         words, blocks.count, whole_group.result_row_count, packed.word_rows, packed.values, packed.count});
     return SWIVEL_OK;
 }
 

@@ -87,8 +87,9 @@ struct Farthest {
     {
         for (std::uint32_t n = 0; n < directions.count; ++n) {
             const Vector<double> d = directions.at(n);
-            const std::uint32_t of = centres.nearest(d);
-            if (const double now = scalar_product(middle[of], d); now < cos[of]) cos[of] = now, at[of] = d;
+            const std::uint32_t nearest = centres.nearest(d);
+            if (const double now = scalar_product(middle[nearest], d); now < cos[nearest])
+                cos[nearest] = now, at[nearest] = d;
         }
     }
 };

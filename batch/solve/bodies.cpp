@@ -43,7 +43,7 @@ struct Runs {
         for_each_block(run, [&](const BodyBlock& block) { work.kernels.bodies.forward(plan, block); });
         if (work.frames)
             for_each_named(run, [&](const Group& group, std::uint32_t n) {
-                share(group, run, n, [&](const Share& of) { of.copy_in(work.mask, run); });
+                share(group, run, n, [&](const Share& part) { part.copy_in(work.mask, run); });
             });
         if (work.probes_only || work.sample) prepare(run, Pass::probe);
         if (work.probes_only) return give_probes(run);
@@ -53,7 +53,7 @@ struct Runs {
         for (const Pass pass : {Pass::grasp, Pass::hold}) prepare(run, pass);
         for_each_named(run, [&](const Group& group, std::uint32_t n) {
             solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
-            if (work.frames) share(group, run, n, [&](const Share& of) { of.copy_out(work.mask, run); });
+            if (work.frames) share(group, run, n, [&](const Share& part) { part.copy_out(work.mask, run); });
             if (group.limb.is_look) return;
             for_each_block(run,
                            [&](const BodyBlock& block) { pose_out(work.kernels.bodies, plan, group.limb, block); });
@@ -111,9 +111,9 @@ private:
             for (const swivel_frame_field& each : fields_of(frame))
                 if (each.field == SWIVEL_PROBE && each.data) {
                     frame.fields = &each, frame.field_count = 1;
-                    share(group, run, frame, [&](Share of) {
-                        of.kept_end = of.in_end;  // also where the last solve kept the pose
-                        of.copy_out(work.mask, run);
+                    share(group, run, frame, [&](Share part) {
+                        part.kept_end = part.in_end;  // also where the last solve kept the pose
+                        part.copy_out(work.mask, run);
                     });
                     return;
                 }
@@ -174,9 +174,9 @@ private:
     {
         frame.origin = origin_of(pose);
         Stream streams[kMostStreams];
-        Share of;
-        of.set({&group, run, frame}, run.count, streams);
-        copy(of);
+        Share part;
+        part.set({&group, run, frame}, run.count, streams);
+        copy(part);
     }
 };
 

@@ -98,16 +98,16 @@ std::uint32_t stream_count_of(const Group& group, const swivel_frame& frame)
     return count;
 }
 
-Stream* Share::set(const GroupFrame& of, std::uint32_t run, Stream* to)
+Stream* Share::set(const GroupFrame& group_frame, std::uint32_t run, Stream* to)
 {
-    group = of.group;
-    blocks = of.blocks;
+    group = group_frame.group;
+    blocks = group_frame.blocks;
     streams = to;
-    for (const swivel_frame_field& each : fields_of(of.frame))
-        if (each.data && is_input(each.field)) to = add_input(*group, of.frame, each, to);
+    for (const swivel_frame_field& each : fields_of(group_frame.frame))
+        if (each.data && is_input(each.field)) to = add_input(*group, group_frame.frame, each, to);
     in_end = to;
     for (const bool is_flags : {false, true}) {
-        for (const swivel_frame_field& each : fields_of(of.frame))
+        for (const swivel_frame_field& each : fields_of(group_frame.frame))
             if (each.data && !is_input(each.field) && (each.field == SWIVEL_FLAGS) == is_flags)
                 to = streams_out(rows_of(*group, each.field), 0, {each.data, each.stride}, to);
         (is_flags ? out_end : kept_end) = to;

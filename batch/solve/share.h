@@ -35,7 +35,7 @@ struct Share {
     Stream *streams, *in_end, *kept_end, *out_end;
 
     // Stores the streams from `to` on, and returns their end. run: the most blocks that are copied at a time.
-    Stream* set(const GroupFrame& of, std::uint32_t run, Stream* to);
+    Stream* set(const GroupFrame& group_frame, std::uint32_t run, Stream* to);
     // Some blocks of the group, the limbs of a mask or all.
     void copy_in(const std::uint32_t* mask, GroupBlocks some) const;
     void copy_out(const std::uint32_t* mask, GroupBlocks some) const;

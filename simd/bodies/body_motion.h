@@ -15,11 +15,11 @@ struct Motion {
     Rotor<T> turn;
     Vector<T> shift;
 
-    // of: the row of the joint that moves it, or 0.
-    SWIVEL_INLINE static Motion at(const BodyBlock& block, std::uint32_t of, std::uint32_t lane)
+    // row: that of the joint that moves it, or 0.
+    SWIVEL_INLINE static Motion at(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
     {
-        if (of == 0) return {one<T>(), vector(T(0), T(0), T(0))};
-        const JointRows rows = rows_of(block, of, lane);
+        if (row == 0) return {one<T>(), vector(T(0), T(0), T(0))};
+        const JointRows rows = rows_of(block, row, lane);
         return {rows.get_rotor(kMotionRow), rows.get_vector(kShiftRow)};
     }
     // Of a joint of the skeleton, from where it comes.
@@ -49,8 +49,11 @@ struct IntoBody {
           shrink(T(1) / rows_of(block, kRootJoint, lane).get(kScaleRow))
     {
     }
-    SWIVEL_INLINE Rotor<T> rotation(const JointRows& of) const { return back * of.get_rotor(kTurnRow); }
-    SWIVEL_INLINE Vector<T> place(const JointRows& of) const { return turned(back, shrink * of.get_vector(kPlaceRow)); }
+    SWIVEL_INLINE Rotor<T> rotation(const JointRows& joint) const { return back * joint.get_rotor(kTurnRow); }
+    SWIVEL_INLINE Vector<T> place(const JointRows& joint) const
+    {
+        return turned(back, shrink * joint.get_vector(kPlaceRow));
+    }
 };
 
 SWIVEL_FLATTEN void move(const BodyBlock& block, const BodyLimb& limb)
@@ -63,10 +66,10 @@ SWIVEL_FLATTEN void move(const BodyBlock& block, const BodyLimb& limb)
             const TurnedJoint& joint = limb.turned[n];
             const Motion above = Motion::at(block, joint.above, lane);
             const JointRows at = rows_of(block, joint.row, lane);
-            const Rotor<T> parent = body.rotation(rows_of(block, joint.parent, lane)), was = body.rotation(at);
+            const Rotor<T> parent = body.rotation(rows_of(block, joint.parent, lane)), incoming = body.rotation(at);
             const Vector<T> place = body.place(at);
-            const Rotor<T> is = unit_rotation(above.turn * parent * at.get_rotor(kLocalRow));
-            const Rotor<T> turn = select(kept, none.turn, hemisphere(unit_rotation(is * ~was)));
+            const Rotor<T> solved = unit_rotation(above.turn * parent * at.get_rotor(kLocalRow));
+            const Rotor<T> turn = select(kept, none.turn, hemisphere(unit_rotation(solved * ~incoming)));
             at.set_rotor(kMotionRow, turn);
             at.set_vector(kShiftRow, select(kept, none.shift, above(place) - turned(turn, place)));
         }
@@ -81,8 +84,9 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_rotation(const swivel_pose& pose, co
     const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const Motion motion = Motion::at(block, joint, lane);
-        const Rotor<T> was = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
-        rows_of(block, 0, lane).set_rotor(kOutTurnRow, select(motion.is_none(), was, with_one_nan(motion.turn * was)));
+        const Rotor<T> incoming = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
+        rows_of(block, 0, lane)
+            .set_rotor(kOutTurnRow, select(motion.is_none(), incoming, with_one_nan(motion.turn * incoming)));
     }
 }
 SWIVEL_FLATTEN [[gnu::noinline]] void carry_translation(const swivel_pose& pose, const BodyBlock& block,
@@ -92,8 +96,9 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_translation(const swivel_pose& pose,
     const std::size_t at = offset_of(pose.translations, joint.skeleton_joint);
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const Motion motion = Motion::at(block, joint, lane);
-        const Vector<T> was = vector_of(load_values<T, 3>(translations.lane + lane, at));
-        rows_of(block, 0, lane).set_vector(kOutPlaceRow, select(motion.is_none(), was, with_one_nan(motion(was))));
+        const Vector<T> incoming = vector_of(load_values<T, 3>(translations.lane + lane, at));
+        rows_of(block, 0, lane)
+            .set_vector(kOutPlaceRow, select(motion.is_none(), incoming, with_one_nan(motion(incoming))));
     }
 }
 template <swivel_pose_form Form>
@@ -108,13 +113,13 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_matrix(const swivel_pose& pose, cons
         const MatrixParts m = read_parts<Form>(matrices.lane + lane, at);
         const JointRows out = rows_of(block, 0, lane);
         for (std::uint32_t c = 0; c < 4; ++c) {
-            const Vector<T> was = c < 3 ? axis_of<Form>(m, c) : vector_of(m.part[3]);
-            const Vector<T> is =
-                select(motion.is_none(), was, with_one_nan(c < 3 ? turned(motion.turn, was) : motion(was)));
+            const Vector<T> incoming = c < 3 ? axis_of<Form>(m, c) : vector_of(m.part[3]);
+            const Vector<T> moved = select(motion.is_none(), incoming,
+                                           with_one_nan(c < 3 ? turned(motion.turn, incoming) : motion(incoming)));
             const std::uint32_t first = by_rows ? c : 3 * c, step = by_rows ? 4 : 1;
-            out.set(first, is.template at<kE1>());
-            out.set(first + step, is.template at<kE2>());
-            out.set(first + 2 * step, is.template at<kE3>());
+            out.set(first, moved.template at<kE1>());
+            out.set(first + step, moved.template at<kE2>());
+            out.set(first + 2 * step, moved.template at<kE3>());
         }
     }
 }

@@ -54,16 +54,16 @@ struct StageBody<Stage::span> {
         };
         ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
         const T weight = s.has(SWIVEL_WITH_WEIGHTS) ? wish.weight * s.io.load(SWIVEL_WEIGHTS, 0) : wish.weight;
-        ShiftSpan<T> is = span & asks(target, weight);
+        ShiftSpan<T> asked = span & asks(target, weight);
         if (s.has(SWIVEL_WITH_COMING)) {
             const T near = hi(T(1) - wish.time * T(limb.per_ahead), T(0));
-            is = is & asks(wish.coming - root, near * near);
+            asked = asked & asks(wish.coming - root, near * near);
         }
         s.require(is_posed(s) & wish.is_valid() & (len2(target) <= T(kHuge2)) & (len2(from_wrist) <= T(kHuge2)));
         const Mask<T> counts = lanes_where<T>(s.good());  // bad input asks for nothing
-        s.set_body(kSpanRow, select(counts, is.low, span.low));
-        s.set_body(kSpanRow + 1, select(counts, is.high, span.high));
-        s.set_body(kSpanRow + 2, select(is.reaches | !counts, s.body_row(kSpanRow + 2), T(0)));
+        s.set_body(kSpanRow, select(counts, asked.low, span.low));
+        s.set_body(kSpanRow + 1, select(counts, asked.high, span.high));
+        s.set_body(kSpanRow + 2, select(asked.reaches | !counts, s.body_row(kSpanRow + 2), T(0)));
     }
 };
 
@@ -82,7 +82,7 @@ struct StageBody<Stage::fit> {
                   (len2(s.body_vector(kRootRow)) <= T(kHuge2)) & is_within(length, kTiny, kHuge));
         const ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
         const FittedShift<T> fitted = fitted_shift(span, wish, T(limb.drop) * length, T(limb.rise) * length);
-        const EasedHeight<T> eased_shift = eased(s, SWIVEL_SHIFT, fitted.shift, T(1) < T(0), limb.spring);
+        const EasedHeight<T> eased_shift = eased(s, SWIVEL_SHIFT, fitted.shift, no_lanes<T>(), limb.spring);
         store_eased(good_rows(s), SWIVEL_SHIFT, eased_shift);
         Rows<T, kTold> all = s.io, cleared = s.io;
         all.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
@@ -94,7 +94,7 @@ struct StageBody<Stage::fit> {
             select(valid,
                    word_where(fitted.all_reach, SWIVEL_REACHED) | word_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR),
                    word<T>(SWIVEL_BAD_INPUT)));
-        const Vector<T> shift = select(valid, eased_shift.at, eased_shift.was) * up_of(s);
+        const Vector<T> shift = select(valid, eased_shift.at, eased_shift.before) * up_of(s);
         s.set_body_vector(kShiftedRow, shift);
         s.set_body_vector(kRootRow, s.body_vector(kRootRow) + shift);
     }

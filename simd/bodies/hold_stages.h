@@ -93,8 +93,8 @@ struct PropAtHand {
         is_of_hands = is_of_hands | (weight == T(0));
         frame = between(hands, told, select(is_of_hands, T(0), weight));
     }
-    SWIVEL_INLINE explicit PropAtHand(const S& of)
-        : s(of), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_PROP_SHARE, 0))
+    SWIVEL_INLINE explicit PropAtHand(const S& slice)
+        : s(slice), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_PROP_SHARE, 0))
     {
         s.require(is_share(share));
         if (prop.holder_count == 1) share = T(0);
@@ -145,36 +145,36 @@ struct StageBody<Stage::prop> {
     {
         using T = typename S::T;
         const BodyLimb& prop = *s.strip.run.limb;
-        PropAtHand<S> is(s);
-        const ReachingMoves<T> a = is.reaching(0), b = is.reaching(prop.holder_count - 1);
+        PropAtHand<S> held(s);
+        const ReachingMoves<T> a = held.reaching(0), b = held.reaching(prop.holder_count - 1);
         // So much less that what rounds still reaches, of a far move and of the shorter arm, too.
         const T size = lo(a.reach, b.reach) + sqrt(len2(a.middle)) + sqrt(len2(b.middle));
-        const auto within = [&](const ReachingMoves<T>& of) SWIVEL_INLINE_LAMBDA {
-            return ReachingMoves<T>{of.middle, hi(of.reach - T(2 * kReachSlack) * size, T(0))};
+        const auto within = [&](const ReachingMoves<T>& moves) SWIVEL_INLINE_LAMBDA {
+            return ReachingMoves<T>{moves.middle, hi(moves.reach - T(2 * kReachSlack) * size, T(0))};
         };
         const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
-        Mask<T> is_longer = T(1) < T(0);
+        Mask<T> is_longer = no_lanes<T>();
         const Vector<T> none = vector(T(0), T(0), T(0));
         const Mask<T> rests = a.has(none) & b.has(none);
         const Vector<T> move =
             all(rests) ? none : select(rests, none, at_most(least_move(within(a), within(b)), most, !rests, is_longer));
-        is.frame.place = is.frame.place + move;
+        held.frame.place = held.frame.place + move;
         const Mask<T> is_far = !(rests | (a.has(move) & b.has(move))),
-                      is_near = (!is_far) & (is.is_too_near(0) | is.is_too_near(prop.holder_count - 1)),
+                      is_near = (!is_far) & (held.is_too_near(0) | held.is_too_near(prop.holder_count - 1)),
                       stays = !(len2(move) > T(0));
-        s.require((len2(is.frame.place) <= T(kHuge2)) & is_within(len2(is.frame.rotation), 0.99, 1.01) &
+        s.require((len2(held.frame.place) <= T(kHuge2)) & is_within(len2(held.frame.rotation), 0.99, 1.01) &
                   (len2(s.body_vector(kRootRow)) <= T(kHuge2)));
         const T nan = T(__builtin_nan(""));
         const Mask<T> valid = lanes_where<T>(s.good());
-        set_held(s, prop.frame, {is.frame.rotation, select(valid, is.frame.place, vector(nan, nan, nan))});
+        set_held(s, prop.frame, {held.frame.rotation, select(valid, held.frame.place, vector(nan, nan, nan))});
         s.set_body(prop.frame + kHeldScaleRow, T(1));
-        const Mask<T> says = is.is_of_hands & stays;
+        const Mask<T> says = held.is_of_hands & stays;
         s.set_body(prop.frame + kSayerRow,
-                   select(says & (is.share == T(0)), T(0), select(says & (is.share == T(1)), T(1), T(-1))));
+                   select(says & (held.share == T(0)), T(0), select(says & (held.share == T(1)), T(1), T(-1))));
 
         const Rows<T, kTold> out = good_rows(s);
-        out.store_vector(SWIVEL_PROP_FRAME, is.frame.place + s.body_vector(kRootRow));
-        out.store_rotor(SWIVEL_PROP_FRAME, hemisphere(is.frame.rotation), 3);
+        out.store_vector(SWIVEL_PROP_FRAME, held.frame.place + s.body_vector(kRootRow));
+        out.store_rotor(SWIVEL_PROP_FRAME, hemisphere(held.frame.rotation), 3);
         Rows<T, kTold> all_rows = s.io;
         all_rows.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
         all_rows.store(SWIVEL_FLAGS, 0,
@@ -236,14 +236,14 @@ struct StageBody<Stage::hand_frame> {
         const Rotor<T> turn = select(kept, s.body_rotor(limb.wrist + kTurnRow), solved.rotation);
         const Mask<T> is_known = valid & (len2(place) <= T(kHuge2)) & is_within(len2(turn), 0.99, 1.01) &
                                  (len2(s.body_vector(kRootRow)) <= T(kHuge2));
-        const HeldFrame<T> is{select(is_known, turn, rotor(nan, nan, nan, nan)),
-                              select(is_known, place, vector(nan, nan, nan))};
-        set_held(s, limb.frame, is);
+        const HeldFrame<T> hand{select(is_known, turn, rotor(nan, nan, nan, nan)),
+                                select(is_known, place, vector(nan, nan, nan))};
+        set_held(s, limb.frame, hand);
         s.set_body(limb.frame + kHeldScaleRow, scale);
         Rows<T, kTold> out = s.io;
         out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        out.store_vector(SWIVEL_HAND_FRAME, with_one_nan(is.place + s.body_vector(kRootRow)));
-        out.store_rotor(SWIVEL_HAND_FRAME, with_one_nan(hemisphere(is.rotation)), 3);
+        out.store_vector(SWIVEL_HAND_FRAME, with_one_nan(hand.place + s.body_vector(kRootRow)));
+        out.store_rotor(SWIVEL_HAND_FRAME, with_one_nan(hemisphere(hand.rotation)), 3);
     }
 };
 

@@ -27,12 +27,12 @@ SWIVEL_INLINE void turn_axes(const S& s, std::uint32_t joint, const Rotor<typena
     for (std::uint32_t n = 0; n < 3; ++n) {
         const auto row = [&](std::uint32_t c)
                              SWIVEL_INLINE_LAMBDA { return first + (by_rows ? 3 * c + n : 3 * n + c); };
-        const Vector<T> was = vector(s.body_row(row(0)), s.body_row(row(1)), s.body_row(row(2)));
+        const Vector<T> incoming = vector(s.body_row(row(0)), s.body_row(row(1)), s.body_row(row(2)));
         const Vector<T> none = vector(T(n == 0), T(n == 1), T(n == 2));
-        const Vector<T> is = select(kept, was, turned(turn, select(valid, was, none)));
-        s.set_body(row(0), is.template at<kE1>());
-        s.set_body(row(1), is.template at<kE2>());
-        s.set_body(row(2), is.template at<kE3>());
+        const Vector<T> axis = select(kept, incoming, turned(turn, select(valid, incoming, none)));
+        s.set_body(row(0), axis.template at<kE1>());
+        s.set_body(row(1), axis.template at<kE2>());
+        s.set_body(row(2), axis.template at<kE3>());
     }
 }
 // Gives a joint its local rotation: what was solved, or a rest rotation in lanes that are not valid. In kept lanes the
@@ -44,11 +44,11 @@ SWIVEL_INLINE void set_local(const S& s, std::uint32_t joint, const Rotor<typena
 {
     using T = typename S::T;
     const swivel_pose& pose = *s.strip.run.strip.pose;
-    const Rotor<T> was = s.body_rotor(joint + kLocalRow), q = select(valid, solved, rest);
-    const T side = select(valid, scalar_product(~was, q), T(1));
+    const Rotor<T> incoming = s.body_rotor(joint + kLocalRow), q = select(valid, solved, rest);
+    const T side = select(valid, scalar_product(~incoming, q), T(1));
     if (pose.form != SWIVEL_ROTATIONS && pose.space == SWIVEL_LOCAL)
-        turn_axes(s, joint, unit_rotation(select(valid, q * ~was, q)), valid, kept);
-    s.set_body_rotor(joint + kLocalRow, select(kept, was, with_sign_of(side, q)));
+        turn_axes(s, joint, unit_rotation(select(valid, q * ~incoming, q)), valid, kept);
+    s.set_body_rotor(joint + kLocalRow, select(kept, incoming, with_sign_of(side, q)));
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

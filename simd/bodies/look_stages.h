@@ -66,9 +66,9 @@ struct StageBody<Stage::look> {
         for (std::uint32_t n = 0; n < look.following_count; ++n) {
             const FollowingJoint& joint = look.following[n];
             const LookedJoint<T>& with = chain.joint[joint.number];
-            const Rotor<T> was = s.body_rotor(joint.row + kTurnRow);
+            const Rotor<T> rotation = s.body_rotor(joint.row + kTurnRow);
             const Vector<T> came = s.body_vector(joint.row + kPlaceRow);
-            set_frame(s, joint.row, kept, with.sum * was, with.place + turned(with.sum, came - with.came));
+            set_frame(s, joint.row, kept, with.sum * rotation, with.place + turned(with.sum, came - with.came));
         }
         for (std::uint32_t n = 0; n < look.turned_count; ++n)
             set_frame(s, look.turned[n].row, kept, chain.joint[n].rotation, chain.joint[n].place);
@@ -103,19 +103,19 @@ private:
         const BodyLimb& look = *s.strip.run.limb;
         Rotor<T> sum = one<T>();
         chain.sight = goal.sight;
-        chain.held = T(1) < T(0);
+        chain.held = no_lanes<T>();
         for (std::uint32_t n = 0; n < look.turned_count; ++n) {
-            LookedJoint<T>& is = chain.joint[n];
-            is.came = is.place = s.body_vector(look.turned[n].row + kPlaceRow);
-            if (n > 0) is.place = chain.joint[n - 1].place + turned(sum, is.came - chain.joint[n - 1].came);
-            const LookTurn<T> turn = turn_of(n, is.place, sum);
-            is.turn = turn.turn;
-            chain.sight = {is.place + turned(turn.turn, chain.sight.eye - is.place),
+            LookedJoint<T>& joint = chain.joint[n];
+            joint.came = joint.place = s.body_vector(look.turned[n].row + kPlaceRow);
+            if (n > 0) joint.place = chain.joint[n - 1].place + turned(sum, joint.came - chain.joint[n - 1].came);
+            const LookTurn<T> turn = turn_of(n, joint.place, sum);
+            joint.turn = turn.turn;
+            chain.sight = {joint.place + turned(turn.turn, chain.sight.eye - joint.place),
                            turned(turn.turn, chain.sight.axis)};
             chain.held = chain.held | turn.held;
             sum = unit_rotation(turn.turn * sum);
-            is.sum = sum;
-            is.rotation = sum * s.body_rotor(look.turned[n].row + kTurnRow);
+            joint.sum = sum;
+            joint.rotation = sum * s.body_rotor(look.turned[n].row + kTurnRow);
         }
     }
     // Holds the turns back where they would change by more than the rate lets them. All go the same part of their ways,
@@ -125,7 +125,7 @@ private:
     {
         using T = typename S::T;
         const std::uint32_t count = s.strip.run.limb->turned_count;
-        chain.is_behind = T(1) < T(0);
+        chain.is_behind = no_lanes<T>();
         for (std::uint32_t n = 0; n < count; ++n) chain.carried[n] = vector(T(0), T(0), T(0));
         const bool has_rate = goal.rules.rate > 0;
         if (!has_rate && all(goal.body_weight == T(1))) return;

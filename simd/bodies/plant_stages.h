@@ -19,9 +19,9 @@ SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
     using T = typename S::T;
     T rest = s.io.load_result(SWIVEL_PLANT, kState);
     const auto next = [&](float bit) SWIVEL_INLINE_LAMBDA {
-        const Mask<T> is = rest >= T(bit);
-        rest = select(is, rest - T(bit), rest);
-        return is;
+        const Mask<T> is_set = rest >= T(bit);
+        rest = select(is_set, rest - T(bit), rest);
+        return is_set;
     };
     PlantState<T> state;
     state.fresh = !next(kBegun);
@@ -37,7 +37,8 @@ SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
 template <class T>
 SWIVEL_INLINE void store_plant(const Rows<T, kTold>& out, const PlantState<T>& state)
 {
-    const auto bit = [](const Mask<T>& is, float value) SWIVEL_INLINE_LAMBDA { return select(is, T(value), T(0)); };
+    const auto bit = [](const Mask<T>& is_set, float value)
+                         SWIVEL_INLINE_LAMBDA { return select(is_set, T(value), T(0)); };
     out.store_vector(SWIVEL_PLANT, state.mark, kMark);
     out.store_vector(SWIVEL_PLANT, state.offset, kOffset);
     out.store_vector(SWIVEL_PLANT, state.velocity, kVelocity);
@@ -59,11 +60,11 @@ SWIVEL_INLINE Mask<typename S::T> in_contact(const S& s, const Mask<typename S::
     }
     const BodyLimb& limb = *s.strip.run.limb;
     MotionState<T> motion{s.io.load_result_vector(SWIVEL_MOTION, 0), s.io.load_result(SWIVEL_MOTION, 3) > T(0.5)};
-    const Mask<T> is = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.rules);
+    const Mask<T> is_in_contact = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.rules);
     const Rows<T, kTold> out = waiting_rows(s);
     out.store_vector(SWIVEL_MOTION, motion.place);
     out.store(SWIVEL_MOTION, 3, select(motion.contact, T(1), T(0)));
-    return is;
+    return is_in_contact;
 }
 
 // The planted rotation of the hand.
@@ -76,12 +77,12 @@ SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<type
     TurnState<T> turn{s.io.load_result_rotor(SWIVEL_PLANT_TURN, kTurnMark),
                       s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnOffset),
                       s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnVelocity)};
-    const Rotor<T> is = plant_turn(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
+    const Rotor<T> planted = plant_turn(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
     const Rows<T, kTold> out = waiting_rows(s);
     out.store_rotor(SWIVEL_PLANT_TURN, turn.mark, kTurnMark);
     out.store_vector(SWIVEL_PLANT_TURN, turn.offset, kTurnOffset);
     out.store_vector(SWIVEL_PLANT_TURN, turn.velocity, kTurnVelocity);
-    return support * is;
+    return support * planted;
 }
 
 // A limb's point in a step of its plant.
@@ -97,7 +98,7 @@ struct PlantedPoint {
     EasedHeight<T> lift;  // on ground that is not flat
 
     // sees_ground: else it is lifted as in the last step.
-    SWIVEL_INLINE PlantedPoint(const S& of, bool sees_ground) : s(of)
+    SWIVEL_INLINE PlantedPoint(const S& slice, bool sees_ground) : s(slice)
     {
         s.require(is_posed(s) & is_within(len2(support.rotation), 0.99, 1.01));
         PlantInput<T> in;
@@ -130,9 +131,9 @@ struct PlantedPoint {
 private:
     SWIVEL_INLINE Vector<T> lifted_so_far() const
     {
-        const T was = s.io.load_result(SWIVEL_LIFT, 0);
-        const Mask<T> has_begun = (s.io.load_result(SWIVEL_LIFT, 2) > T(0.5)) & (was == was) & !state.fresh;
-        return select(has_begun, was, T(0)) * up_of(s);
+        const T last_lift = s.io.load_result(SWIVEL_LIFT, 0);
+        const Mask<T> has_begun = (s.io.load_result(SWIVEL_LIFT, 2) > T(0.5)) & (last_lift == last_lift) & !state.fresh;
+        return select(has_begun, last_lift, T(0)) * up_of(s);
     }
     // From the root's level to the ground below the animated point.
     SWIVEL_INLINE Vector<T> lifted_by_ground()

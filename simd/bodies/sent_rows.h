@@ -98,26 +98,27 @@ SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
 {
     using T = typename S::T;
     const BodyLimb& limb = *s.strip.run.limb;
-    AnimatedHand<T> is{s.body_vector(limb.wrist + kPlaceRow), s.body_rotor(limb.wrist + kTurnRow), T(0) == T(0)};
+    AnimatedHand<T> animated{s.body_vector(limb.wrist + kPlaceRow), s.body_rotor(limb.wrist + kTurnRow),
+                             all_lanes<T>()};
     if (s.has(SWIVEL_WITH_EFFECTOR))
-        is.point =
-            is.point + s.body_row(limb.parent + kScaleRow) * turned(is.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
+        animated.point = animated.point + s.body_row(limb.parent + kScaleRow) *
+                                              turned(animated.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
     const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
     const T distance2 = len2(target);
     if (const Mask<T> is_given = distance2 == distance2; any(is_given)) {
-        is.point = select(is_given, target - s.body_vector(kRootRow), is.point);
-        is.is_posed = !is_given;
+        animated.point = select(is_given, target - s.body_vector(kRootRow), animated.point);
+        animated.is_posed = !is_given;
     }
     if (s.has(SWIVEL_WITH_HAND)) {
         const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
         const T length2 = len2(hand);
         if (const Mask<T> is_given = length2 == length2; any(is_given)) {
             s.require(is_orientation(hand) | !is_given);
-            is.rotation = select(is_given, normalise(hand), is.rotation);
-            is.is_posed = is.is_posed & !is_given;
+            animated.rotation = select(is_given, normalise(hand), animated.rotation);
+            animated.is_posed = animated.is_posed & !is_given;
         }
     }
-    return is;
+    return animated;
 }
 
 // Sends a limb to a goal, from the root's place as kGoalPlaceRow has it.
@@ -137,7 +138,7 @@ SWIVEL_INLINE void send(const S& s, const Vector<typename S::T>& place, const Ro
 template <class T>
 struct EasedHeight {
     T at, rate;
-    T was;  // before this step; 0 where it had not begun
+    T before;  // before this step; 0 where it had not begun
 };
 template <class S>
 SWIVEL_INLINE EasedHeight<typename S::T> eased(const S& s, swivel_field carried, const typename S::T& goal,
@@ -145,20 +146,21 @@ SWIVEL_INLINE EasedHeight<typename S::T> eased(const S& s, swivel_field carried,
 {
     using T = typename S::T;
     const T time = s.body_row(kTimeRow);
-    const Spring<T> was{s.io.load_result(carried, 0), s.io.load_result(carried, 1)};
-    const Mask<T> is_number = (was.at == was.at) & (was.rate == was.rate), stands = time == T(0),
+    const Spring<T> previous{s.io.load_result(carried, 0), s.io.load_result(carried, 1)};
+    const Mask<T> is_number = (previous.at == previous.at) & (previous.rate == previous.rate), stands = time == T(0),
                   begun = (s.io.load_result(carried, 2) > T(0.5)) & is_number & !anew;
-    const Spring<T> next = sprung(was, goal, time, rule);
-    const EasedHeight<T> is{select(begun, select(stands, was.at, next.at), goal),
-                            select(begun, select(stands, was.rate, next.rate), T(0)), select(begun, was.at, T(0))};
-    s.require(is_within(is.at, -kHuge, kHuge) & (is.rate == is.rate));
-    return is;
+    const Spring<T> next = sprung(previous, goal, time, rule);
+    const EasedHeight<T> height{select(begun, select(stands, previous.at, next.at), goal),
+                                select(begun, select(stands, previous.rate, next.rate), T(0)),
+                                select(begun, previous.at, T(0))};
+    s.require(is_within(height.at, -kHuge, kHuge) & (height.rate == height.rate));
+    return height;
 }
 template <class T>
-SWIVEL_INLINE void store_eased(const Rows<T, kTold>& out, swivel_field carried, const EasedHeight<T>& is)
+SWIVEL_INLINE void store_eased(const Rows<T, kTold>& out, swivel_field carried, const EasedHeight<T>& height)
 {
-    out.store(carried, 0, is.at);
-    out.store(carried, 1, is.rate);
+    out.store(carried, 0, height.at);
+    out.store(carried, 1, height.rate);
     out.store(carried, 2, T(1));
 }
 

@@ -38,7 +38,7 @@ private:
         const T scale = s.body_row(s.strip.run.limb->parent + kScaleRow),
                 height = ground.distance(arm.shoulder + scale * sandwich(arm.rotation, ankle)) / scale,
                 wanted = T(s.strip.run.limb->ground.toe_clearance) - height;
-        return lifting_turn(ground.is & misses, sandwich(~arm.rotation, ground.normal), sandwich(foot, effector),
+        return lifting_turn(ground.exists & misses, sandwich(~arm.rotation, ground.normal), sandwich(foot, effector),
                             wanted) *
                foot;
     }

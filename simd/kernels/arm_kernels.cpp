@@ -85,7 +85,7 @@ template <class T, swivel_features Features>
 SWIVEL_INLINE Mask<T> solve_slice(const Rows<T, Features>& rows, const Shared<T>& shared)
 {
     ArmGoal<T> goal = load_goal(rows);
-    Mask<T> ordinary = T(0) == T(0);
+    Mask<T> ordinary = all_lanes<T>();
     if constexpr (has(Features, SWIVEL_WORLD)) {
         const ParentFrame<T> parent = rows.load_parent();
         const SeenGoal<T> seen = seen_by(parent, goal.wrist, goal.pole, shared.pole_is_point);

@@ -26,11 +26,11 @@ struct PoseReader {
     const Bodies rotations, translations, scales;
     const swivel_pose& pose;
 
-    PoseReader(const BodyBlock& block, const swivel_pose& of)
-        : rotations(block, of.rotations),
-          translations(Translates ? Bodies(block, of.translations) : Bodies()),
-          scales(Scales ? Bodies(block, of.scales) : Bodies()),
-          pose(of)
+    PoseReader(const BodyBlock& block, const swivel_pose& given)
+        : rotations(block, given.rotations),
+          translations(Translates ? Bodies(block, given.translations) : Bodies()),
+          scales(Scales ? Bodies(block, given.scales) : Bodies()),
+          pose(given)
     {
     }
     SWIVEL_INLINE GivenJoint read(const BodyJoint& joint, std::uint32_t lane, const JointRows& to) const

@@ -101,7 +101,7 @@ struct GatheredLimits {
     const LimitList& list;
     alignas(64) float rows[(3 * kMostLines + 27 * Boxes) * lanes];
 
-    GatheredLimits(const Strip& of, const LimitList& limits) : strip(of), list(limits) {}
+    GatheredLimits(const Strip& in, const LimitList& limits) : strip(in), list(limits) {}
 
     SWIVEL_INLINE std::uint32_t line_rows() const { return 3 * static_cast<std::uint32_t>(list.line_count); }
     SWIVEL_INLINE std::uint32_t box_rows() const { return 15 * static_cast<std::uint32_t>(list.box_count); }
@@ -138,7 +138,7 @@ struct GatheredInRegion {
     GatheredLimits<T, Boxes> limits;
     alignas(64) float rows[9 * lanes];
 
-    GatheredInRegion(const Strip& of, const LimitList& list) : limits(of, list) {}
+    GatheredInRegion(const Strip& in, const LimitList& list) : limits(in, list) {}
 
     SWIVEL_INLINE void gather(std::uint32_t to, std::uint32_t lane)
     {
@@ -164,21 +164,21 @@ using Gathered = std::conditional_t<InRegion, GatheredInRegion<T, Boxes>, Gather
 // Searches for some lanes, and writes their swivels. Lanes without an allowed one go to `left`, if there is such a
 // list; else they are infeasible.
 template <class T, int Boxes, bool InRegion, class Find>
-SWIVEL_INLINE void search(const Strip& strip, const LimitList& list, const LaneList& of, LaneList* left,
+SWIVEL_INLINE void search(const Strip& strip, const LimitList& list, const LaneList& searched, LaneList* left,
                           const Find& find)
 {
     constexpr std::uint32_t lanes = lane_count<T>;
     Gathered<T, Boxes, InRegion> gathered(strip, list);
-    for (std::uint32_t first = 0; first < of.count; first += lanes) {
-        const std::uint32_t count = of.count - first < lanes ? of.count - first : lanes;
-        for (std::uint32_t n = 0; n < lanes; ++n) gathered.gather(n, of.lane[first + (n < count ? n : 0)]);
+    for (std::uint32_t first = 0; first < searched.count; first += lanes) {
+        const std::uint32_t count = searched.count - first < lanes ? searched.count - first : lanes;
+        for (std::uint32_t n = 0; n < lanes; ++n) gathered.gather(n, searched.lane[first + (n < count ? n : 0)]);
         const FoundSwivel<T> found = find(gathered.load());
         alignas(64) float cos[lanes], sin[lanes];
         store_lanes(cos, found.swivel.cos);
         store_lanes(sin, found.swivel.sin);
         const std::uint32_t allowed = lane_bits(found.allowed);
         for (std::uint32_t n = 0; n < count; ++n) {
-            const std::uint32_t lane = of.lane[first + n];
+            const std::uint32_t lane = searched.lane[first + n];
             float* const rows = strip.lane(lane);
             rows[kSwivelRow * kLanes] = cos[n];
             rows[(kSwivelRow + 1) * kLanes] = sin[n];
@@ -193,17 +193,17 @@ SWIVEL_INLINE void search(const Strip& strip, const LimitList& list, const LaneL
     }
 }
 template <class T, int Boxes, bool InRegion>
-SWIVEL_FLATTEN [[gnu::noinline]] void search_end(const Strip& strip, const LimitList& list, const LaneList& of,
+SWIVEL_FLATTEN [[gnu::noinline]] void search_end(const Strip& strip, const LimitList& list, const LaneList& searched,
                                                  LaneList& left)
 {
-    search<T, Boxes, InRegion>(strip, list, of, &left,
+    search<T, Boxes, InRegion>(strip, list, searched, &left,
                                [](const auto& limits) SWIVEL_INLINE_LAMBDA { return nearest_end(limits); });
 }
 // This search is rare, so limbs without boxes share the code of those with boxes.
 template <class T, bool InRegion>
-SWIVEL_FLATTEN [[gnu::noinline]] void search_least(const Strip& strip, const LimitList& list, const LaneList& of)
+SWIVEL_FLATTEN [[gnu::noinline]] void search_least(const Strip& strip, const LimitList& list, const LaneList& searched)
 {
-    search<T, kMostBoxes, InRegion>(strip, list, of, nullptr,
+    search<T, kMostBoxes, InRegion>(strip, list, searched, nullptr,
                                     [](const auto& limits) SWIVEL_INLINE_LAMBDA { return least_violation(limits); });
 }
 

@@ -75,8 +75,8 @@ SWIVEL_INLINE ArmFrame<typename S::T> arm_frame(const S& s)
     const Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
     if (!s.has(SWIVEL_WITH_CLAVICLE)) return {arm, parent.position};
     const Vector<T> clavicle = s.body_vector(s.strip.run.limb->parent + kPlaceRow);
-    const Rotor<T> is = arm * s.get_rotor(kClavicleRow);
-    return {is, clavicle + sandwich(is * ~arm, parent.position - clavicle)};
+    const Rotor<T> turned_arm = arm * s.get_rotor(kClavicleRow);
+    return {turned_arm, clavicle + sandwich(turned_arm * ~arm, parent.position - clavicle)};
 }
 // Whether the pose is good in all that a limb takes of it. What is bad in a joint shows in all below it.
 template <class S>

@@ -18,7 +18,7 @@ struct Results {
     Rows<T, kTold> out;
     Mask<T> valid;
 
-    SWIVEL_INLINE explicit Results(const S& of) : s(of), out(of.io), valid(lanes_where<T>(of.good()))
+    SWIVEL_INLINE explicit Results(const S& slice) : s(slice), out(slice.io), valid(lanes_where<T>(slice.good()))
     {
         const std::uint32_t stored = s.strip.run.keeps ? s.good() : s.chosen();
         out.chosen = stored == S::kEvery ? kEveryLane : stored;
@@ -126,8 +126,9 @@ struct StageBody<Stage::twist_bones> {
                                    SWIVEL_INLINE_LAMBDA { return s.has(SWIVEL_JOINTS) ? broadcast<T>(q) : one<T>(); };
         Turned<T> twist = twist_rotor(s.get_rotor(kTwistRow));
         if (s.has(SWIVEL_BODY)) {  // from the incoming one, the short way
-            const Turned<T> was{s.body_row(kTwistInRow), s.body_row(kTwistInRow + 1)};
-            const T cos = twist.cos * was.cos + twist.sin * was.sin, sin = twist.sin * was.cos - twist.cos * was.sin;
+            const Turned<T> incoming{s.body_row(kTwistInRow), s.body_row(kTwistInRow + 1)};
+            const T cos = twist.cos * incoming.cos + twist.sin * incoming.sin,
+                    sin = twist.sin * incoming.cos - twist.cos * incoming.sin;
             twist = {abs(cos), flip_sign(sin, cos)};
             twist = {select(results.valid, twist.cos, T(1)), select(results.valid, twist.sin, T(0))};
         }
