@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "tools/swivel/command_line.h"
+#include "tools/swivel/commands.h"
 
 namespace swivel::test {
 

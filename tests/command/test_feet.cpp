@@ -15,8 +15,8 @@
 #include "tests/plain_gltf.h"
 #include "tests/run_command.h"
 #include "tests/shared_figures.h"
-#include "tools/feet/toes.h"
 #include "tools/feet/treads.h"
+#include "tools/feet/turn_legs.h"
 
 using namespace swivel::test;
 namespace formats = swivel::formats;

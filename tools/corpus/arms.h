@@ -13,7 +13,7 @@
 
 namespace swivel::corpus {
 
-// What a plain arm of any crowd is given; a crowd writes those that it has. In the world where it has parents.
+// Inputs of a plain arm of any crowd; a crowd writes those that it has. In the world where it has parents.
 struct Arm {
     std::array<float, 3> target = {0.5f, 0.75f, 1}, pole = {0.25f, -1, 0.5f};
     std::array<float, 2> lengths = {1, 0.75f};
@@ -36,5 +36,12 @@ void set_goals(const Recipe& recipe, Random& targets, Random& poles, Arm& arm);
 // limb_count arms of a group. frame: their goals are others in every frame, all else stays.
 std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count,
                                std::uint32_t frame);
+
+// Every other run of 64 limbs has hard numbers among its values.
+inline constexpr std::uint32_t kRunLimbs = 64;
+inline bool is_spoilt_run(std::uint32_t limb) { return limb / kRunLimbs % 2 == 0; }
+
+// component_count() floats for each limb of a group.
+std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t group, std::span<const Arm> arms);
 
 }  // namespace swivel::corpus

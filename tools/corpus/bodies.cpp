@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "tools/corpus/limb_values.h"
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {

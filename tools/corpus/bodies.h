@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tools/corpus/arms.h"
-#include "tools/corpus/bindings.h"
 
 namespace swivel::corpus {
 

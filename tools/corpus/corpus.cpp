@@ -10,7 +10,6 @@
 #include "tools/corpus/golden.h"
 #include "tools/corpus/hard_cases.h"
 #include "tools/corpus/interface.h"
-#include "tools/corpus/limb_values.h"
 
 namespace swivel::corpus {
 
@@ -60,7 +59,7 @@ std::vector<Arm> arms_of(const Recipe& recipe, std::uint32_t group, std::span<co
     spoil_arms(recipe, group, frame, arms);
     return arms;
 }
-// What they are made from.
+// The arms from which arms_of() makes those.
 std::vector<Arm> good_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count, std::uint32_t frame)
 {
     return recipe.part == Part::bodies ? body_arms(recipe, group, limb_count, frame)
@@ -121,7 +120,7 @@ void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, 
     }
 }
 
-// What the features bring must be all that the crowd has.
+// The rows that the features bring must be all that the crowd has.
 void check_rows(const Recipe& recipe, const Crowd& crowd)
 {
     const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {

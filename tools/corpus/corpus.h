@@ -90,7 +90,7 @@ std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_
     return hash;
 }
 
-// Of every crowd of a part, in the order of recipes_of().
+// The digest of every crowd of a part, in the order of recipes_of().
 template <class Solve>
 std::vector<std::uint64_t> digests_of(Part part, Solve&& solve, std::uint32_t limb_count = 0)
 {
@@ -99,7 +99,7 @@ std::vector<std::uint64_t> digests_of(Part part, Solve&& solve, std::uint32_t li
     return digests;
 }
 
-// Of a part: its crowds' digests folded.
+// The digest of a part: its crowds' digests folded.
 std::uint64_t fold(const std::vector<std::uint64_t>& digests);
 template <class Solve>
 std::uint64_t digest_of(Part part, Solve&& solve, std::uint32_t limb_count = 0)

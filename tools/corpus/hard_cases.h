@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "tools/corpus/arms.h"
@@ -22,5 +23,7 @@ Arm hard_case(std::uint32_t n);
 // Replaces values, one in `one_in`, by numbers at which formulas break.
 void spoil(Random& random, std::span<float> values, std::uint32_t one_in);
 void spoil(Random& random, std::span<double> values, std::uint32_t one_in);
+
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 }  // namespace swivel::corpus

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "tools/corpus/hard_cases.h"
-#include "tools/corpus/hard_poses.h"
 
 namespace swivel::corpus {
 
@@ -130,7 +129,7 @@ void Holding::set_ground(std::uint32_t n, std::uint32_t group, const Vector& roo
     put_vector(is_steep ? any : holder.normals[group], &normals_[group][3 * n]);
 }
 
-// Of four bodies one is told where its prop is, one how it is turned, one both. The fourth has it at hand.
+// One of four bodies is told where its prop is, one how it is turned, one both. The fourth has it at hand.
 void Holding::set_prop(std::uint32_t n, const Vector& root, double swing, Poses& poses)
 {
     Holder& holder = holders_[n];

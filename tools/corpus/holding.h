@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What bodies that stand on ground as it lies, hold something or look at something get beside other inputs: the ground
+// Further inputs of bodies that stand on ground as it lies, hold something or look at something: the ground
 // below each foot, grips, props, and what they look at, which goes to and fro on any side. Now and then ground is
 // steep, a prop is far away, one of them is missing, or a number is spoilt.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace swivel::corpus {
 
-// Of one body. Places are from the root, in the unit of its scale.
+// How one body looks. Places are from the root, in the unit of its scale.
 struct Looker {
     Random random;  // of all frames
     double scale;
@@ -38,7 +38,7 @@ private:
     std::array<LookRows, kLookCount> rows_;
 };
 
-// Of one body. Places are from the root, in the unit of its scale.
+// How one body stands and holds. Places are from the root, in the unit of its scale.
 struct Holder {
     Random random;  // of all frames
     double scale;

@@ -67,6 +67,41 @@ std::uint32_t own_flags(std::uint32_t library)
     return library == 0 ? flags : flags | 1u << 31;  // a bit that the corpus does not know
 }
 
+// How the arm frame lies in the skeletons of the corpus, a binding for each group: written out, so that no change of
+// how bindings are made moves a bit.
+struct Quaternion {
+    float x, y, z, w;
+};
+struct Binding {
+    Quaternion parent_from_arm, upper_from_arm, fore_from_arm, shoulder_rest, elbow_rest, wrist_rest;
+};
+constexpr Binding kBindings[kGroupCount] = {
+    {
+        {0.1f, 0.7f, 0.7f, 0.1f},
+        {0.5f, 0.5f, 0.5f, 0.5f},
+        {0.7f, 0.1f, 0.7f, 0.1f},
+        {0.0f, 0.0f, 0.6f, 0.8f},
+        {0.28f, 0.0f, 0.0f, 0.96f},
+        {-0.8f, 0.0f, 0.0f, 0.6f},
+    },
+    {
+        {-0.82f, 0.46f, 0.34f, 0.02f},
+        {0.5f, -0.5f, -0.5f, 0.5f},
+        {0.34f, -0.82f, -0.02f, 0.46f},
+        {0.36f, -0.48f, 0.0f, 0.8f},
+        {0.0f, 0.0f, 0.352f, 0.936f},
+        {0.0f, 0.28f, 0.0f, 0.96f},
+    },
+    {
+        {0x1.524aap-2f, -0x1.4ed5dcp-3f, -0x1.739d5cp-2f, 0x1.b62e38p-1f},
+        {0x1.07cac8p-1f, -0x1.10bc72p-1f, -0x1.110066p-1f, 0x1.a1d14ep-2f},
+        {0x1.d1836cp-2f, -0x1.84d942p-2f, -0x1.3c97f2p-1f, 0x1.087448p-1f},
+        {-0.2f, 0.4f, 0.4f, 0.8f},
+        {0.0f, 0.28f, 0.0f, 0.96f},
+        {0.1f, -0.5f, 0.5f, 0.7f},
+    },
+};
+
 void copy(const Quaternion& q, float (&to)[4]) { to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w; }
 
 swivel_binding library_binding(const Binding& own)
@@ -180,6 +215,13 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swi
     take(def);
 }
 
+// Values of all limbs of a group.
+void write_values(Crowd& crowd, swivel_field field, std::uint32_t group, std::span<const float> values)
+{
+    const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
+    check(swivel_write(crowd.get(), field, group, 0, count, {values.data(), values.size() / count * sizeof(float)}));
+}
+
 // The first group with a feature, which one has.
 std::uint32_t group_with(const Crowd& crowd, swivel_features feature)
 {
@@ -283,9 +325,7 @@ std::uint32_t component_count(const Recipe& recipe, Field field, std::uint32_t g
 
 void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values)
 {
-    const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
-    const swivel_in in{values.data(), values.size() / count * sizeof(float)};
-    check(swivel_write(crowd.get(), library_field(field), group, 0, count, in));
+    write_values(crowd, library_field(field), group, values);
 }
 
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group)
@@ -316,27 +356,18 @@ void write_shift_wishes(Crowd& crowd, std::span<const float> wishes)
 }
 void write_props(Crowd& crowd, const PropRows& props)
 {
-    const auto count = static_cast<std::uint32_t>(props.shares.size());
-    const auto write = [&](swivel_field field, const std::vector<float>& values) {
-        const swivel_in in{values.data(), values.size() / count * sizeof(float)};
-        check(swivel_write(crowd.get(), field, group_with(crowd, SWIVEL_PROP), 0, count, in));
-    };
-    if (!props.places.empty()) write(SWIVEL_PROP_PLACE, props.places);
-    write(SWIVEL_PROP_TURN, props.turns);
-    write(SWIVEL_PROP_SHARE, props.shares);
+    const std::uint32_t group = group_with(crowd, SWIVEL_PROP);
+    if (!props.places.empty()) write_values(crowd, SWIVEL_PROP_PLACE, group, props.places);
+    write_values(crowd, SWIVEL_PROP_TURN, group, props.turns);
+    write_values(crowd, SWIVEL_PROP_SHARE, group, props.shares);
 }
 
 void write_looks(Crowd& crowd, const std::array<LookRows, kLookCount>& looks)
 {
-    const std::uint32_t first = group_with(crowd, SWIVEL_LOOK);
-    for (std::uint32_t n = 0; n < kLookCount; ++n) {
-        const auto count = static_cast<std::uint32_t>(looks[n].weights.size());
-        const auto write = [&](swivel_field field, const std::vector<float>& values) {
-            const swivel_in in{values.data(), values.size() / count * sizeof(float)};
-            check(swivel_write(crowd.get(), field, first + n, 0, count, in));
-        };
-        if (!looks[n].targets.empty()) write(SWIVEL_LOOK_TARGET, looks[n].targets);
-        write(SWIVEL_LOOK_WEIGHT, looks[n].weights);
+    std::uint32_t group = group_with(crowd, SWIVEL_LOOK);
+    for (const LookRows& look : looks) {
+        if (!look.targets.empty()) write_values(crowd, SWIVEL_LOOK_TARGET, group, look.targets);
+        write_values(crowd, SWIVEL_LOOK_WEIGHT, group++, look.weights);
     }
 }
 
@@ -347,18 +378,18 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     Job job{.pose = &pose};
     if (!poses.mask.empty()) job.mask = poses.mask;
     std::array<Frame, kGroupCount + 2 + kLookCount> frames;
+    const auto give = [&](std::size_t group, swivel_field field, const std::vector<double>& values) {
+        if (!values.empty()) frames[group].in(field, body_values(poses, values));
+    };
     for (std::size_t g = 0; g < kGroupCount; ++g) {
-        if (!poses.far_targets[g].empty()) frames[g].in(SWIVEL_TARGET, body_values(poses, poses.far_targets[g]));
-        if (!poses.far_poles[g].empty()) frames[g].in(SWIVEL_POLE, body_values(poses, poses.far_poles[g]));
-        if (!poses.far_comings[g].empty()) frames[g].in(SWIVEL_COMING, body_values(poses, poses.far_comings[g]));
-        if (!poses.far_grounds[g].empty()) frames[g].in(SWIVEL_GROUND, body_values(poses, poses.far_grounds[g]));
+        give(g, SWIVEL_TARGET, poses.far_targets[g]);
+        give(g, SWIVEL_POLE, poses.far_poles[g]);
+        give(g, SWIVEL_COMING, poses.far_comings[g]);
+        give(g, SWIVEL_GROUND, poses.far_grounds[g]);
     }
-    const std::uint32_t prop = prop_group(poses.has_shift);
-    if (!poses.far_props.empty()) frames[prop].in(SWIVEL_PROP_PLACE, body_values(poses, poses.far_props));
+    give(prop_group(poses.has_shift), SWIVEL_PROP_PLACE, poses.far_props);
     const std::uint32_t look = look_group(poses.has_shift, poses.has_prop);
-    for (std::uint32_t n = 0; n < kLookCount; ++n)
-        if (!poses.far_look_targets[n].empty())
-            frames[look + n].in(SWIVEL_LOOK_TARGET, body_values(poses, poses.far_look_targets[n]));
+    for (std::uint32_t n = 0; n < kLookCount; ++n) give(look + n, SWIVEL_LOOK_TARGET, poses.far_look_targets[n]);
     const std::span<Frame> given = std::span(frames).first(look + (poses.has_looks ? kLookCount : 0));
     if (pose.root_is_double) job.frames = given;
     take(job);

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "swivel/swivel.hpp"
-#include "tools/corpus/bindings.h"
 #include "tools/corpus/poses.h"
 #include "tools/corpus/recipe.h"
 
@@ -19,7 +18,7 @@ namespace swivel::corpus {
 
 using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
-// An empty crowd of three groups with the bindings of bindings.h, or of bodies, of which each group has a limb.
+// An empty crowd of three groups with bindings of its own, or of bodies, of which each group has a limb.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
 // Calls take(definition) with what create_crowd() makes that crowd of: the library's own definition of a crowd, by a
 // pointer that says nothing, because interface.cpp alone names it here.
@@ -54,12 +53,12 @@ struct Support {
 };
 void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const Support& from, const Support& to);
 void write_shift_wishes(Crowd& crowd, std::span<const float> wishes);
-// What the caller says of props, body by body: places, unless they are empty, rotations and shares.
+// The caller's inputs of props, body by body: places, unless they are empty, rotations and shares.
 struct PropRows {
     std::vector<float> places, turns, shares;
 };
 void write_props(Crowd& crowd, const PropRows& props);
-// What bodies look at, body by body: places, unless they are empty, and weights.
+// The targets of looks, body by body: places, unless they are empty, and weights.
 struct LookRows {
     std::vector<float> targets, weights;
 };

@@ -3,7 +3,6 @@
 
 #include "tools/corpus/bodies.h"
 #include "tools/corpus/hard_cases.h"
-#include "tools/corpus/limb_values.h"
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/corpus/bindings.h"
 #include "tools/corpus/recipe.h"
 
 namespace swivel::corpus {
@@ -27,7 +26,7 @@ struct Poses {
     std::array<std::vector<double>, kGroupCount> far_targets, far_poles, far_comings,
         far_grounds;  // of each group, in place of rows
 
-    // Of bodies that stand.
+    // For bodies that stand:
     bool has_shift = false, has_prop = false;  // a group more each
     bool has_looks = false;                    // and two
     std::vector<float> times, support_positions, support_rotations;
@@ -37,7 +36,7 @@ struct Poses {
     std::vector<std::uint32_t> mask;  // of bodies that are solved; empty: all
 
     std::uint32_t rotation_floats() const;
-    // What a solve wrote, and what it did not write beside it.
+    // The arrays that a solve writes, with the numbers in them that it leaves as they are.
     std::array<const std::vector<float>*, 4> solved() const;
 };
 

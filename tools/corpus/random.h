@@ -37,7 +37,7 @@ struct Random {
     }
 };
 
-// What the numbers of a field are drawn for.
+// The purpose that the numbers of a field are drawn for.
 enum class Use : std::uint32_t { value = 0, spoil = 1 };
 
 // Each field of each group draws from a stream of its own. So its numbers stay the same whatever else a crowd is given.

@@ -59,7 +59,7 @@ enum class Field : std::uint16_t {
     skeleton = 0x8000, joint_rotation, joint_translation, joint_scale, bend, root_position, root_rotation, root_scale,
     motion
 };
-// What limbs and bodies are given. Random numbers of a field depend on its place here: further ones come last.
+// The inputs of limbs and bodies. Random numbers of a field depend on its place here: further ones come last.
 inline constexpr auto kDrawn = [] {
     using enum Field;
     return std::to_array({
@@ -86,13 +86,13 @@ inline constexpr std::uint32_t kFlags[] = {
 enum class Order : std::uint8_t {
     xyz = SWIVEL_XYZ, xzy = SWIVEL_XZY, yzx = SWIVEL_YZX, yxz = SWIVEL_YXZ, zxy = SWIVEL_ZXY, zyx = SWIVEL_ZYX
 };
-// What bodies' poses hold of a joint: a rotation, or all of it in a matrix.
+// The form in which bodies' poses hold a joint: a rotation, or all of it in a matrix.
 enum class Form : std::uint8_t {
     rotations = SWIVEL_ROTATIONS, rows = SWIVEL_MATRIX_ROWS, columns = SWIVEL_MATRIX_COLUMNS, columns3 = SWIVEL_MATRIX_COLUMNS3
 };
 // clang-format on
 
-// What else the poses have, and where results go.
+// Further parts of the poses, and where results go.
 enum PoseFeature : std::uint32_t {
     kTranslations = 1u << 0,  // joints have places of their own; always with matrices
     kScales = 1u << 1,        // and scales of their own; the same
@@ -109,13 +109,16 @@ enum PoseFeature : std::uint32_t {
     kLooks = 1u << 12,        // the trunk looks, and an eye on it
 };
 
-// What limbs hold.
+// The things that limbs hold.
 enum class Holds : std::uint8_t {
     nothing,
     hand,           // the last group's holds the first one's hand
     prop,           // the last two hold a prop, which is a group more
     prop_at_joint,  // the same, and it hangs on the trunk
 };
+
+inline constexpr std::uint32_t kGroupCount = 3;  // of limbs
+inline constexpr std::uint32_t kLookCount = 2;   // groups more: the trunk's look, and the eye's
 
 struct Recipe {
     Part part;

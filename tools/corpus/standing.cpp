@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "tools/corpus/hard_cases.h"
-#include "tools/corpus/hard_poses.h"
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {

@@ -37,7 +37,8 @@ public:
     // Brings a crowd and the poses to a frame. Frames come in order, from 0 on.
     void go_to(std::uint32_t frame, Crowd& crowd);
     Poses& poses() { return poses_; }
-    // What go_to() did to what the crowd carries, in order: a limb's reset, or other supports of a body.
+    // The changes that go_to() made to the state that the crowd carries, in order: a limb's reset, or other supports of
+    // a body.
     struct Carried {
         std::uint32_t group, body;
         std::optional<std::array<Support, 2>> supports;

@@ -68,7 +68,7 @@ inline Vector random_vector(Random& random, double size)
     const double x = random.signed_unit(), y = random.signed_unit(), z = random.signed_unit();
     return size * Vector{x, y, z};
 }
-// Of unit length, orthogonal to a unit axis.
+// A vector of unit length, orthogonal to a unit axis.
 inline Vector random_across(Random& random, const Vector& axis)
 {
     for (;;) {
@@ -85,7 +85,7 @@ inline Rotation random_unit_rotation(Random& random)
     }
 }
 
-// Of any length between these.
+// A rotation of any length between these.
 inline Rotation random_rotation(Random& random, double shortest, double longest)
 {
     const Rotation q = random_unit_rotation(random);

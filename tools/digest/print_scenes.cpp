@@ -159,7 +159,7 @@ Json json_of(const swivel_skeleton& skeleton)
             {"rotations", copied<float>(skeleton.rotations.data, 4 * count)}};
 }
 
-// What poses are given.
+// The arrays that poses are given.
 Json json_of(const Poses& poses, const std::vector<float>& weights)
 {
     Json made;
@@ -239,7 +239,7 @@ private:
         made_["body_count"] = def.body_count, made_["up"] = def.up;
     }
 
-    // Of this frame, in the corpus's crowd: goals, poses, and what is carried.
+    // Brings the corpus's crowd to this frame: goals, poses, and what is carried.
     Poses& go_to(std::uint32_t n, Json& made)
     {
         if (!standing_) {
@@ -325,7 +325,7 @@ private:
         return groups;
     }
 
-    // What calls beside solves answer about all limbs of a group, and in words about the first.
+    // The answers of calls beside solves about all limbs of a group, and in words about the first.
     Json answers(std::uint32_t group) const
     {
         const swivel_group_def& def = groups_[group];

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/crowd/ground.h"
 #include "tools/crowd/stands.h"
 #include "tools/feet/leg_motion.h"
 #include "tools/formats/contacts_csv.h"
@@ -42,5 +43,22 @@ std::vector<formats::ContactRow> rows_of(const LegMotion& motion, const Contacts
 // Throws InputError, naming file and line, for a limb that is none of the legs, and for a frame beyond the last.
 Contacts contacts_of_rows(std::span<const LegPath> legs, std::size_t frame_count,
                           std::span<const formats::ContactRow> rows, const std::filesystem::path& file);
+
+struct Floor {
+    Eigen::Vector3d up_w = Eigen::Vector3d::UnitY();
+    double level = 0;               // how high the toes stand over the world's origin, where no hill is
+    const Ground* hills = nullptr;  // not owned
+
+    // How high the hills are there; 0 without any.
+    double hill(const Eigen::Vector3d& place_w) const;
+    // Across the ground there, unit, and upwards.
+    Eigen::Vector3d normal_w(const Eigen::Vector3d& place_w) const;
+    // A toe's height over where it would stand.
+    double over(const Eigen::Vector3d& toe_w) const { return toe_w.dot(up_w) - level - hill(toe_w); }
+};
+
+// The floor of a clip without hills: the height that half of the frames of contact are not above. Some foot must be in
+// contact.
+double floor_level(const LegMotion& motion, const Contacts& contacts);
 
 }  // namespace swivel::tools

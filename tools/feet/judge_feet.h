@@ -4,7 +4,7 @@
 // where legs are.
 #pragma once
 
-#include "tools/feet/floor.h"
+#include "tools/feet/contacts.h"
 #include "tools/feet/place_feet.h"
 
 namespace swivel::tools {

@@ -19,7 +19,7 @@
 // Lengths of legs and heights are not linear, so it is solved some times, each time from where the last one ended.
 #pragma once
 
-#include "tools/feet/floor.h"
+#include "tools/feet/contacts.h"
 
 namespace swivel::tools {
 

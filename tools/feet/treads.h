@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "tools/feet/floor.h"
+#include "tools/feet/contacts.h"
 
 namespace swivel::tools {
 

@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -16,7 +17,7 @@
 
 namespace swivel::python {
 
-// What an array must hold: one value for each of limb_count limbs, of component_count numbers. Its shape is
+// The shape that an array must have: one value for each of limb_count limbs, of component_count numbers. Its shape is
 // (limb_count, component_count), or (limb_count,) for values of one number. Messages call it name, and limbs `each`.
 struct Values {
     std::string name;
@@ -61,10 +62,18 @@ inline void copy(const std::string& name, const pybind11::object& given, std::sp
     std::copy_n(static_cast<const char*>(in.values.data), numbers.size_bytes(),
                 reinterpret_cast<char*>(numbers.data()));
 }
+// One place or direction, in double.
+inline std::array<double, 3> vector_of(const std::string& name, const pybind11::object& given)
+{
+    const Input in = input({name, 1, 3}, given, pybind11::dtype::of<double>(), true);
+    std::array<double, 3> numbers;
+    std::copy_n(static_cast<const char*>(in.values.data), sizeof numbers, reinterpret_cast<char*>(numbers.data()));
+    return numbers;
+}
 // The length of what NumPy makes an array of.
 std::size_t length_of(const std::string& name, const pybind11::object& given);
 
-// What these are made of, for arrays of other shapes. They throw what input() and output() say; name is for messages.
+// The steps of input() and output(), for arrays of other shapes. They throw the same; name is for messages.
 using Shape = std::vector<pybind11::ssize_t>;
 Shape shape_of(const pybind11::array& array);
 std::string shape_text(const pybind11::array& array);  // "(3, 4)"

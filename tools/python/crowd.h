@@ -31,8 +31,8 @@ struct Limbs {
 };
 Limbs limbs_of(const HeldCrowd& held, std::int64_t group, std::int64_t first, std::optional<std::int64_t> count);
 
-// What an array of a field of these limbs must hold, and its numbers' type. Refuses fields that their group does not
-// have, in the library's words.
+// The shape that an array of a field of these limbs must have, and its numbers' type. Refuses fields that their group
+// does not have, in the library's words.
 Values values_of(const HeldCrowd& held, swivel_field field, const Limbs& limbs);
 pybind11::dtype type_of(swivel_field field);
 

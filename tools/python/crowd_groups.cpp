@@ -50,7 +50,8 @@ swivel_features features_of(std::int64_t features)
 
 bool is_a(const char* type, py::handle object) { return py::isinstance(object, package(type)); }
 
-// What a group says of itself beside its limbs; what is None stays. py::cast_error for what is no number.
+// Puts a group's options beside its limbs into the definition; an option that is None changes nothing. py::cast_error
+// for what is no number.
 void set_options(swivel_group_def& def, py::handle features, py::handle on_bad_input, py::handle shoulder_order,
                  py::handle wrist_order, py::handle region)
 {

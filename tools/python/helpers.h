@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What needs no crowd: values of limit fields, bindings, regions, the library itself, caches.
+// The parts of the module that need no crowd: values of limit fields, bindings, regions, the library itself, caches.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstring>
+#include <future>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "swivel/lecture.h"
+#include "tools/cache/cache.h"
+#include "tools/cache/fill.h"
+#include "tools/formats/error.h"
 #include "tools/python/arrays.h"
 #include "tools/python/crowd.h"
 #include "tools/python/helpers.h"
@@ -19,16 +26,13 @@ namespace swivel::python {
 
 namespace {
 
-// Of one arm, not of an array of limbs.
+// The place of one arm, not of an array of limbs.
 std::array<double, 3> array3(const char* name, const py::object& values)
 {
     const py::array given = py::array::ensure(values);
     if (given && (given.ndim() != 1 || given.shape(0) != 3))
         throw py::value_error(std::string(name) + ": expected shape (3,), got " + shape_text(given));
-    const Input in = input({name, 1, 3}, values, py::dtype::of<double>(), true);
-    std::array<double, 3> numbers;
-    std::memcpy(numbers.data(), in.values.data, sizeof numbers);  // of any alignment
-    return numbers;
+    return vector_of(name, values);
 }
 
 std::pair<std::vector<swivel_entity>, double> steps_of(const py::object& target, const py::object& pole, double upper,
@@ -120,6 +124,55 @@ void add_check(py::module_& module)
                "calling thread. The same seed gives the same arms everywhere.");
 }
 
+// Thrown to end a filling that Python interrupts.
+struct Stopped {};
+
+// Fills on a thread of its own, because Python looks at signals on its main thread alone, and chunks end on any.
+tools::FillReport fill_interruptibly(const std::filesystem::path& folder, tools::FillOptions options)
+{
+    std::atomic<bool> stops = false;
+    options.progress = [&](std::uint64_t) {
+        if (stops) throw Stopped();
+    };
+    std::future<tools::FillReport> filling =
+        std::async(std::launch::async, [&] { return tools::fill(tools::Cache(folder), options); });
+    for (;;) {
+        {
+            const py::gil_scoped_release released;
+            if (filling.wait_for(std::chrono::milliseconds(100)) == std::future_status::ready) break;
+        }
+        if (PyErr_CheckSignals() == 0) continue;
+        stops = true;
+        {
+            const py::gil_scoped_release released;
+            filling.wait();
+        }
+        throw py::error_already_set();
+    }
+    return filling.get();
+}
+
+py::dict fill_cache(const std::filesystem::path& folder, std::uint32_t index, std::uint32_t count, unsigned threads)
+{
+    if (index >= count) throw py::value_error("index: it must be below count");
+    tools::FillOptions options;
+    options.shard = {index, count};
+    options.threads = threads;
+    tools::FillReport report;
+    try {
+        report = fill_interruptibly(folder, options);
+    } catch (const formats::InputError& error) {  // its text names a file, which need not be UTF-8
+        const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(error.what()));
+        if (text) PyErr_SetObject(PyExc_RuntimeError, text.ptr());
+        throw py::error_already_set();
+    }
+    py::dict filled;
+    filled["written"] = report.written;
+    filled["left"] = report.left;
+    filled["limbs"] = report.limbs;
+    return filled;
+}
+
 }  // namespace
 
 void add_steps(py::module_& module)
@@ -166,6 +219,17 @@ void add_library(py::module_& module)
                "Quaternions x, y, z, w of packed results: (4,) or (n, 4) float32 from words of shape (3,) or (n, 3)\n"
                "uint16, as Crowd.pack() gives them. Half floats are NumPy's: words.view(np.float16).");
     add_check(module);
+}
+
+void add_cache(py::module_& module)
+{
+    module.def(
+        "fill_cache", &fill_cache, py::arg("folder"), py::arg("index") = 0, py::arg("count") = 1, py::kw_only(),
+        py::arg("threads") = 0,
+        "Solves the chunks of part index, from 0 on, of count parts of a cache that `swivel store` made.\n\n"
+        "Chunks that are done are left. threads: 0 for all. Processes may fill different parts, or the same one, at\n"
+        "once; each chunk appears whole. Gives the chunks \"written\" and \"left\", and the \"limbs\" solved.\n"
+        "RuntimeError names a file that is missing or damaged, or cannot be written.");
 }
 
 }  // namespace swivel::python

@@ -30,7 +30,7 @@ swivel_euler_order order_of(std::int64_t number);
 swivel_on_bad_input on_bad_input_of(std::int64_t number);
 swivel_pose_space pose_space_of(std::int64_t number);
 
-// What the package swivel has of this name, such as a class that is written in Python.
+// The object of this name in the package swivel, such as a class that is written in Python.
 pybind11::object package(const char* name);
 // A set of features as Python's Feature.
 pybind11::object feature_set(swivel_features features);

@@ -1,16 +1,109 @@
 // SPDX-License-Identifier: MIT
 //
-// What is wrong in a clip with its body, whatever that does: left and right exchanged, a knee that bends the wrong way.
+// Faults of the body in a clip, whatever the body does: left and right exchanged, a knee that bends the wrong way.
 // Knows clips and the parts of bodies.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tools/rig/body_frames.h"
+#include "tools/rig/body_parts.h"
 
 namespace swivel::tools {
+
+inline constexpr double kMostly = 0.25;  // of the frames
+
+// The frames of a clip in which something is so.
+struct SomeFrames {
+    std::size_t all;  // frames of the clip
+    std::size_t count = 0, first = 0;
+
+    void add(std::size_t frame)
+    {
+        if (count++ == 0) first = frame;
+    }
+    bool are_over(double share) const { return static_cast<double>(count) > share * static_cast<double>(all); }
+    // "in 20 of 120 frames, from frame 100"
+    std::string words() const;
+};
+
+// Where a clip has the joints of a body that doubts are about, in all of its frames.
+class BodyFrames {
+public:
+    // Where the joints are in one frame: of limbs, then toes and hips.
+    using Places = std::vector<Eigen::Vector3d>;
+
+    BodyFrames(const formats::Clip& clip, const std::vector<BodyPart>& parts);
+
+    const formats::Clip& clip() const { return clip_; }
+    const KnownLimbs& limbs() const { return limbs_; }
+    const Eigen::Vector3d& up_w() const { return up_w_; }  // the axis of the world, by the rest pose
+    int hips() const { return hips_; }                     // -1: unknown
+    std::size_t count() const { return frames_w_.size(); }
+    const Places& rest_w() const { return rest_w_; }
+    const std::vector<Places>& frames_w() const { return frames_w_; }
+
+    // A pair of limbs: 0 for arms, 2 for legs. A side: 0 for the left one.
+    bool has(std::size_t pair) const { return limbs_[pair] && limbs_[pair + 1]; }
+    bool has_toes(std::size_t side) const { return limbs_[2 + side] && toes_[side] >= 0; }
+    const Eigen::Vector3d& place(const Places& places_w, int joint) const
+    {
+        return places_w[slots_[static_cast<std::size_t>(joint)]];
+    }
+    Eigen::Vector3d bone_w(const Places& places_w, std::size_t limb, std::size_t bone) const
+    {
+        return place(places_w, (*limbs_[limb])[bone + 1]) - place(places_w, (*limbs_[limb])[bone]);
+    }
+    Eigen::Vector3d toe_way_w(const Places& places_w, std::size_t side) const
+    {
+        return place(places_w, toes_[side]) - place(places_w, (*limbs_[2 + side])[2]);
+    }
+    // The toe, or else the ankle.
+    const Eigen::Vector3d& low_w(const Places& places_w, std::size_t side) const
+    {
+        return place(places_w, has_toes(side) ? toes_[side] : (*limbs_[2 + side])[2]);
+    }
+    Eigen::Vector3d to_left_w(const Places& places_w, std::size_t pair) const
+    {
+        return place(places_w, (*limbs_[pair])[0]) - place(places_w, (*limbs_[pair + 1])[0]);
+    }
+    // The direction to the left of a pair of limbs, and the one that it faces, unit. In a figure that is mirrored as a
+    // whole, the limbs called left are on the right of where it faces.
+    Eigen::Vector3d left_w(const Places& places_w, std::size_t pair) const
+    {
+        return (is_mirrored_ ? -1 : 1) * to_left_w(places_w, pair).normalized();
+    }
+    Eigen::Vector3d front_w(const Places& places_w, std::size_t pair) const
+    {
+        return left_w(places_w, pair).cross(up_w_).normalized();
+    }
+    double leg_length() const;  // at rest; a leg must be known
+
+    // The frames for which this is so.
+    template <class IsSo>
+    SomeFrames where(const IsSo& is_so) const
+    {
+        SomeFrames frames{count()};
+        for (std::size_t frame = 0; frame < count(); ++frame)
+            if (is_so(frames_w_[frame])) frames.add(frame);
+        return frames;
+    }
+
+private:
+    Places places_of(const std::vector<formats::JointPose>& pose_w) const;
+
+    const formats::Clip& clip_;
+    KnownLimbs limbs_;
+    std::array<int, 2> toes_{-1, -1};
+    Eigen::Vector3d up_w_;
+    int hips_ = -1;
+    bool is_mirrored_ = false;
+    std::vector<std::size_t> seen_, slots_;  // joints, and where each is among them
+    Places rest_w_;
+    std::vector<Places> frames_w_;
+};
 
 // A line each for people. The rules are how people are built.
 // - Bones of one side are a tenth longer than the other's.

@@ -31,7 +31,7 @@ std::vector<int> between(const Clip& clip, int top, int joint)
     return joints;
 }
 
-// What heads are called; the last two by Second Life and XNALara.
+// Names of heads; the last two are those of Second Life and XNALara.
 constexpr std::array<std::string_view, 4> kHeads = {"head", "頭", "mhead", "headneckupper"};
 constexpr std::string_view kRigifyHead = "spine006";  // another rig may have a seventh joint in its spine
 

@@ -15,7 +15,7 @@ namespace {
 
 using formats::Side;
 
-// What exporters put before every joint's name, some with a number behind.
+// Prefixes that exporters put before every joint's name, some with a number behind.
 constexpr std::array<std::string_view, 7> kPrefixes = {"def",   "mixamorig", "bip", "character", "quickrigcharacter",
                                                        "joint", "jnt"};
 

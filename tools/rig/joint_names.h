@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a joint's name says, whoever exported it. Knows no skeleton.
+// Reads joints' names, whoever exported them. Knows no skeleton.
 #pragma once
 
 #include <optional>

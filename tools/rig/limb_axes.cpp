@@ -78,7 +78,7 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
     for (const Vector3d& bone : upper) opening = std::max(opening, degrees_between(bone, range.axis));
     range.opening_deg = tenth_above(opening);
     range.flexion = {tenth_below(range.flexion.least), tenth_above(range.flexion.most)};
-    // What never moves tells no limits. All is rounded to tenths.
+    // A limb that never moves tells no limits. All is rounded to tenths.
     constexpr double kTenth = 0.100001;
     if (range.opening_deg <= kTenth && range.flexion.most - range.flexion.least <= kTenth) return std::nullopt;
     return range;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What one writes a limb's limits by: which way its own frame's axes point, and where a clip takes its bones in that
-// frame. For reports alone: angles are taken by arc functions, which nothing that is solved may. Knows clips and limbs.
+// The axes and ranges by which one writes a limb's limits: which way its own frame's axes point, and where a clip takes
+// its bones in that frame. For reports alone: angles are taken by arc functions, which nothing that is solved may.
+// Knows clips and limbs.
 #pragma once
 
 #include <optional>

@@ -38,7 +38,7 @@ struct Limb {
     int lower() const { return joints[1]; }
     int end() const { return joints[2]; }
 
-    // What is in the joints' own axes, in those that the limb is solved in; and back.
+    // Brings a direction or a turn from the joints' own axes to those that the limb is solved in, and back.
     template <class Geometry>
     Geometry as_solved(const Geometry& of) const
     {
@@ -59,8 +59,8 @@ struct GivenBend {
     std::string key, file;      // "limb.left_arm.bend"; for people
 };
 
-// What bind() takes: the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are the
-// world's). bend: in the upper joint's axes.
+// The argument of bind(): the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are
+// the world's). bend: in the upper joint's axes.
 swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const Eigen::Vector3d& bend);
 
 // The limb of these joints, bound. joints: as is_chain() says. At, above and between them it looks at the rest pose and

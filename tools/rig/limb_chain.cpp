@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 using formats::Clip;
 using formats::JointPose;
 
-// What a joint is against its parent: `bare` before its own scale, `whole` after it.
+// A joint relative to its parent: `bare` before its own scale, `whole` after it.
 struct Step {
     JointPose bare, whole;
 };

@@ -36,7 +36,7 @@ struct NamedLimb {
     Source source;
 };
 
-// What an option says: "SHOULDER,ELBOW,WRIST", with "left:" or "right:" in front or without. Any number of joints is
+// Reads an option's text: "SHOULDER,ELBOW,WRIST", with "left:" or "right:" in front or without. Any number of joints is
 // taken here; choose_joints() wants three.
 NamedLimb limb_of_option(std::string_view text, std::string_view option);
 

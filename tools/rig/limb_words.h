@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the parts of an arm and of a leg are called in reports, messages and options.
+// Names of the parts of an arm and of a leg in reports, messages and options.
 #pragma once
 
 #include <string>

@@ -121,7 +121,7 @@ void keep_apart(const Clip& clip, const std::filesystem::path& file, FigureJoint
         }
 }
 
-// What to say of a limb that no name speaks of.
+// The message about a limb that no name speaks of.
 FoundJoints explained(const Clip& clip, FoundJoints found)
 {
     if (found.joints || !found.problem.empty()) return found;

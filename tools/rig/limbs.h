@@ -26,10 +26,10 @@ struct LimbFound {
 // In the order of formats::kLimbNames.
 using FigureJoints = std::array<LimbFound, 4>;
 
-// What the user names, else what joints_by_file() finds. A joint that is named for one limb is no other's.
-// file: of the clip, for messages; clip: its frames are not needed; choice: must outlive the result.
-// Throws InputError with the option, or the file and line, for joints that the user named wrongly. Wrong are an unknown
-// or ambiguous joint, joints that are not above each other, two limbs of a kind on one side, and a joint in two limbs.
+// Takes the joints that the user names, else those that joints_by_file() finds. A joint that is named for one limb is
+// no other's. file: of the clip, for messages; clip: its frames are not needed; choice: must outlive the result. Throws
+// InputError with the option, or the file and line, for joints that the user named wrongly. Wrong are an unknown or
+// ambiguous joint, joints that are not above each other, two limbs of a kind on one side, and a joint in two limbs.
 FigureJoints choose_joints(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
 // The joints of the limbs that are to be solved, as far as they are known.
@@ -38,7 +38,7 @@ std::vector<int> joints_of(const FigureJoints& figure);
 // All that are known, chosen or not.
 KnownLimbs known_limbs(const FigureJoints& figure);
 
-// What became of one limb: bound, or why not.
+// The result for one limb: bound, or why not.
 struct LimbFinding {
     formats::LimbName name;
     std::optional<Limb> limb;

@@ -23,7 +23,7 @@ constexpr std::array<Finger, 7> kFingers = {{{"thumb", "thumb"},
                                              {"pinky", "pinky"},
                                              {"little", "pinky"}}};
 
-// What may stand before a finger's word: in Mixamo, Rigify and Second Life.
+// Words that may stand before a finger's: in Mixamo, Rigify and Second Life.
 constexpr std::array<std::string_view, 4> kBefore = {"", "hand", "f", "mhand"};
 
 // "index 1" for "findex01", a finger's name without its side; empty for anything else.

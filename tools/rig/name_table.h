@@ -26,7 +26,7 @@ struct NameRow {
 // The first row that fits counts. So names of upper arms come before those that may be a clavicle's.
 std::span<const NameRow> name_table();
 
-// What * may stand for.
+// The words that * may stand for.
 std::array<std::string_view, 3> side_words(formats::Side side);
 
 // The side that a joint's name speaks of: with which it is a name of the table, or else by a word of its own. Otherwise

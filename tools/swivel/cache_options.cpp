@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "tools/swivel/cache_options.h"
-
+//
+// The command line of caches: store, fill, check, replay.
 #include <memory>
 
 #include "tools/swivel/commands.h"
@@ -69,11 +69,10 @@ void add_replay(CLI::App& app)
     command->add_option("--characters", options->characters, "Characters C to D - 1, in the same way")
         ->type_name("C:D")
         ->default_str("all");
-    takes(command->add_option("-o,--out", options->out,
-                              "Write the poses to this CSV file, - for standard output. The table is that of swivel "
-                              "solve without its columns of clavicles; docs/cache.md says more. Without it the poses "
-                              "are proved alone"),
-          file_name());
+    add_file_option(*command, "-o,--out", options->out,
+                    "Write the poses to this CSV file, - for standard output. The table is that of swivel "
+                    "solve without its columns of clavicles; docs/cache.md says more. Without it the poses "
+                    "are proved alone");
     add_threads(*command, options->threads);
     add_quiet(*command, options->quiet, kQuiet);
     command->callback([options] { run_replay(*options); });

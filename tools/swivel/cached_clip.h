@@ -16,7 +16,7 @@
 
 namespace swivel::tools {
 
-// What the page and the cache say of the clip.
+// The clip's names on the page and in the cache.
 struct ClipNames {
     std::string title;  // the motion's file
     std::string clip;   // the animation in it; may be empty
@@ -29,11 +29,11 @@ std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const
 CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::span<const Limb> limbs,
                         const CrowdPlan& plan, const ClipMotion& motion);
 
-// What the page draws a figure's meshes from.
+// The data from which the page draws a figure's meshes.
 struct PageSkin {
     std::string glb;         // as formats::figure_glb() makes it
     std::vector<int> nodes;  // of each joint that is drawn, by the file's own number
-    // Of each frame and each such joint: its rotation in the world, x, y, z, w, and its scale, below 0 in a mirror.
+    // For each frame and each such joint: its rotation in the world, x, y, z, w, and its scale, below 0 in a mirror.
     std::vector<float> turns;
     // The necks' joints and the head's, among those that are drawn, and where the face is in the last one's axes.
     // Empty: no head is drawn.
@@ -41,7 +41,7 @@ struct PageSkin {
     std::array<double, 3> face{0, 0, 1};
 };
 
-// What a file's meshes are drawn from, for the clip that the job performs; nothing for a file without meshes.
+// The skin of a file's meshes, for the clip that the job performs; nothing for a file without meshes.
 std::optional<PageSkin> page_skin(const MotionFile& file, const CrowdJob& job);
 
 }  // namespace swivel::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "tools/swivel/command_line.h"
-
+//
+// The command line: what each subcommand takes, and the run of one.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,6 @@
 #include "tools/cli/command_help.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/streams.h"
-#include "tools/swivel/cache_options.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/shared_options.h"
 
@@ -46,18 +45,14 @@ void add_solve(CLI::App& app)
         app.add_subcommand("solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it");
     auto options = std::make_shared<SolveOptions>();
     add_crowd_of_clip(*command, *options);
-    takes(
-        command->add_option("--export-targets", options->export_targets,
-                            "Write the clip's wrists and hands, or the goals that are given, as a table to edit and to "
-                            "give back by --targets"),
-        file_name());
-    takes(command->add_option(
-              "-o,--out", options->out,
-              "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A .bvh "
-              "holds one character, a glTF file up to 200; all else of the asset is kept. - is "
-              "standard output, as CSV, and the report then goes to standard error. Without it there "
-              "are statistics only"),
-          file_name());
+    add_file_option(*command, "--export-targets", options->export_targets,
+                    "Write the clip's wrists and hands, or the goals that are given, as a table to edit and to "
+                    "give back by --targets");
+    add_file_option(*command, "-o,--out", options->out,
+                    "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A .bvh "
+                    "holds one character, a glTF file up to 200; all else of the asset is kept. - is "
+                    "standard output, as CSV, and the report then goes to standard error. Without it there "
+                    "are statistics only");
     add_view(*command, options->view);
     add_frames(*command, options->frames);
     add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
@@ -81,10 +76,9 @@ void add_view_command(CLI::App& app)
         "view", "Write a page that shows the crowd of a clip or a cache, solves it live and lets you drag its limbs");
     auto options = std::make_shared<SolveOptions>();
     add_crowd_of_clip(*command, *options)->required(false);
-    takes(command->add_option("-o,--out", options->view,
-                              "The page, to open in a browser; it needs no network and no other file. Without it it is "
-                              "named as FILE, with .html, in this folder. - is standard output"),
-          file_name());
+    add_file_option(*command, "-o,--out", options->view,
+                    "The page, to open in a browser; it needs no network and no other file. Without it it is "
+                    "named as FILE, with .html, in this folder. - is standard output");
     add_frames(*command, options->frames);
     add_quiet(*command, options->quiet, "Print errors and nothing else");
     command->footer(
@@ -98,25 +92,21 @@ void add_feet(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "feet", "Make the feet of clips stand: find when they are on the ground, and remove their skate");
     auto options = std::make_shared<FeetOptions>();
-    takes(command->add_option("FILE", options->files,
-                              "Motion files: BVH or glTF (.glb, .gltf, .vrm, .vrma), as their first bytes say. - is "
-                              "standard input"),
-          file_name())
+    add_file_option(*command, "FILE", options->files,
+                    "Motion files: BVH or glTF (.glb, .gltf, .vrm, .vrma), as their first bytes say. - is "
+                    "standard input")
         ->required()
         ->option_text("...");
-    takes(command->add_option("-o,--out", options->out,
-                              "Write the clip with its new legs and its body's new way, in its own format; all else of "
-                              "it is kept. Of several FILEs, or if it is one already, a folder, where each keeps its "
-                              "name. Without it there is a report only"),
-          file_name());
-    takes(command->add_option("--contacts", options->contacts,
-                              "When feet are on the ground, instead of finding it: a CSV file with the columns "
-                              "frame,limb,contact. limb is left_leg or right_leg, contact is on or off from that frame "
-                              "on"),
-          file_name());
-    takes(command->add_option("--export-contacts", options->export_contacts,
-                              "Write the contacts that count as such a table, to edit and to give back"),
-          file_name());
+    add_file_option(*command, "-o,--out", options->out,
+                    "Write the clip with its new legs and its body's new way, in its own format; all else of "
+                    "it is kept. Of several FILEs, or if it is one already, a folder, where each keeps its "
+                    "name. Without it there is a report only");
+    add_file_option(*command, "--contacts", options->contacts,
+                    "When feet are on the ground, instead of finding it: a CSV file with the columns "
+                    "frame,limb,contact. limb is left_leg or right_leg, contact is on or off from that frame "
+                    "on");
+    add_file_option(*command, "--export-contacts", options->export_contacts,
+                    "Write the contacts that count as such a table, to edit and to give back");
     takes(command
               ->add_option("--speed", options->speed,
                            "A foot is on the ground while its toe is slower than this many leg lengths a second, "
@@ -128,10 +118,9 @@ void add_feet(CLI::App& app)
                            "And while it is lower than this many leg lengths over its floor, 0.001 to 10")
               ->capture_default_str(),
           number(0.001, 10));
-    takes(command->add_option("--ground", options->ground,
-                              "Hills to put the clip on: a picture of heights, a PNG of 8 or 16 bits. Its middle is at "
-                              "the origin, and its upper edge is behind"),
-          file_name());
+    add_file_option(*command, "--ground", options->ground,
+                    "Hills to put the clip on: a picture of heights, a PNG of 8 or 16 bits. Its middle is at "
+                    "the origin, and its upper edge is behind");
     takes(command->add_option("--ground-size", options->ground_size,
                               "How wide the picture is, how high its white, and how deep it is, X,Y,Z, in the "
                               "clip's unit"),
@@ -152,7 +141,7 @@ void add_retarget(CLI::App& app)
         "retarget", "Put a clip's motion on another skeleton: joints turn alike, hands and feet reach their places");
     auto options = std::make_shared<RetargetOptions>();
     const auto add_input = [&](const char* name, std::string& file, const char* meaning) {
-        takes(command->add_option(name, file, meaning), file_name())->required()->option_text(" ");
+        add_file_option(*command, name, file, meaning)->required()->option_text(" ");
     };
     add_input("SOURCE", options->source, "Motion file: BVH or glTF. - is standard input");
     add_input("TARGET", options->target,
@@ -168,22 +157,19 @@ void add_retarget(CLI::App& app)
     add_of_body("--up", "AXIS", options->ups,
                 "The axis that is up, x, y, z, -x, -y or -z, with source: or target: in front. The rest pose is then a "
                 "frame that stands along it");
-    takes(command->add_option("-o,--out", options->out,
-                              "TARGET with the motion, in its own format: .bvh, or .glb, .gltf and .vrm. The motion "
-                              "replaces that of a BVH file and the first animation of a glTF file, and all else is "
-                              "kept. Without it there is the report alone"),
-          file_name());
+    add_file_option(*command, "-o,--out", options->out,
+                    "TARGET with the motion, in its own format: .bvh, or .glb, .gltf and .vrm. The motion "
+                    "replaces that of a BVH file and the first animation of a glTF file, and all else is "
+                    "kept. Without it there is the report alone");
     add_named_limbs(*command, options->arms, options->legs,
                     "Before that, source: or target: says whose it is, as in source:left:#16,#17,#18");
     add_of_body("--head", "JOINT", options->heads,
                 "Joint that is the head, where its name does not tell, with source: or target: in front");
-    takes(command->add_option("--map", options->map,
-                              "Table of the joints that stand for one another, with the columns part,source,target. "
-                              "Without it they are found by their names. - is standard input"),
-          file_name());
-    takes(command->add_option("--export-map", options->export_map,
-                              "Write that table as it was found, to edit and to give back by --map"),
-          file_name());
+    add_file_option(*command, "--map", options->map,
+                    "Table of the joints that stand for one another, with the columns part,source,target. "
+                    "Without it they are found by their names. - is standard input");
+    add_file_option(*command, "--export-map", options->export_map,
+                    "Write that table as it was found, to edit and to give back by --map");
     command->add_flag("--force", options->force,
                       "Write a motion that is judged to be garbage, too. Without it such a motion is not written, and "
                       "the command fails");

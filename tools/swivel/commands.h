@@ -49,9 +49,6 @@ void run_solve(const SolveOptions& options);
 // about_clip: the first option given that a cache has no use for; empty: none is given.
 void run_view(SolveOptions options, const std::string& about_clip);
 
-// The same of a cache's crowd: its first characters, or all of them.
-void view_cache(const SolveOptions& options, const std::string& about_clip);
-
 struct RetargetOptions {
     std::string source, target, out;
     std::string map, export_map;  // tables of pairs
@@ -127,5 +124,10 @@ struct InfoOptions {
     bool json = false;
 };
 void run_info(const InfoOptions& options);
+
+// The whole command as a function.
+// Runs what the words say, argv[0] being the command's own name. Returns the exit code: 0 done, 1 failed, 2 bad usage,
+// 128 and its number for a signal that ended the run. What went wrong is one line on stderr.
+int run_swivel(int argc, const char* const* argv);
 
 }  // namespace swivel::tools

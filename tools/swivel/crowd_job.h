@@ -23,7 +23,7 @@ struct FurtherMotion {
     std::string words;  // for people
 };
 
-// What the options and the crowd file come to.
+// The job that the options and the crowd file describe.
 struct CrowdJob {
     std::optional<formats::CrowdFile> crowd;
     std::vector<Limb> limbs;

@@ -14,7 +14,7 @@
 #include "tools/cli/command_error.h"
 #include "tools/cli/streams.h"
 #include "tools/formats/partial.h"
-#include "tools/swivel/command_line.h"
+#include "tools/swivel/commands.h"
 
 namespace swivel::tools {
 

@@ -42,13 +42,14 @@ public:
     const formats::Clip& clip() const;
     // The files that it refers to, such as a glTF file's buffers and images.
     std::span<const std::filesystem::path> files_beside() const;
-    // What a viewer draws the figure from, as formats::figure_glb() makes it; empty where the file has no mesh.
+    // The GLB from which a viewer draws the figure, as formats::figure_glb() makes it; empty where the file has no
+    // mesh.
     std::string figure_glb() const;
-    // What the clip is, for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
+    // Describes the clip for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
     // False for a glTF file without an animation: the clip is its rest pose.
     bool has_motion() const;
-    // What the user should know of how it was read, a line each; mostly nothing.
+    // Notes for the user on how the file was read, a line each; mostly none.
     std::vector<std::string> notes() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion. what: the file's own name in the
     // message; others: what else is written.

@@ -18,8 +18,8 @@ inline constexpr std::uint32_t kMostInFile = 200;  // characters
 
 class MotionKeys {
 public:
-    // Of the limbs' joints and the look's, and with new frames of all joints that move in the clip. The clip must
-    // outlive it.
+    // Keeps keys of the limbs' joints and the look's, and with new frames of all joints that move in the clip. The clip
+    // must outlive it.
     MotionKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan, bool has_new_frames);
 
     // Throws, before any work is done, for what write() could not hold: joints that cannot have keys; with new frames

@@ -163,7 +163,7 @@ private:
     formats::PosesCsv csv_;
 };
 
-// What of [whole.begin, whole.end) is in the piece of that many from first on, counted from first.
+// The part of [whole.begin, whole.end) that is in the piece of that many from first on, counted from first.
 Range within(Range whole, std::uint32_t first, std::uint32_t count)
 {
     return {std::max(whole.begin, first) - first, std::min(whole.end, first + count) - first};

@@ -27,21 +27,21 @@
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_file.h"
+#include "tools/swivel/report.h"
 #include "tools/swivel/solve_files.h"
-#include "tools/swivel/solve_report.h"
 
 namespace swivel::tools {
 
 namespace {
 
-// What --arm, --leg, --head, --rest and --up say of one body.
+// The parts of --arm, --leg, --head, --rest and --up that are about one body.
 struct BodyChoice {
     LimbChoice limbs;
     std::optional<NamedJoint> head;
     RestChoice rest;
 };
 
-// What the option says behind "source:" or "target:", if it is about this side.
+// The option's text behind "source:" or "target:", if it is about this side.
 std::optional<std::string_view> about(BodySide side, const char* option, std::string_view text)
 {
     for (const BodySide each : {BodySide::source, BodySide::target}) {

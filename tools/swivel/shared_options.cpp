@@ -19,10 +19,9 @@ CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meanin
 
 CLI::Option* add_file(CLI::App& command, std::string& file, const std::string& meaning)
 {
-    return takes(command.add_option(
-                     "FILE", file,
-                     meaning + ": BVH or glTF (.glb, .gltf, .vrm, .vrma), as its first bytes say. - is standard input"),
-                 file_name())
+    return add_file_option(
+               command, "FILE", file,
+               meaning + ": BVH or glTF (.glb, .gltf, .vrm, .vrma), as its first bytes say. - is standard input")
         ->required()
         ->option_text(" ");
 }
@@ -79,10 +78,9 @@ void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vec
 
 void add_view(CLI::App& command, std::string& view)
 {
-    takes(command.add_option("--view", view,
-                             "Also write a page that shows the crowd in a browser and solves it live: swivel help "
-                             "view. - is standard output"),
-          file_name());
+    add_file_option(command, "--view", view,
+                    "Also write a page that shows the crowd in a browser and solves it live: swivel help "
+                    "view. - is standard output");
 }
 
 void add_frames(CLI::App& command, std::uint32_t& frames)
@@ -109,11 +107,10 @@ CLI::Option* add_crowd_of_clip(CLI::App& command, SolveOptions& options)
                              "In frames between a limb's rows, hold the last row, or go on to the next in a linear "
                              "way. Without it the limb follows the clip there"),
           one_of({"hold", "linear"}));
-    takes(command.add_option("--crowd", options.crowd,
-                             "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, "
-                             "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
-                             "it. - is standard input"),
-          file_name());
+    add_file_option(command, "--crowd", options.crowd,
+                    "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, "
+                    "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
+                    "it. - is standard input");
     add_kinds(command, options.kinds,
               "Which limbs to solve: arms, legs or all. Each is named by --arm or --leg, or found by the names in use. "
               "Without it those named alone, or else the arms");

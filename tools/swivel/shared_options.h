@@ -32,6 +32,12 @@ CLI::Option* add_threads(CLI::App& command, unsigned& threads,
                          const char* meaning = "Threads at most, up to 1024; 0 for all");
 CLI::Option* add_json(CLI::App& command, bool& json);
 CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meaning = "Show no progress");
+// An option that names a file, or some.
+template <class Files>
+CLI::Option* add_file_option(CLI::App& command, const char* name, Files& files, const std::string& meaning)
+{
+    return takes(command.add_option(name, files, meaning), file_name());
+}
 // The positional FILE.
 CLI::Option* add_file(CLI::App& command, std::string& file, const std::string& meaning);
 CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning);
@@ -48,5 +54,8 @@ void add_view(CLI::App& command, std::string& view);
 void add_frames(CLI::App& command, std::uint32_t& frames);
 // The clip, its crowd and what is asked of it. Returns the positional FILE, which is required.
 CLI::Option* add_crowd_of_clip(CLI::App& command, SolveOptions& options);
+
+// store, fill, check and replay.
+void add_cache_commands(CLI::App& app);
 
 }  // namespace swivel::tools

@@ -33,7 +33,7 @@ std::string key_of(const std::filesystem::path& path)
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored).string();
 }
 
-// Of what is read by that name: standard input may be a file, as with `< FILE`.
+// The path of the file that is read by that name: standard input may be a file, as with `< FILE`.
 std::string read_key(const std::string& name)
 {
     struct stat input;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What `swivel solve` reads and writes, as its options name it: formats, standard streams, and files that are not to be
-// lost.
+// The files that `swivel solve` reads and writes, as its options name them: formats, standard streams, and files that
+// are not to be lost.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace swivel::tools {
 
 enum class OutKind { none, motion, csv };
 
-// What the suffix says; standard output is CSV. Throws CommandError (bad usage) for a format that is not written, and
-// for one that does not hold so many characters.
+// The format that the suffix says; standard output is CSV. Throws CommandError (bad usage) for a format that is not
+// written, and for one that does not hold so many characters.
 OutKind out_kind(const std::string& out, std::uint32_t characters);
 
 // Standard input can be read once. targets: "clip" or a file; throws CommandError.
 void require_one_reader(const SolveOptions& options, const std::string& targets);
 
-// What a run reads, and what to call it in a message.
+// A file that a run reads, and its name in a message.
 struct ReadFile {
     std::string name;
     const char* what;

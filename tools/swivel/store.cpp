@@ -20,7 +20,6 @@
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_files.h"
-#include "tools/swivel/solve_report.h"
 
 namespace swivel::tools {
 
@@ -74,7 +73,7 @@ void write_characters(CacheMaker& maker, const CrowdJob& job, bool quiet)
     }
 }
 
-// What the formula of goals does not give.
+// The goals that the formula does not give.
 void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFile& file, CrowdJob& job)
 {
     const CachedCrowd& crowd = maker.crowd();
@@ -108,7 +107,7 @@ ChunkShape chunk_of(const std::string& text)
     return {static_cast<std::uint32_t>(*frames), static_cast<std::uint32_t>(*characters)};
 }
 
-// What all chunks of some arrays take, in MB.
+// The size of all chunks of some arrays, in MB.
 double megabytes_of(const std::vector<ZarrArray>& arrays)
 {
     double bytes = 0;

@@ -143,7 +143,7 @@ void append_check(const swivel_check& c, nlohmann::ordered_json& list)
                     {"passed", is_within(c)}});
 }
 
-// What hears of the checks. An exception may not pass the library: it waits.
+// Receives the checks. An exception may not pass through the library, so it is kept until the end.
 struct Listener {
     bool json;
     nlohmann::ordered_json checks = nlohmann::ordered_json::array();

@@ -10,7 +10,7 @@ from ._groups import Group
 
 
 def _is_input(field: Field) -> bool:
-    """Of arms, which are no bodies."""
+    """Whether arms, which are no bodies, have the input."""
     return field < Field.SHOULDER and Feature.BODY not in needed_features(field)
 
 
