@@ -1,12 +1,109 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd of bodies through the public interface, with goals, and poses in a buffer that it reads and writes. And how
-// far floats may put a limb off.
+// Random bodies: a skeleton with limbs beside each other and any joints in between; poses of it, as engines keep them
+// in memory; and crowds of them with goals. Eigen finds in double where their joints are, by forward kinematics over
+// all joints. It knows nothing of arm frames.
 #pragma once
 
-#include "tests/pose_buffer.h"
+#include <vector>
+
+#include "tests/test_arm.h"
+#include "tests/test_random.h"
 
 namespace swivel::test {
+
+struct BodyLimbJoints {
+    std::uint32_t shoulder, elbow, wrist;
+    Float3 bend;
+    std::vector<std::uint32_t> twist_bones;
+};
+
+struct BodySkeleton {
+    std::vector<std::int32_t> parents;
+    std::vector<Float4> rotations;
+    std::vector<Float3> translations;
+    std::vector<BodyLimbJoints> limbs;
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(parents.size()); }
+    swivel_skeleton view() const { return view_of(*this); }
+    swivel_limb_joints joints(std::size_t limb) const;
+    // Whether a joint is another or above it.
+    bool is_above(std::uint32_t joint, std::uint32_t below) const;
+};
+
+struct SkeletonWish {
+    std::uint32_t trunk, limbs, between;  // joints of the trunk; limbs; the most joints in between of each bone
+    bool is_chain;                        // the trunk is one line of joints
+    std::uint32_t twist_bones = 0;        // of each limb, halfway to the wrist
+    std::uint32_t fingers = 0;            // joints below each wrist, in a line
+};
+BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish);
+
+// A body: what it has of each joint, and its root.
+struct Body {
+    std::vector<Float4> rotations;
+    std::vector<Float3> translations, scales;
+    Float3 root_position{};
+    Float4 root_rotation{0, 0, 0, 1};
+    float root_scale = 1;
+};
+struct BodyWish {
+    bool translates = false, scales = false, roots = false;  // its own; one joint in four is scaled
+    double most_bend = 3.1;                                  // of elbows, radians
+};
+// Each limb's elbow is bent by 1e-2 to the most bend, to any side.
+Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& wish);
+
+struct JointAt {
+    Quaterniond rotation;
+    Vector3d place;
+    double scale;
+};
+// Where all joints of a body are: from the root's place, in the world's directions.
+std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body);
+
+// The same values as they are relative to the root, and back.
+Body in_body_space(const BodySkeleton& skeleton, const Body& local);
+Body from_body_space(const BodySkeleton& skeleton, const Body& in_body);
+
+// The sum of the offsets from the root to a joint, as they are in the world.
+double way_to(const BodySkeleton& skeleton, const std::vector<JointAt>& at, std::uint32_t joint);
+
+struct PoseLayout {
+    swivel_pose_form form = SWIVEL_ROTATIONS;
+    bool translates = false, scales = false, roots = false;
+    std::size_t gap = 0;                    // bytes after each body
+    const BodySkeleton* in_body = nullptr;  // then all is relative to the root
+};
+
+// Any form. in_body: of bodies whose poses are in the body's space.
+PoseLayout random_layout(Random& random, const BodySkeleton* in_body = nullptr);
+
+// Bytes between values are a pattern that nobody may change.
+struct PoseBuffer {
+    PoseLayout layout;
+    std::size_t joint_count, body_stride;
+    std::vector<unsigned char> bytes;
+
+    PoseBuffer(const PoseLayout& of, std::size_t joints, std::size_t bodies);
+    PoseBuffer(const PoseLayout& of, const std::vector<Body>& bodies);
+
+    void write(std::size_t n, const Body& body);
+    // The body that it holds. Values that its form has none of are taken from `otherwise`.
+    Body read(std::size_t n, const Body& otherwise) const;
+    Eigen::Matrix3d matrix(std::size_t n, std::size_t joint) const;  // where its form has matrices
+    swivel_pose view();
+
+private:
+    static constexpr std::size_t kPattern = 0xa5;
+    std::size_t rotation_bytes() const;
+    std::size_t rotation_at(std::size_t n, std::size_t joint) const;
+    std::size_t translation_at(std::size_t n, std::size_t joint) const;
+    std::size_t scale_at(std::size_t n, std::size_t joint) const;
+    std::size_t root_at(std::size_t n) const;
+    // The bytes from a matrix to its element.
+    std::size_t element(int row, int column) const;
+};
 
 // region: of all limbs, with SWIVEL_WITH_REGION.
 inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count,

@@ -61,7 +61,8 @@ struct CrowdStage {
     nlohmann::json json(const std::string& toml, Words more = {}) const;
     // Where the figure faces at rest, level: joints have the world's axes then.
     Vector3d face() const;
-    // Of a limb whose bones lie on one line at rest, as this clip's arms do. The hinge is the one that is reported.
+    // The axes of a limb whose bones lie on one line at rest, as this clip's arms do. The hinge is the one that is
+    // reported.
     ArmAxes axes(std::size_t arm) const;
 };
 
@@ -74,7 +75,7 @@ std::string text_of(const Vector3d& v);
 double angle_about(const Vector3d& u, const Vector3d& a, const Vector3d& b);
 double angle_between(const Vector3d& a, const Vector3d& b);
 
-// Of the swivel plane: cross(line from shoulder to wrist, elbow), not of unit length.
+// The normal of the swivel plane: cross(line from shoulder to wrist, elbow), not of unit length.
 inline Vector3d plane_normal(const PlainArmPose& at) { return (at.wrist - at.shoulder).cross(at.elbow - at.shoulder); }
 
 }  // namespace swivel::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What `swivel feet` is judged by: where legs of a motion are, when a plain detector says that they stand, and how they
+// `swivel feet` is judged by this: where legs of a motion are, when a plain detector says that they stand, and how they
 // skate. From tests' own readers of files, in double; nothing of tools/feet is in it.
 #pragma once
 
@@ -25,9 +25,9 @@ struct PlainLegs {
     double leg_length(std::size_t side) const;
 };
 
-// Of a skeleton with the names of the CMU library.
+// The legs of a skeleton with the names of the CMU library.
 PlainLegs legs_path(const PlainMotion& motion, double frame_time);
-// Of a glTF's first animation, at even times. names: hips, thigh, shin, foot and toe; * is the side, left first.
+// Those of a glTF's first animation, at even times. names: hips, thigh, shin, foot and toe; * is the side, left first.
 PlainLegs legs_path(const PlainGltf& gltf, const std::array<std::string, 5>& names,
                     const std::array<std::string, 2>& sides, const std::vector<double>& times);
 

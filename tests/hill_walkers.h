@@ -90,7 +90,7 @@ struct HillWalkers {
     swivel_plant plant = swivel_default_plant();
     swivel_ground ground = sole();
     swivel_fit fit = swivel_default_fit();
-    // Of the present frame:
+    // The present frame:
     std::vector<Body> bodies;
     std::vector<Vector3d> roots;
     std::vector<float> times;
@@ -99,6 +99,8 @@ struct HillWalkers {
     Vector3d origin = Vector3d::Zero();  // with roots in doubles, where all of it is; and what they stand on
     Double3 support{};
     bool has_doubles = false;
+    std::vector<Float3> supports;  // of each body, if any
+    std::vector<Float4> support_turns;
 
     HillWalkers(std::uint64_t seed, std::uint32_t count, Terrain on) : terrain(std::move(on))
     {
@@ -166,6 +168,10 @@ struct HillWalkers {
     {
         swivel_pose pose = buffer.view();
         pose.time = {times.data(), sizeof(float)};
+        if (!supports.empty()) {
+            pose.support_position = {supports.data(), sizeof(Float3)};
+            pose.support_rotation = {support_turns.data(), sizeof(Float4)};
+        }
         if (!has_doubles) return pose;
         pose.root_is_double = 1;
         pose.root_position = {root_doubles.data(), sizeof(Double3)};
@@ -174,7 +180,9 @@ struct HillWalkers {
     }
     void write_labels(Crowd& crowd) const
     {
-        for (std::uint32_t leg = 0; leg < 2; ++leg) crowd.write(SWIVEL_CONTACT, leg, labels[leg]);
+        for (std::uint32_t leg = 0; leg < 2; ++leg)
+            if (!(swivel_group_features(crowd.get(), leg) & SWIVEL_PLANT_BY_MOTION))
+                crowd.write(SWIVEL_CONTACT, leg, labels[leg]);
     }
     // The ground below a place, in the space of a limb's targets.
     GroundSample sample(std::uint32_t body, const Float3& probe) const

@@ -24,7 +24,7 @@ struct PlantedBodies {
     std::vector<Body> start;
     std::vector<std::vector<Vector3d>> axes;  // of each body's joints
     PoseLayout layout;
-    // Of the present frame:
+    // The present frame:
     int frame = 0;
     std::vector<Body> bodies;
     std::vector<Vector3d> roots;  // where they really are

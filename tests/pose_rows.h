@@ -69,7 +69,7 @@ inline std::vector<PoseLine> pose_lines(const std::string& text, const std::stri
     return lines;
 }
 
-// Of all joints in all rows, the largest angle between the two tables.
+// The largest angle between the two tables, of all joints in all rows.
 inline double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine>& b)
 {
     REQUIRE(a.size() == b.size());

@@ -7,16 +7,7 @@
 
 namespace swivel::test {
 
-inline PoseLayout random_prop_layout(Random& random)
-{
-    PoseLayout layout;
-    layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
-    layout.translates = layout.scales = layout.form != SWIVEL_ROTATIONS || random.below(2);
-    layout.roots = random.below(2);
-    return layout;
-}
-
-// What of a prop's place is known.
+// The place of a prop that does not move, as far as it is known.
 struct UnmovedProp {
     Held frame;
     bool is_of_hands;  // the caller and the pose say nothing of it
@@ -35,7 +26,7 @@ struct PropBodies : LinkedBodies {
     // Arms are nearly straight in one crowd of four.
     explicit PropBodies(Random& random, std::size_t body_count)
         : LinkedBodies(random, {3 + random.below(4), 3, random.below(2), false, random.below(2)}, body_count,
-                       random_prop_layout(random), random.below(4) ? 3.1 : 1e-4),
+                       random_layout(random), random.below(4) ? 3.1 : 1e-4),
           bounds((random.below(3) ? 0 : SWIVEL_WITH_FLEXION_LIMIT) | (random.below(3) ? 0 : SWIVEL_WITH_CAP))
     {
         const std::uint32_t arm_count = random.below(5) ? 2 : 1, prop_at = random.below(arm_count + 1);

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/holding_bodies.h"
+#include "tests/linked_bodies.h"
 #include "tests/looking_bodies.h"
 #include "tests/other_environment.h"
 #include "tests/test_crowd.h"

@@ -308,22 +308,24 @@ TEST_CASE("a capped limb gets straighter by its margin at most, and reaches what
     REQUIRE(capped_count > 20);
 }
 
-TEST_CASE("shifts and plants that cannot be get a line")
+TEST_CASE("shifts, plants and ground that cannot be get a line")
 {
     FitStage stage(11);
     const swivel_skeleton view = stage.bodies.skeleton.view();
     const swivel_limb_joints joints[] = {stage.bodies.skeleton.joints(0), stage.bodies.skeleton.joints(1)};
     std::vector<swivel_group_def> groups;
     swivel_crowd_def def = swivel_default_crowd_def();
+    constexpr swivel_features kStanding = kPlanted | SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS | SWIVEL_WITH_GROUND;
     const auto start = [&] {
-        groups = {swivel_default_fit_group_def(), body_group(joints[0], kFitting), body_group(joints[1], kPlanted)};
+        groups = {swivel_default_fit_group_def(), body_group(joints[0], kFitting), body_group(joints[1], kStanding)};
         def = swivel_default_crowd_def();
         def.skeleton = &view, def.body_count = 2;
     };
-    const auto refused = [&] {
+    const auto refused = [&](const char* words = "") {
         def.groups = groups.data(), def.group_count = static_cast<std::uint32_t>(groups.size());
         swivel_crowd* crowd = nullptr;
         CHECK_REFUSED(swivel_crowd_create(&def, &crowd), SWIVEL_INVALID_ARGUMENT);
+        CHECK_THAT(swivel_last_error(), Catch::Contains(words));
         CHECK(crowd == nullptr);
         CHECK(swivel_crowd_bytes(&def) == 0);
     };
@@ -351,6 +353,14 @@ TEST_CASE("shifts and plants that cannot be get a line")
         for (const float bad : {-1001.0f, kNan, kInf}) start(), groups[2].plant.height[0] = bad, refused();
         for (const float bad : {-1.0f, kNan, kInf}) start(), groups[2].plant.longest = bad, refused();
         start(), groups[2].plant.run = 1.01f, refused();
+        for (const float bad : {kNan, kInf, -0.01f, 2e15f})
+            for (float swivel_ground::*const each : {&swivel_ground::toe_clearance, &swivel_ground::heel_clearance,
+                                                     &swivel_ground::half, &swivel_ground::cos_most})
+                start(), groups[2].ground.*each = bad, refused("group 2, ground.");
+        for (const float bad : {kNan, kInf, 2e15f})
+            for (float& each : groups[2].ground.heel) start(), each = bad, refused("group 2, ground.heel is ");
+        start(), groups[2].ground.cos_most = 1.001f;
+        refused("group 2, ground.cos_most is 1.001; it is 0 to 1");
     }
     SECTION("features that do not go together")
     {
@@ -359,6 +369,8 @@ TEST_CASE("shifts and plants that cannot be get a line")
               SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN, SWIVEL_WITH_CAP | SWIVEL_WITH_REACH,
               SWIVEL_WITH_CAP | SWIVEL_WITH_AIM, SWIVEL_WITH_COMING, SWIVEL_WITH_FIT | SWIVEL_WITH_AIM})
             start(), groups[2] = body_group(joints[1], bad), refused();
+        start(), groups[2].features &= ~(SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS), refused("WITH_EFFECTOR");
+        start(), groups[2].features &= ~SWIVEL_WITH_PLANT, refused("WITH_PLANT");
         for (const swivel_features bad : {SWIVEL_WITH_PLANT, SWIVEL_WITH_FIT, SWIVEL_WITH_CAP, SWIVEL_FIT}) {
             const swivel_group_def free = group(1, {}, bad);
             swivel_crowd* crowd = nullptr;

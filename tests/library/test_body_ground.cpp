@@ -13,8 +13,9 @@ using namespace swivel;
 using namespace swivel::test;
 
 constexpr int kWalkedFrames = 600;
+constexpr std::uint32_t kFewWalkers = 40;
 
-// What walkers do, at worst. Lengths in metres, turns in radians a frame.
+// The worst that walkers do. Lengths in metres, turns in radians a frame.
 struct Gait {
     double rest = 0;           // how far a toe that is planted and at rest is from its plane
     double from_ground = 0;    // the same from the ground itself
@@ -188,6 +189,10 @@ TEST_CASE("feet stand on hills, however their ground is sampled, with the same b
         REQUIRE(swivel_digest(given.get()) == swivel_digest(probed.get()));
         REQUIRE(swivel_digest(asking.get()) == swivel_digest(probed.get()));
         if (frame % 100 == 0) REQUIRE(all_words(given) == all_words(probed));
+        // Ground that a function stores is input, in rows, too.
+        for (std::uint32_t leg = 0; leg < 2; ++leg)
+            for (const swivel_field field : {SWIVEL_GROUND, SWIVEL_GROUND_NORMAL})
+                REQUIRE(read<Float3>(asking, field, leg) == read<Float3>(probed, field, leg));
         gauge.take(probed, poses, frame);
     }
     gauge.is.check_on_hills(1e-3);
@@ -323,4 +328,59 @@ TEST_CASE("arms that hold a rifle turn slowly while the pelvis comes down")
     };
     CHECK(turn(false) <= 0.052);
     CHECK(turn(true) <= 0.058);
+}
+
+TEST_CASE("far from the origin, places are from the root, and feet stand as well")
+{
+    HillWalkers walkers(5, kFewWalkers, bumpy_field());
+    walkers.has_doubles = true;
+    walkers.origin = {3e6 + 0.25, 0, -5e6 + 0.75};
+    const bool asks = GENERATE(true, false);
+    walkers.go_to(0);
+    Crowd crowd = walkers.crowd();
+    int rest_count = 0;
+    for (int frame = 0; frame < 240; ++frame) {
+        walkers.go_to(frame);
+        PoseBuffer poses = walkers.poses();
+        if (asks)
+            walkers.ask_and_solve(crowd, poses);
+        else
+            walkers.probe_and_solve(crowd, poses);
+        for (std::uint32_t leg = 0; leg < 2; ++leg)
+            for (std::uint32_t n = 0; n < kFewWalkers; ++n) {
+                const Vector3d probe = vec(value_of<Float3>(crowd, SWIVEL_PROBE, leg, n));
+                REQUIRE(probe.norm() < 1.5);
+                const auto plant = value_of<std::array<float, 11>>(crowd, SWIVEL_PLANT, leg, n);
+                const std::uint32_t flags = flags_of(crowd, leg, n);
+                REQUIRE((flags & SWIVEL_BAD_INPUT) == 0);
+                if (!(flags & SWIVEL_PLANTED) || !(flags & SWIVEL_REACHED) || plant[9] != 0) continue;
+                ++rest_count;
+                const double shift = double{value_of<Float3>(crowd, SWIVEL_SHIFT, 2, n)[0]};
+                REQUIRE(std::fabs(walkers.terrain.over(walkers.leg(poses, n, leg, shift).toe)) <= 1e-4);
+            }
+    }
+    CHECK(rest_count > 2000);
+}
+
+TEST_CASE("ground that is not known, or too steep, is as if there were none")
+{
+    HillWalkers walkers(6, kFewWalkers, bumpy_field());
+    Crowd unknown = walkers.crowd(), without = walkers.crowd(HillWalkers::kFeatures & ~SWIVEL_WITH_GROUND),
+          steep = walkers.crowd();
+    for (std::uint32_t leg = 0; leg < 2; ++leg) {
+        steep.write_all(SWIVEL_GROUND, leg, Float3{0, 9, 0});
+        steep.write_all(SWIVEL_GROUND_NORMAL, leg, Float3{1, 0.05f, 0});
+    }
+    for (int frame = 0; frame < 120; ++frame) {
+        walkers.go_to(frame);
+        PoseBuffer poses = walkers.poses(), other = poses, third = poses;
+        walkers.solve(unknown, poses), walkers.solve(without, other), walkers.solve(steep, third);
+        REQUIRE(poses.bytes == other.bytes);
+        REQUIRE(third.bytes == other.bytes);
+        for (std::uint32_t leg = 0; leg < 2; ++leg) {
+            REQUIRE(read<std::uint32_t>(unknown, SWIVEL_FLAGS, leg) == read<std::uint32_t>(without, SWIVEL_FLAGS, leg));
+            using Lift = std::array<float, 9>;
+            REQUIRE(read<Lift>(unknown, SWIVEL_LIFT, leg) == std::vector<Lift>(kFewWalkers, {0, 0, 1, 0, 1, 0}));
+        }
+    }
 }

@@ -8,9 +8,9 @@
 #include <cstddef>
 
 #include "tests/body_crowd.h"
-#include "tests/holding_bodies.h"
+#include "tests/linked_bodies.h"
+#include "tests/looking_bodies.h"
 #include "tests/test_crowd.h"
-#include "tests/upright_bodies.h"
 
 namespace {
 

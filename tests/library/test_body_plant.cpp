@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: a planted hand or foot is where it is sent, and does not move on its support while it is locked,
-// wherever that moves and however far away. What is not in contact stays as it comes. All is checked by forward
-// kinematics of Eigen's, in double.
+// wherever that moves and however far away. What is not in contact stays as it comes. Groups that are not chosen keep
+// what they carry, and a support may change. All is checked by forward kinematics of Eigen's, in double.
 #include <catch2/catch.hpp>
 
 #include "tests/planted_bodies.h"
+#include "tests/test_crowd.h"
 
 namespace {
 
@@ -206,4 +207,85 @@ TEST_CASE("contact by motion is a hysteresis of speed and height")
     }
     REQUIRE(change_count > 100);
     REQUIRE(compared_count > 3 * kFrames * 10);
+}
+
+TEST_CASE("a job that names groups steps those alone, and needs no time where none is planted")
+{
+    PlantedBodies stage(5, Ground::still);
+    std::vector<swivel_limb_joints> joints;
+    for (std::size_t n = 0; n < 3; ++n) joints.push_back(stage.skeleton.joints(n));
+    std::vector<swivel_group_def> groups;
+    for (const swivel_limb_joints& each : joints) groups.push_back(body_group(each, kPlanted));
+    groups[2].features = body_group(joints[2], SWIVEL_POLE_INCOMING).features;
+    Crowd crowd(stage.skeleton.view(), stage.body_count, groups),
+        other(stage.skeleton.view(), stage.body_count, groups);
+    const auto write = [&](Crowd& to) {
+        for (std::uint32_t g = 0; g < 2; ++g) to.write(SWIVEL_CONTACT, g, stage.labels[g]);
+    };
+    for (int frame = 0; frame < 30; ++frame) {
+        stage.go_to(frame);
+        write(crowd), write(other);
+        const swivel_pose pose = stage.view();
+        crowd.solve({.groups = {1u}, .pose = &pose});
+        stage.go_to(frame);
+        const swivel_pose all = stage.view();
+        other.solve({.pose = &all});
+        for (std::uint32_t n = 0; n < stage.body_count; ++n) {
+            REQUIRE(plant_bits(crowd, 1, n) == plant_bits(other, 1, n));
+            REQUIRE(plant_bits(crowd, 0, n) == PlantBits{});
+        }
+    }
+    swivel_pose pose = stage.view();
+    pose.time = {};
+    swivel_job job = swivel_default_job();
+    job.pose = &pose;
+    CHECK_REFUSED(swivel_solve(crowd.get(), &job), SWIVEL_INVALID_ARGUMENT);
+    CHECK(std::string(swivel_last_error()).find("time") != std::string::npos);
+    const std::uint32_t third = 1u << 2;
+    job.groups = &third, job.group_word_count = 1;
+    CHECK(swivel_solve(crowd.get(), &job) == SWIVEL_OK);
+}
+
+TEST_CASE("a support changes without a jump")
+{
+    PlantedBodies stage(7, Ground::moving);
+    Crowd crowd = stage.crowd(kPlanted | SWIVEL_WITH_PLANT_TURN);
+    for (int frame = 0; frame < 45; ++frame) stage.go_to(frame), stage.solve(crowd);
+    using Goal = std::array<float, 7>;
+    const auto solved = [&] {
+        stage.solve(crowd);
+        std::vector<std::vector<Goal>> goals;
+        for (std::uint32_t g = 0; g < 3; ++g) goals.push_back(read<Goal>(crowd, SWIVEL_GOAL, g));
+        return goals;
+    };
+    const auto go_on = [&] { stage.go_to(45), std::ranges::fill(stage.times, 0.0f); };  // so that nothing else changes
+    const auto doubles = [](const Float3& v) { return Double3{v[0], v[1], v[2]}; };
+    go_on();
+    const auto before = solved();
+    std::vector<Double3> from, to;
+    const std::vector<Float4> from_turn = stage.support_turns;
+    go_on();
+    for (std::uint32_t n = 0; n < stage.body_count; ++n) {
+        from.push_back(doubles(stage.supports[n]));
+        if (n % 2 == 1) stage.supports[n] = {0.5f, -1, 0.25f}, stage.support_turns[n] = {0.6f, 0, 0, 0.8f};
+        to.push_back(doubles(stage.supports[n]));
+    }
+    for (std::uint32_t g = 0; g < 3; ++g)
+        check(swivel_change_support(crowd.get(), g, 0, stage.body_count,
+                                    {{from.data(), sizeof from[0]}, {from_turn.data(), sizeof from_turn[0]}},
+                                    {{to.data(), sizeof to[0]}, {stage.support_turns.data(), sizeof(Float4)}}));
+    const auto after = solved();
+    for (std::uint32_t g = 0; g < 3; ++g)
+        for (std::uint32_t n = 0; n < stage.body_count; ++n) {
+            const Goal &old = before[g][n], &now = after[g][n];
+            REQUIRE((Vector3d(old[0], old[1], old[2]) - Vector3d(now[0], now[1], now[2])).norm() <=
+                    4e-7 * (3 + stage.roots[n].norm() + vec(stage.supports[n]).norm()));
+            REQUIRE(quat({old[3], old[4], old[5], old[6]}).angularDistance(quat({now[3], now[4], now[5], now[6]})) <=
+                    3e-6);
+        }
+    CHECK_REFUSED(swivel_change_support(crowd.get(), 3, 0, 1, {}, {}), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(swivel_change_support(crowd.get(), 0, 0, stage.body_count + 1, {}, {}), SWIVEL_INVALID_ARGUMENT);
+    const Float4 none{};
+    CHECK_REFUSED(swivel_change_support(crowd.get(), 0, 0, 1, {{}, {&none, 0}}, {}), SWIVEL_INVALID_ARGUMENT);
+    CHECK(swivel_change_support(crowd.get(), 0, 0, 1, {}, {}) == SWIVEL_OK);
 }

@@ -4,13 +4,112 @@
 // where a shift goes, in the words of approved/feet.txt. It warns of other units and origins, and names bad input. The
 // animation and the places of targets confirm its numbers.
 #include "tests/approved_texts.h"
-#include "tests/gliding_leg.h"
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
 #include "tests/test_random.h"
 
 using namespace swivel;
 using namespace swivel::test;
 
 namespace {
+
+// A body of one planted leg. Its pose stays as it is while its root glides along x, so where the animation has the foot
+// is known without the library.
+struct GlidingLeg {
+    static constexpr std::array<std::int32_t, 4> kParents = {-1, 0, 1, 2};  // hips, thigh, shin, foot
+    static constexpr std::array<Float3, 4> kOffsets = {{{0, 1, 0}, {0.1f, 0, 0}, {0, -0.5f, 0}, {0, -0.4f, 0}}};
+    static constexpr double kLength = 0.9;
+    static constexpr float kFrame = 0.02f;
+    static constexpr swivel_features kPlants = SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT;
+
+    swivel_limb_joints joints = joints_of_leg();
+    std::vector<swivel_group_def> groups;
+    Crowd crowd;
+    std::array<Float4, 4> rotations{};
+    Float3 root{}, support{};
+    float time = kFrame, scale = 1;
+    float stretch = 1;  // of the pose's bones
+    bool is_in_place = false;
+    std::vector<Vector3d> sent;  // the target of each frame
+
+    explicit GlidingLeg(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant(),
+                        swivel_ground ground = swivel_default_ground())
+        : groups(groups_of(joints, features, plant, ground)), crowd(skeleton(), 1, groups)
+    {
+        rotations.fill({0, 0, 0, 1});
+        rotations[1] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
+        rotations[2] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
+    }
+    // The ankle as the pose has it, in the world.
+    Vector3d animated() const
+    {
+        const Quaterniond thigh = quat(rotations[1]), shin = thigh * quat(rotations[2]);
+        const Vector3d hip(0.1, 1, 0), leg = thigh * Vector3d(0, -0.5, 0) + shin * Vector3d(0, -0.4, 0);
+        return vec(root) + double{scale} * (hip + leg);
+    }
+    void solve()
+    {
+        std::array<Float4, 4> solved = rotations;
+        swivel_pose pose = swivel_default_pose();
+        pose.rotations = {rotations.data(), sizeof rotations, sizeof rotations[0], nullptr};
+        if (!is_in_place) pose.results = {solved.data(), sizeof solved, sizeof solved[0], nullptr};
+        std::array<Float3, 4> places = kOffsets;
+        for (Float3& place : places)
+            for (float& number : place) number *= stretch;
+        if (stretch != 1) pose.translations = {places.data(), sizeof places, sizeof places[0], nullptr};
+        pose.root_position = {&root, 0};
+        pose.root_scale = {&scale, 0};
+        pose.support_position = {&support, 0};
+        pose.time = {&time, 0};
+        crowd.solve({.pose = &pose});
+        if (!(swivel_group_features(crowd.get(), 0) & SWIVEL_WITH_PLANT)) return;
+        std::array<float, 7> goal;
+        crowd.read(SWIVEL_GOAL, 0, std::span(&goal, 1));
+        sent.emplace_back(goal[0], goal[1], goal[2]);
+    }
+    // Frames in which the root glides along x.
+    void glide(float label, double speed, int frames = 1)
+    {
+        if (swivel_field_row_count(crowd.get(), 0, SWIVEL_CONTACT))
+            crowd.write_all(SWIVEL_CONTACT, 0, std::array{label});
+        for (int n = 0; n < frames; ++n) {
+            root[0] += static_cast<float>(speed * double{time});
+            solve();
+        }
+    }
+    std::string text(std::uint32_t group = 0) const { return crowd.explain(group, 0); }
+    std::uint32_t flags() const
+    {
+        std::uint32_t flags = 0;
+        crowd.read(SWIVEL_FLAGS, 0, std::span(&flags, 1));
+        return flags;
+    }
+
+private:
+    static swivel_skeleton skeleton()
+    {
+        swivel_skeleton of = swivel_default_skeleton();
+        of.parents = stream(kParents);
+        of.translations = stream(kOffsets);
+        of.joint_count = 4;
+        return of;
+    }
+    static swivel_limb_joints joints_of_leg()
+    {
+        swivel_limb_joints of = swivel_default_limb_joints(1, 2, 3);
+        of.bend[2] = -1;
+        return of;
+    }
+    static std::vector<swivel_group_def> groups_of(const swivel_limb_joints& joints, swivel_features features,
+                                                   const swivel_plant& plant, const swivel_ground& ground)
+    {
+        std::vector<swivel_group_def> groups = {body_group(joints, features)};
+        groups[0].plant = plant;
+        groups[0].ground = ground;
+        if (features & SWIVEL_WITH_FIT) groups.push_back(swivel_default_fit_group_def());
+        return groups;
+    }
+};
 
 constexpr double kLength = GlidingLeg::kLength;
 constexpr swivel_features kPlants = GlidingLeg::kPlants;
@@ -85,8 +184,15 @@ void tell_of_contact(ApprovedTexts& texts)
     ToldLeg leg(texts, "a foot runs in, and then it stands");
     leg.glide(0, 0.5, 3);
     leg.glide(1, 0.5), leg.says("locks");
-    leg.glide(1, 0, 2), leg.says("40 ms later");
-    leg.glide(1, 0, 5), leg.says("stands");
+    std::vector<std::string> run_in = {leg.text()};
+    for (int n = 1; n < 9; ++n) leg.glide(1, 0), run_in.push_back(leg.text());
+    texts.line("40 ms later", run_in[2]), leg.says("stands");
+    for (std::size_t n = 0; n < 5; ++n) {
+        const double since = 1000 * double{GlidingLeg::kFrame} * static_cast<double>(n);
+        CHECK(number_after(run_in[n], "it locked ") == Approx(since));
+        CHECK(number_after(run_in[n], "comes to rest in ") == Approx(100 - since));
+        CHECK(number_after(run_in[n], " ms, ") == Approx((leg.sent[3 + n] - leg.sent.back()).norm()).epsilon(6e-4));
+    }
     leg.write(SWIVEL_CONTACT, std::array{0.4f}), leg.says("another label");
 
     ToldLeg free(texts, "why a foot is not locked");
@@ -194,6 +300,11 @@ void tell_of_bad_input(ApprovedTexts& texts)
     leg.support[2] = 0;
     leg.rotations[1] = {0, 0, 0, 0};
     leg.solve(), leg.says("its thigh");
+    leg.rotations[1] = {0, 0, 0, 1}, leg.rotations[3] = {0, 0, kNan, 0};
+    leg.solve(), leg.says("its foot");
+    ToldLeg handless(texts, "bad input of a leg without a hand");
+    handless.rotations[3] = {0, 0, kNan, 0};
+    handless.solve(), handless.says("its foot");
 
     ToldLeg fits(texts, "bad input of a leg that fits", kPlants | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING);
     fits.glide(1, 0, 3);
@@ -217,6 +328,21 @@ void tell_of_bad_input(ApprovedTexts& texts)
     foot.bad(SWIVEL_GROUND_NORMAL, Float3{0, 2e9f, 0}, Float3{0, 1, 0});
     foot.bad(SWIVEL_GROUND_WEIGHT, std::array{1.5f}, std::array{1.0f});
     foot.bad(SWIVEL_EFFECTOR, Float3{kNan, 0, 0}, kToe);
+}
+
+// A cone that no elbow keeps leaves no arc of the swivel's circle; a wide one leaves some.
+void tell_of_limits(ApprovedTexts& texts)
+{
+    ToldLeg leg(texts, "a limit of a body's limb",
+                SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_SHOULDER_CONE);
+    leg.write(SWIVEL_TARGET, Float3{0, 0.4f, 0.1f});
+    for (const double angle : {0.01, 3.1415}) {
+        leg.write(SWIVEL_SHOULDER_CONE, cone({0, 0, -1}, angle));
+        leg.solve(), leg.says(angle < 1 ? "a narrow cone" : "a wide cone");
+        std::uint32_t count = 0;
+        check(swivel_allowed_arcs(leg.crowd.get(), 0, 0, nullptr, 0, &count));
+        CHECK((count > 0) == (angle > 1));
+    }
 }
 
 void tell_of_shifts(ApprovedTexts& texts)
@@ -297,24 +423,10 @@ TEST_CASE("explain speaks of feet as approved")
     tell_of_contact(texts);
     tell_of_doubts(texts);
     tell_of_bad_input(texts);
+    tell_of_limits(texts);
     tell_of_shifts(texts);
     tell_of_ground(texts);
     texts.compare();
-}
-
-TEST_CASE("explain says for how long and how far a planted point runs in")
-{
-    GlidingLeg leg;
-    leg.glide(0, 0.5, 3);
-    leg.glide(1, 0.5);
-    std::vector<std::string> texts = {leg.text()};
-    for (int n = 0; n < 8; ++n) leg.glide(1, 0), texts.push_back(leg.text());
-    for (std::size_t n = 0; n < 5; ++n) {
-        const double since = 1000 * double{GlidingLeg::kFrame} * static_cast<double>(n);
-        CHECK(number_after(texts[n], "it locked ") == Approx(since));
-        CHECK(number_after(texts[n], "comes to rest in ") == Approx(100 - since));
-        CHECK(number_after(texts[n], " ms, ") == Approx((leg.sent[3 + n] - leg.sent.back()).norm()).epsilon(6e-4));
-    }
 }
 
 TEST_CASE("whatever happens, explain says what the flags say, and how far the animated point and the target are")

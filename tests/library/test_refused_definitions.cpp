@@ -6,10 +6,10 @@
 
 #include <cstring>
 
-#include "tests/holding_bodies.h"
+#include "tests/linked_bodies.h"
+#include "tests/looking_bodies.h"
 #include "tests/test_crowd.h"
 #include "tests/test_whole_limb.h"
-#include "tests/upright_bodies.h"
 
 using namespace swivel;
 using namespace swivel::test;

@@ -9,7 +9,6 @@
 #include <functional>
 
 #include "swivel/lecture.h"
-#include "tests/holding_bodies.h"
 #include "tests/rest_skeleton.h"
 #include "tests/test_crowd.h"
 #include "tests/test_isa_scope.h"
@@ -128,25 +127,26 @@ void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Mo
     }
 }
 
-// Calls that judge a crowd's results.
+// Calls that judge a crowd's results, of limbs of each group.
 void run_questions(const Crowd& crowd, const std::string& name, Most& most)
 {
-    for (std::uint32_t limb = 0; limb < swivel_group_limb_count(crowd.get(), 0); limb += 7) {
-        char text[4096];
-        swivel_arc arcs[200];
-        std::uint32_t count;
-        most.take(name + ", explain", [&] { swivel_explain(crowd.get(), 0, limb, text, sizeof text); });
-        most.take(name + ", allowed arcs",
-                  [&] { swivel_allowed_arcs(crowd.get(), 0, limb, arcs, std::size(arcs), &count); });
-        double three[3], seven[7];
-        most.take(name + ", residuals", [&] { swivel_residuals(crowd.get(), 0, limb, 1, {three, sizeof three}); });
-        most.take(name + ", forward", [&] {
-            swivel_forward(crowd.get(), 0, limb, 1, {three, sizeof three}, {three, sizeof three}, {nullptr, 0});
-        });
-        most.take(name + ", joint angles", [&] {
-            swivel_joint_angles(crowd.get(), 0, limb, 1, SWIVEL_XYZ, SWIVEL_ZYX, 0, {seven, sizeof seven});
-        });
-    }
+    char text[4096];
+    swivel_arc arcs[200];
+    std::uint32_t count;
+    double three[3], seven[7];
+    const swivel_crowd* const c = crowd.get();
+    for (std::uint32_t g = 0; g < swivel_group_count(c); ++g)
+        for (std::uint32_t limb = 0; limb < swivel_group_limb_count(c, g); limb += 7) {
+            most.take(name + ", explain", [&] { swivel_explain(c, g, limb, text, sizeof text); });
+            most.take(name + ", allowed arcs", [&] { swivel_allowed_arcs(c, g, limb, arcs, std::size(arcs), &count); });
+            most.take(name + ", residuals", [&] { swivel_residuals(c, g, limb, 1, {three, sizeof three}); });
+            most.take(name + ", forward", [&] {
+                swivel_forward(c, g, limb, 1, {three, sizeof three}, {three, sizeof three}, {nullptr, 0});
+            });
+            most.take(name + ", joint angles", [&] {
+                swivel_joint_angles(c, g, limb, 1, SWIVEL_XYZ, SWIVEL_ZYX, 0, {seven, sizeof seven});
+            });
+        }
 }
 
 // A limb that is nowhere, so that every mistake is tried.
@@ -176,58 +176,6 @@ TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of st
                 corpus::with_job(
                     poses, [&](const Job& job) { run_comparisons(crowd, job.pose, full_name(recipe), questions); });
             }
-        INFO(isa << ": " << jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
-        CHECK(jobs.bytes <= kPromised);
-        CHECK(questions.bytes <= kPromised);
-    }
-}
-
-TEST_CASE("hands that hold, and what explains them, take at most 32 KiB of stack")
-{
-    Random random{8};
-    PoseLayout layout;
-    layout.roots = true;
-    const HoldingBodies bodies(random, 100, layout);
-    Crowd crowd = bodies.crowd();
-    PoseBuffer poses(layout, bodies.bodies);
-    const swivel_pose pose = bodies.view(poses);
-    Most jobs, questions;
-    run_jobs(crowd, &pose, "hands that hold", jobs);
-    for (std::uint32_t g = 0; g < bodies.groups.size(); ++g)
-        for (std::uint32_t n = 0; n < 100; n += 7) {
-            char text[4096];
-            questions.take("explain group " + std::to_string(g),
-                           [&] { check(swivel_explain(crowd.get(), g, n, text, sizeof text)); });
-        }
-    INFO(jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
-    CHECK(jobs.bytes <= kPromised);
-    CHECK(questions.bytes <= kPromised);
-}
-
-TEST_CASE("limbs that keep a region and all other limits take at most 32 KiB of stack")
-{
-    const IsaScope scope;
-    const swivel_region_cone cones[] = {{{1, 0, 0.2f}, 0.3f}, {{0, 1, 0.2f}, 0.2f}, {{-1, 0.2f, 0}, 0.1f}};
-    swivel_region region = swivel_default_region();
-    check(swivel_region_add_cones(&region, cones, 3, 0));
-    check(swivel_region_forbid(&region, cones + 1));
-    swivel_group_def def =
-        group(100, SWIVEL_WITH_HAND | SWIVEL_WITH_REGION | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST |
-                       SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST |
-                       SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_MOST_SWIVEL);
-    def.region = &region;
-    Random random{9};
-    for (const std::string& isa : runnable_isas()) {
-        swivel_use_isa(isa.c_str());
-        Crowd crowd(def);
-        crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-        for (std::uint32_t n = 0; n < 100; ++n) {
-            const Float3 target = floats(random.vector(0.5, 1.9));
-            crowd.write(SWIVEL_TARGET, 0, std::span(&target, 1), n);
-        }
-        Most jobs, questions;
-        run_jobs(crowd, nullptr, "limbs in a region", jobs);
-        run_questions(crowd, "limbs in a region", questions);
         INFO(isa << ": " << jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
         CHECK(jobs.bytes <= kPromised);
         CHECK(questions.bytes <= kPromised);

@@ -165,7 +165,7 @@ class Scenes(unittest.TestCase):
                         np.testing.assert_array_equal(values.ravel(), array(answers[name], values.dtype), name)
 
     def test_what_is_carried_can_be_set_back(self):
-        """Crowds of C go on from there as they were (tests/library/test_body_carried.cpp)."""
+        """Crowds of C go on from there as they were (tests/library/test_bits.cpp)."""
         seen = set()
         for scene in (scene for scene in scenes() if scene["name"].startswith("standing")):
             player, other = Player(scene), Player(scene).crowd
