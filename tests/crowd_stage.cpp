@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace swivel::test {
 
@@ -52,10 +53,14 @@ std::vector<Eigen::Isometry3d> joints_of(const formats::Clip& clip, std::size_t 
     return to;
 }
 
-void require_done(const Outcome& outcome)
+double floor_of(const PlainMotion& motion)
 {
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
+    std::vector<double> lowest(motion.lines.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t frame = 0; frame < lowest.size(); ++frame)
+        for (const PlainPose& joint : pose_of(motion, frame))
+            lowest[frame] = std::min(lowest[frame], joint.position.y());
+    std::ranges::sort(lowest);
+    return lowest[(lowest.size() - 1) / 4];
 }
 
 CrowdStage::CrowdStage(std::size_t first, std::size_t step)
@@ -100,10 +105,7 @@ std::vector<PoseLine> CrowdStage::rows(const std::string& toml, const std::strin
 nlohmann::json CrowdStage::json(const std::string& toml, Words more) const
 {
     more.push_back("--json");
-    const Outcome outcome = run(toml, more);
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    return nlohmann::json::parse(outcome.out);
+    return nlohmann::json::parse(done(run(toml, more)).out);
 }
 
 Vector3d CrowdStage::face() const

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "tests/plain_motion.h"
-#include "tests/pose_rows.h"
 #include "tests/run_command.h"
+#include "tests/solve_tables.h"
 #include "tests/test_data.h"
 #include "tools/formats/clip.h"
 
@@ -45,6 +45,9 @@ Matrix3d local_rotation(const PlainMotion& motion, std::size_t frame, std::strin
 // All joints of a clip that may be in no file, by products of its own rotations and translations.
 std::vector<Eigen::Isometry3d> joints_of(const formats::Clip& clip, std::size_t frame);
 
+// The floor of a motion by the rule of crowds: in a quarter of all frames the lowest joint is lower.
+double floor_of(const PlainMotion& motion);
+
 struct CrowdStage {
     TempFolder folder;
     PlainMotion clip;
@@ -65,8 +68,6 @@ struct CrowdStage {
     // reported.
     ArmAxes axes(std::size_t arm) const;
 };
-
-void require_done(const Outcome& outcome);
 
 // "[x, y, z]", every digit.
 std::string text_of(const Vector3d& v);

@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// glTF files made up by tests: nodes, skins and animations in, a .gltf or .glb out.
+// glTF files made up by tests: nodes, skins and animations in, a .gltf or .glb out; and what the product reads of them.
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/test_data.h"
+#include "tools/formats/gltf.h"
 
 namespace swivel::test {
 
@@ -33,5 +34,21 @@ public:
 
     static std::string glb(std::string text, std::string chunk);
 };
+
+inline std::vector<int> bones_of(const formats::Clip& clip)
+{
+    std::vector<int> bones;
+    for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
+        if (joint_at(clip, joint).is_bone) bones.push_back(joint);
+    return bones;
+}
+
+// A file with the frames of all its bones, as most tests want it.
+inline formats::GltfFile read_clip(const fs::path& path, const formats::GltfChoice& choice = {})
+{
+    formats::GltfFile file = formats::read_gltf(path, choice);
+    formats::sample(file, bones_of(file.clip));
+    return file;
+}
 
 }  // namespace swivel::test

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
+
+#include "tests/plain_motion.h"
+#include "tests/run_command.h"
 
 namespace swivel::test {
 
@@ -147,6 +151,128 @@ Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, doub
     for (int up = gltf.parent_of(node); up >= 0; up = gltf.parent_of(up))
         world = plain_local(gltf, animation, up, time) * world;
     return world;
+}
+
+Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs)
+{
+    const int written = std::max(animation, 0);
+    std::vector<bool> solved(to.nodes().size());
+    for (const LimbNodes& limb : limbs)
+        for (const int node : limb) solved.at(static_cast<std::size_t>(node)) = true;
+    Closure worst;
+    for (const double time : key_times(to, limbs.at(0)[0], "rotation", written)) {
+        ++worst.frames;
+        for (const LimbNodes& limb : limbs) {
+            std::array<Eigen::Affine3d, 3> before, after;
+            for (std::size_t n = 0; n < 3; ++n) {
+                before[n] = plain_world(from, animation, limb[n], time);
+                after[n] = plain_world(to, written, limb[n], time);
+            }
+            const auto place = [](const Eigen::Affine3d& pose) { return Eigen::Vector3d(pose.translation()); };
+            const Eigen::Vector3d upper = place(before[1]) - place(before[0]),
+                                  lower = place(before[2]) - place(before[1]);
+            const double length = upper.norm() + lower.norm();
+            const bool is_bent = upper.normalized().cross(lower.normalized()).norm() > 0.02 || upper.dot(lower) < 0;
+            const auto keep = [](double& most, double error) { most = error <= most ? most : error; };  // NaN stays
+            keep(worst.end, (place(after[2]) - place(before[2])).norm() / length);
+            const double sine = upper.normalized().cross(lower.normalized()).norm(),
+                         most = 2e-6 + 4e-7 * length * length / (upper.norm() * lower.norm() * sine),
+                         off = (place(after[1]) - place(before[1])).norm() / length;
+            const bool is_folded = is_bent && sine <= 0.02;
+            keep(is_bent ? worst.lower_bent : worst.lower_straight, is_folded ? off / (1e-5 + 4e-7 / sine)
+                                                                    : is_bent ? off / most
+                                                                              : off);
+            keep(worst.orientation, (plain_axes(after[2]) - plain_axes(before[2])).norm());
+            keep(worst.others, (place(after[0]) - place(before[0])).norm() / length);
+            for (const int node : limb)
+                keep(worst.turn, turn_between(plain_axes(plain_local(from, animation, node, time)),
+                                              plain_axes(plain_local(to, written, node, time))) /
+                                     most);
+        }
+        for (int node = 0; node < static_cast<int>(solved.size()); ++node)
+            if (!solved[static_cast<std::size_t>(node)])
+                worst.others = std::max(worst.others, (plain_local(to, written, node, time).matrix() -
+                                                       plain_local(from, animation, node, time).matrix())
+                                                          .norm());
+    }
+    return worst;
+}
+
+void require_closed(const Closure& worst)
+{
+    INFO("end " << worst.end << ", bent " << worst.lower_bent << ", straight " << worst.lower_straight
+                << ", orientation " << worst.orientation << ", others " << worst.others << ", turn " << worst.turn);
+    CHECK(worst.end <= 1e-5);
+    CHECK(worst.lower_bent <= 1);
+    CHECK(worst.lower_straight <= 2e-3);
+    CHECK(worst.orientation <= 2e-5);
+    CHECK(worst.others <= 1e-12);
+    CHECK(worst.turn <= 1);
+    CHECK(worst.frames > 0);
+}
+
+nlohmann::json ask_check(std::vector<std::string> arguments)
+{
+    const fs::path folder = fs::path(SWIVEL_SOURCE_DIR) / "tests" / "gltf";
+    INFO("node and its packages are set up by tools/test: npm ci in tests/gltf");
+    REQUIRE(fs::is_directory(folder / "node_modules"));
+    arguments.insert(arguments.begin(), {"/usr/bin/env", "node", (folder / "check.mjs").string()});
+    const Outcome outcome = run_program(folder, arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return nlohmann::json::parse(outcome.out);
+}
+
+std::multiset<std::string> gltf_errors(const fs::path& path)
+{
+    std::multiset<std::string> errors;
+    const nlohmann::json reports = ask_check({"validate", path.string()});
+    for (const auto& message : reports.at(0).at("messages"))
+        if (message.at("severity") == 0) errors.insert(message.dump());
+    return errors;
+}
+
+std::vector<std::multiset<std::string>> new_gltf_messages(const std::vector<std::pair<fs::path, fs::path>>& files)
+{
+    std::vector<std::string> arguments = {"validate"};
+    for (const auto& [source, written] : files) arguments.insert(arguments.end(), {source.string(), written.string()});
+    const nlohmann::json reports = ask_check(arguments);
+    const auto said_of = [&](std::size_t n) {
+        std::multiset<std::string> said;
+        for (const auto& message : reports.at(n).at("messages"))
+            if (message.at("severity") <= 1)
+                said.insert(message.at("code").get<std::string>() + ' ' + message.value("pointer", ""));
+        return said;
+    };
+    std::vector<std::multiset<std::string>> news;
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        const std::multiset<std::string> before = said_of(2 * n), after = said_of(2 * n + 1);
+        std::multiset<std::string>& added = news.emplace_back();
+        std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                            std::inserter(added, added.end()));
+    }
+    return news;
+}
+
+std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written)
+{
+    return new_gltf_messages({{source, written}})[0];
+}
+
+std::vector<std::vector<Eigen::Matrix4d>> three_poses(const fs::path& path, int animation,
+                                                      const std::vector<double>& times)
+{
+    std::vector<std::string> arguments = {"pose", path.string(), std::to_string(animation)};
+    for (const double time : times) arguments.push_back(nlohmann::json(time).dump());
+    std::vector<std::vector<Eigen::Matrix4d>> poses;
+    for (const auto& frame : ask_check(arguments)) {
+        poses.emplace_back();
+        for (const auto& matrix : frame) {
+            const std::vector<double> numbers = matrix;
+            poses.back().push_back(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
+        }
+    }
+    return poses;
 }
 
 }  // namespace swivel::test

@@ -1,15 +1,19 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A second reading of glTF files, for checks: whole affine matrices in double, straight from the accessors, sharing no
-// code with the reader under test. Floats only, no sparse accessors; anything else fails the test.
+// Other readers of glTF files, for checks: one of the tests' own, Khronos' validator and three.js. The first makes
+// whole affine matrices in double, straight from the accessors, and shares no code with the reader under test. It reads
+// floats and no sparse accessors; anything else fails the test. node runs the others by tests/gltf/check.mjs.
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/test_data.h"
@@ -52,5 +56,49 @@ Eigen::Affine3d plain_local(const PlainGltf& gltf, int animation, int node, doub
 
 // A node's transform in the world; animation -1: at rest.
 Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, double time);
+
+// ---- A written file beside the one that it was solved from. The plain reading of both gives the places of wrists and
+// elbows, and tells whether anything else moved.
+
+// Upper, lower and end joint, as nodes.
+using LimbNodes = std::array<int, 3>;
+
+// Worst of all frames and limbs: places in the limb's length, the end joint's orientation as its axes' distance.
+struct Closure {
+    double end = 0, lower_straight = 0, orientation = 0, others = 0;
+    double turn = 0, lower_bent = 0;  // as shares of what is allowed; turns are the joints' against their parents
+    std::size_t frames = 0;
+};
+
+inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.linear().colwise().normalized(); }
+
+// animation: index in `from`, or -1 (rest) for a file that had none: `to` has one then. Nodes that are no limb's joint
+// must have the local transforms they had.
+Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs);
+
+// Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad. An elbow misses its
+// place by at most this number times the limb's length, all else by 1e-5 of that length. For an elbow bent by less than
+// 0.02 rad it is 2e-3. The elbow's height over the line from shoulder to wrist is then the root of a float's error in
+// the reach; see tests/command/test_clip_back.cpp. A folded elbow, within 0.02 rad of 180 degrees, may miss by 1e-5 +
+// 4e-7 / sin b: with d the reach and c the angle at the wrist, the law of cosines turns an error e of d, at most 4e-7
+// of L, into e cos c / sin b of the elbow's place.
+void require_closed(const Closure& worst);
+
+// ---- Khronos' validator and three.js
+
+nlohmann::json ask_check(std::vector<std::string> arguments);
+
+// The validator's errors, each as text.
+std::multiset<std::string> gltf_errors(const fs::path& path);
+
+// The validator's errors and warnings about `written` that it does not have about `source`, code and place of each.
+std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written);
+
+// The same of many pairs of source and written file, in their order.
+std::vector<std::multiset<std::string>> new_gltf_messages(const std::vector<std::pair<fs::path, fs::path>>& files);
+
+// [time][node]: world matrices as three.js plays the file.
+std::vector<std::vector<Eigen::Matrix4d>> three_poses(const fs::path& path, int animation,
+                                                      const std::vector<double>& times);
 
 }  // namespace swivel::test

@@ -74,6 +74,14 @@ struct PlainArmPose {
 
 PlainArmPose arm_pose(const PlainMotion& motion, const PlainArm& arm, std::size_t frame);
 
+// The angle of the turn from one to the other, in radians; exact near 0.
+inline double turn_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
+{
+    const Eigen::Matrix3d turn = a.transpose() * b;
+    const Eigen::Vector3d axis(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+    return std::atan2(axis.norm(), turn.trace() - 1);
+}
+
 // A frame's line with its words at some channels taken out: blanks, line end and all other words.
 std::string rest_of(const std::string& line, const std::vector<std::size_t>& channels);
 

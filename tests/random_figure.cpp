@@ -2,6 +2,7 @@
 #include "tests/random_figure.h"
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 
 namespace swivel::test {
@@ -215,47 +216,69 @@ private:
 
 }  // namespace
 
-const std::vector<FigureNames>& figure_names()
-{
-    static const std::vector<FigureNames> names = {
-        {"Mixamo",
-         {"mixamorig:*Arm", "mixamorig:*ForeArm", "mixamorig:*Hand"},
-         {"mixamorig:*UpLeg", "mixamorig:*Leg", "mixamorig:*Foot"},
-         "Left",
-         "Right"},
-        {"Unreal", {"upperarm_*", "lowerarm_*", "hand_*"}, {"thigh_*", "calf_*", "foot_*"}, "l", "r"},
-        {"VRM",
-         {"J_Bip_*_UpperArm", "J_Bip_*_LowerArm", "J_Bip_*_Hand"},
-         {"J_Bip_*_UpperLeg", "J_Bip_*_LowerLeg", "J_Bip_*_Foot"},
-         "L",
-         "R"},
-        {"Biped",
-         {"Bip01 * UpperArm", "Bip01 * Forearm", "Bip01 * Hand"},
-         {"Bip01 * Thigh", "Bip01 * Calf", "Bip01 * Foot"},
-         "L",
-         "R"},
-        {"MakeHuman",
-         {"upperarm01.*", "lowerarm01.*", "wrist.*"},
-         {"upperleg01.*", "lowerleg01.*", "foot.*"},
-         "L",
-         "R"},
-    };
-    return names;
-}
-
 Figure figure_of(const Body& body)
 {
     std::mt19937 unused;
     return FigureMaker(unused, {.random_axes = false, .moves = false}, body, false).make();
 }
 
-Figure random_figure(std::mt19937& random, const FigureWish& wish, const FigureNames& names)
+Figure random_figure(std::mt19937& random, const FigureWish& wish)
 {
-    Body body{.left = names.left, .right = names.right};
-    std::ranges::copy(names.arm, body.arm.begin());
-    std::ranges::copy(names.leg, body.leg.begin());
+    Body body;
     if (!wish.toes) body.toe_step = {};
     return FigureMaker(random, wish, body, true).make();
+}
+
+std::vector<float> turns(const Eigen::Vector3d& axis, const std::vector<double>& degrees)
+{
+    std::vector<float> keys;
+    for (const double angle : degrees) {
+        const Eigen::Quaterniond q(Eigen::AngleAxisd(angle * kDegree, axis));
+        for (const double value : {q.x(), q.y(), q.z(), q.w()}) keys.push_back(static_cast<float>(value));
+    }
+    return keys;
+}
+
+nlohmann::json report_of(const fs::path& folder, Words words, int exit_code)
+{
+    words.push_back("--json");
+    const Outcome outcome = run_command(folder, words);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == exit_code);
+    CHECK(outcome.err.empty() == (exit_code == 0));
+    return nlohmann::json::parse(outcome.out);
+}
+
+nlohmann::json rig_report(const GltfRig& rig, const Words& options)
+{
+    const TempFolder folder;
+    rig.write(folder / "rig.glb");
+    Words words = {"rig", "rig.glb", "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = run_command(folder.path, words);
+    INFO(outcome.err);
+    REQUIRE(!outcome.out.empty());
+    return nlohmann::json::parse(outcome.out);
+}
+
+nlohmann::json limb_of(const nlohmann::json& report, const std::string& name)
+{
+    for (const nlohmann::json& limb : report.at("limbs"))
+        if (limb.at("limb") == name) return limb;
+    FAIL("no limb " + name);
+    return {};
+}
+
+Eigen::Vector3d vector_of(const nlohmann::json& numbers) { return Eigen::Vector3d(numbers[0], numbers[1], numbers[2]); }
+
+double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b)) / kDegree;
+}
+
+std::string problem_of(const nlohmann::json& report, const std::string& limb)
+{
+    return limb_of(report, limb).value("problem", "");
 }
 
 }  // namespace swivel::test

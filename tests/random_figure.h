@@ -1,20 +1,27 @@
 #pragma once
 // SPDX-License-Identifier: MIT
 // Figures as glTF files, of which everything that matters to a solver is known: as a test tells them, or at random.
-// They face +z, stand along +y and have their left at +x, before nodes above scale, mirror and turn them.
+// They face +z, stand along +y and have their left at +x, before nodes above scale, mirror and turn them. And what
+// `swivel rig` reports of them.
+
+#include <nlohmann/json.hpp>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "tests/gltf_closure.h"
-#include "tests/rig_report.h"
+#include "tests/gltf_rig.h"
+#include "tests/plain_gltf.h"
+#include "tests/run_command.h"
 
 namespace swivel::test {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 // Of left arm, right arm, left leg and right leg, in degrees as elbows and knees bend; below 0: pressed through.
 using Bends = std::array<double, 4>;
@@ -61,21 +68,29 @@ struct Figure {
 Figure figure_of(const Body& body);
 inline GltfRig rig_of(const Body& body) { return figure_of(body).rig; }
 
-struct FigureNames {
-    const char* habit;
-    std::array<const char*, 3> arm, leg;  // * is the side
-    const char *left, *right;
-};
-
-// As some exporters spell them; tests/command/test_limb_joints.cpp has all.
-const std::vector<FigureNames>& figure_names();
-
 // A figure of four limbs with any joint axes, scales and mirrors, with or without joints in between that twist. Limbs
 // are straight or bent at rest, and move at random. random: what it is made of.
-Figure random_figure(std::mt19937& random, const FigureWish& wish, const FigureNames& names);
+Figure random_figure(std::mt19937& random, const FigureWish& wish);
 
 inline const Eigen::Vector3d kX = Eigen::Vector3d::UnitX(), kY = Eigen::Vector3d::UnitY(),
                              kZ = Eigen::Vector3d::UnitZ();
 inline constexpr std::array<const char*, 4> kLimbs = {"left_arm", "right_arm", "left_leg", "right_leg"};
+
+// Keys of rotations.
+std::vector<float> turns(const Eigen::Vector3d& axis, const std::vector<double>& degrees);
+
+// What the command says in a folder with --json. It must end with this code.
+nlohmann::json report_of(const fs::path& folder, Words words, int exit_code = 0);
+
+nlohmann::json rig_report(const GltfRig& rig, const Words& options = {});
+
+nlohmann::json limb_of(const nlohmann::json& report, const std::string& name);
+
+Eigen::Vector3d vector_of(const nlohmann::json& numbers);
+
+double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+// Why a limb is not bound; empty where it is.
+std::string problem_of(const nlohmann::json& report, const std::string& limb);
 
 }  // namespace swivel::test

@@ -86,6 +86,13 @@ Outcome run_command(const std::filesystem::path& folder, const Words& arguments,
     return outcome;
 }
 
+Outcome done(const Outcome& outcome)
+{
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome;
+}
+
 Outcome spawn_command(const std::filesystem::path& folder, const Words& arguments, const Surroundings& surroundings)
 {
     Words words = {SWIVEL_COMMAND};

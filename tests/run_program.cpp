@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/run_program.h"
+#include "tests/run_command.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -28,9 +28,7 @@ Outcome run(const Words& words)
 
 std::string output(const Words& words)
 {
-    const Outcome outcome = run(words);
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
+    const Outcome outcome = done(run(words));
     REQUIRE(outcome.err.empty());
     return outcome.out;
 }

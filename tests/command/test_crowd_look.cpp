@@ -26,11 +26,6 @@ std::string look_at(const Vector3d& target, const std::string& more = "")
     return "[look]\ntarget = " + text_of(target) + "\n" + more;
 }
 
-double turn_between(const Matrix3d& a, const Matrix3d& b)
-{
-    return kDegrees * Eigen::AngleAxisd(a.transpose() * b).angle();
-}
-
 // By how many degrees the face misses the target.
 double missed_by(const PlainMotion& motion, std::size_t frame, const Vector3d& face, const Vector3d& target)
 {
@@ -47,7 +42,7 @@ Turned turned(const PlainMotion& clip, const PlainMotion& motion, std::size_t fr
     Turned turned;
     for (const PlainJoint& joint : clip.joints) {
         const double by =
-            turn_between(local_rotation(clip, frame, joint.name), local_rotation(motion, frame, joint.name));
+            kDegrees * turn_between(local_rotation(clip, frame, joint.name), local_rotation(motion, frame, joint.name));
         const auto at = std::ranges::find(kLooking, joint.name);
         if (at != kLooking.end())
             turned.looking[static_cast<std::size_t>(at - kLooking.begin())] = by;
@@ -160,7 +155,7 @@ TEST_CASE("a cache has the poses of heads that solve writes")
     const PlainMotion motion = stage.motion(toml, kFew);
     for (const Words& words :
          {Words{"store", "clip.bvh", "cache", "--crowd", "c.toml", "--frames", "30"}, Words{"fill", "cache"}})
-        require_done(run_command(stage.folder.path, words));
+        done(run_command(stage.folder.path, words));
     const tools::Cache cache(stage.folder / "cache");
     for (std::uint32_t frame = 0; frame < kCount; ++frame)
         for (std::size_t n = 0; n < kLooking.size(); ++n) {

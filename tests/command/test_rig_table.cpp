@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The rules of docs/rigs.md, as a table of made-up figures. Of each limb, the figure knows whether it binds, which way
-// it bends and what tells so.
+// The rules of docs/rigs.md, as a table of made-up figures. A figure knows of each limb whether it binds, which way it
+// bends and what tells so.
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
@@ -22,7 +22,7 @@ using nlohmann::json;
 
 namespace {
 
-// What must come out of a limb. With a way it binds and bends that way, and the report's reason has this text. Without
+// The report of a limb. With a way it binds and bends that way, and the report's reason has this text. Without
 // one it does not bind, and the problem has this text.
 struct Want {
     Vector3d way = Vector3d::Zero();
@@ -73,7 +73,7 @@ Vector3d swung(double degrees, const Vector3d& from, const Vector3d& to)
     return 0.3 * (std::cos(degrees * kDegree) * from + std::sin(degrees * kDegree) * to);
 }
 
-// What the rule of docs/rigs.md takes of a limb. clip: degrees of its frames.
+// The witness that the rule of docs/rigs.md takes of a limb. clip: degrees of its frames.
 enum class Witness { rest, clip, toes };
 struct Told {
     Witness by;

@@ -8,16 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <span>
-#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "tests/crowd_stage.h"
 #include "tests/feet_motion.h"
-#include "tests/shared_figures.h"
+#include "tests/test_data.h"
 #include "tools/cache/cache_maker.h"
 #include "tools/crowd/stands.h"
 
@@ -50,7 +48,7 @@ fs::path walk_in(const TempFolder& folder)
     for (const Words& words :
          {Words{"retarget", figure, must_find_jump(), "--fps", "120", "--out", "once.bvh"},
           Words{"solve", "once.bvh", "--crowd", "loop.toml", "--frames", "343", "--out", "on.bvh"}})
-        require_done(run_command(folder.path, words));
+        done(run_command(folder.path, words));
     return folder / "on.bvh";
 }
 
@@ -60,7 +58,7 @@ struct HillStage {
     PlainMotion clip;
     PlainContacts contacts;
     Hills hills = random_hills(kHillSize);
-    double floor = 0;  // in a quarter of all frames the lowest joint is lower
+    double floor = 0;
 
     explicit HillStage(const Carried& to = {}) : frame_time(to.frame_time())
     {
@@ -69,22 +67,14 @@ struct HillStage {
         clip = plain_motion_of(folder / "walk.bvh");
         REQUIRE(run_command(folder.path, {"feet", "walk.bvh", "--export-contacts", "c.csv"}).exit_code == 0);
         contacts = contacts_in_table(slurp(folder / "c.csv"), clip.lines.size());
-        std::vector<double> lowest(clip.lines.size(), 1e9);
-        for (std::size_t frame = 0; frame < lowest.size(); ++frame)
-            for (const PlainPose& pose : pose_of(clip, frame))
-                lowest[frame] = std::min(lowest[frame], pose.position.y());
-        std::ranges::sort(lowest);
-        floor = lowest[(lowest.size() - 1) / 4];
+        floor = floor_of(clip);
     }
 
     std::string solved(const std::string& toml, Words words) const
     {
         spill(folder / "c.toml", toml);
         words.insert(words.begin(), {"solve", "walk.bvh", "--crowd", "c.toml"});
-        const Outcome outcome = run_command(folder.path, words);
-        INFO(outcome.err);
-        REQUIRE(outcome.exit_code == 0);
-        return outcome.out;
+        return done(run_command(folder.path, words)).out;
     }
     double ground(const Vector3d& at) const
     {
@@ -103,13 +93,6 @@ struct HillStage {
     }
 };
 
-std::vector<std::string> parts_of(const std::string& text, char between)
-{
-    std::istringstream in(text);
-    std::vector<std::string> parts;
-    for (std::string part; std::getline(in, part, between);) parts.push_back(part);
-    return parts;
-}
 // Where a row of the table has a leg's toe, or its ankle.
 Vector3d toe_of(const PlainMotion& clip, const PoseLine& row, bool is_ankle = false)
 {
@@ -142,7 +125,7 @@ TEST_CASE("feet of a crowd on hills stand where they touch, on the ground")
     std::size_t down = 0, standing = 0, since = 0;
     double slide = 0, gap = 0, below = 0, float_most = 0, slide_most = 0;
     for (std::size_t n = 1; n < rows.size(); ++n) {
-        const PoseLine &row = rows[n], &was = rows[n - 1];
+        const PoseLine &row = rows[n], &last = rows[n - 1];
         const std::size_t side = row.limb == "left_leg" ? 0 : 1, count = stage.clip.lines.size();
         const auto frame = (row.frame + static_cast<std::size_t>(row.number("start"))) % count;
         const double size = row.number("size");
@@ -151,21 +134,17 @@ TEST_CASE("feet of a crowd on hills stand where they touch, on the ground")
         const double height = (toe.y() - stage.ground(toe)) / size,
                      over = size * (height - std::clamp(height, least, most));
         below = std::max(below, -over);
-        const bool goes_on = was.limb == row.limb && was.character == row.character && frame > 0;
+        const bool goes_on = last.limb == row.limb && last.character == row.character && frame > 0;
         since = goes_on && stage.contacts[side][frame] ? since + 1 : 0;
         if (since <= kRunIn) continue;
         ++down;
         float_most = std::max(float_most, std::fabs(over));
-        slide_most = std::max(slide_most, (toe - toe_of(stage.clip, was)).norm());
+        slide_most = std::max(slide_most, (toe - toe_of(stage.clip, last)).norm());
         if ((row.flags & kPlanted) == 0 || (row.flags & kReached) == 0) continue;
         ++standing;
         gap = std::max(gap, std::fabs(over));
-        slide = std::max(slide, (toe - toe_of(stage.clip, was)).norm());
+        slide = std::max(slide, (toe - toe_of(stage.clip, last)).norm());
     }
-    std::printf("hills: %zu frames of contact, %zu standing; slide %.3f mm, gap %.3f mm, below %.3f mm\n", down,
-                standing, kMillimetres * slide, kMillimetres * gap, kMillimetres * below);
-    std::printf("all frames of contact: slide %.3f mm, gap %.3f mm\n", kMillimetres * slide_most,
-                kMillimetres * float_most);
     CHECK(down > 1000);
     // Where a leg cannot reach down a slope of 20 degrees, its foot still is near its place.
     CHECK(static_cast<double>(standing) > 0.85 * static_cast<double>(down));
@@ -233,9 +212,7 @@ TEST_CASE("a crowd climbs steps without a jump, and its feet stand on them")
         }
         const auto [hips, toes] = jumps(after);
         const auto [own_hips, own_toes] = jumps(before);
-        std::printf("%s, %.0f fps: jumps %.2f (hips) and %.2f (toes) of the clip's; gap %.2f mm, depth %.2f mm\n",
-                    profile.name, 1 / stage.frame_time, hips / own_hips, toes / own_toes, kMillimetres * gap,
-                    kMillimetres * depth);
+        INFO(profile.name << ", " << 1 / stage.frame_time << " frames a second");
         CHECK(hips < 2 * own_hips);
         CHECK(toes < 2 * own_toes);
         CHECK(kMillimetres * gap < 3);
@@ -270,13 +247,10 @@ TEST_CASE("a foot that a table sends beside its clip stands on the ground there"
 {
     const HillStage stage;
     stage.solved(crowd_on_hills(), {"--export-targets", "t.csv", "--quiet"});
-    std::string beside;
-    for (const std::string& line : parts_of(slurp(stage.folder / "t.csv"), '\n')) {
-        std::vector<std::string> cells = parts_of(line, ',');
-        if (line.find("left_leg") != std::string::npos) cells[3] = fmt::format("{}", std::stod(cells[3]) + 4);
-        beside += fmt::format("{}\n", fmt::join(cells, ","));
-    }
-    spill(stage.folder / "beside.csv", beside);
+    TargetTable table(slurp(stage.folder / "t.csv"));
+    for (Cells& row : table.rows)
+        if (row.at("limb") == "left_leg") row["x"] = fmt::format("{}", number(row, "x") + 4);
+    spill(stage.folder / "beside.csv", table.text());
     stage.solved(crowd_on_hills(), {"--targets", "beside.csv", "--out", "out.bvh", "--quiet"});
     const PlainLegs legs = stage.legs_of("out.bvh"), own = stage.legs_of("walk.bvh");
     const auto [least, most] = stage.clearance(0);
@@ -346,9 +320,9 @@ TEST_CASE("a foot stands on the point that the file says, and arms that go along
     for (std::size_t n = 1, since = 0; n < rows.size(); ++n) {
         since = stage.contacts[0][rows[n].frame] ? since + 1 : 0;
         if (since <= 12 || (rows[n].flags & kPlanted) == 0 || (rows[n].flags & kReached) == 0) continue;
-        const Vector3d ankle = toe_of(stage.clip, rows[n], true), was = toe_of(stage.clip, rows[n - 1], true);
+        const Vector3d ankle = toe_of(stage.clip, rows[n], true), last = toe_of(stage.clip, rows[n - 1], true);
         ++standing;
-        CHECK(kMillimetres * (ankle - was).norm() < 0.1);
+        CHECK(kMillimetres * (ankle - last).norm() < 0.1);
         CHECK(ankle.y() > heights[(heights.size() - 1) / 2] - 1e-3);
         CHECK(ankle.y() < heights[heights.size() / 2] + 1e-3);
     }

@@ -16,7 +16,7 @@
 #include <sstream>
 
 #include "tests/plain_motion.h"
-#include "tests/run_program.h"
+#include "tests/run_command.h"
 #include "tests/test_data.h"
 
 using namespace swivel::test;

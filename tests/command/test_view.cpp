@@ -13,8 +13,8 @@
 
 #include "swivel/swivel.hpp"
 #include "tests/plain_motion.h"
-#include "tests/pose_rows.h"
-#include "tests/run_program.h"
+#include "tests/run_command.h"
+#include "tests/solve_tables.h"
 #include "tests/test_data.h"
 #include "tools/crowd/limb_setup.h"
 #include "tools/formats/base64.h"
@@ -72,9 +72,7 @@ struct Stage {
     Json view(Words words, const std::string& name = "clip.bvh.html") const
     {
         words.insert(words.begin(), {"view", "clip.bvh"});
-        const Outcome outcome = run(words);
-        INFO(outcome.err);
-        REQUIRE(outcome.exit_code == 0);
+        const Outcome outcome = done(run(words));
         CHECK(outcome.err.empty());
         return page(name);
     }
@@ -223,9 +221,7 @@ TEST_CASE("without a file the page shows the figure that is installed, in its ow
     const fs::path source = SWIVEL_SOURCE_DIR;
     for (const char* name : {"tools/view/figure.glb", "tools/view/figure.toml", "examples/hills.png"})
         fs::copy_file(source / name, stage.folder / "share/swivel" / fs::path(name).filename());
-    const Outcome outcome = stage.run({"view"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
+    done(stage.run({"view"}));
     const Json page = stage.page("figure.glb.html"), skin = page.at("skin");
     CHECK(page.at("character_count") == 300);
     CHECK(page.at("frame_count") == 300);

@@ -9,7 +9,6 @@
 #include <set>
 #include <sstream>
 
-#include "tests/complaint.h"
 #include "tests/test_data.h"
 #include "tools/formats/crowd_file.h"
 

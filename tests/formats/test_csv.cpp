@@ -6,7 +6,6 @@
 
 #include <limits>
 
-#include "tests/complaint.h"
 #include "tests/test_data.h"
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/targets_csv.h"

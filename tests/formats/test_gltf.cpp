@@ -9,11 +9,9 @@
 #include <map>
 #include <random>
 
-#include "tests/complaint.h"
-#include "tests/gltf_clip.h"
-#include "tests/gltf_judges.h"
 #include "tests/gltf_rig.h"
 #include "tests/plain_gltf.h"
+#include "tests/test_data.h"
 #include "tools/formats/error.h"
 #include "tools/formats/gltf.h"
 

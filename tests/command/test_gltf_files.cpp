@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Where the bytes of glTF files come from: the file itself and plain files at addresses relative to it, nowhere else.
+// Files that are large, endless or deep work, or end in one line, and take no more time and memory than their size asks
+// for.
 #include <catch2/catch.hpp>
 
 #include <sys/stat.h>
-
 #include <fstream>
 
-#include "tests/gltf_judges.h"
 #include "tests/gltf_rig.h"
 #include "tests/plain_gltf.h"
 #include "tests/run_command.h"
@@ -217,4 +217,80 @@ TEST_CASE("gltf buffers: every other address is rewritten for the new place, and
         CHECK(after["extensions"]["VENDOR_sounds"]["sounds"][1]["uri"] == 5);
         CHECK(after["extras"] == whole["extras"]);
     }
+}
+
+namespace {
+
+// A left arm that bends, keyed at these times.
+GltfRig bending_arm(const std::vector<float>& times)
+{
+    GltfRig rig;
+    const int arm = rig.add("LeftArm", -1, {0, 0, 0}), fore = rig.add("LeftForeArm", arm, {1, 0, 0.5});
+    rig.add("LeftHand", fore, {1, 0, 0});
+    std::vector<float> values;
+    for (std::size_t n = 0; n < times.size(); ++n)
+        for (const float part : n % 2 ? std::array{0.6f, 0.0f, 0.0f, 0.8f} : std::array{0.0f, 0.0f, 0.0f, 1.0f})
+            values.push_back(part);
+    rig.add_keys(rig.add_animation("move"), arm, "rotation", times, values);
+    return rig;
+}
+
+// A GLB's header that promises so many bytes.
+std::string glb_head(std::uint32_t size)
+{
+    std::string glb = GltfRig::glb("{}", "").substr(0, 12);
+    for (std::size_t n = 0; n < 4; ++n) glb[8 + n] = static_cast<char>(size >> (8 * n) & 0xff);
+    return glb;
+}
+
+}  // namespace
+
+TEST_CASE("gltf faults: of a device or a pipe no more is read than the file says it has")
+{
+    const TempFolder folder;
+    const auto refuses = [&](const Outcome& outcome, const char* part) {
+        INFO(outcome.err);
+        CHECK(outcome.exit_code == 1);
+        CHECK_THAT(outcome.err, Contains(part));
+        CHECK(outcome.peak_kib < 200'000);
+    };
+    fs::create_symlink("/dev/zero", folder / "zero.glb");
+    refuses(spawn_command(folder.path, {"rig", "zero.glb"}), "begins with '\\x00\\x00");
+    // Three GiB, of which the header says that twenty, or none, are the file.
+    bending_arm({0, 1}).write(folder / "arm.glb");
+    const std::string good = slurp(folder / "arm.glb");
+    spill(folder / "long.glb", good);
+    fs::resize_file(folder / "long.glb", std::uintmax_t{3} << 30);
+    CHECK(read_clip(folder / "long.glb").clip.joints.size() == 3);
+    const Outcome outcome = spawn_command(folder.path, {"rig", "long.glb"});
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.peak_kib < 200'000);
+    spill(folder / "empty.glb", glb_head(0));
+    fs::resize_file(folder / "empty.glb", std::uintmax_t{3} << 30);
+    refuses(spawn_command(folder.path, {"rig", "empty.glb"}), "the GLB says it has 0 bytes");
+    // A header alone makes no room for what it promises.
+    refuses(run_command(folder.path, {"rig", "-"}, glb_head(4'000'000'000)), "has 4000000000 bytes and has 12");
+    CHECK(run_command(folder.path, {"rig", "-"}, good + "more than the GLB has").exit_code == 0);
+    spill(folder / "long.gltf", "{");
+    fs::resize_file(folder / "long.gltf", std::uintmax_t{3} << 30);
+    CHECK_THROWS_WITH(read_gltf(folder / "long.gltf"), Contains("is longer than 2 GiB; cut it, or write it as .glb"));
+}
+
+// In square time it would take hours.
+TEST_CASE("gltf faults: a chain of many nodes is read and written")
+{
+    const TempFolder folder;
+    constexpr std::size_t kCount = 300'000;
+    std::string text = R"({"asset":{"version":"2.0"},"nodes":[)";
+    for (std::size_t n = 0; n + 1 < kCount; ++n)
+        text += R"({"name":"bone","translation":[0,1,0],"children":[)" + std::to_string(n + 1) + "]},";
+    spill(folder / "chain.gltf", text + R"({"name":"end"}]})");
+    const GltfFile file = read_clip(folder / "chain.gltf");
+    const int last = find_joints(file.clip, "end").at(0);
+    CHECK(joint_path(file.clip, last).size() == 5 * kCount - 2);
+    CHECK(world_pose(file.clip, 0).back().position.y() == kCount - 1);
+    const std::vector<Eigen::Quaterniond> turn = {Eigen::Quaterniond(0, 1, 0, 0)};
+    const JointKeys change[] = {{last, turn}};
+    write_gltf(folder / "new.glb", file, change);
+    CHECK(plain_gltf_of(folder / "new.glb").json["nodes"].size() == kCount);
 }

@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: MIT
+//
+// The library on recorded motion, each frame of a clip as a body. Bodies whose targets are their own come back, elbows
+// that follow hands are near the clip's, and planted feet hardly skate where legs do not fit the clip.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/body_crowd.h"
+#include "tests/feet_motion.h"
+#include "tests/gltf_rig.h"
+#include "tests/run_command.h"
+#include "tests/test_data.h"
+#include "tools/formats/bvh.h"
+#include "tools/rig/limbs.h"
+
+using namespace swivel;
+using namespace swivel::test;
+using formats::Clip;
+
+namespace {
+
+// kinds: "arms", "legs" or "all".
+std::vector<tools::Limb> limbs_of(const formats::Clip& clip, const Words& options, const char* kinds)
+{
+    tools::LimbChoice choice;
+    choice.kinds = kinds;
+    for (std::size_t n = 0; n < options.size(); n += 2)
+        (options[n] == "--arm" ? choice.arms : choice.legs)
+            .push_back(tools::limb_of_option(options[n + 1], options[n]));
+    std::vector<tools::Limb> limbs;
+    for (const tools::LimbFinding& found : bind_limbs(clip, choose_joints(clip, {}, choice), choice).findings)
+        if (found.limb) limbs.push_back(*found.limb);
+    return limbs;
+}
+
+// A clip's skeleton, and each of its frames.
+struct ClipBodies {
+    BodySkeleton skeleton;
+    std::vector<Body> frames;
+
+    ClipBodies(const formats::Clip& clip, const Words& options = {}, const char* kinds = "all")
+        : frames(clip.frame_count)
+    {
+        for (const formats::Joint& joint : clip.joints) {
+            skeleton.parents.push_back(joint.parent);
+            skeleton.rotations.push_back(floats(joint.rest_rotation));
+            skeleton.translations.push_back(floats(joint.offset));
+        }
+        for (const tools::Limb& limb : limbs_of(clip, options, kinds)) {
+            const auto joint = [&](std::size_t n) { return static_cast<std::uint32_t>(limb.joints[n]); };
+            skeleton.limbs.push_back({joint(0), joint(1), joint(2), floats(limb.bend), {}});
+        }
+        for (std::size_t frame = 0; frame < frames.size(); ++frame)
+            for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+                const auto scale = static_cast<float>(local_pose(clip, frame, n).scale);
+                frames[frame].rotations.push_back(floats(clip.rotation[frame * clip.joints.size() + n]));
+                frames[frame].translations.push_back(floats(local_translation(clip, frame, n)));
+                frames[frame].scales.push_back({scale, scale, scale});
+            }
+    }
+};
+
+// Calls judge(name, clip, number of limbs, options) for each clip and animation that people share, where this machine
+// has it. Returns whether it has all.
+template <class Judge>
+bool for_each_shared_clip(const Judge& judge)
+{
+    bool all = true;
+    const auto find = [&](const std::string& name) {
+        const fs::path path = find_or_warn(name);
+        all = all && !path.empty();
+        return path;
+    };
+    for (const char* name : kSharedClips)
+        if (const fs::path path = find(name); !path.empty())
+            judge(std::string(name), formats::read_bvh(path).clip, std::size_t{4}, Words{});
+    for (const SharedFigure& file : kSharedFigures) {
+        const fs::path path = find(file.name);
+        for (int n = 0; !path.empty() && n < std::max(file.animations, 1); ++n) {
+            formats::GltfChoice choice;
+            if (file.animations > 0) choice.animation = std::to_string(n);
+            judge(file.name + ", animation " + std::to_string(n), read_clip(path, choice).clip, file.limbs,
+                  file.options);
+        }
+    }
+    return all;
+}
+
+// Two ways to leave elbows where they come: to give no pole, and to give one without weight.
+constexpr swivel_features kOwnElbows[] = {SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING,
+                                          SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS};
+
+// The frames after a solve whose goals are their own wrists and hands.
+std::vector<Body> solved(const ClipBodies& clip, swivel_features features)
+{
+    Crowd crowd = body_crowd(clip.skeleton, features, static_cast<std::uint32_t>(clip.frames.size()));
+    BodyGoals goals(clip.skeleton.limbs.size());
+    for (std::uint32_t limb = 0; limb < goals.size(); ++limb) {
+        for (const Body& body : clip.frames) goals[limb].push_back(own_goal(clip.skeleton, body, limb));
+        if (features & SWIVEL_WITH_WEIGHTS) crowd.write_all(SWIVEL_WEIGHTS, limb, Float3{1, 1, 0});
+    }
+    write_goals(crowd, goals);
+    PoseLayout layout;
+    layout.translates = layout.scales = true;
+    PoseBuffer poses(layout, clip.frames);
+    solve_poses(crowd, poses.view());
+    std::uint32_t group = 0, limb = 0;
+    CHECK(!swivel_find(crowd.get(), SWIVEL_BAD_INPUT, &group, &limb));
+    std::vector<Body> bodies;
+    for (std::size_t n = 0; n < clip.frames.size(); ++n) bodies.push_back(poses.read(n, clip.frames[n]));
+    return bodies;
+}
+
+void require_same(const ClipBodies& clip, const std::vector<Body>& bodies)
+{
+    for (std::size_t n = 0; n < bodies.size(); ++n) {
+        const std::vector<JointAt> was = joints_at(clip.skeleton, clip.frames[n]),
+                                   is = joints_at(clip.skeleton, bodies[n]);
+        for (const BodyLimbJoints& limb : clip.skeleton.limbs)
+            REQUIRE(strayed(LimbAt(clip.skeleton, clip.frames[n], was, limb), limb, was, is) <= 1);
+    }
+}
+
+void solve_back(const Clip& clip, std::size_t limb_count, const Words& options = {})
+{
+    const ClipBodies bodies(clip, options);
+    REQUIRE(bodies.skeleton.limbs.size() == limb_count);
+    for (const swivel_features features : kOwnElbows) require_same(bodies, solved(bodies, features));
+}
+
+// A joint's turn from the frame before, in degrees, relative to its parent.
+double turn_to(const std::vector<Body>& frames, std::size_t n, std::uint32_t joint)
+{
+    const auto rotation = [&](std::size_t frame) { return quat(frames[frame].rotations[joint]).normalized(); };
+    return rotation(n).angularDistance(rotation(n - 1)) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+TEST_CASE("untouched goals give back every frame of the shared clips and figures' animations")
+{
+    for_each_shared_clip([](const std::string& name, const Clip& clip, std::size_t limb_count, const Words& options) {
+        INFO(name);
+        solve_back(clip, limb_count, options);
+    });
+}
+
+TEST_CASE("a clip's own wrists turn no joint of a limb between two frames as the clip does not")
+{
+    // Its knees are bent by some degrees, to either side. Measured: 0.003 degrees more than the clip.
+    const fs::path path = find_or_warn("m2m_human_ymca.glb");
+    if (path.empty()) return;
+    const ClipBodies clip(read_clip(path).clip);
+    for (const swivel_features features : kOwnElbows) {
+        const std::vector<Body> bodies = solved(clip, features);
+        for (std::size_t n = 1; n < bodies.size(); ++n)
+            for (const BodyLimbJoints& limb : clip.skeleton.limbs)
+                for (const std::uint32_t joint : {limb.shoulder, limb.elbow, limb.wrist})
+                    REQUIRE(turn_to(bodies, n, joint) <= turn_to(clip.frames, n, joint) + 1);
+    }
+}
+
+namespace {
+
+// A clip's arm: places from the shoulder, in its parent's frame, for each frame.
+struct ClipArm {
+    std::vector<Vector3d> elbow, wrist, solved;
+    double upper = 0, fore = 0;
+
+    ClipArm(const ClipBodies& clip, std::size_t limb)
+    {
+        const BodyLimbJoints& joints = clip.skeleton.limbs[limb];
+        const auto parent = static_cast<std::uint32_t>(clip.skeleton.parents[joints.shoulder]);
+        swivel_group_def def = group(static_cast<std::uint32_t>(clip.frames.size()),
+                                     swivel::bind(clip.skeleton.view(), clip.skeleton.joints(limb)),
+                                     SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_HAND);
+        Crowd crowd(def);
+        std::vector<Vector3d> shoulders;
+        std::vector<Quaterniond> parents;
+        for (std::uint32_t n = 0; n < clip.frames.size(); ++n) {
+            const std::vector<JointAt> at = joints_at(clip.skeleton, clip.frames[n]);
+            const Vector3d shoulder = at[joints.shoulder].place;
+            const auto put = [&](swivel_field field, const auto& value) {
+                crowd.write(field, 0, std::span(&value, 1), n);
+            };
+            upper = (at[joints.elbow].place - shoulder).norm();
+            fore = (at[joints.wrist].place - at[joints.elbow].place).norm();
+            put(SWIVEL_TARGET, floats(at[joints.wrist].place));
+            put(SWIVEL_HAND, floats(at[joints.wrist].rotation));
+            put(SWIVEL_SHOULDER_POSITION, floats(shoulder));
+            put(SWIVEL_PARENT_ROTATION, floats(at[parent].rotation));
+            put(SWIVEL_LENGTHS, Float2{static_cast<float>(upper), static_cast<float>(fore)});
+            shoulders.push_back(shoulder);
+            parents.push_back(at[parent].rotation.conjugate());
+            elbow.push_back(parents[n] * (at[joints.elbow].place - shoulder));
+            wrist.push_back(parents[n] * (at[joints.wrist].place - shoulder));
+        }
+        crowd.solve();
+        std::vector<std::array<double, 3>> elbows(clip.frames.size());
+        crowd.elbows(0, elbows);
+        for (std::size_t n = 0; n < elbows.size(); ++n)
+            solved.push_back(parents[n] * (Vector3d(elbows[n].data()) - shoulders[n]));
+    }
+    double length() const { return upper + fore; }
+    double mean_miss(const std::vector<Vector3d>& elbows) const
+    {
+        double sum = 0;
+        for (std::size_t n = 0; n < elbows.size(); ++n) sum += (elbows[n] - elbow[n]).norm();
+        return sum / static_cast<double>(elbows.size());
+    }
+    // The elbows with a pole that stays in this direction.
+    std::vector<Vector3d> with_pole(const Vector3d& pole) const
+    {
+        std::vector<Vector3d> made;
+        for (std::size_t n = 0; n < wrist.size(); ++n) {
+            const double d = wrist[n].norm(), along = (upper * upper + d * d - fore * fore) / (2 * d);
+            const Vector3d line = wrist[n] / d, side = (pole - pole.dot(line) * line).normalized();
+            made.push_back(along * line + std::sqrt(std::max(upper * upper - along * along, 0.0)) * side);
+        }
+        return made;
+    }
+    double best_miss() const
+    {
+        constexpr int kPoles = 1000;
+        double best = 1e9;
+        for (int n = 0; n < kPoles; ++n) {
+            const double z = 1 - (2 * n + 1.0) / kPoles, turn = n * std::numbers::pi * (3 - std::sqrt(5.0)),
+                         r = std::sqrt(1 - z * z);
+            best = std::min(best, mean_miss(with_pole({r * std::cos(turn), r * std::sin(turn), z})));
+        }
+        return best;
+    }
+};
+double largest_step(const std::vector<Vector3d>& places)
+{
+    double most = 0;
+    for (std::size_t n = 1; n < places.size(); ++n) most = std::max(most, (places[n] - places[n - 1]).norm());
+    return most;
+}
+
+TEST_CASE("on shared clips, elbows that follow hands are nearer than with the best fixed pole, and move smoothly")
+{
+    // Where a fixed pole is within this share of the arm, the elbow hardly moves. A hand whose wrist bends does not
+    // tell it better then.
+    constexpr double kStill = 0.015;
+    int judged = 0;
+    const bool all = for_each_shared_clip(
+        [&](const std::string& name, const formats::Clip& clip, std::size_t, const Words& options) {
+            const ClipBodies bodies(clip, options, "arms");
+            for (std::size_t limb = 0; limb < bodies.skeleton.limbs.size(); ++limb) {
+                const ClipArm arm(bodies, limb);
+                const double miss = arm.mean_miss(arm.solved), best = arm.best_miss();
+                INFO(name << ", arm " << limb << ": " << miss / arm.length() << " of the arm, the best fixed pole "
+                          << best / arm.length() << ", step " << largest_step(arm.solved) / arm.length()
+                          << ", the clip's " << largest_step(arm.elbow) / arm.length());
+                CHECK(largest_step(arm.solved) <= 3 * largest_step(arm.elbow) + 1e-3 * arm.length());
+                if (best < kStill * arm.length()) {
+                    CHECK(miss <= 0.1 * arm.length());
+                } else {
+                    CHECK(miss <= 0.7 * best);
+                    ++judged;
+                }
+            }
+        });
+    if (all) CHECK(judged >= 6);
+}
+
+// What the library makes of each of kSkatingClips at most, by the formulas' prototype: a cap 8 mm beyond the clip, a
+// pelvis that goes up or down by 30 mm.
+constexpr Skates kAfter[] = {
+    {.037, .489, 21, 11.8}, {.028, .527, 12, 13.0}, {.008, .474, 10, 21.9}, {.057, .640, 33, 11.0}};
+// A spring that makes up half of 30 mm in 0.1 s moves by so many in a frame at most.
+constexpr double kMostShift = 3.1;
+constexpr double kStop = 0.10;  // seconds in which a foot stops
+
+// A clip as bodies, whose two limbs are the left leg and the right one.
+struct LegBodies {
+    ClipBodies clip;
+    std::array<std::uint32_t, 2> toes;
+
+    explicit LegBodies(const formats::Clip& from) : clip(from, {}, "legs")
+    {
+        for (const std::size_t side : {0u, 1u})
+            toes[side] = static_cast<std::uint32_t>(find_joints(from, side ? "RightToeBase" : "LeftToeBase").at(0));
+        for (Body& body : clip.frames) std::swap(body.root_position, body.translations[0]);  // the root joint's place
+    }
+    double leg_metres(std::size_t side) const
+    {
+        const BodyLimbJoints& of = clip.skeleton.limbs[side];
+        return kMetre *
+               (vec(clip.skeleton.translations[of.elbow]).norm() + vec(clip.skeleton.translations[of.wrist]).norm());
+    }
+    // Where the legs are. shifts: of the root, along y, in each frame.
+    PlainLegs legs(const std::vector<double>& shifts) const
+    {
+        PlainLegs path{kCarriedTime, {}, {}};
+        for (std::size_t frame = 0; frame < clip.frames.size(); ++frame) {
+            const std::vector<JointAt> at = joints_at(clip.skeleton, clip.frames[frame]);
+            const Vector3d root = vec(clip.frames[frame].root_position) + shifts[frame] * Vector3d::UnitY();
+            path.body.push_back(root);
+            for (std::size_t side = 0; side < 2; ++side) {
+                const BodyLimbJoints& of = clip.skeleton.limbs[side];
+                PlainLegPath& leg = path.legs[side];
+                leg.hip.push_back(root + at[of.shoulder].place);
+                leg.knee.push_back(root + at[of.elbow].place);
+                leg.ankle.push_back(root + at[of.wrist].place);
+                leg.toe.push_back(root + at[toes[side]].place);
+            }
+        }
+        return path;
+    }
+};
+
+constexpr swivel_features kPlantedLeg = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_INCOMING |
+                                        SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP |
+                                        SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_FIT | SWIVEL_HAND_YIELDS;
+constexpr std::uint32_t kShift = 2;  // the group after both legs
+
+Crowd planting_crowd(const LegBodies& bodies)
+{
+    const BodySkeleton& skeleton = bodies.clip.skeleton;
+    const swivel_limb_joints joints[] = {skeleton.joints(0), skeleton.joints(1)};
+    std::vector<swivel_group_def> groups;
+    const auto share = [&](double metres, std::size_t leg) {
+        return static_cast<float>(metres / bodies.leg_metres(leg));
+    };
+    for (std::size_t leg = 0; leg < 2; ++leg) {
+        groups.push_back(body_group(joints[leg], kPlantedLeg));
+        swivel_plant& plant = groups.back().plant;
+        plant.lock = share(0.10, leg), plant.unlock = share(0.20, leg), plant.again = share(0.05, leg);
+        plant.stop = static_cast<float>(kStop), plant.blend = 0.2f;
+    }
+    groups.push_back(swivel_default_fit_group_def());
+    groups[kShift].fit = {share(0.03, 0), share(0.03, 0), 0.1f, 0};
+    Crowd crowd(skeleton.view(), 1, groups);
+    for (std::uint32_t leg = 0; leg < 2; ++leg) {
+        crowd.write_all(SWIVEL_EFFECTOR, leg, skeleton.translations[bodies.toes[leg]]);
+        crowd.write_all(SWIVEL_FLEXION_LIMIT, leg, flexion(degrees(1.62), std::numbers::pi));
+        crowd.write_all(SWIVEL_CAP, leg, Float3{share(0.008, leg), 0, share(0.002, leg)});
+    }
+    return crowd;
+}
+
+struct Planted {
+    LegBodies bodies;
+    std::vector<double> shifts = {};
+    std::array<std::vector<std::uint32_t>, 2> flags = {};  // of the legs, in each frame
+
+    Planted(const LegBodies& from, const PlainContacts& contacts) : bodies(from)
+    {
+        Crowd crowd = planting_crowd(bodies);
+        PoseLayout layout;
+        layout.roots = true;
+        const auto time = static_cast<float>(kCarriedTime);
+        for (std::size_t frame = 0; frame < bodies.clip.frames.size(); ++frame) {
+            for (std::uint32_t leg = 0; leg < 2; ++leg)
+                crowd.write_all(SWIVEL_CONTACT, leg, contacts[leg][frame] ? 1.f : 0.f);
+            Body& body = bodies.clip.frames[frame];
+            PoseBuffer buffer(layout, {body});
+            swivel_pose pose = buffer.view();
+            pose.time = {&time, 0};
+            crowd.solve({.pose = &pose});
+            body = buffer.read(0, body);
+            shifts.push_back(read<Float3>(crowd, SWIVEL_SHIFT, kShift)[0][0]);
+            for (std::uint32_t leg = 0; leg < 2; ++leg)
+                flags[leg].push_back(read<std::uint32_t>(crowd, SWIVEL_FLAGS, leg)[0]);
+        }
+    }
+    // How far a toe moves from frame to frame at most, mm, where it has been locked for longer than it takes to stop,
+    // and its leg reaches.
+    double slide_locked(const PlainLegs& legs) const
+    {
+        double most = 0;
+        int held = 0;
+        for (std::size_t leg = 0; leg < 2; ++leg) {
+            double locked = 0;  // s
+            bool stood = false;
+            for (std::size_t frame = 0; frame < flags[leg].size(); ++frame) {
+                locked = flags[leg][frame] & SWIVEL_PLANTED ? locked + kCarriedTime : 0;
+                const bool stands = flags[leg][frame] & SWIVEL_REACHED && locked > kStop + kCarriedTime;
+                const std::vector<Vector3d>& toe = legs.legs[leg].toe;
+                if (stands && stood) most = std::max(most, 1e3 * kMetre * (toe[frame] - toe[frame - 1]).norm()), ++held;
+                stood = stands;
+            }
+        }
+        REQUIRE(held > 20);
+        return most;
+    }
+};
+
+void require_at_most(const Skates& is, const Skates& wanted, double share)
+{
+    INFO(is.mean << " and " << is.most << " m/s, " << is.step << " mm a step, a knee " << is.knee
+                 << " degrees a frame");
+    CHECK(is.mean <= share * wanted.mean);
+    CHECK(is.most <= share * wanted.most);
+    CHECK(is.step <= share * wanted.step);
+    CHECK(is.knee <= share * wanted.knee);
+}
+
+}  // namespace
+
+TEST_CASE("planted, capped and fitted legs hardly skate on the shared clips")
+{
+    for (std::size_t n = 0; n < std::size(kSkatingClips); ++n) {
+        const SkatingClip& each = kSkatingClips[n];
+        const fs::path path = find_or_warn(each.file);
+        if (path.empty()) continue;
+        INFO(each.words);
+        const TempFolder folder;
+        const PlainMotion recorded = plain_motion_of(path);
+        spill(folder / "skates.bvh", carried(recorded, each.to));
+        const PlainContacts contacts =
+            prototypes_contacts(legs_path(plain_motion(carried(recorded, {})), kCarriedTime));
+        const LegBodies bodies(formats::read_bvh(folder / "skates.bvh").clip);
+        const Planted planted(bodies, contacts);
+        const PlainLegs before = bodies.legs(std::vector<double>(bodies.clip.frames.size())),
+                        after = planted.bodies.legs(planted.shifts);
+        // Before, it skates as the prototype says, within half of the last digit that its figures have.
+        const Skates was = in_metres(plain_skating(before, contacts));
+        CHECK(std::abs(was.mean - each.before.mean) <= 5e-4);
+        CHECK(std::abs(was.most - each.before.most) <= 5e-4);
+        CHECK(std::abs(was.step - each.before.step) <= 0.5);
+        CHECK(std::abs(was.knee - each.before.knee) <= 0.05);
+        require_at_most(in_metres(plain_skating(after, contacts)), kAfter[n], 1.05);
+        CHECK(planted.slide_locked(after) < 0.1);
+        for (std::size_t frame = 1; frame < planted.shifts.size(); ++frame)
+            CHECK(1e3 * kMetre * std::abs(planted.shifts[frame] - planted.shifts[frame - 1]) <= kMostShift);
+    }
+}
