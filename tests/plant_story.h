@@ -167,6 +167,64 @@ private:
     }
 };
 
+inline constexpr double kMostHalf = 75 * 3.14159265358979323846 / 180;
+
+// A rotation that goes with a point's machine. An offset is the axis times the tangent of half the angle.
+class TurnMachine {
+public:
+    double clearance = 1;  // the least cosine of half an angle so far: at 0 there are two ways round
+
+    explicit TurnMachine(const PlantRules& rules) : rules_(rules) {}
+
+    // stood: how the point stood before its machine's step.
+    Quaterniond step(const Quaterniond& now, double time, PlantMachine::Stands stood, const PlantMachine& point)
+    {
+        using Stands = PlantMachine::Stands;
+        const bool is_locked = point.stands == Stands::locked, was_locked = stood == Stands::locked;
+        if (point.is_fresh) {
+            mark_ = now;
+            transition_ = {};
+            return now;
+        }
+        if (!(time > 0)) return turn(transition_.place()) * (was_locked ? mark_ : now);
+        const Vector3d speed =
+            was_locked ? Vector3d(Vector3d::Zero()) : Vector3d(offset(now * mark_.conjugate()) / time);
+        if (stood == Stands::releases)
+            transition_ = {transition_.place(), shortened(transition_.speed() - speed, rules_.turn_out), rules_.blend};
+        transition_.since += time;
+        const Quaterniond to = turn(transition_.place()) * (was_locked ? mark_ : now);
+        if (is_locked && !was_locked) {
+            const Vector3d entry = shortened(speed + transition_.speed(), rules_.turn_in), ahead = rules_.ahead * entry;
+            mark_ = turn(ahead) * to;
+            transition_ = {-ahead, entry, rules_.stop};
+        } else if (was_locked && !is_locked) {
+            transition_ = {offset(to * now.conjugate()), transition_.speed(), 1};
+        }
+        if (!is_locked) mark_ = now;
+        return to;
+    }
+
+private:
+    PlantRules rules_;
+    Quaterniond mark_ = Quaterniond::Identity();
+    Transition transition_;
+
+    static Quaterniond turn(const Vector3d& offset)
+    {
+        const double size = offset.norm();
+        if (size == 0) return Quaterniond::Identity();
+        return Quaterniond(Eigen::AngleAxisd(2 * std::atan(size), offset / size));
+    }
+    Vector3d offset(Quaterniond q)
+    {
+        clearance = std::min(clearance, std::fabs(q.w()));
+        if (q.w() < 0) q.coeffs() = -q.coeffs();
+        const double half = std::min(std::atan2(q.vec().norm(), q.w()), kMostHalf);
+        return half == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(std::tan(half) * q.vec().normalized());
+    }
+    static Vector3d shortened(const Vector3d& v, double most) { return v.norm() > most ? most / v.norm() * v : v; }
+};
+
 // A point planted by the library's formula, over any number type.
 template <class T>
 struct PlantedPoint {
