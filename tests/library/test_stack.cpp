@@ -12,7 +12,7 @@
 #include "tests/holding_bodies.h"
 #include "tests/rest_skeleton.h"
 #include "tests/test_crowd.h"
-#include "tests/test_isa_scope.h"
+#include "tests/test_scopes.h"
 #include "tools/corpus/corpus.h"
 
 using namespace swivel;
