@@ -12,7 +12,7 @@
 
 #include "tests/limited_arms.h"
 #include "tests/test_crowd.h"
-#include "tests/test_isa_scope.h"
+#include "tests/test_scopes.h"
 
 namespace {
 
