@@ -88,7 +88,7 @@ class Readme(unittest.TestCase):
         tests = ROOT / "tests"
         rules = "".join(file.read_text(encoding="utf-8") for file in tests.rglob("CMakeLists.txt") if "node_modules" not in file.parts)
         names = {file.stem.removeprefix("test_") for file in tests.glob("**/test_*.cpp")} | {file.stem for file in tests.glob("*.cmake")}
-        names |= {f"{file.parent.name}_{file.stem.removeprefix('test_')}" for file in tests.glob("*/test_*.py")}
+        names |= {f"{file.parent.name}_{file.stem.removeprefix('test_')}" for file in tests.glob("**/test_*.py")}
         names |= set(re.findall(r"\bNAME (\w+)", rules))
         names |= {f"{platform}_digest" for platform in re.findall(r"swivel_platform\((\w+)", rules)}
         count = 0
@@ -160,7 +160,7 @@ class Docs(unittest.TestCase):
         head = self.header.partition("#pragma once")[0]
         shown = plain(re.findall(r"^//     (.*)$", head, re.M))
         self.assertGreater(len(shown), 10)
-        tested = plain((ROOT / "tests/capi/test_capi.c").read_text(encoding="utf-8").splitlines())
+        tested = plain((ROOT / "tests/bindings/c/test_capi.c").read_text(encoding="utf-8").splitlines())
         self.assertEqual(tested[tested.index(shown[0]):][:len(shown)], shown)
 
     def test_nothing_is_fetched_from_elsewhere(self):

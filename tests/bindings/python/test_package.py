@@ -11,7 +11,7 @@ import sys
 import tarfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 SOURCES = ("CHANGELOG.md", "CMakeLists.txt", "LICENSE", "MANIFEST.in", "README.md", "SECURITY.md", "pyproject.toml", "setup.py",
            "batch", "cmake", "core", "include", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/python")
 USE = """

@@ -16,7 +16,7 @@ import swivel
 from bodies import LIMBS, PARENTS, PLACES, crowd_of
 from swivel import Feature, Field
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PACKAGE = Path(swivel.__file__).parent  # as built, with the stub
 HEADER = re.sub(r"//[^\n]*", "", (ROOT / "include" / "swivel" / "swivel.h").read_text(encoding="utf-8"))
 STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))

@@ -11,7 +11,7 @@ import numpy as np
 import swivel
 from swivel import Flag
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def names_of(page, count):
