@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/interface_bodies.h"
+#include "tests/fuzz/interface_job.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-
-#include "tests/fuzz/check_results.h"
-#include "tests/fuzz/crowd_of_bytes.h"
 
 namespace swivel::fuzz {
 namespace {

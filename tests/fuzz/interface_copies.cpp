@@ -4,10 +4,8 @@
 #include <array>
 #include <cstring>
 
-#include "tests/fuzz/crowd_of_bytes.h"
+#include "tests/fuzz/caller_arrays.h"
 #include "tests/fuzz/interface_session.h"
-#include "tests/fuzz/require.h"
-#include "tests/fuzz/strided.h"
 
 namespace swivel::fuzz {
 namespace {

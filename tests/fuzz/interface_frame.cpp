@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/interface_frame.h"
+#include "tests/fuzz/interface_job.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
-
-#include "tests/fuzz/crowd_of_bytes.h"
-#include "tests/fuzz/require.h"
 
 namespace swivel::fuzz {
 namespace {

@@ -9,10 +9,8 @@
 #include <cstring>
 #include <vector>
 
-#include "tests/fuzz/crowd_of_bytes.h"
+#include "tests/fuzz/caller_arrays.h"
 #include "tests/fuzz/interface_session.h"
-#include "tests/fuzz/require.h"
-#include "tests/fuzz/strided.h"
 
 namespace swivel::fuzz {
 namespace {

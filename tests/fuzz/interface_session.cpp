@@ -5,7 +5,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "tests/fuzz/check_results.h"
 #include "tests/fuzz/require.h"
 
 namespace swivel::fuzz {
