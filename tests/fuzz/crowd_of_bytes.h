@@ -42,6 +42,14 @@ struct Random {
 // A value of a field, with as many floats as the field has. kind says how hard it is. 0 to 5: as such a field should
 // be. 6: with some numbers at which formulas break. 7: any bits.
 void make_value(Random& random, swivel_field field, std::uint32_t kind, std::span<float> value);
+// The same in a caller's array, of any alignment: `count` numbers of number_bytes. Doubles are wide times as large.
+void put_value(Random& random, swivel_field field, std::uint32_t kind, std::size_t count, char* at,
+               std::size_t number_bytes = sizeof(float), double wide = 1);
+// Three doubles far from 0, or of any bits.
+void put_place(Random& random, bool any_bits, char* at);
+
+// What the library says of a field; all is 0 for one that there is not.
+swivel_field_info described(swivel_field field);
 
 // Writes all inputs of all limbs, padding too: a kind and a seed a field and group, then single numbers here and there.
 void fill_inputs(Bytes& bytes, swivel_crowd& crowd);

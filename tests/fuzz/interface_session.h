@@ -55,6 +55,8 @@ bool is_overwritten(const Session& session, std::uint32_t group, std::uint32_t l
 // Whether a field may be given in doubles, and what becomes of it.
 bool is_position(swivel_field field);
 bool is_carried(swivel_field field);
+// Whether a group has a direction in the field, so that no origin is subtracted from it.
+bool is_direction(const Session& session, std::uint32_t group, swivel_field field);
 
 // A call was to succeed or not, and did so; if not, it has changed nothing.
 void check_status(const Session& session, swivel_status status, bool expected);
