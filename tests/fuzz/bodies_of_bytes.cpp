@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/bodies_of_bytes.h"
+#include "tests/fuzz/crowd_of_bytes.h"
 
 #include <algorithm>
 #include <array>

@@ -14,6 +14,7 @@ namespace swivel::fuzz {
 class Bytes {
 public:
     Bytes(const std::uint8_t* data, std::size_t size) : text_(reinterpret_cast<const char*>(data), size) {}
+    explicit Bytes(std::string_view text) : text_(text) {}
 
     bool is_empty() const { return text_.empty(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/check_results.h"
+#include "tests/fuzz/interface_session.h"
 
 #include <algorithm>
 #include <array>

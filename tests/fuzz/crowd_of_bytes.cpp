@@ -5,7 +5,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <string_view>
 
 namespace swivel::fuzz {
 namespace {
@@ -79,17 +81,6 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
         case SWIVEL_PARENT_SCALE:
             for (float& x : value) x = std::abs(x) + 0.01f;
             break;
-        case SWIVEL_WEIGHTS:
-        case SWIVEL_CONTACT:
-        case SWIVEL_CAP:
-        case SWIVEL_FIT_WEIGHT:
-        case SWIVEL_COMING_TIME:
-        case SWIVEL_GROUND_WEIGHT:
-        case SWIVEL_PROP_SHARE:
-        case SWIVEL_PROP_WEIGHT:
-            for (float& x : value) x = std::abs(x);
-            if (random.below(4) == 0) value[0] = std::round(value[0]);  // nothing or all
-            break;
         case SWIVEL_GROUND:
         case SWIVEL_PROP_PLACE:
         case SWIVEL_PROP_TURN:
@@ -106,7 +97,9 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
             for (float& x : value) x *= 2;
             break;
         default:
-            break;
+            if (!std::string_view(described(field).range).starts_with("0 to 1")) break;
+            for (float& x : value) x = std::abs(x);
+            if (random.below(4) == 0) value[0] = std::round(value[0]);  // nothing or all
     }
 }
 
@@ -240,6 +233,36 @@ void make_value(Random& random, swivel_field field, std::uint32_t kind, std::spa
     } else {
         for (float& x : value) x = std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()));
     }
+}
+
+void put_value(Random& random, swivel_field field, std::uint32_t kind, std::size_t count, char* at,
+               std::size_t number_bytes, double wide)
+{
+    std::array<float, 28> value{};  // of seven twist bones, the most that a field has
+    make_value(random, field, kind, std::span(value).first(count));
+    for (std::size_t n = 0; n < count; ++n) {
+        const double far = wide * double{value[n]};
+        std::memcpy(at + n * number_bytes, number_bytes == sizeof far ? static_cast<const void*>(&far) : &value[n],
+                    number_bytes);
+    }
+}
+
+void put_place(Random& random, bool any_bits, char* at)
+{
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double x = any_bits ? std::bit_cast<double>(random.bits()) : 1e6 + double{random.share()};
+        std::memcpy(at + c * sizeof x, &x, sizeof x);
+    }
+}
+
+swivel_field_info described(swivel_field field)
+{
+    swivel_field_info info = {};
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        if (info.field == field) return info;
+    info = {};
+    info.range = "";
+    return info;
 }
 
 void fill_inputs(Bytes& bytes, swivel_crowd& crowd)

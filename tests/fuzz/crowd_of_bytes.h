@@ -1,7 +1,9 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Crowds as a fuzzer's bytes say: features that go together, groups, bindings, and inputs from ordinary to absurd.
+// Crowds as a fuzzer's bytes say: features that go together, groups, bindings, inputs from ordinary to absurd, and
+// bodies.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,8 +42,58 @@ struct Random {
 // A value of a field, with as many floats as the field has. kind says how hard it is. 0 to 5: as such a field should
 // be. 6: with some numbers at which formulas break. 7: any bits.
 void make_value(Random& random, swivel_field field, std::uint32_t kind, std::span<float> value);
+// The same in a caller's array, of any alignment: `count` numbers of number_bytes. Doubles are wide times as large.
+void put_value(Random& random, swivel_field field, std::uint32_t kind, std::size_t count, char* at,
+               std::size_t number_bytes = sizeof(float), double wide = 1);
+// Three doubles far from 0, or of any bits.
+void put_place(Random& random, bool any_bits, char* at);
+
+// What the library says of a field; all is 0 for one that there is not.
+swivel_field_info described(swivel_field field);
 
 // Writes all inputs of all limbs, padding too: a kind and a seed a field and group, then single numbers here and there.
 void fill_inputs(Bytes& bytes, swivel_crowd& crowd);
+
+// Bodies: a skeleton with limbs beside each other, which may hold each other or things, and the same spoilt in some
+// places.
+struct BodyDef {
+    std::vector<std::int32_t> parents = {};
+    std::vector<float> rotations = {}, translations = {};
+    std::vector<swivel_limb_joints> joints = {};  // of each group that is a limb; they come first
+    std::vector<std::vector<std::uint32_t>> twist_bones = {};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    std::vector<swivel_group_def> groups = {};
+    std::uint32_t body_count = 0;
+    std::array<float, 3> up = {0, 1, 0};
+    bool is_sound = true;
+
+    BodyDef(Bytes& bytes, std::uint32_t most_bodies);
+    BodyDef(const BodyDef&) = delete;  // its parts point to each other
+
+    std::uint32_t joint_count() const { return static_cast<std::uint32_t>(parents.size()); }
+    // A def of that many bodies, which views this.
+    swivel_crowd_def crowd_def(std::uint32_t bodies);
+    // These are of a crowd that could be made. Whether a group's limb has the joint, or one below it.
+    bool is_needed(std::uint32_t joint) const;
+    // The joints that a group's limb turns, and those with what is below them.
+    std::vector<std::uint32_t> turned_joints(std::uint32_t group) const;
+    std::vector<std::uint32_t> moved_joints(std::uint32_t group) const;
+    // Whether a solve of any pose may look at a joint.
+    bool is_seen(std::uint32_t joint) const;
+
+private:
+    swivel_limb_joints limb_of(std::uint32_t group) const;  // as far as its size says
+    std::int32_t add(Random& random, std::int32_t parent);
+    bool is_above(std::uint32_t joint, std::uint32_t below) const;
+    void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swivel_features features);
+    void add_shift();
+    void take_links(Bytes& bytes, std::uint32_t trunk);
+    void link_to_prop(Bytes& bytes, std::uint32_t trunk, swivel_group_def& group);
+    void take_looks(Bytes& bytes, std::uint32_t trunk);
+    void add_look(Bytes& bytes, const std::uint32_t* joints, std::size_t count);
+    void take_constants(Bytes& bytes);
+    void spoil_word(Bytes& bytes, void* begin, const void* end) const;
+    void spoil(Bytes& bytes);
+};
 
 }  // namespace swivel::fuzz

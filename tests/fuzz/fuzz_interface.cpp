@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <memory>
 
-#include "tests/fuzz/crowd_of_bytes.h"
 #include "tests/fuzz/interface_session.h"
 #include "tests/fuzz/require.h"
 

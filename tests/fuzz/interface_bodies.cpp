@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/interface_bodies.h"
+#include "tests/fuzz/interface_job.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-
-#include "tests/fuzz/check_results.h"
-#include "tests/fuzz/crowd_of_bytes.h"
 
 namespace swivel::fuzz {
 namespace {
@@ -97,14 +94,7 @@ void take_root(Session& session, std::optional<Strided>& values, swivel_in& view
     const std::uint32_t kind = session.bytes.take<std::uint8_t>();
     Random random{session.bytes.take<std::uint16_t>()};
     values.emplace(session.bytes, session.bodies->body_count, count * each, true);
-    values->fill([&](std::size_t, char* at) {
-        std::array<float, 4> value;
-        make_value(random, likeness, kind, std::span(value).first(count));
-        for (std::size_t n = 0; n < count; ++n) {
-            const double wide = 1e6 * double{value[n]};
-            std::memcpy(at + n * each, each == sizeof wide ? static_cast<const void*>(&wide) : &value[n], each);
-        }
-    });
+    values->fill([&](std::size_t, char* at) { put_value(random, likeness, kind, count, at, each, 1e6); });
     view = values->in();
 }
 

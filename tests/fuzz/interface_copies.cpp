@@ -4,10 +4,8 @@
 #include <array>
 #include <cstring>
 
-#include "tests/fuzz/crowd_of_bytes.h"
+#include "tests/fuzz/caller_arrays.h"
 #include "tests/fuzz/interface_session.h"
-#include "tests/fuzz/require.h"
-#include "tests/fuzz/strided.h"
 
 namespace swivel::fuzz {
 namespace {
@@ -57,12 +55,9 @@ void call_write(Session& session)
     Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, limbs.group, field), true);
     const bool is_there =
         (field < SWIVEL_SHOULDER || is_carried(field)) && component_count(session, limbs.group, field) > 0;
-    values.fill([&](std::size_t, char* at) {
-        std::array<float, 28> value{};  // of seven twist bones, the most that a field has
-        const std::size_t count = values.value_bytes() / sizeof(float);
-        if (is_there) make_value(random, field, kind, std::span(value).first(count));
-        if (is_there) std::memcpy(at, value.data(), values.value_bytes());
-    });
+    if (is_there)
+        values.fill(
+            [&](std::size_t, char* at) { put_value(random, field, kind, values.value_bytes() / sizeof(float), at); });
     const swivel_status status = swivel_write(session.crowd, field, limbs.group, limbs.first, limbs.count, values.in());
     check_status(session, status, limbs.is_valid && is_there && values.is_valid());
     if (status == SWIVEL_OK) require_equal_rows(session, field, limbs, values);
@@ -78,26 +73,18 @@ void call_write_doubles(Session& session)
     const Limbs limbs = take_limbs(session);
     const bool any_bits = bytes.one_in(3), has_origins = bytes.one_in(2);
     Random random{bytes.take<std::uint16_t>()};
-    const auto fill = [&](std::size_t, char* at) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double value = any_bits ? std::bit_cast<double>(random.bits()) : 1e6 + double{random.share()};
-            std::memcpy(at + c * sizeof value, &value, sizeof value);
-        }
-    };
+    const auto fill = [&](std::size_t, char* at) { put_place(random, any_bits, at); };
     const std::size_t count = limbs.is_valid ? limbs.count : 1, size = 3 * sizeof(double);
     Strided values(bytes, count, size, true), origins(bytes, count, size, true);
     values.fill(fill);
     origins.fill(fill);
-    const bool is_given = has_origins && !origins.is_null(),
-               is_direction = field == SWIVEL_POLE &&
-                              has_features(session, limbs.group, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL);
+    const bool is_given = has_origins && !origins.is_null();
     const swivel_status status =
         swivel_write_doubles(session.crowd, field, limbs.group, limbs.first, limbs.count, values.in(),
                              has_origins ? origins.in() : swivel_in{nullptr, origins.stride()});
     const bool is_there = is_position(field) && component_count(session, limbs.group, field) > 0;
-    check_status(
-        session, status,
-        limbs.is_valid && is_there && values.is_valid() && !(is_given && (is_direction || !origins.is_valid())));
+    const bool is_wrong_origin = is_given && (is_direction(session, limbs.group, field) || !origins.is_valid());
+    check_status(session, status, limbs.is_valid && is_there && values.is_valid() && !is_wrong_origin);
 }
 
 void call_read(Session& session)

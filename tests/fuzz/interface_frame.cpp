@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/interface_frame.h"
+#include "tests/fuzz/interface_job.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
-
-#include "tests/fuzz/crowd_of_bytes.h"
-#include "tests/fuzz/require.h"
 
 namespace swivel::fuzz {
 namespace {
@@ -65,14 +62,7 @@ void Frame::take_input(Session& session, std::uint32_t group, swivel_field field
     Strided& values =
         inputs.emplace_back(session.bytes, swivel_group_limb_count(session.crowd, group), components * each, true);
     input_fields.push_back(field);
-    values.fill([&](std::size_t, char* at) {
-        std::array<float, 12> value{};
-        make_value(random, field, kind, std::span(value).first(components));
-        for (std::size_t c = 0; c < components; ++c) {
-            const double wide = static_cast<double>(value[c]);
-            std::memcpy(at + c * each, each == sizeof wide ? static_cast<const void*>(&wide) : &value[c], each);
-        }
-    });
+    values.fill([&](std::size_t, char* at) { put_value(random, field, kind, components, at, each); });
     add(session, group, field, values);
 }
 
@@ -99,9 +89,8 @@ double Frame::from(const Session& session, std::uint32_t group, swivel_field fie
                    std::size_t c) const
 {
     double place = 0;
-    const bool is_direction =
-        field == SWIVEL_POLE && has_features(session, group, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL);
-    if (root && !is_direction) std::memcpy(&place, root->at(limb) + c * sizeof place, sizeof place);
+    if (root && !is_direction(session, group, field))
+        std::memcpy(&place, root->at(limb) + c * sizeof place, sizeof place);
     return place;
 }
 

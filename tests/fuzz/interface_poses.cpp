@@ -9,10 +9,8 @@
 #include <cstring>
 #include <vector>
 
-#include "tests/fuzz/crowd_of_bytes.h"
+#include "tests/fuzz/caller_arrays.h"
 #include "tests/fuzz/interface_session.h"
-#include "tests/fuzz/require.h"
-#include "tests/fuzz/strided.h"
 
 namespace swivel::fuzz {
 namespace {
@@ -197,18 +195,9 @@ void call_change_support(Session& session)
     const bool any_bits = bytes.one_in(8);
     Random random{bytes.take<std::uint16_t>()};
     for (const std::size_t n : {0u, 2u})
-        values[n].fill([&](std::size_t, char* at) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                const double x = any_bits ? std::bit_cast<double>(random.bits()) : 1e6 + double{random.share()};
-                std::memcpy(at + c * sizeof x, &x, sizeof x);
-            }
-        });
+        values[n].fill([&](std::size_t, char* at) { put_place(random, any_bits, at); });
     for (const std::size_t n : {1u, 3u})
-        values[n].fill([&](std::size_t, char* at) {
-            std::array<float, 4> q;
-            make_value(random, SWIVEL_HAND, any_bits ? 7 : 0, q);
-            std::memcpy(at, q.data(), sizeof q);
-        });
+        values[n].fill([&](std::size_t, char* at) { put_value(random, SWIVEL_HAND, any_bits ? 7 : 0, 4, at); });
     const swivel_status status =
         swivel_change_support(session.crowd, limbs.group, limbs.first, limbs.count, {values[0].in(), values[1].in()},
                               {values[2].in(), values[3].in()});

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "tests/fuzz/check_results.h"
 #include "tests/fuzz/require.h"
 
 namespace swivel::fuzz {
@@ -75,17 +74,12 @@ bool is_overwritten(const Session& session, std::uint32_t group, std::uint32_t l
     return std::ranges::any_of(session.is_overwritten, [&](const auto& of) { return of[limb]; });
 }
 
-namespace {
-swivel_field_info described(swivel_field field)
-{
-    swivel_field_info info;
-    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-        if (info.field == field) return info;
-    return {};
-}
-}  // namespace
 bool is_position(swivel_field field) { return described(field).is_position != 0; }
 bool is_carried(swivel_field field) { return described(field).kind == SWIVEL_FIELD_CARRIED; }
+bool is_direction(const Session& session, std::uint32_t group, swivel_field field)
+{
+    return field == SWIVEL_POLE && has_features(session, group, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL);
+}
 
 void check_status(const Session& session, swivel_status status, bool expected)
 {

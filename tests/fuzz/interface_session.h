@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "swivel/swivel.h"
-#include "tests/fuzz/bodies_of_bytes.h"
+#include "tests/fuzz/crowd_of_bytes.h"
 
 namespace swivel::fuzz {
 
@@ -55,11 +55,32 @@ bool is_overwritten(const Session& session, std::uint32_t group, std::uint32_t l
 // Whether a field may be given in doubles, and what becomes of it.
 bool is_position(swivel_field field);
 bool is_carried(swivel_field field);
+// Whether a group has a direction in the field, so that no origin is subtracted from it.
+bool is_direction(const Session& session, std::uint32_t group, swivel_field field);
 
 // A call was to succeed or not, and did so; if not, it has changed nothing.
 void check_status(const Session& session, swivel_status status, bool expected);
 // Chosen limbs were solved, results of all others are the bits they were.
 void check_solved(Session& session, const SomeLimbs& chosen);
+
+// ---- what swivel.h promises of results, whatever the inputs were: check_results.cpp
+
+// A solved limb has unit quaternions on their side, known flags, finite places.
+void check_results(const Session& session, std::uint32_t group, std::uint32_t limb);
+
+// A solved limb has the bits of the same limb alone in a crowd, without a job, on the scalar build.
+void check_alone(Session& session, std::uint32_t group, std::uint32_t limb);
+// The same in steps: the limb as it was before the call becomes limb 0 of a group there, which is solved, and is equal.
+void copy_limb(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to);
+void solve_scalar(swivel_crowd* alone, const swivel_job* job);
+void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to,
+                 swivel_field except = SWIVEL_RESULT_END);
+
+// A job for probes alone changed no other result.
+void check_probes(const Session& session, const SomeLimbs& chosen);
+// Inputs and results of limbs that are not chosen, and whole blocks without such a limb, have the bits that they
+// had before the call.
+void check_others(const Session& session, const SomeLimbs& chosen);
 
 // ---- the calls: interface_copies.cpp, interface_solves.cpp, interface_poses.cpp
 void call_write(Session& session);

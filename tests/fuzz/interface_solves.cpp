@@ -5,13 +5,7 @@
 #include <bit>
 #include <memory>
 
-#include "tests/fuzz/check_results.h"
-#include "tests/fuzz/crowd_of_bytes.h"
-#include "tests/fuzz/interface_bodies.h"
-#include "tests/fuzz/interface_frame.h"
-#include "tests/fuzz/interface_session.h"
-#include "tests/fuzz/require.h"
-#include "tests/fuzz/strided.h"
+#include "tests/fuzz/interface_job.h"
 
 namespace swivel::fuzz {
 namespace {
