@@ -2,7 +2,6 @@
 //
 // The C entry points: check the arguments, call in, turn outcomes into statuses.
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 
 #include "batch/api/check.h"

@@ -4,7 +4,6 @@
 #include "batch/solve/solve.h"
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 
 #include "batch/crowd/lane_mask.h"
