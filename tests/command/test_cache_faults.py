@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The promise: what goes wrong with a cache is one line that says what, where and what to do, and nothing that was done is lost.
-
-FULL_DISK: the library that full_disk.c makes."""
+"""The promise: what goes wrong with a cache is one line that says what, where and what to do, and nothing that was done is lost."""
 import json
 import os
 import shutil
@@ -13,7 +11,7 @@ import unittest
 import swivel
 from stage import CLIP, LIMITED, STATE, SWIVEL, Stage, files_of, run
 
-DISK = {"LD_PRELOAD": os.environ["FULL_DISK"]}
+DISK = {"LD_PRELOAD": os.environ["LACKING"]}
 
 
 def flip(path, at=-1):
