@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The promise: poses of bodies go in and come out as NumPy arrays. Strided arrays are solved where they lie, and mistakes are told. What solves
 do is in test_scenes."""
-import re
 import unittest
 
 import numpy as np
 
 import swivel
-from bodies import LIMBS, PLACES, Bodies, crowd_of
+from figures import LIMBS, PLACES, Bodies, Refusals, crowd_of
 from swivel import Feature, Flag, Pose
 
 N = 50
@@ -115,14 +114,9 @@ class Compared(unittest.TestCase):
                 self.crowd.compare(**{"pose": pose, "body": 0, **places, **given})
 
 
-class Mistakes(unittest.TestCase):
-    def fails(self, error, text, call, *arguments, **keywords):
-        with self.assertRaisesRegex(error, re.escape(text)) as caught:
-            call(*arguments, **keywords)
-        self.assertNotIn("\n", str(caught.exception))
-
+class Mistakes(Refusals):
     def solve_fails(self, error, text, *arguments, frames=None, **keywords):
-        self.fails(error, text, crowd_of(2).solve, frames=frames, pose=Pose(*arguments, **keywords))
+        self.refuses(error, text, crowd_of(2).solve, frames=frames, pose=Pose(*arguments, **keywords))
 
     def test_poses(self):
         good, matrices = np.zeros((2, 8, 4), np.float32), np.zeros((2, 8, 4, 4), np.float32)
@@ -164,10 +158,10 @@ class Mistakes(unittest.TestCase):
 
     def test_crowds(self):
         crowd = crowd_of(2)
-        self.fails(TypeError, "pose: expected a Pose, got ndarray", crowd.solve, pose=np.zeros((2, 8, 4), np.float32))
-        self.fails(ValueError, "give the job their pose", crowd.solve)
-        self.fails(ValueError, "this crowd has no bodies, so it takes no pose", swivel.Crowd(2).solve, pose=Pose())
-        self.fails(ValueError, "priorities: expected one entry for the bodies, got 2", crowd.choose, [1, 1], 1)
+        self.refuses(TypeError, "pose: expected a Pose, got ndarray", crowd.solve, pose=np.zeros((2, 8, 4), np.float32))
+        self.refuses(ValueError, "give the job their pose", crowd.solve)
+        self.refuses(ValueError, "this crowd has no bodies, so it takes no pose", swivel.Crowd(2).solve, pose=Pose())
+        self.refuses(ValueError, "priorities: expected one entry for the bodies, got 2", crowd.choose, [1, 1], 1)
 
 
 if __name__ == "__main__":
