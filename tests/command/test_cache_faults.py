@@ -73,14 +73,6 @@ class Disk(Stage):
         self.swivel("check", cache, "--quiet")
         self.assertEqual(run("check", cache, "--quiet", **nobody).returncode, 0)  # a closed cache is only read
 
-    def test_a_cache_is_not_replaced(self):
-        cache = self.fill(self.store())
-        before = files_of(cache)
-        self.assert_refused(run("store", CLIP, cache, "--quiet"), "is there already; remove it, or name another folder")
-        self.assert_refused(run("store", "missing.bvh", cache, "--quiet"), "is there already")  # before the clip is read
-        self.assert_refused(run("store", CLIP, self.folder / "none/cache", "--quiet"), "is no folder; make it first")
-        self.assertEqual(files_of(cache), before)
-
 
 class Metadata(Stage):
     def test_damaged_metadata(self):
@@ -108,27 +100,6 @@ class Metadata(Stage):
                     self.assert_refused(run(*words, "--quiet", cwd=self.folder), what)
                 self.assertEqual(files_of(cache), before)
                 shutil.rmtree(cache)
-
-    def test_what_is_no_cache(self):
-        (self.folder / "empty").mkdir()
-        (self.folder / "file").write_text("no cache\n")
-        for name in ("empty", "file", "missing"):
-            self.assert_refused(run("fill", self.folder / name, "--quiet"), f"{name}: is no cache of swivel; swivel store makes one")
-
-    def test_options_that_are_wrong(self):
-        cache = self.store()
-        for words in (("--shard", "0/4"), ("--shard", "5/4"), ("--shard", "x")):
-            self.assert_refused(run("fill", cache, *words), "write i/n with i from 1 to n, such as 1/4", code=2)
-        for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
-                            (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B"),
-                            (("--out", "part.bvh"), "--out part.bvh: poses of a cache are written as a table; name a .csv$")):
-            self.assert_refused(run("replay", cache, *words), what, code=2)
-        for words in (("--limbs", "all"), ("--frames", "3"), ("--crowd", "crowd.toml"), ("--seed", "1")):
-            self.assert_refused(run("view", cache, *words), f"{words[0]}: the cache has its crowd already; leave the option out", code=2)
-        self.assert_refused(run("view", cache, "--characters", "101"), "--characters 101: the cache has 100$", code=2)
-        for chunk in ("8", "8,17", "0,16", "8,16,1"):
-            done = run("store", CLIP, self.folder / "other", "--chunk", chunk)
-            self.assert_refused(done, "write FRAMES,CHARACTERS, such as 8,4096", code=2)
 
 
 class Stops(Stage):
