@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The promise: what goes wrong with a cache is one line that says what, where and what to do, and nothing that was done is lost."""
-import json
+"""The promise: what goes wrong with a cache is one line that says what, where and what to do, and nothing that was done is lost.
+Wrong options and damaged metadata are in tests/transcripts/cache_refusals.txt."""
 import os
 import shutil
 import signal
@@ -18,12 +18,6 @@ def flip(path, at=-1):
     content = bytearray(path.read_bytes())
     content[at] ^= 1
     path.write_bytes(content)
-
-
-def edit(path, change):
-    content = json.loads(path.read_text())
-    change(content)
-    path.write_text(json.dumps(content))
 
 
 class Disk(Stage):
@@ -72,34 +66,6 @@ class Disk(Stage):
         self.fill(cache)
         self.swivel("check", cache, "--quiet")
         self.assertEqual(run("check", cache, "--quiet", **nobody).returncode, 0)  # a closed cache is only read
-
-
-class Metadata(Stage):
-    def test_damaged_metadata(self):
-        whole = self.fill(self.store(toml=LIMITED))
-        changes = [
-            (".zattrs", lambda path: os.truncate(path, 100), "is no JSON object: it was changed or cut"),
-            (".zattrs", os.remove, r"\.zattrs: is missing; take it from a copy, or make the cache anew in another folder"),
-            (".zattrs", lambda path: edit(path, lambda a: a.update(swivel_cache=1)),
-             "the cache has format 1, this swivel reads format 9; make it anew by swivel store, or use the swivel that made it"),
-            (".zattrs", lambda path: edit(path, lambda a: a.update(characters=101)), "was changed: its digest is another"),
-            (".zattrs", lambda path: edit(path, lambda a: a.pop("swivel_cache")), "describes no cache of swivel"),
-            ("shoulder/.zarray", lambda path: edit(path, lambda a: a.update(shape=[40, 4, 101, 4])),
-             r"shape is \[40,4,101,4\] instead of \[40,4,100,4\]: it was changed"),
-            ("flags/.zarray", lambda path: edit(path, lambda a: a.update(dtype="<f4")), 'dtype is "<f4" instead of "<u4"'),
-            ("digest/.zarray", os.remove, "digest/.zarray: is missing; take it from a copy, or make the cache anew"),
-            ("clip/.zgroup", os.remove, r"clip/\.zgroup: is missing"),
-            ("elbow/.zattrs", lambda path: edit(path, lambda a: a.update(_ARRAY_DIMENSIONS=[])), r"_ARRAY_DIMENSIONS is \[\] instead of"),
-        ]
-        for name, change, what in changes:
-            with self.subTest(what=what):
-                cache = shutil.copytree(whole, self.folder / "damaged")
-                change(cache / name)
-                before = files_of(cache)
-                for words in (("check", cache), ("view", cache)):
-                    self.assert_refused(run(*words, "--quiet", cwd=self.folder), what)
-                self.assertEqual(files_of(cache), before)
-                shutil.rmtree(cache)
 
 
 class Stops(Stage):
