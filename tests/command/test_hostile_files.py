@@ -7,7 +7,6 @@ none, or leaves anything behind when it fails.
     test_hostile_files.py --count N --seed S    N of them, from seed S on; --keep FOLDER keeps what a fault was found in"""
 import collections
 import json
-import os
 import random
 import re
 import shutil

@@ -9,7 +9,7 @@ import numpy as np
 
 import swivel
 from figures import Refusals, Sample, quaternions
-from swivel import (BodyGroup, EulerOrder, Feature, Field, FitGroup, Flag, Ground, Group, LookGroup, Plant, Pose, PropGroup, Region, Skeleton, Support)
+from swivel import (BodyGroup, EulerOrder, Feature, Field, FitGroup, Flag, Group, LookGroup, Pose, PropGroup, Region, Skeleton, Support)
 
 STUB = ast.parse((Path(swivel.__file__).parent / "_core.pyi").read_text(encoding="utf-8"))
 CONE, CHAIN = [(0, 0, 1), (1, 0, 0.5)], {"elbow_offset": (0.3, 0, 0), "wrist_offset": (0.25, 0, 0), "bend": (0, 0, 1)}
