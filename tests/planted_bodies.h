@@ -5,6 +5,7 @@
 #pragma once
 
 #include "tests/body_crowd.h"
+#include "tests/test_crowd.h"
 
 namespace swivel::test {
 
@@ -141,17 +142,6 @@ private:
     }
 };
 
-template <class Value>
-Value value_of(const Crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t body)
-{
-    Value value;
-    check(swivel_read(crowd.get(), field, group, body, 1, {&value, sizeof value}));
-    return value;
-}
-inline std::uint32_t flags_of(const Crowd& crowd, std::uint32_t group, std::uint32_t body)
-{
-    return value_of<std::uint32_t>(crowd, SWIVEL_FLAGS, group, body);
-}
 // Where a limb's point stands in its support's frame, and the bits of that.
 inline Vector3d mark_of(const Crowd& crowd, std::uint32_t group, std::uint32_t body)
 {

@@ -43,6 +43,19 @@ inline bool is_one_line(const std::string& text)
         CHECK(swivel_last_error() != line_before);           \
     } while (false)
 
+// One limb's value of a field, and its flags.
+template <class Value>
+Value value_of(const Crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t limb)
+{
+    Value value;
+    check(swivel_read(crowd.get(), field, group, limb, 1, {&value, sizeof value}));
+    return value;
+}
+inline std::uint32_t flags_of(const Crowd& crowd, std::uint32_t group, std::uint32_t limb)
+{
+    return value_of<std::uint32_t>(crowd, SWIVEL_FLAGS, group, limb);
+}
+
 // Limbs whose joints are the arm frame, with bones of length 1.
 inline swivel_group_def group_of(std::uint32_t limb_count)
 {

@@ -13,8 +13,8 @@
 #include <numeric>
 #include <thread>
 
-#include "tests/other_environment.h"
 #include "tests/test_random.h"
+#include "tests/test_scopes.h"
 
 namespace swivel::test {
 

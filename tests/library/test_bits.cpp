@@ -14,9 +14,8 @@
 
 #include "tests/linked_bodies.h"
 #include "tests/looking_bodies.h"
-#include "tests/other_environment.h"
 #include "tests/test_crowd.h"
-#include "tests/test_isa_scope.h"
+#include "tests/test_scopes.h"
 #include "tests/ways.h"
 #include "tools/corpus/bodies.h"
 #include "tools/corpus/corpus.h"

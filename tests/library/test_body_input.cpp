@@ -20,13 +20,6 @@ using namespace swivel::test;
 // A skeleton whose limbs all hang below joint 0.
 BodySkeleton skeleton_of(Random& random) { return random_body_skeleton(random, {2, 3, 1, true}); }
 
-std::uint32_t limb_flags(const Crowd& crowd, std::uint32_t group, std::uint32_t body)
-{
-    std::uint32_t flags = 0;
-    check(swivel_read(crowd.get(), SWIVEL_FLAGS, group, body, 1, {&flags, sizeof flags}));
-    return flags;
-}
-
 struct PosedStage {
     BodySkeleton skeleton;
     std::vector<Body> bodies;
@@ -97,7 +90,7 @@ TEST_CASE("bad input of a joint is that of the limbs below it, which keep their 
             for (std::uint32_t g = 0; g < 3; ++g) {
                 const bool is_bad = n == bad_body && (is_whole_body || g == 1);
                 INFO(name << ", body " << n << ", group " << g);
-                REQUIRE((limb_flags(bad.crowd, g, n) == SWIVEL_BAD_INPUT) == is_bad);
+                REQUIRE((flags_of(bad.crowd, g, n) == SWIVEL_BAD_INPUT) == is_bad);
                 const BodyLimbJoints& joints = stage.skeleton.limbs[g];
                 for (const std::uint32_t joint : {joints.shoulder, joints.elbow, joints.wrist}) {
                     const std::size_t at = n * poses.body_stride + joint * 16;
@@ -121,7 +114,7 @@ TEST_CASE("a matrix that is slanted or uneven is bad input")
     solve_poses(stage.crowd, poses.view());
     for (std::uint32_t n = 0; n < 20; ++n)
         for (std::uint32_t g = 0; g < 3; ++g)
-            REQUIRE((limb_flags(stage.crowd, g, n) == SWIVEL_BAD_INPUT) == (n == 5 && g == 0));
+            REQUIRE((flags_of(stage.crowd, g, n) == SWIVEL_BAD_INPUT) == (n == 5 && g == 0));
     for (const std::uint32_t joint : {stage.skeleton.limbs[0].shoulder, elbow}) {
         const std::size_t at = 5 * poses.body_stride + joint * 64;
         REQUIRE(std::memcmp(&poses.bytes[at], &before[at], 64) == 0);
@@ -141,7 +134,7 @@ TEST_CASE("without any weight the incoming bits stay, in every form")
     const std::vector<unsigned char> before = poses.bytes;
     solve_poses(stage.crowd, poses.view());
     REQUIRE(poses.bytes == before);
-    for (std::uint32_t n = 0; n < 20; ++n) REQUIRE(limb_flags(stage.crowd, 0, n) == SWIVEL_REACHED);
+    for (std::uint32_t n = 0; n < 20; ++n) REQUIRE(flags_of(stage.crowd, 0, n) == SWIVEL_REACHED);
 }
 
 TEST_CASE("lengths that are written count instead of the pose's")
@@ -150,7 +143,7 @@ TEST_CASE("lengths that are written count instead of the pose's")
     for (std::uint32_t g = 0; g < 3; ++g) stage.crowd.write_all(SWIVEL_LENGTHS, g, Float2{1e-3f, 1e-3f});
     PoseBuffer poses(stage.layout, stage.bodies);
     solve_poses(stage.crowd, poses.view());
-    for (std::uint32_t n = 0; n < 20; ++n) REQUIRE(limb_flags(stage.crowd, 0, n) == SWIVEL_CLAMPED_FAR);
+    for (std::uint32_t n = 0; n < 20; ++n) REQUIRE(flags_of(stage.crowd, 0, n) == SWIVEL_CLAMPED_FAR);
 }
 
 TEST_CASE("limbs rest where they are told to, and a body that kept its pose keeps it")

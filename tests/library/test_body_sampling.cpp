@@ -9,7 +9,7 @@
 #include <atomic>
 
 #include "tests/hill_walkers.h"
-#include "tests/other_environment.h"
+#include "tests/test_scopes.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 // waits for ever. The choice depends on priorities and history alone.
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
-#include "tests/test_limb.h"
+#include "tests/test_whole_limb.h"
 
 #include <rapidcheck/catch.h>
 #include <algorithm>

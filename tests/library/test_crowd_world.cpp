@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: a crowd's results agree with forward kinematics by Eigen, which is in double and shares no code. This
-// checks the arm frame, the world and hands.
+// checks the arm frame, the world and hands. A crowd far from the origin is as exact as one near it: its positions are
+// doubles, from which an origin is subtracted before they are rounded. The test `interface` has doubles in frames.
+#include <array>
+#include <bit>
+#include <cfenv>
+#include <cmath>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/solve_jobs.h"
+#include "tests/test_arm.h"
 #include "tests/test_crowd.h"
-#include "tests/test_limb.h"
+#include "tests/test_random.h"
+#include "tests/test_whole_limb.h"
 
 using namespace swivel;
 using namespace swivel::test;
@@ -54,4 +65,89 @@ TEST_CASE("residuals of what cannot be reached, of no arm and of bad input")
     CHECK(std::fabs(residuals[1] - 1.75 / 4) <= 1e-6);
     CHECK(residuals[2] == 0);
     CHECK(std::isnan(residuals[3]));
+}
+
+using Double3 = std::array<double, 3>;
+
+TEST_CASE("rows hold the difference, rounded once, for any stride, place and rounding mode")
+{
+    rc::prop("random doubles", [](std::uint64_t seed) {
+        Random random{seed};
+        const std::uint32_t count = 1 + random.below(70);
+        Crowd crowd = crowd_of(SWIVEL_WORLD, count);
+        const std::uint32_t first = random.below(count), limbs = random.below(count - first + 1);
+        const swivel_field fields[] = {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION};
+        const swivel_field field = fields[random.below(3)];
+        const std::size_t stride = 24 + random.below(20), origin_stride = random.below(2) ? 24 + random.below(20) : 0;
+        const bool with_origin = random.below(4) > 0;
+        std::vector<unsigned char> values(3 + limbs * stride), origins(3 + limbs * origin_stride + 24);
+        unsigned char *const value = values.data() + random.below(4), *const origin = origins.data() + random.below(4);
+        std::vector<float> expected;
+        const auto far = [&] { return random.spread(1e-3, 1e9) * (random.below(2) ? 1 : -1); };
+        Double3 from;
+        for (std::uint32_t n = 0; n < limbs; ++n) {
+            if (n == 0 || origin_stride > 0)
+                for (double& x : from) x = far();
+            Double3 at;
+            for (std::size_t c = 0; c < 3; ++c) {
+                at[c] = random.below(2) ? from[c] + random.between(-3, 3) : far();
+                expected.push_back(static_cast<float>(with_origin ? at[c] - from[c] : at[c]));
+            }
+            if (n + 1 < limbs || stride >= 24) std::memcpy(value + n * stride, &at, sizeof at);
+            std::memcpy(origin + n * origin_stride, &from, sizeof from);
+        }
+        const auto before = read<Float3>(crowd, field);
+        const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_TOWARDZERO};
+        const int mode = modes[random.below(3)];
+        std::fesetround(mode);
+        const swivel_status status = swivel_write_doubles(crowd.get(), field, 0, first, limbs, {value, stride},
+                                                          with_origin ? swivel_in{origin, origin_stride} : swivel_in{});
+        const int mode_after = std::fegetround();
+        std::fesetround(FE_TONEAREST);
+        RC_ASSERT(status == SWIVEL_OK);
+        RC_ASSERT(mode_after == mode);
+        const auto after = read<Float3>(crowd, field);
+        for (std::uint32_t n = 0; n < count; ++n)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const bool written = n >= first && n < first + limbs;
+                const float wanted = written ? expected[(n - first) * 3 + c] : before[n][c];
+                RC_ASSERT(std::bit_cast<std::uint32_t>(after[n][c]) == std::bit_cast<std::uint32_t>(wanted));
+            }
+    });
+}
+
+TEST_CASE("doubles that no float holds are bad input of their own limb")
+{
+    Crowd crowd = crowd_of(SWIVEL_WORLD, 4);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const Double3 targets[] = {{0, 0, 1}, {1e300, 0, 0}, {0, nan, 0}, {0, 1, 1}};
+    crowd.write_doubles(SWIVEL_TARGET, 0, targets);
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    CHECK(flags == std::vector<std::uint32_t>{SWIVEL_REACHED, SWIVEL_BAD_INPUT, SWIVEL_BAD_INPUT, SWIVEL_REACHED});
+}
+
+TEST_CASE("frames with an origin have doubles; directions have no origin")
+{
+    const swivel_group_def group = group_of(5);
+    Crowd points = crowd_with(SWIVEL_WORLD | SWIVEL_WITH_HAND, {&group, 1}),
+          directions = crowd_with(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {&group, 1});
+    double values[] = {5, 6, 7};
+    CHECK(swivel_write_doubles(directions.get(), SWIVEL_POLE, 0, 0, 1, {values, 0}, {}) == SWIVEL_OK);
+    CHECK(read<Float3>(directions, SWIVEL_POLE)[0] == Float3{5, 6, 7});
+    const auto before = all_words(points);
+    swivel_frame frame = swivel_default_frame();
+    frame.origin = {values, 23};
+    CHECK_REFUSED(solve_frame(points.get(), &frame), SWIVEL_INVALID_ARGUMENT);
+    frame.origin = {values, 0};
+    swivel_frame_field target{SWIVEL_TARGET, values, 12};  // enough for floats
+    frame.fields = &target;
+    frame.field_count = 1;
+    CHECK_REFUSED(solve_frame(points.get(), &frame), SWIVEL_INVALID_ARGUMENT);
+    CHECK(std::string(swivel_last_error()) == "group 0, target: stride 12 is smaller than a value, 24 bytes");
+    CHECK(all_words(points) == before);
+    target.stride = 0;
+    CHECK(solve_frame(points.get(), &frame) == SWIVEL_OK);
+    CHECK(read<Float3>(points, SWIVEL_TARGET)[4] == Float3{0, 0, 0});
 }

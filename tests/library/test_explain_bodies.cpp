@@ -73,8 +73,8 @@ std::string source_of(const PropBodies& of, std::size_t n)
                  hands);
 }
 
-// A spine, a neck and a head, one above the other. The eye is over all of them. All turns here are about the upright
-// axis through the eye, so a scene's own degrees say by how many it misses.
+// A spine, a neck and a head, one above the other. The eye is over all of them. SWIVEL_SIGHT and the target judge what
+// is said of a solve.
 struct ToldLook {
     static constexpr std::array<std::int32_t, 3> kParents = {-1, 0, 1};
     static constexpr std::array<Float3, 3> kOffsets = {{{0, 1, 0}, {0, 0.5f, 0}, {0, 0.2f, 0}}};
@@ -121,9 +121,24 @@ struct ToldLook {
             crowd.solve({.pose = &pose});
         }
         says(when);
+        judge(crowd.explain(0, 0));
     }
 
 private:
+    void judge(const std::string& text) const
+    {
+        const auto sight = value_of<std::array<float, 6>>(crowd, SWIVEL_SIGHT, 0, 0);
+        const auto target = value_of<Float3>(crowd, SWIVEL_LOOK_TARGET, 0, 0);
+        const Vector3d eye(sight[0], sight[1], sight[2]), axis(sight[3], sight[4], sight[5]), to = vec(target) - eye;
+        const double off = std::atan2(axis.cross(to).norm(), axis.dot(to));
+        CAPTURE(text, off);
+        if (const char* const misses = "misses its target by "; has(text, misses))
+            CHECK(number_after(text, misses) == Approx(off / degrees(1)).epsilon(5e-3));  // three digits
+        if (const char* const meets = "meets its target, "; has(text, meets)) {
+            CHECK(off <= 1e-4);
+            CHECK(is_told(number_after(text, meets), to.norm(), 0));
+        }
+    }
     static swivel_group_def group(const swivel_look& look)
     {
         swivel_group_def def = swivel_default_group_def(0);

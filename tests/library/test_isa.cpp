@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/test_arm.h"
-#include "tests/test_isa_scope.h"
+#include "tests/test_scopes.h"
 
 namespace {
 

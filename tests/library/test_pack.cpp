@@ -11,8 +11,8 @@
 
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
-#include "tests/test_isa_scope.h"
 #include "tests/test_random.h"
+#include "tests/test_scopes.h"
 #include "tools/corpus/corpus.h"
 #include "tools/corpus/interface.h"
 

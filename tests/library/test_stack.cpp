@@ -11,7 +11,7 @@
 #include "swivel/lecture.h"
 #include "tests/rest_skeleton.h"
 #include "tests/test_crowd.h"
-#include "tests/test_isa_scope.h"
+#include "tests/test_scopes.h"
 #include "tools/corpus/corpus.h"
 
 using namespace swivel;
