@@ -14,7 +14,7 @@ function(swivel_functions header variable)
   set(${variable} ${functions} PARENT_SCOPE)
 endfunction()
 
-# swivel_members(header structure variable): the names of the members of a structure of swivel.h, without pointers to functions and to arrays.
+# swivel_members(header structure variable): the names of the members of a structure of a public header, without pointers to functions and to arrays.
 function(swivel_members header structure variable)
   file(READ ${header} text)
   string(REGEX REPLACE "//[^\n]*" "" text "${text}")

@@ -12,7 +12,7 @@ if(SHARED)
 else()
   set(how -DFETCH=ON)
 endif()
-build_host(${CMAKE_CURRENT_LIST_DIR}/package/subdirectory ${WORK} -DSWIVEL=${SOURCE} -DSWIVEL_ISAS=scalar -DSWIVEL_TBB=${TBB}
+build_host(${CMAKE_CURRENT_LIST_DIR}/package/host ${WORK} -DSWIVEL=${SOURCE} -DSWIVEL_ISAS=scalar -DSWIVEL_TBB=${TBB}
            -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" ${how})
 must_print_the_line(${WORK}/arm_c)
 must_print_the_line(${WORK}/arm_cpp)

@@ -87,7 +87,8 @@ class Readme(unittest.TestCase):
     def test_the_tests_that_prove_a_promise_exist(self):
         tests = ROOT / "tests"
         rules = "".join(file.read_text(encoding="utf-8") for file in tests.rglob("CMakeLists.txt") if "node_modules" not in file.parts)
-        names = {file.stem.removeprefix("test_") for file in tests.glob("**/test_*.cpp")} | {file.stem for file in tests.glob("*.cmake")}
+        names = {file.stem.removeprefix("test_") for kind in ("cpp", "py") for file in tests.glob(f"**/test_*.{kind}")}
+        names |= {file.stem for file in tests.glob("*.cmake")}
         names |= {f"{file.parent.name}_{file.stem.removeprefix('test_')}" for file in tests.glob("**/test_*.py")}
         names |= set(re.findall(r"\bNAME (\w+)", rules))
         names |= {f"{platform}_digest" for platform in re.findall(r"swivel_platform\((\w+)", rules)}

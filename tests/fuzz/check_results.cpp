@@ -41,20 +41,24 @@ struct Rows {
         return base + ((lane / SWIVEL_LANES * row_count + row) * SWIVEL_LANES + lane % SWIVEL_LANES) * number_bytes;
     }
 };
-Rows inputs_of(swivel_crowd* crowd, std::uint32_t group)
+Rows rows_of(const swivel_rows& rows) { return {reinterpret_cast<char*>(rows.base), rows.row_count, sizeof(float)}; }
+Rows inputs_of(swivel_crowd* crowd, std::uint32_t group) { return rows_of(swivel_input_rows(crowd, group)); }
+Rows results_of(swivel_crowd* crowd, std::uint32_t group) { return rows_of(swivel_result_rows(crowd, group)); }
+// A lane has the bits that it had before the call at hand, but for the rows of a field.
+void require_untouched(const Session& session, const Rows& rows, std::size_t lane, std::size_t first = 0,
+                       std::size_t end = 0)
 {
-    const swivel_rows rows = swivel_input_rows(crowd, group);
-    return {reinterpret_cast<char*>(rows.base), rows.row_count, sizeof(float)};
+    for (std::size_t row = 0; row < rows.row_count; ++row) {
+        if (row >= first && row < end) continue;
+        const char* const now = rows.at(lane, row);
+        SWIVEL_REQUIRE(std::memcmp(now, session.before(now), rows.number_bytes) == 0);
+    }
 }
-Rows results_of(swivel_crowd* crowd, std::uint32_t group)
+// Where a field's rows begin and end.
+std::array<std::size_t, 2> rows_of_field(const Session& session, std::uint32_t group, swivel_field field)
 {
-    const swivel_rows rows = swivel_result_rows(crowd, group);
-    return {reinterpret_cast<char*>(rows.base), rows.row_count, sizeof(float)};
-}
-// What was there before the call at hand.
-const char* before(const Session& session, const char* now)
-{
-    return session.arena_before.data() + (now - session.arena.data());
+    const std::size_t first = swivel_field_first_row(session.crowd, group, field);
+    return {first, first + swivel_field_row_count(session.crowd, group, field)};
 }
 
 struct Reader {
@@ -197,7 +201,7 @@ void copy_limb(const Session& session, std::uint32_t group, std::uint32_t limb, 
     for (std::size_t row = 0; row < put.row_count; ++row)
         std::memcpy(put.at(0, row), inputs.at(limb, row), put.number_bytes);
     for (std::size_t row = 0; row < got.row_count; ++row)
-        std::memcpy(got.at(0, row), before(session, results.at(limb, row)), got.number_bytes);
+        std::memcpy(got.at(0, row), session.before(results.at(limb, row)), got.number_bytes);
 }
 
 void solve_scalar(swivel_crowd* alone, const swivel_job* job)
@@ -213,8 +217,7 @@ void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb
 {
     if (is_overwritten(session, group, limb)) return;
     const Rows results = results_of(session.crowd, group), got = results_of(alone, to);
-    const std::size_t first = swivel_field_first_row(session.crowd, group, except),
-                      end = first + swivel_field_row_count(session.crowd, group, except);
+    const auto [first, end] = rows_of_field(session, group, except);
     for (std::size_t row = 0; row < got.row_count; ++row)
         if (row < first || row >= end)
             SWIVEL_REQUIRE(std::memcmp(got.at(0, row), results.at(limb, row), got.number_bytes) == 0);
@@ -223,15 +226,9 @@ void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb
 void check_probes(const Session& session, const SomeLimbs& chosen)
 {
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
-        const Rows results = results_of(session.crowd, group);
-        const std::size_t first = swivel_field_first_row(session.crowd, group, SWIVEL_PROBE),
-                          end = first + swivel_field_row_count(session.crowd, group, SWIVEL_PROBE);
+        const auto [first, end] = rows_of_field(session, group, SWIVEL_PROBE);
         for (std::size_t limb = 0; limb < chosen[group].size(); ++limb)
-            for (std::size_t row = 0; row < results.row_count; ++row) {
-                const char* const now = results.at(limb, row);
-                if (row < first || row >= end)
-                    SWIVEL_REQUIRE(std::memcmp(now, before(session, now), results.number_bytes) == 0);
-            }
+            require_untouched(session, results_of(session.crowd, group), limb, first, end);
     }
     check_others(session, chosen);
 }
@@ -248,9 +245,7 @@ void check_others(const Session& session, const SomeLimbs& chosen)
             for (std::size_t lane = first; lane < first + SWIVEL_LANES; ++lane) {
                 if (!is_untouched && (lane >= end || is_chosen(lane))) continue;
                 for (const Rows& rows : {inputs_of(session.crowd, group), results_of(session.crowd, group)})
-                    for (std::size_t row = 0; row < rows.row_count; ++row)
-                        SWIVEL_REQUIRE(std::memcmp(rows.at(lane, row), before(session, rows.at(lane, row)),
-                                                   rows.number_bytes) == 0);
+                    require_untouched(session, rows, lane);
             }
         }
     }

@@ -23,19 +23,24 @@ constexpr swivel_joint_values swivel_pose::*kArrays[] = {
     &swivel_pose::rotations,           &swivel_pose::translations,    &swivel_pose::scales,      &swivel_pose::results,
     &swivel_pose::translation_results, &swivel_pose::joint_rotations, &swivel_pose::joint_places};
 
-// Its values of bodies.
-enum Root : std::size_t {
-    kRootPosition,
-    kRootRotation,
-    kRootScale,
-    kTime,
-    kSupportPosition,
-    kSupportRotation,
-    kWeight
+// Its values of bodies, which are like those of a field.
+struct Root {
+    swivel_in swivel_pose::*member;
+    swivel_field likeness;
+    std::size_t count;
+    bool is_place = false;
+
+    std::size_t number_bytes(const swivel_pose& pose) const
+    {
+        return is_place && pose.root_is_double ? sizeof(double) : sizeof(float);
+    }
 };
-constexpr swivel_in swivel_pose::*kRoots[] = {
-    &swivel_pose::root_position,    &swivel_pose::root_rotation,    &swivel_pose::root_scale, &swivel_pose::time,
-    &swivel_pose::support_position, &swivel_pose::support_rotation, &swivel_pose::weight};
+constexpr Root kRoots[] = {{&swivel_pose::root_position, SWIVEL_TARGET, 3, true},
+                           {&swivel_pose::root_rotation, SWIVEL_INCOMING_SHOULDER, 4},
+                           {&swivel_pose::root_scale, SWIVEL_PARENT_SCALE, 1},
+                           {&swivel_pose::time, SWIVEL_COMING_TIME, 1},
+                           {&swivel_pose::support_position, SWIVEL_TARGET, 3, true},
+                           {&swivel_pose::support_rotation, SWIVEL_INCOMING_SHOULDER, 4}};
 
 // Bytes of a rotation or a matrix, as far as a solve may touch them.
 std::size_t rotation_bytes(swivel_pose_form form)
@@ -86,16 +91,15 @@ void take(Session& session, std::optional<JointArray>& values, swivel_joint_valu
     });
     view = values->view();
 }
-// kind: as make_value()'s.
-void take_root(Session& session, std::optional<Strided>& values, swivel_in& view, swivel_field likeness,
-               std::size_t count, std::size_t each)
+void take_root(Session& session, std::optional<Strided>& values, swivel_pose& pose, const Root& root)
 {
     if (session.bytes.one_in(2)) return;
     const std::uint32_t kind = session.bytes.take<std::uint8_t>();
+    const std::size_t each = root.number_bytes(pose);
     Random random{session.bytes.take<std::uint16_t>()};
-    values.emplace(session.bytes, session.bodies->body_count, count * each, true);
-    values->fill([&](std::size_t, char* at) { put_value(random, likeness, kind, count, at, each, 1e6); });
-    view = values->in();
+    values.emplace(session.bytes, session.bodies->body_count, root.count * each, true);
+    values->fill([&](std::size_t, char* at) { put_value(random, root.likeness, kind, root.count, at, each, 1e6); });
+    pose.*root.member = values->in();
 }
 
 bool are_valid(const swivel_joint_values& values, std::size_t bytes, bool may_repeat, std::uint32_t bodies)
@@ -104,9 +108,10 @@ bool are_valid(const swivel_joint_values& values, std::size_t bytes, bool may_re
     const bool is_apart = values.body_stride >= bytes || (values.body_stride == 0 && (may_repeat || bodies == 1));
     return is_apart && (values.offsets || values.joint_stride >= bytes || (values.joint_stride == 0 && may_repeat));
 }
-bool is_valid_root(const swivel_in& values, std::size_t bytes)
+bool is_valid_root(const swivel_pose& pose, const Root& root)
 {
-    return !values.data || values.stride == 0 || values.stride >= bytes;
+    const swivel_in& values = pose.*root.member;
+    return !values.data || values.stride == 0 || values.stride >= root.count * root.number_bytes(pose);
 }
 
 }  // namespace
@@ -134,16 +139,7 @@ Pose::Pose(Session& session)
     if (moves != bytes.one_in(16)) take_out(kTranslationResults, three);
     if (bytes.one_in(4)) take_out(kJointRotations, four);
     if (bytes.one_in(4)) take_out(kJointPlaces, three);
-    const std::size_t each = given.root_is_double ? sizeof(double) : sizeof(float);
-    const auto take_one = [&](Root n, swivel_field likeness, std::size_t count, std::size_t number) {
-        take_root(session, roots[n], given.*kRoots[n], likeness, count, number);
-    };
-    take_one(kRootPosition, SWIVEL_TARGET, 3, each);
-    take_one(kRootRotation, SWIVEL_INCOMING_SHOULDER, 4, sizeof(float));
-    take_one(kRootScale, SWIVEL_PARENT_SCALE, 1, sizeof(float));
-    take_one(kTime, SWIVEL_COMING_TIME, 1, sizeof(float));
-    take_one(kSupportPosition, SWIVEL_TARGET, 3, each);
-    take_one(kSupportRotation, SWIVEL_INCOMING_SHOULDER, 4, sizeof(float));
+    for (std::size_t n = 0; n < roots.size(); ++n) take_root(session, roots[n], given, kRoots[n]);
     if (bytes.one_in(32)) given.size = bytes.below(sizeof given + 9);
     if (bytes.one_in(64)) given.reserved = bytes.below(9);
     if (bytes.one_in(64)) {  // C lets it be any number
@@ -172,8 +168,7 @@ bool Pose::is_valid(const Session& session, const std::vector<bool>& named) cons
     if (pose.form != SWIVEL_ROTATIONS && (pose.translations.data || pose.scales.data)) return false;
     const bool moves = pose.space == SWIVEL_IN_BODY && pose.translations.data;
     if (pose.translation_results.data ? !moves : moves && pose.results.data) return false;
-    const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float), four = 4 * sizeof(float),
-                      place = pose.root_is_double ? 2 * three : three;
+    const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float), four = 4 * sizeof(float);
     bool needs_time = false;
     for (std::uint32_t group = 0; group < session.group_count; ++group)
         needs_time =
@@ -187,11 +182,8 @@ bool Pose::is_valid(const Session& session, const std::vector<bool>& named) cons
            are_right(pose.translations, three, moves && !pose.translation_results.data) &&
            are_right(pose.scales, three, false) && are_right(pose.translation_results, three, true) &&
            are_right(pose.joint_rotations, four, true) && are_right(pose.joint_places, three, true) &&
-           is_valid_root(pose.root_position, place) && is_valid_root(pose.root_rotation, four) &&
-           is_valid_root(pose.root_scale, sizeof(float)) && is_valid_root(pose.time, sizeof(float)) &&
-           is_valid_root(pose.weight, sizeof(float)) && is_valid_root(pose.support_position, place) &&
-           is_valid_root(pose.support_rotation, four) && (pose.root_position.data || !pose.root_is_double) &&
-           (pose.time.data || !needs_time);
+           std::ranges::all_of(kRoots, [&](const Root& root) { return is_valid_root(pose, root); }) &&
+           (pose.root_position.data || !pose.root_is_double) && (pose.time.data || !needs_time);
 }
 
 template <class Take>
@@ -229,7 +221,7 @@ swivel_pose Pose::of_body(std::uint32_t body, std::array<std::vector<char>, 7>& 
         pose.*kArrays[n] = {memory[n].data(), memory[n].size(), arrays[n]->value_bytes(), nullptr};
     }
     for (std::size_t n = 0; n < roots.size(); ++n)
-        if ((pose.*kRoots[n]).data) (pose.*kRoots[n]).data = roots[n]->at(body);
+        if (swivel_in& values = pose.*kRoots[n].member; values.data) values.data = roots[n]->at(body);
     return pose;
 }
 

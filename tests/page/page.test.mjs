@@ -117,7 +117,7 @@ test('goals of one\'s own are the command\'s', async () => {
   await visit(place, (page) => assertEqualBits(page, [0, 7, 10, 29]));
 });
 
-const limited = `${readFileSync(new URL('../cache/limited.toml', import.meta.url), 'utf8')}
+const limited = `${readFileSync(new URL('../command/limited.toml', import.meta.url), 'utf8')}
 [limb.all.swivel]
 most_deg_per_second = 900
 `;

@@ -18,7 +18,11 @@
     begin_default(#name);   \
     const swivel_##name name = swivel_default_##name()
 #define END_DEFAULT() printf("} as const;\n")
-#define VALUES(of, name) print_values(#name, (const float*)&of.name, sizeof(of.name) / sizeof(float))
+#define VALUES(of, name) print_values(#name, KIND(of.name), &of.name, sizeof(of.name) / sizeof(float))
+/* Counts and numbers of joints have no default. */
+#define KIND(value) \
+    _Generic(value, uint32_t : NO_VALUE, const uint32_t* : NO_VALUE, int32_t : WHOLE_NUMBER, default : FLOATS)
+enum kind { NO_VALUE, WHOLE_NUMBER, FLOATS };
 
 _Static_assert(sizeof(swivel_frame_field) == 12, "rows.ts writes it as three words");
 _Static_assert(sizeof(swivel_joint_values) == 16, "bodies.ts writes it as four words");
@@ -96,11 +100,17 @@ static void print_camel(const char* name)
     for (; *name; ++name) putchar(*name == '_' ? toupper((unsigned char)*++name) : *name);
 }
 
-/* As short as the header has them; they become floats again. */
-static void print_values(const char* name, const float* values, size_t count)
+/* As short as the header has them; they become floats again. One value stands for those of all joints of a look. */
+static void print_values(const char* name, enum kind kind, const void* values, size_t count)
 {
+    if (kind == NO_VALUE) return;
+    if (count == SWIVEL_MOST_LOOK_JOINTS) count = 1;
     printf("    "), print_camel(name), printf(count > 1 ? ": [" : ": ");
-    for (size_t n = 0; n < count; ++n) printf(n > 0 ? ", %g" : "%g", (double)values[n]);
+    for (size_t n = 0; n < count; ++n) {
+        if (n > 0) printf(", ");
+        if (kind == FLOATS) printf("%g", (double)((const float*)values)[n]);
+        if (kind == WHOLE_NUMBER) printf("%" PRId32, ((const int32_t*)values)[n]);
+    }
     printf(count > 1 ? "],\n" : ",\n");
 }
 
@@ -112,22 +122,12 @@ static void begin_default(const char* name)
 static void print_constants(void)
 {
 #include "defaults.inc"
-    BEGIN_DEFAULT(prop);
-    printf("    joint: %" PRId32 ",\n", prop.joint), VALUES(prop, most_move);
-    END_DEFAULT();
-    BEGIN_DEFAULT(look);
-    print_values("share", look.share, 1), print_values("cos_most", look.cos_most, 1);
-    VALUES(look, eye), VALUES(look, axis), VALUES(look, cos_full), VALUES(look, cos_none);
-    VALUES(look, fade_distance), VALUES(look, rate);
-    END_DEFAULT();
 }
 
 static void print_structures(void)
 {
     printf("\n// In bytes: the size of each structure, and where its members start.\nexport const layout = {\n");
 #include "structures.inc"
-    BEGIN(swivel_entity), OFFSET(swivel_entity, name), OFFSET(swivel_entity, meaning), OFFSET(swivel_entity, step);
-    OFFSET(swivel_entity, coefficients), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
     printf("export const MOST_LOOK_JOINTS = %d;\n", SWIVEL_MOST_LOOK_JOINTS);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The promise: bindings, angles, the lecture's steps and choices of limbs mean what they mean in C.
+// The promise: bindings, angles, the lecture's steps, choices of limbs and groups mean what they mean in C.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Feature, Field, Flag } from 'swivel-wasm';
@@ -18,7 +18,6 @@ test('bindings of chains and of skeletons are the same', () => {
   assert.notDeepEqual(swivel.bindJoints(skeleton, { ...joints, twistBones: [3] }).bytes, swivel.bindJoints(skeleton, joints).bytes);
   refuses(() => swivel.bindJoints({ ...skeleton, translations: [0, 0, 1] }, joints), 'translations has 3 numbers; give 12');
   refuses(() => swivel.bindJoints(skeleton, { ...joints, wrist: 9 }), '9');
-
 });
 
 test('explanations of many bad inputs are whole', () => {
@@ -90,5 +89,36 @@ test('some limbs: blocks, masks, lists and budgets', () => {
   refuses(() => crowd.solve({ priorities: [[1]], mostBlocks: 1 }), '1 priorities for 2 groups');
   refuses(() => crowd.solve({ priorities: [[1], [1, 2]], mostBlocks: 1 }), '2 priorities for the 20 limbs of group 1');
   refuses(() => crowd.solve({ limbs: [40] }), '40');
+  crowd.dispose();
+});
+
+test('features given once are for groups that give none', () => {
+  const crowd = swivel.crowd([2, { limbCount: 3 }, { limbCount: 4, features: 0n }, { limbCount: 5, features: Feature.JOINTS, binding: swivel.bind(chain) }], Feature.WITH_HAND);
+  assert.deepEqual([0, 1, 2, 3].map((group) => crowd.features(group)), [Feature.WITH_HAND, Feature.WITH_HAND, 0n, Feature.JOINTS]);
+  assert.deepEqual([0, 1, 2, 3].map((group) => crowd.componentCount(Field.HAND, group)), [4, 4, 0, 0]);
+  assert.deepEqual([2, 3].map((group) => [crowd.resultRows(group).length, crowd.pack(group).length]), [[16 * 7, 16 * 7], [16 * 9, 16 * 8]]);
+  assert.deepEqual([crowd.groupCount, crowd.blockCount], [4, 4]);
+  refuses(() => crowd.values(Field.HAND, 2), 'WITH_HAND');
+  refuses(() => crowd.write(Field.HAND, [0, 0, 0, 1], { group: 2 }), 'WITH_HAND');
+  crowd.dispose();
+});
+
+test('a solve of named groups leaves the others alone', () => {
+  const counts = Array.from({ length: 40 }, (_, n) => 1 + n), crowd = swivel.crowd(counts);
+  counts.forEach((_, group) => {
+    crowd.write(Field.LENGTHS, [1, 1], { group });
+    if (group % 3) crowd.values(Field.TARGET, group).fill(0.5), crowd.values(Field.FLAGS, group);  // frames of these groups
+    else crowd.write(Field.TARGET, [0.5, 0.5, 0.5], { group });
+  });
+  const solved = () => counts.flatMap((_, group) => (crowd.read(Field.FLAGS, { group }).every((flags) => flags === Flag.REACHED) ? [group] : []));
+  assert.equal(crowd.solve({ groups: [] }), 0);
+  assert.deepEqual(solved(), []);
+  assert.equal(crowd.solve({ groups: [34, 3, 31, 3] }), counts[3] + counts[31] + counts[34]);
+  assert.deepEqual(solved(), [3, 31, 34]);
+  assert.equal(crowd.solve({ groups: [0, 5, 39], limbs: [crowd.firstLimb(5), crowd.firstLimb(5) + 2, crowd.firstLimb(6)] }), 2);
+  assert.deepEqual([...crowd.read(Field.FLAGS, { group: 5 })], [1, 0, 1, 0, 0, 0]);
+  assert.equal(crowd.read(Field.FLAGS, { group: 6 })[0], 0);
+  assert.equal(crowd.solve(), 820);
+  assert.deepEqual(solved(), counts.map((_, group) => group));
   crowd.dispose();
 });

@@ -2,8 +2,8 @@
 // The promise: what is wrong is refused in one line, and changes nothing.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Feature, Field, Flag, load, SwivelError } from 'swivel-wasm';
-import { chain, refuses, swivel, wasm } from './common.mjs';
+import { Field, Flag } from 'swivel-wasm';
+import { chain, refuses, swivel } from './common.mjs';
 
 test('what is wrong is refused in one line, and changes nothing', async () => {
   const crowd = swivel.crowd([4, 2]);
@@ -61,18 +61,4 @@ test('what is wrong is refused in one line, and changes nothing', async () => {
   refuses(() => crowd.values(Field.SHOULDER), 'this crowd is disposed of');
   refuses(() => crowd.read(Field.SHOULDER), 'this crowd is disposed of');
   assert.equal(view.length, 16);
-});
-
-test('load() takes bytes, a response or an address, and says what is wrong', async () => {
-  for (const source of [wasm, new Response(wasm), `data:application/wasm;base64,${wasm.toString('base64')}`, undefined])
-    assert.equal((await load({ wasm: source })).isaName, 'sse2');
-  for (const [given, says] of [
-    [{ megabytes: 1 }, 'megabytes is 1; give 2 to 4096'],
-    [{ memory: 8 }, 'load() takes megabytes, wasm, not memory'],
-    [8, 'load() takes megabytes, wasm, not 8'],
-    [{ wasm: new Uint8Array(8) }, 'what came is not swivel.wasm'],
-    [{ wasm: new Response('<!doctype html>') }, 'it starts with "<!do"'],
-    [{ wasm: wasm.subarray(0, 5000) }, 'or the file is damaged'],
-    [{ wasm: new Response('', { status: 404 }) }, '404'],
-  ]) await assert.rejects(load(given), (error) => error instanceof SwivelError && error.message.includes(says) || assert.fail(error));
 });

@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { Feature, Field } from 'swivel-wasm';
-import { swivel } from './common.mjs';
+import { refuses, swivel } from './common.mjs';
 
 const scenes = JSON.parse(readFileSync(process.env.SCENES, 'utf8'));
 const numbers = (values) => values.map((x) => x ?? NaN);  // null is NaN
@@ -146,21 +146,27 @@ function keysOf(value, path = '') {
   if (value?.constructor !== Object) return [];
   return Object.entries(value).flatMap(([name, member]) => [path + name, ...keysOf(member, `${path}${name}.`)]);
 }
-function without(value, [name, ...names]) {
-  if (Array.isArray(value)) return value[0]?.constructor === Object ? value.map((each) => without(each, [name, ...names])) : value;
-  const { [name]: member, ...rest } = value;
-  return member === undefined || names.length === 0 ? rest : { ...rest, [name]: without(member, names) };
+/** With edit(object) in the place of each object that has the member there. */
+function edited(value, [name, ...names], edit) {
+  if (Array.isArray(value)) return value[0]?.constructor === Object ? value.map((each) => edited(each, [name, ...names], edit)) : value;
+  if (value[name] === undefined) return value;
+  return names.length === 0 ? edit(value) : { ...value, [name]: edited(value[name], names, edit) };
+}
+/** Scenes by the paths of the members that they have. */
+function scenesByMember() {
+  const of = new Map();
+  for (const scene of scenes) for (const path of new Set(keysOf(scene))) of.set(path, [...(of.get(path) ?? []), scene]);
+  return of;
 }
 
 test('every argument counts: whatever is left out, some scene goes another way, or is refused', () => {
-  const of = new Map();
-  for (const scene of scenes) for (const path of new Set(keysOf(scene))) of.set(path, [...(of.get(path) ?? []), scene]);
+  const of = scenesByMember();
   const given = [...of.keys()].filter((path) => /^(groups|skeleton|up$|frames.(inputs|pose|doubles|carried)\.)/.test(path) && !/probes|rooms/.test(path));
   assert.ok(given.length > 100);
   const counts = (scene, path) => {
     let crowd;
     try {
-      const less = without(scene, path.split('.'));
+      const less = edited(scene, path.split('.'), ({ [path.split('.').at(-1)]: _, ...rest }) => rest);
       crowd = crowdOf(less);
       let n = 0;
       for (const found of play(less, crowd)) if (JSON.stringify(found) !== JSON.stringify(wanted(scene.frames[n++]))) return true;
@@ -172,6 +178,18 @@ test('every argument counts: whatever is left out, some scene goes another way, 
     }
   };
   assert.deepEqual(given.filter((path) => !of.get(path).some((scene) => counts(scene, path))), []);
+});
+
+test('every member of what bodies are made of refuses what it is not, in one line that names it', () => {
+  const of = scenesByMember(), members = [...of.keys()].filter((path) => /^(groups\.((plant|ground|fit|prop|look|joints)\.\w+|link)|up|frames\.carried\.(was|now)\.\w+)$/.test(path));
+  assert.ok(members.length >= 40, `${members}`);
+  for (const path of members) {
+    const names = path.split('.'), name = (names.length < 3 || names[1] === 'joints' ? names.slice(-1) : names.slice(-2)).map(camel).join('.');
+    for (const wrong of name === 'twistBones' ? ['x'] : ['x', Array(14).fill(0.5)]) {  // which may be any number of joints
+      const scene = edited(of.get(path)[0], names, (given) => ({ ...given, [names.at(-1)]: wrong }));
+      refuses(() => { for (const _ of play(scene, crowdOf(scene))); }, name);
+    }
+  }
 });
 
 test('every feature, input and part of a pose is in some scene', () => {

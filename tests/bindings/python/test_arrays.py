@@ -8,7 +8,7 @@ import weakref
 import numpy as np
 
 import swivel
-from arms import Sample
+from figures import Refusals, Sample
 from swivel import Feature, Field
 
 N = 100
@@ -122,85 +122,79 @@ class Rows(unittest.TestCase):
             crowd.read(Field.PARENT_SCALE, out=crowd.rows(Field.PARENT_SCALE)[0, 0])
 
 
-class Mistakes(unittest.TestCase):
-    def fails(self, error, text, call, *arguments, **keywords):
-        with self.assertRaises(error) as caught:
-            call(*arguments, **keywords)
-        self.assertIs(type(caught.exception), error)
-        self.assertIn(text, str(caught.exception))
-
+class Mistakes(Refusals):
     def test_shapes_and_types(self):
         crowd = swivel.Crowd(N, Feature.WORLD)
         write, read = crowd.write, crowd.read
-        self.fails(ValueError, "target: expected shape (100, 3), or (3,) for all limbs, got (99, 3)", write, Field.TARGET,
+        self.refuses(ValueError, "target: expected shape (100, 3), or (3,) for all limbs, got (99, 3)", write, Field.TARGET,
                    np.zeros((99, 3)))
-        self.fails(ValueError, "parent_scale: expected shape (100,), or () for all limbs, got (100, 1)", write, Field.PARENT_SCALE,
+        self.refuses(ValueError, "parent_scale: expected shape (100,), or () for all limbs, got (100, 1)", write, Field.PARENT_SCALE,
                    np.zeros((N, 1)))
-        self.fails(ValueError, "target: not an array of numbers", write, Field.TARGET, [[1, 2], [3]])
-        self.fails(TypeError, "target: expected numbers that can become float32, got dtype complex64", write, Field.TARGET,
+        self.refuses(ValueError, "target: not an array of numbers", write, Field.TARGET, [[1, 2], [3]])
+        self.refuses(TypeError, "target: expected numbers that can become float32, got dtype complex64", write, Field.TARGET,
                    np.zeros((N, 3), np.complex64))
-        self.fails(TypeError, "got dtype <U1", write, Field.TARGET, ("a", "b", "c"))
-        self.fails(ValueError, "shoulder: expected shape (100, 4), got (100, 3)", read, Field.SHOULDER,
+        self.refuses(TypeError, "got dtype <U1", write, Field.TARGET, ("a", "b", "c"))
+        self.refuses(ValueError, "shoulder: expected shape (100, 4), got (100, 3)", read, Field.SHOULDER,
                    out=np.zeros((N, 3), np.float32))
-        self.fails(TypeError, "shoulder: expected dtype float32, got float64", read, Field.SHOULDER, out=np.zeros((N, 4)))
-        self.fails(TypeError, "shoulder: expected an array to write to, got list", read, Field.SHOULDER, out=[])
+        self.refuses(TypeError, "shoulder: expected dtype float32, got float64", read, Field.SHOULDER, out=np.zeros((N, 4)))
+        self.refuses(TypeError, "shoulder: expected an array to write to, got list", read, Field.SHOULDER, out=[])
         frozen = np.zeros((N, 4), np.float32)
         frozen.setflags(write=False)
-        self.fails(ValueError, "shoulder: the array is read-only", read, Field.SHOULDER, out=frozen)
-        self.fails(ValueError, "out: expected shape (100, 3), got (3,)", crowd.wrists, out=np.zeros(3))
-        self.fails(ValueError, "origins: expected shape (100, 3), or (3,) for all limbs, got (2,)", crowd.write_doubles,
+        self.refuses(ValueError, "shoulder: the array is read-only", read, Field.SHOULDER, out=frozen)
+        self.refuses(ValueError, "out: expected shape (100, 3), got (3,)", crowd.wrists, out=np.zeros(3))
+        self.refuses(ValueError, "origins: expected shape (100, 3), or (3,) for all limbs, got (2,)", crowd.write_doubles,
                    Field.TARGET, np.zeros(3), (1, 2))
-        self.fails(ValueError, "mask: expected shape (112,), one for each lane, got (100,)", crowd.solve, mask=np.ones(N, bool))
-        self.fails(TypeError, "mask: expected an array of bool", crowd.solve, mask=np.ones(112))
-        self.fails(TypeError, "limbs: expected whole numbers", crowd.solve, limbs=[0.5])
-        self.fails(ValueError, "limb is -1", crowd.solve, limbs=[-1])
-        self.fails(ValueError, "pole: expected shape (5, 3)", swivel.solve, np.zeros((5, 3)), np.zeros((4, 3)), (1, 1))
+        self.refuses(ValueError, "mask: expected shape (112,), one for each lane, got (100,)", crowd.solve, mask=np.ones(N, bool))
+        self.refuses(TypeError, "mask: expected an array of bool", crowd.solve, mask=np.ones(112))
+        self.refuses(TypeError, "limbs: expected whole numbers", crowd.solve, limbs=[0.5])
+        self.refuses(ValueError, "limb is -1", crowd.solve, limbs=[-1])
+        self.refuses(ValueError, "pole: expected shape (5, 3)", swivel.solve, np.zeros((5, 3)), np.zeros((4, 3)), (1, 1))
 
     def test_the_librarys_own_words(self):
         crowd = swivel.Crowd(N)
-        self.fails(ValueError, "shoulder is a result; write takes inputs and what is carried", crowd.write, Field.SHOULDER, 0)
-        self.fails(ValueError, "group 0, hand: not part of this group; create it with Feature.WITH_HAND", crowd.read, Field.HAND)
-        self.fails(ValueError, "no instruction set 'mmx'", swivel.use_isa, "mmx")
+        self.refuses(ValueError, "shoulder is a result; write takes inputs and what is carried", crowd.write, Field.SHOULDER, 0)
+        self.refuses(ValueError, "group 0, hand: not part of this group; create it with Feature.WITH_HAND", crowd.read, Field.HAND)
+        self.refuses(ValueError, "no instruction set 'mmx'", swivel.use_isa, "mmx")
         for name, runs in swivel.isas():
             if not runs:
-                self.fails(RuntimeError, name, swivel.use_isa, name)
+                self.refuses(RuntimeError, name, swivel.use_isa, name)
 
     def test_names_and_numbers(self):
         crowd = swivel.Crowd(N)
-        self.fails(ValueError, "there is no field 99", crowd.read, 99)
-        self.fails(ValueError, "there is no order of axes 6", swivel.Crowd, 1, 0, 6)
-        self.fails(ValueError, "group is -1", crowd.read, Field.TARGET, -1)
-        self.fails(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got 'x'", swivel.Crowd, ["x"])
+        self.refuses(ValueError, "there is no field 99", crowd.read, 99)
+        self.refuses(ValueError, "there is no order of axes 6", swivel.Crowd, 1, 0, 6)
+        self.refuses(ValueError, "group is -1", crowd.read, Field.TARGET, -1)
+        self.refuses(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got 'x'", swivel.Crowd, ["x"])
         for wrong in ((1, 2), (None, None), (), (1, None, "WORLD"), (1, None, 0, 0, 0, 0, None, 0)):
-            self.fails(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got (", swivel.Crowd, [wrong])
-        self.fails(ValueError, "there is no way to treat bad input 2; give a member of swivel.OnBadInput", swivel.Crowd, 1, on_bad_input=2)
-        self.fails(ValueError, "features is -1", swivel.Crowd, [swivel.Group(1, features=-1)])
-        self.fails(ValueError, "frame of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve,
+            self.refuses(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got (", swivel.Crowd, [wrong])
+        self.refuses(ValueError, "there is no way to treat bad input 2; give a member of swivel.OnBadInput", swivel.Crowd, 1, on_bad_input=2)
+        self.refuses(ValueError, "features is -1", swivel.Crowd, [swivel.Group(1, features=-1)])
+        self.refuses(ValueError, "frame of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve,
                    frames={"tagret": 0})
-        self.fails(ValueError, "frames: expected one for each of 1 groups, got 2", crowd.solve, frames=[{}, {}])
-        self.fails(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve, priorities=[1, 1],
+        self.refuses(ValueError, "frames: expected one for each of 1 groups, got 2", crowd.solve, frames=[{}, {}])
+        self.refuses(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve, priorities=[1, 1],
                    most_blocks=1)
-        self.fails(TypeError, "takes priorities and most_blocks together", crowd.solve, most_blocks=1)
-        self.fails(ValueError, "urgency: expected shape (7,), got (6,)", crowd.choose, [1], 1, np.zeros(6, np.float32))
-        self.fails(TypeError, "urgency: expected dtype float32, got float64", crowd.choose, [1], 1, np.zeros(7))
-        self.fails(ValueError, "urgency: its numbers must lie side by side", crowd.choose, [1], 1, np.zeros(14, np.float32)[::2])
-        self.fails(ValueError, "urgency: its numbers must lie side by side, and aligned", crowd.choose, [1], 1,
+        self.refuses(TypeError, "takes priorities and most_blocks together", crowd.solve, most_blocks=1)
+        self.refuses(ValueError, "urgency: expected shape (7,), got (6,)", crowd.choose, [1], 1, np.zeros(6, np.float32))
+        self.refuses(TypeError, "urgency: expected dtype float32, got float64", crowd.choose, [1], 1, np.zeros(7))
+        self.refuses(ValueError, "urgency: its numbers must lie side by side", crowd.choose, [1], 1, np.zeros(14, np.float32)[::2])
+        self.refuses(ValueError, "urgency: its numbers must lie side by side, and aligned", crowd.choose, [1], 1,
                    np.zeros(29, np.uint8)[1:].view(np.float32))
-        self.fails(ValueError, "urgency goes with priorities", crowd.solve, urgency=np.zeros(7, np.float32))
-        self.fails(ValueError, "group 1 does not exist; this crowd has 1", crowd.solve, groups=[1])
-        self.fails(ValueError, "group 0 is named twice", crowd.solve, groups=[0, 0])
-        self.fails(ValueError, "frames: expected one for each of 0 groups, got 1", crowd.solve, groups=[], frames={})
-        self.fails(ValueError, "numbers of a value side by side", crowd.solve, blocks=(0, 1),
+        self.refuses(ValueError, "urgency goes with priorities", crowd.solve, urgency=np.zeros(7, np.float32))
+        self.refuses(ValueError, "group 1 does not exist; this crowd has 1", crowd.solve, groups=[1])
+        self.refuses(ValueError, "group 0 is named twice", crowd.solve, groups=[0, 0])
+        self.refuses(ValueError, "frames: expected one for each of 0 groups, got 1", crowd.solve, groups=[], frames={})
+        self.refuses(ValueError, "numbers of a value side by side", crowd.solve, blocks=(0, 1),
                    frames={"shoulder": np.zeros((4, N), np.float32).T})
-        self.fails(ValueError, "give shoulder_position=", swivel.solve, (0, 0, 1), None, (1, 1), parent_rotation=(0, 0, 0, 1))
-        self.fails(ValueError, "give lengths= or binding=", swivel.solve, (0, 0, 1), None)
-        self.fails(TypeError, "unexpected keyword argument 'hond'", swivel.solve, (0, 0, 1), None, (1, 1), hond=1)
+        self.refuses(ValueError, "give shoulder_position=", swivel.solve, (0, 0, 1), None, (1, 1), parent_rotation=(0, 0, 0, 1))
+        self.refuses(ValueError, "give lengths= or binding=", swivel.solve, (0, 0, 1), None)
+        self.refuses(TypeError, "unexpected keyword argument 'hond'", swivel.solve, (0, 0, 1), None, (1, 1), hond=1)
 
     def test_memory(self):
         before = resource.getrlimit(resource.RLIMIT_AS)
         self.addCleanup(resource.setrlimit, resource.RLIMIT_AS, before)
         resource.setrlimit(resource.RLIMIT_AS, (16 << 30, before[1]))  # the crowd takes 120 GB
-        self.fails(MemoryError, "bytes", swivel.Crowd, 2**31 - 64)
+        self.refuses(MemoryError, "bytes", swivel.Crowd, 2**31 - 64)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""The promise: the module has every name of swivel.h, its stub and its documentation say what it has, and everything public
-explains itself, arrays with their shapes."""
+"""The promise: the module has every name of swivel.h, its stub and its documentation say what it has, and everything public explains itself,
+arrays with their shapes. The documentation's programs run as they stand there, and what they ask for is reached."""
 import ast
+import contextlib
 import inspect
+import io
 import re
 import subprocess
 import sys
@@ -13,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 import swivel
-from bodies import LIMBS, PARENTS, PLACES, crowd_of
-from swivel import Feature, Field
+from figures import LIMBS, PARENTS, PLACES, crowd_of
+from swivel import Feature, Field, Flag
 
 ROOT = Path(__file__).resolve().parents[3]
 PACKAGE = Path(swivel.__file__).parent  # as built, with the stub
@@ -22,6 +24,7 @@ HEADER = re.sub(r"//[^\n]*", "", (ROOT / "include" / "swivel" / "swivel.h").read
 STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))
 DOCS = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
 BODIES = (ROOT / "docs" / "howto" / "bodies.md").read_text(encoding="utf-8")
+PROGRAM = r"```python\n(.*?)```"
 
 
 def body_of(kind, name):
@@ -177,7 +180,7 @@ class Stub(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             programs, wrong = [Path(folder) / "program.py", Path(folder) / "bodies.py"], Path(folder) / "wrong.py"
             for program, page in zip(programs, (DOCS, BODIES)):
-                program.write_text("\n".join(re.findall(r"```python\n(.*?)```", page, re.DOTALL)), encoding="utf-8")
+                program.write_text("\n".join(re.findall(PROGRAM, page, re.DOTALL)), encoding="utf-8")
             wrong.write_text("import swivel\nswivel.Crowd(3).reed(swivel.Field.TARGET)\n", encoding="utf-8")
             base = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", f"--cache-dir={folder}/cache"]
             environment = {"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"}
@@ -224,6 +227,40 @@ class Words(unittest.TestCase):
             shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 26)}, "n, 4 b": 4}[rows[field.name.lower()]]
             self.assertEqual(shape, crowd.component_count(field, group), field.name)
             self.assertEqual(np.ndim(crowd.read(field, group)), 1 if shape == 1 else 2)
+
+
+def names_of(page, count):
+    """The variables that a page's programs leave, run one after the other, and what they print."""
+    programs = re.findall(PROGRAM, (ROOT / "docs" / page).read_text(encoding="utf-8"), re.DOTALL)
+    names, printed = {}, io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        for program in programs:
+            exec(program, names)
+    assert len(programs) == count, f"{page} has {len(programs)} programs"
+    return names, printed.getvalue()
+
+
+class Documentation(unittest.TestCase):
+    def test_programs_run(self):
+        names, printed = names_of("python.md", 14)
+        self.assertIn("['REACHED', 'CLAMPED_FAR']", printed)
+        np.testing.assert_allclose(names["arms"].wrist_position[0], names["targets"][0], atol=1e-6)
+        np.testing.assert_allclose(np.linalg.norm(names["shoulder"], axis=1), 1, atol=1e-6)
+        self.assertIsNotNone(names["limited"].wrist)
+        for crowd in ("characters", "climbers"):
+            self.assertIsNone(names[crowd].find(Flag.BAD_INPUT))
+        np.testing.assert_allclose(names["characters"].wrists(1)[:100], (names["hips"] - (0, 0.8, 0))[:100], atol=1e-4)
+        self.assertTrue(np.all(names["characters"].elbows(1)[:100, 2] > 0.1))  # forwards
+        np.testing.assert_allclose(names["arm"].lengths, (0.30, 0.26), rtol=1e-6)
+        self.assertEqual(names["arm"].twist_from_arm.shape, (1, 4))
+        for what in ("planted", "held", "seen"):  # by the flags of all bodies
+            self.assertTrue(np.all(names[what]), what)
+        np.testing.assert_allclose(names["rifles"][:, :3], names["stand"] + (0, 1.2, 0.35), atol=1e-4)
+
+    def test_the_program_of_bodies_runs(self):
+        names, _ = names_of("howto/bodies.md", 1)
+        crowds = [crowd for crowd in names.values() if isinstance(crowd, swivel.Crowd)]
+        self.assertEqual([crowd.find(Flag.BAD_INPUT | Flag.CLAMPED_FAR | Flag.CLAMPED_NEAR) for crowd in crowds], [None])
 
 
 if __name__ == "__main__":

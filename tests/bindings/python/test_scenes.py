@@ -5,6 +5,7 @@ are played frame by frame; their digests, poses and answers are those of C++.
 import functools
 import json
 import os
+import re
 import unittest
 from pathlib import Path
 
@@ -18,6 +19,7 @@ COMPONENTS = {"rotations": 4, "translations": 3, "scales": 3, "results": 4, "tra
 OUTPUTS = {"results": "out", "translation_results": "out_translations"}  # as a Pose names them
 SHAPES = [(4,), (3, 4), (4, 4), (4, 3)]  # of a joint by the pose's form; columns are turned below
 CARRIED = [Field.NORMAL, Field.PLANT, Field.PLANT_TURN, Field.MOTION, Field.SHIFT, Field.LIFT, Field.LOOK_TURNS]
+STRUCTURES = ("plant", "ground", "fit", "prop", "look", "joints")  # of a group
 KINDS = {"on_bad_input": OnBadInput, "shoulder_order": EulerOrder, "wrist_order": EulerOrder}
 
 
@@ -112,6 +114,9 @@ class Player:
     def play(self):
         return (self.solve(frame) for frame in self.scene["frames"])
 
+    def last(self):
+        return [*self.play()][-1]
+
     def answers(self, group):
         crowd, given = self.crowd, self.scene["groups"][group]
         orders = EulerOrder(given["wrist_order"]), EulerOrder(given["shoulder_order"])
@@ -140,13 +145,25 @@ def keys(value, path=()):
             yield from keys(each, path)
 
 
-def without(value, path):
+def edited(value, path, edit):
+    """With edit(object) in the place of each object that has the member there."""
     if isinstance(value, list):
-        return [without(each, path) for each in value] if value and isinstance(value[0], dict) else value
+        return [edited(each, path, edit) for each in value] if value and isinstance(value[0], dict) else value
     if path[0] not in value:
         return value
-    rest = {name: member for name, member in value.items() if name != path[0]}
-    return rest if len(path) == 1 else {**rest, path[0]: without(value[path[0]], path[1:])}
+    return edit(value) if len(path) == 1 else {**value, path[0]: edited(value[path[0]], path[1:], edit)}
+
+
+def without(value, path):
+    return edited(value, path, lambda of: {name: member for name, member in of.items() if name != path[-1]})
+
+
+def scenes_by_member():
+    of = {}
+    for scene in scenes():
+        for path in set(keys(scene)):
+            of.setdefault(path, []).append(scene)
+    return of
 
 
 class Scenes(unittest.TestCase):
@@ -169,8 +186,7 @@ class Scenes(unittest.TestCase):
         seen = set()
         for scene in (scene for scene in scenes() if scene["name"].startswith("standing")):
             player, other = Player(scene), Player(scene).crowd
-            for _ in player.play():
-                pass
+            player.last()
             for group in range(other.group_count):
                 for field in (field for field in CARRIED if other.component_count(field, group)):
                     saved = player.crowd.read(field, group)
@@ -198,10 +214,7 @@ class Scenes(unittest.TestCase):
 
     def test_every_argument_counts(self):
         """Whatever is left out, some scene goes another way, or is refused."""
-        of = {}
-        for scene in scenes():
-            for path in set(keys(scene)):
-                of.setdefault(path, []).append(scene)
+        of = scenes_by_member()
         given = [path for path in of if path[0] in ("groups", "skeleton", "up") or path[:2] in (("frames", "inputs"), ("frames", "pose"), ("frames", "doubles"), ("frames", "carried"))]
         given = [path for path in given if path[-1] not in ("probes", "rooms")]
         self.assertGreater(len(given), 100)
@@ -213,6 +226,20 @@ class Scenes(unittest.TestCase):
             except (KeyError, TypeError, ValueError):
                 return True
         self.assertEqual([path for path in given if not any(counts(scene, path) for scene in of[path])], [])
+
+    def test_every_member_of_what_bodies_are_made_of_refuses_what_it_is_not(self):
+        """A text, or numbers of another count, is refused in one line that names the member."""
+        of, count = scenes_by_member(), 0
+        for path in of:
+            of_structure = len(path) == 3 and path[0] == "groups" and path[1] in STRUCTURES
+            if of_structure or path in (("groups", "link"), ("up",)) or (path[:2] == ("frames", "carried") and len(path) == 4):
+                name = path[-1] if "joints" in path[:-1] else ".".join(path[-2:] if len(path) > 2 else path[-1:])
+                for wrong in ("x", [0.5] * 14):
+                    with self.subTest(path, wrong=wrong), self.assertRaisesRegex((TypeError, ValueError), re.escape(name)) as caught:
+                        Player(edited(of[path][0], path, lambda of: {**of, path[-1]: wrong})).last()
+                    self.assertNotIn("\n", str(caught.exception))
+                count += 1
+        self.assertGreaterEqual(count, 40)
 
     def test_every_feature_input_and_part_of_a_pose_is_in_some_scene(self):
         players = [Player(scene) for scene in scenes()]

@@ -9,8 +9,7 @@ import unittest
 import numpy as np
 
 import swivel
-from arms import Sample
-from bodies import Bodies, crowd_of
+from figures import Bodies, Sample, crowd_of
 from swivel import Field
 
 N = 200000

@@ -3,17 +3,17 @@
 memory lacks, with exit code 1. No signal ends it, and no unfinished file or folder stays.
 
 Of each command line a spread of requests fails, each alone and each with all that follow. --full: 250 of them. All lines begin with the same
-requests, of the parser; --version alone stands for these. See stage.py."""
+requests, of the parser; --version alone stands for these."""
 import os
 import re
+import shutil
 import signal
 import sys
 import tempfile
-import unittest
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from stage import PLACE, Run, command_with_page, files_of, make_inputs
+from stage import PLACE, Stage, bvh, command_with_page, files_of, measured, unittest
 
 FULL = "--full" in sys.argv
 SAMPLE = 10  # of the requests of one command line, in each of both ways
@@ -39,14 +39,31 @@ def timeless(out):
     return TIMES.sub(b"", out)
 
 
-class Memory(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        made = tempfile.TemporaryDirectory(dir=PLACE)
-        cls.addClassCleanup(made.cleanup)
-        cls.command, cls.inputs = command_with_page(), Path(made.name) / "inputs"
-        make_inputs(cls.inputs, cls.command)
-        cls.before = files_of(cls.inputs)
+class Run:
+    """A command line, run in a copy of the inputs, and what came of it."""
+
+    def __init__(self, command, inputs, words, lacks=None):
+        with tempfile.TemporaryDirectory(dir=PLACE) as made:
+            folder, count = Path(made) / "f", Path(made) / "requests"
+            shutil.copytree(inputs, folder)
+            environment = {"LD_PRELOAD": os.environ["LACKING"], "SWIVEL_REQUESTS": str(count)} | ({"SWIVEL_LACKS": lacks} if lacks else {})
+            self.code, self.out, said, _ = measured(command, words, folder, **environment)
+            self.err = said.decode(errors="backslashreplace")
+            self.requests = int(count.read_text()) if count.exists() and count.read_text() else None
+            self.files = files_of(folder)
+
+
+class Memory(Stage):
+    def setUp(self):
+        super().setUp()
+        self.command, self.inputs = command_with_page(self.folder), self.folder / "inputs"
+        self.inputs.mkdir()
+        (self.inputs / "clip.bvh").write_text(bvh())
+        (self.inputs / "table.csv").write_text("frame,character,limb,x,y,z\n0,0,left_arm,6,8,3\n1,0,right_arm,-6,8,3\n")
+        (self.inputs / "crowd.toml").write_text("[limb.arms]\nlimits.flexion_deg = [5, 150]\nswivel.most_deg_per_frame = 4\n")
+        for words in (("store", "clip.bvh", "empty"), ("store", "clip.bvh", "full"), ("fill", "full")):
+            self.assertEqual(measured(self.command, (*words, "--quiet"), self.inputs)[0], 0)
+        self.before = files_of(self.inputs)
 
     def faults_of(self, words, lacks, whole):
         run = Run(self.command, self.inputs, words, lacks)
@@ -61,7 +78,7 @@ class Memory(unittest.TestCase):
         is_before_main = words == ("--version",) and run.code == -signal.SIGABRT and run.err.startswith("terminate called")
         if not (is_as_ever or says_why or is_loader or is_of_library or is_before_main):
             faults.append(f"exit code {run.code}, {run.err!r}")
-        if rest := [name for name in {*run.files, *run.folders} if ".swivel-" in name]:
+        if rest := [name for name in run.files if ".swivel-" in name]:
             faults.append(f"left {sorted(rest)[:3]}, said {run.err!r}")
         # A file is the old one or the new one.
         faults += [f"{name} is half done" for name, content in run.files.items() if ".swivel-" not in name and content not in (whole.files.get(name), self.before.get(name))]

@@ -1,43 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The promise: no text of a file makes a terminal do something. Control characters and what changes the direction of writing become escapes, in
-messages, reports and JSON, and what a message quotes of a file is short. Python's tables of Unicode judge. SWIVEL names the command."""
+messages, reports and JSON, and what a message quotes of a file is short. Python's tables of Unicode judge."""
 import json
-import os
 import subprocess
-import tempfile
 import unicodedata
-import unittest
-from pathlib import Path
+
+from stage import SWIVEL, Stage, bvh, unittest
 
 DIRECTIONS = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}
 MARKS = "\u061c\u200e\u200f"  # of one letter's direction; with the above they are Unicode's Bidi_Control
 NO_NAME = "\x00 \t\r\n\v\f{}"  # what ends a word of BVH, or makes the file no text
-FIGURE = """HIERARCHY
-ROOT Hips
-{{
-OFFSET 0 0 0
-{three}{joints}JOINT LeftArm
-{{
-OFFSET 2 5 0
-{three}JOINT LeftForeArm
-{{
-OFFSET 5 0 0
-{three}JOINT LeftHand
-{{
-OFFSET 3 0 0
-{three}End Site
-{{
-OFFSET 1 0 0
-}}
-}}
-}}
-}}
-}}
-MOTION
-Frames: 1
-Frame Time: .01
-{zeros}
-"""
 
 
 def is_obeyed(character):
@@ -50,19 +22,16 @@ def shown(text):
 
 
 def figure(names):
-    return FIGURE.format(joints="".join(f"JOINT {name}\n{{\nOFFSET 1 0 0\nEnd Site\n{{\nOFFSET 1 0 0\n}}\n}}\n" for name in names), three="CHANNELS 3 Zrotation Yrotation Xrotation\n", zeros="0 0 0 0 20 0 0 -30 0 0 5 0")
+    """A figure with joints of these names, beside its own."""
+    joints = "".join(f"JOINT {name}\n{{\nOFFSET 1 0 0\nEnd Site\n{{\nOFFSET 1 0 0\n}}\n}}\n" for name in names)
+    return bvh().replace("JOINT LeftUpLeg", f"{joints}JOINT LeftUpLeg", 1)
 
 
-class Terminal(unittest.TestCase):
-    def setUp(self):
-        made = tempfile.TemporaryDirectory()
-        self.addCleanup(made.cleanup)
-        self.folder = Path(made.name)
-
+class Terminal(Stage):
     def run_with(self, files, *words, code=0):
         for name, content in files.items():
             (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
-        done = subprocess.run([os.environ["SWIVEL"], *words], cwd=self.folder, capture_output=True)
+        done = subprocess.run([SWIVEL, *words], cwd=self.folder, capture_output=True)
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stdout.decode(errors="surrogateescape"), done.stderr.decode(errors="surrogateescape")
 

@@ -2,30 +2,25 @@
 """The promise: whatever files and options hold, no command ends by a signal, hangs, takes more memory than it may, writes a number that is
 none, or leaves anything behind when it fails.
 
-    test_files.py                       300 command lines, each with a file or an option made hostile
-    test_files.py --full                10,000
-    test_files.py --count N --seed S    N of them, from seed S on; --keep FOLDER keeps what a fault was found in"""
+    test_hostile_files.py                       300 command lines, each with a file or an option made hostile
+    test_hostile_files.py --full                10,000
+    test_hostile_files.py --count N --seed S    N of them, from seed S on; --keep FOLDER keeps what a fault was found in"""
 import collections
 import json
-import os
 import random
 import re
 import shutil
 import struct
 import subprocess
 import sys
-import tempfile
-import unittest
 import zlib
 from pathlib import Path
 
 import numpy as np
 
-from hostile import EVIL, SWIVEL, TOKEN, argument, check_all, command_with_page, measured
+from stage import EVIL, ROOT, SWIVEL, TOKEN, Stage, argument, bvh, check_all, command_with_page, files_of, measured, unittest
 
-FIGURE = SWIVEL.parent.parent / "share/swivel/figure.glb"
-HILLS = Path(__file__).resolve().parents[2] / "examples/hills.png"
-PLACE = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # outputs are synced, and memory does not wait for that
+FIGURE, HILLS = Path(SWIVEL).parent.parent / "share/swivel/figure.glb", ROOT / "examples/hills.png"
 MEMORY = 2048  # MiB
 COUNT = argument("--count", 10_000 if "--full" in sys.argv else 300)
 
@@ -101,7 +96,7 @@ def clip(along_x):
 def make_inputs(folder, program):
     folder.mkdir()
     for name, along_x in (("clip.bvh", False), ("along_x.bvh", True)):
-        (folder / name).write_text(clip(along_x))
+        (folder / name).write_text(bvh(along_x))
     shutil.copy(FIGURE, folder)
     shutil.copy(HILLS, folder)
     (folder / "crowd.toml").write_text(TOML)
@@ -225,15 +220,9 @@ def numbers_are_finite(path):
     return path.suffix not in (".bvh", ".csv") or not re.search(rb"[\s,](-?nan|-?inf)\b", path.read_bytes())
 
 
-def files_of(folder):
-    return {str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
-
-
-class Hostile(unittest.TestCase):
+class Hostile(Stage):
     def setUp(self):
-        made = tempfile.TemporaryDirectory(dir=PLACE)
-        self.addCleanup(made.cleanup)
-        self.folder = Path(made.name)
+        super().setUp()
         self.program = command_with_page(self.folder)
         make_inputs(self.folder / "inputs", self.program)
         for words in TRIES:

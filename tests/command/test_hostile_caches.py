@@ -2,9 +2,9 @@
 """The promise: whatever a cache holds, no command on it ends by a signal, hangs, takes more memory than it may, or changes a byte outside
 the cache.
 
-    test_caches.py                       150 hostile caches
-    test_caches.py --full                10,000
-    test_caches.py --count N --seed S    N of them, from seed S on"""
+    test_hostile_caches.py                       150 hostile caches
+    test_hostile_caches.py --full                10,000
+    test_hostile_caches.py --count N --seed S    N of them, from seed S on"""
 import collections
 import os
 import random
@@ -12,8 +12,7 @@ import re
 import shutil
 import sys
 
-from hostile import EVIL, TOKEN, argument, check_all, command_with_page, measured
-from stage import LIMITED, WHOLE, Stage, digest_of, unittest
+from stage import EVIL, LIMITED, TOKEN, WHOLE, Stage, argument, check_all, command_with_page, digest_of, measured, unittest
 
 MEMORY = 1024 + 128  # MiB: what a cache may take, and beside it attributes of 4 MiB as JSON
 COUNT = argument("--count", 10_000 if "--full" in sys.argv else 150)

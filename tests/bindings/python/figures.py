@@ -1,10 +1,40 @@
 # SPDX-License-Identifier: MIT
-"""A small skeleton for the tests, and random poses of it."""
+"""Arms and a small skeleton for the tests, random poses of it, and refusals."""
+import re
+import unittest
+
 import numpy as np
 
 import swivel
-from arms import quaternions
 from swivel import Feature, Field, Pose
+
+
+class Refusals(unittest.TestCase):
+    def refuses(self, error, text, call, *arguments, **keywords):
+        """The call raises just this error, with this text in its one line."""
+        with self.subTest(text), self.assertRaisesRegex(error, re.escape(text)) as caught:
+            call(*arguments, **keywords)
+        self.assertIs(type(caught.exception), error)
+        self.assertNotIn("\n", str(caught.exception))
+
+
+def quaternions(random, n):
+    q = random.normal(size=(n, 4))
+    return (q / np.linalg.norm(q, axis=1, keepdims=True)).astype(np.float32)
+
+
+class Sample:
+    """n arms within reach: targets, poles, lengths as float32."""
+
+    def __init__(self, n, seed=1):
+        random = np.random.default_rng(seed)
+        self.lengths = random.uniform(0.2, 0.4, size=(n, 2)).astype(np.float32)
+        far, near = self.lengths.sum(axis=1), abs(self.lengths[:, 0] - self.lengths[:, 1])
+        way = random.normal(size=(n, 3))
+        way /= np.linalg.norm(way, axis=1, keepdims=True)
+        self.targets = (way * (near + random.uniform(0.1, 0.95, n) * (far - near))[:, None]).astype(np.float32)
+        self.poles = random.normal(size=(n, 3)).astype(np.float32)
+
 
 FOOT, SHIN, THIGH, HAND, FOREARM, ROLL, UPPER_ARM, PELVIS = range(8)
 PARENTS = [SHIN, THIGH, PELVIS, FOREARM, ROLL, UPPER_ARM, PELVIS, -1]

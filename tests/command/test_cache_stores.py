@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The promise: a cache has the same bytes, whoever fills it and however often it is interrupted: one process, one thread or many, shards,
-ranks of MPI, workers of Dask, tasks of Slurm, two writers at once.
+ranks of MPI, workers of Dask, tasks of Slurm, two writers at once. A crowd of any size is stored, filled, proved and replayed within the memory
+of some chunks.
 
-NO_THREADS: the library that no_threads.c makes."""
+    test_cache_stores.py                  the large crowd has a million limbs, 8 frames, 512 MiB
+    test_cache_stores.py --full Large     ten million limbs; needs some 5 GB"""
 import os
 import random
 import re
@@ -12,8 +14,9 @@ import subprocess
 import sys
 import time
 
-from stage import CLIP, LIMITED, ROOT, STATE, SWIVEL, Stage, files_of, run, unittest
+from stage import CLIP, LIMITED, ROOT, STATE, SWIVEL, Stage, files_of, measured, run, unittest
 
+FULL = "--full" in sys.argv
 CROWDS = {"plain": "", "limited": LIMITED, "state": STATE}
 
 
@@ -33,7 +36,7 @@ class SameBytes(Stage):
 
     def test_one_thread_starts_none_and_changes_nothing(self):
         def alone(*words, threads=1):
-            return run(*words, "--threads", threads, "--quiet", cwd=self.folder, env=os.environ | {"LD_PRELOAD": os.environ["NO_THREADS"]})
+            return run(*words, "--threads", threads, "--quiet", cwd=self.folder, env=os.environ | {"LD_PRELOAD": os.environ["LACKING"], "SWIVEL_NO_THREADS": "1"})
 
         many, one = self.store("many", toml=STATE), self.folder / "one"
         shutil.copytree(many, one)
@@ -109,5 +112,25 @@ class Engines(Stage):
         self.assert_same(self.one, self.other)
 
 
+class Large(Stage):
+    place = os.environ.get("WORK")  # a disk
+
+    def within(self, memory, *words):
+        """What a command says, which takes no more memory than so many MiB."""
+        code, said, _, used = measured(SWIVEL, words)
+        print(f"{words[0]}: {used:.0f} MiB resident\n{said.decode()}")
+        self.assertEqual(code, 0)
+        self.assertLess(used, memory)
+        return said.decode()
+
+    def test_a_crowd_within_its_memory(self):
+        characters, frames = (5_000_000, 4) if FULL else (500_000, 8)
+        cache = self.folder / "cache"
+        chunks = re.search(r"frames in (\d+) chunks", self.within(512, "store", CLIP, cache, "--characters", characters, "--frames", frames))[1]
+        self.assertIn(f"chunks   {chunks} written, 0 left as they were\n", self.within(512, "fill", cache))
+        self.within(64, "replay", cache, "--frames", frames - 1, "--out", self.folder / "frame.csv")  # of one chunk, whatever the crowd's size
+        self.assertIn(f"right    {chunks} chunks", self.within(512, "check", cache))
+
+
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=[word for word in sys.argv if word != "--full"])

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The promise: what goes wrong with a cache is one line that says what, where and what to do, and nothing that was done is lost.
-
-FULL_DISK: the library that full_disk.c makes."""
-import json
+Wrong options and damaged metadata are in tests/transcripts/cache_refusals.txt."""
 import os
 import shutil
 import signal
@@ -13,19 +11,13 @@ import unittest
 import swivel
 from stage import CLIP, LIMITED, STATE, SWIVEL, Stage, files_of, run
 
-DISK = {"LD_PRELOAD": os.environ["FULL_DISK"]}
+DISK = {"LD_PRELOAD": os.environ["LACKING"]}
 
 
 def flip(path, at=-1):
     content = bytearray(path.read_bytes())
     content[at] ^= 1
     path.write_bytes(content)
-
-
-def edit(path, change):
-    content = json.loads(path.read_text())
-    change(content)
-    path.write_text(json.dumps(content))
 
 
 class Disk(Stage):
@@ -74,63 +66,6 @@ class Disk(Stage):
         self.fill(cache)
         self.swivel("check", cache, "--quiet")
         self.assertEqual(run("check", cache, "--quiet", **nobody).returncode, 0)  # a closed cache is only read
-
-    def test_a_cache_is_not_replaced(self):
-        cache = self.fill(self.store())
-        before = files_of(cache)
-        self.assert_refused(run("store", CLIP, cache, "--quiet"), "is there already; remove it, or name another folder")
-        self.assert_refused(run("store", "missing.bvh", cache, "--quiet"), "is there already")  # before the clip is read
-        self.assert_refused(run("store", CLIP, self.folder / "none/cache", "--quiet"), "is no folder; make it first")
-        self.assertEqual(files_of(cache), before)
-
-
-class Metadata(Stage):
-    def test_damaged_metadata(self):
-        whole = self.fill(self.store(toml=LIMITED))
-        changes = [
-            (".zattrs", lambda path: os.truncate(path, 100), "is no JSON object: it was changed or cut"),
-            (".zattrs", os.remove, r"\.zattrs: is missing; take it from a copy, or make the cache anew in another folder"),
-            (".zattrs", lambda path: edit(path, lambda a: a.update(swivel_cache=1)),
-             "the cache has format 1, this swivel reads format 9; make it anew by swivel store, or use the swivel that made it"),
-            (".zattrs", lambda path: edit(path, lambda a: a.update(characters=101)), "was changed: its digest is another"),
-            (".zattrs", lambda path: edit(path, lambda a: a.pop("swivel_cache")), "describes no cache of swivel"),
-            ("shoulder/.zarray", lambda path: edit(path, lambda a: a.update(shape=[40, 4, 101, 4])),
-             r"shape is \[40,4,101,4\] instead of \[40,4,100,4\]: it was changed"),
-            ("flags/.zarray", lambda path: edit(path, lambda a: a.update(dtype="<f4")), 'dtype is "<f4" instead of "<u4"'),
-            ("digest/.zarray", os.remove, "digest/.zarray: is missing; take it from a copy, or make the cache anew"),
-            ("clip/.zgroup", os.remove, r"clip/\.zgroup: is missing"),
-            ("elbow/.zattrs", lambda path: edit(path, lambda a: a.update(_ARRAY_DIMENSIONS=[])), r"_ARRAY_DIMENSIONS is \[\] instead of"),
-        ]
-        for name, change, what in changes:
-            with self.subTest(what=what):
-                cache = shutil.copytree(whole, self.folder / "damaged")
-                change(cache / name)
-                before = files_of(cache)
-                for words in (("check", cache), ("view", cache)):
-                    self.assert_refused(run(*words, "--quiet", cwd=self.folder), what)
-                self.assertEqual(files_of(cache), before)
-                shutil.rmtree(cache)
-
-    def test_what_is_no_cache(self):
-        (self.folder / "empty").mkdir()
-        (self.folder / "file").write_text("no cache\n")
-        for name in ("empty", "file", "missing"):
-            self.assert_refused(run("fill", self.folder / name, "--quiet"), f"{name}: is no cache of swivel; swivel store makes one")
-
-    def test_options_that_are_wrong(self):
-        cache = self.store()
-        for words in (("--shard", "0/4"), ("--shard", "5/4"), ("--shard", "x")):
-            self.assert_refused(run("fill", cache, *words), "write i/n with i from 1 to n, such as 1/4", code=2)
-        for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
-                            (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B"),
-                            (("--out", "part.bvh"), "--out part.bvh: poses of a cache are written as a table; name a .csv$")):
-            self.assert_refused(run("replay", cache, *words), what, code=2)
-        for words in (("--limbs", "all"), ("--frames", "3"), ("--crowd", "crowd.toml"), ("--seed", "1")):
-            self.assert_refused(run("view", cache, *words), f"{words[0]}: the cache has its crowd already; leave the option out", code=2)
-        self.assert_refused(run("view", cache, "--characters", "101"), "--characters 101: the cache has 100$", code=2)
-        for chunk in ("8", "8,17", "0,16", "8,16,1"):
-            done = run("store", CLIP, self.folder / "other", "--chunk", chunk)
-            self.assert_refused(done, "write FRAMES,CHARACTERS, such as 8,4096", code=2)
 
 
 class Stops(Stage):

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise of the package for the web: it installs from its tarball, its types hold, and its tests (bindings/js) pass in Node.
+#   BUILD: a build folder of emscripten. WORK: an own folder. SOURCE: the repository. SCENES: what print_scenes wrote. NPM, TSC. VERSION.
+# The promise of the page that swivel view writes: it opens from disk, solves as the library does, and can be used (page/).
+#   BUILD, WORK, SOURCE. SWIVEL: the command, of which a copy goes beside the page's program. CHROMIUM.
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${result}): ${command}\n${said}")
+  endif()
+endfunction()
+function(must_have_packages)
+  foreach(folder IN LISTS ARGN)
+    if(NOT EXISTS ${SOURCE}/${folder}/node_modules)
+      message(FATAL_ERROR "npm packages are missing; run: tools/npm_packages ${folder}")
+    endif()
+  endforeach()
+endfunction()
+
+if(NOT SWIVEL)
+  must_have_packages(tests/gltf)
+  unset(ENV{SWIVEL_FORCE_ISA})
+  file(REMOVE_RECURSE ${WORK})
+  file(MAKE_DIRECTORY ${WORK})
+  run(${CMAKE_COMMAND} --build ${BUILD} --target swivel_wasm_package)
+  file(WRITE ${WORK}/package.json "{\"private\": true, \"type\": \"module\"}\n")
+  run(${NPM} install --offline --no-audit --no-fund ${BUILD}/tools/wasm/swivel-wasm-${VERSION}.tgz ${SOURCE}/tests/gltf/node_modules/three)
+  file(GLOB tests ${SOURCE}/tests/bindings/js/*)
+  file(COPY ${tests} DESTINATION ${WORK})
+  run(${TSC} --noEmit --strict --target es2022 --module node16 --moduleResolution node16 types.ts)
+  run(${CMAKE_COMMAND} -E env SCENES=${SCENES} HEADER=${SOURCE}/include/swivel/swivel.h node --test)
+else()
+  must_have_packages(tests/page tools/view)
+  file(COPY ${SWIVEL} DESTINATION ${WORK}/bin)
+  file(MAKE_DIRECTORY ${WORK}/share/swivel)
+  get_filename_component(command ${SWIVEL} NAME)
+  run(${CMAKE_COMMAND} --build ${BUILD} --target swivel_wasm_package swivel_view)
+  run(node ${SOURCE}/tools/view/bundle.mjs ${BUILD}/tools/wasm ${WORK}/share/swivel/view.html)
+  run(${CMAKE_COMMAND} -E env SWIVEL=${WORK}/bin/${command} CHROMIUM=${CHROMIUM} WORK=${WORK} node ${SOURCE}/tests/page/all.mjs)
+endif()
