@@ -10,7 +10,7 @@ function(swivel_part library)
   endif()
 endfunction()
 
-# swivel_part_headers(): compiles the headers that most parts include, once for all parts. The build with sanitizers and Python's own build
+# swivel_part_headers(): compiles the headers that most parts include, once for all parts. The builds with sanitizers and fuzzers and Python's own
 # do not call it, and their parts compile the headers themselves.
 function(swivel_part_headers)
   file(CONFIGURE OUTPUT part_headers.cpp CONTENT "" @ONLY)
