@@ -274,6 +274,12 @@ Eigen::Matrix3d PoseBuffer::matrix(std::size_t n, std::size_t joint) const
     return axes;
 }
 
+std::vector<unsigned char> PoseBuffer::joint_bytes(std::size_t n, std::size_t joint) const
+{
+    const unsigned char* const first = &bytes[rotation_at(n, joint)];
+    return {first, first + rotation_bytes()};
+}
+
 swivel_pose PoseBuffer::view()
 {
     swivel_pose pose = swivel_default_pose();

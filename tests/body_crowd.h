@@ -91,7 +91,8 @@ struct PoseBuffer {
     void write(std::size_t n, const Body& body);
     // The body that it holds. Values that its form has none of are taken from `otherwise`.
     Body read(std::size_t n, const Body& otherwise) const;
-    Eigen::Matrix3d matrix(std::size_t n, std::size_t joint) const;  // where its form has matrices
+    Eigen::Matrix3d matrix(std::size_t n, std::size_t joint) const;                  // where its form has matrices
+    std::vector<unsigned char> joint_bytes(std::size_t n, std::size_t joint) const;  // of its rotation or matrix
     swivel_pose view();
 
 private:

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tests/linked_bodies.h"
+#include "tests/posed_bodies.h"
 
 namespace swivel::test {
 
@@ -15,11 +15,11 @@ using Float6 = std::array<float, 6>;
 
 // A look of one body: its joints as earlier looks have left them, and as they are.
 struct TurnedChain {
-    const LinkedBody& body;
+    const SolvedBody& body;
     const swivel_look& look;
     std::vector<JointAt> before;
 
-    TurnedChain(const LinkedBody& of, const swivel_look& with) : body(of), look(with)
+    TurnedChain(const SolvedBody& of, const swivel_look& with) : body(of), look(with)
     {
         const std::int32_t above = body.of.skeleton.parents[look.joints[0]];
         for (std::uint32_t n = 0; n < look.joint_count; ++n) {
@@ -86,11 +86,11 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
 }
 
 // Bodies with a look in the trunk, some with another below it, and all limbs of theirs.
-struct LookingBodies : LinkedBodies {
+struct LookingBodies : PosedBodies {
     std::vector<std::uint32_t> looks;  // groups
 
     LookingBodies(Random& random, std::size_t body_count, const PoseLayout& of)
-        : LinkedBodies(random, {3 + random.below(5), 2 + random.below(2), random.below(2), true, 0, 2}, body_count, of)
+        : PosedBodies(random, {3 + random.below(5), 2 + random.below(2), random.below(2), true, 0, 2}, body_count, of)
     {
         std::vector<std::uint32_t> way;  // the longest
         for (const BodyLimbJoints& limb : skeleton.limbs)

@@ -21,12 +21,6 @@ using namespace swivel::test;
 // `tools/test --full bodies` makes a million: RC_PARAMS=max_success=6000.
 constexpr std::size_t kLookingBodies = 200;
 
-void put_in_body_space(LookingBodies& bodies)
-{
-    bodies.layout.translates = bodies.layout.scales = true;
-    bodies.layout.in_body = &bodies.skeleton;
-}
-
 struct LookCounts {
     int bodies = 0, sees = 0, held = 0, faded = 0, reached = 0, told = 0;
 };
@@ -34,7 +28,7 @@ struct LookCounts {
 struct LookStage {
     const LookingBodies& of;
     bool has_limbs;  // else the looks alone are solved, and limbs come along as they are
-    SolvedLinks solved;
+    SolvedBodies solved;
 
     LookStage(const LookingBodies& bodies, bool limbs)
         : of(bodies), has_limbs(limbs), solved(bodies, limbs ? std::vector<std::uint32_t>{} : bodies.looks)
@@ -43,7 +37,7 @@ struct LookStage {
 
     // By how much a joint's place may be off: each rotation above it is rounded, which moves it by its distance from
     // there.
-    double off(const LinkedBody& body, std::uint32_t joint) const
+    double off(const SolvedBody& body, std::uint32_t joint) const
     {
         const Vector3d place = body.was[joint].place;
         double levers = place.norm();
@@ -52,7 +46,7 @@ struct LookStage {
             levers += (place - body.was[static_cast<std::size_t>(at)].place).norm();
         return 2e-7 * levers + 1e-7 * vec(of.bodies[body.n].root_position).norm();
     }
-    void check_look(const LinkedBody& body, std::uint32_t group, LookCounts& counts) const
+    void check_look(const SolvedBody& body, std::uint32_t group, LookCounts& counts) const
     {
         const TurnedChain chain{body, of.groups[group].look};
         const std::uint32_t flags = solved.flags(group, body.n);
@@ -107,7 +101,7 @@ struct LookStage {
                           (1e-5 + 4 * rounding) / (std::sin(angle) * angle_of(turn)));
         }
     }
-    void check_limbs(const LinkedBody& body, LookCounts& counts) const
+    void check_limbs(const SolvedBody& body, LookCounts& counts) const
     {
         for (std::uint32_t g = 0; g < of.groups.size(); ++g) {
             if (of.limb_of[g] == kNoLimbHere || !(solved.flags(g, body.n) & SWIVEL_REACHED)) continue;
@@ -123,7 +117,7 @@ struct LookStage {
         }
     }
     // All that nothing turns keeps its local rotation.
-    void check_others(const LinkedBody& body) const
+    void check_others(const SolvedBody& body) const
     {
         const Body now = solved.poses.read(body.n, body.was_body);
         std::vector<bool> turns(of.skeleton.size());
@@ -140,10 +134,10 @@ struct LookStage {
                 RC_ASSERT(quat(now.rotations[joint])
                               .normalized()
                               .angularDistance(quat(body.was_body.rotations[joint]).normalized()) <=
-                          (of.layout.in_body ? 3e-6 : 1e-6));
+                          (of.is_in_body ? 3e-6 : 1e-6));
     }
     // The solve says where joints are, in the body's space.
-    void check_told(const LinkedBody& body, LookCounts& counts) const
+    void check_told(const SolvedBody& body, LookCounts& counts) const
     {
         const Quaterniond root = quat(body.was_body.root_rotation).normalized();
         const double scale = body.was_body.root_scale;
@@ -175,10 +169,10 @@ TEST_CASE("a chain looks at its target, each joint by its share and within its c
     CHECK(rc::check("by forward kinematics", [&](std::uint64_t seed) {
         Random random{seed};
         LookingBodies bodies(random, kLookingBodies, random_layout(random));
-        if (random.below(3) == 0) put_in_body_space(bodies);
+        if (random.below(3) == 0) bodies.put_in_body_space();
         const LookStage stage(bodies, random.below(5) > 0);
         for (std::size_t n = 0; n < kLookingBodies; ++n) {
-            const LinkedBody body(stage.solved, n);
+            const SolvedBody body(stage.solved, n);
             for (const std::uint32_t group : bodies.looks) stage.check_look(body, group, counts);
             if (stage.has_limbs) stage.check_limbs(body, counts);
             stage.check_others(body);

@@ -37,9 +37,9 @@ HoldingBodies holding(std::uint64_t seed)
     bodies.find(HoldingBodies::prop, SWIVEL_PROP_SHARE)->at(kBody)[0] = 0;
     return bodies;
 }
-std::string text_of(const LinkedBodies& bodies, std::uint32_t group, std::uint32_t body = kBody)
+std::string text_of(const PosedBodies& bodies, std::uint32_t group, std::uint32_t body = kBody)
 {
-    return SolvedLinks(bodies).crowd.explain(group, body);
+    return SolvedBodies(bodies).crowd.explain(group, body);
 }
 
 // The words of a text for where a prop's place comes from.
@@ -229,11 +229,11 @@ TEST_CASE("explain says where a prop lies and why, how far it moved, and how far
         Random random{seed};
         PropBodies bodies(random, 20);
         for (const std::uint32_t arm : bodies.arms) bodies.groups[arm].features |= SWIVEL_WITH_RECORD;
-        const SolvedLinks solved(bodies);
+        const SolvedBodies solved(bodies);
         for (std::uint32_t n = 0; n < 20; ++n) {
             const std::string text = solved.crowd.explain(bodies.prop, n);
             INFO(text);
-            const LinkedBody body(solved, n);
+            const SolvedBody body(solved, n);
             const Vector3d root = bodies.root(n, solved);
             const UnmovedProp wanted = bodies.unmoved(body, root);
             const Held told = held(solved.result<Float7>(SWIVEL_PROP_FRAME, bodies.prop, n)),
@@ -271,7 +271,7 @@ TEST_CASE("explain says where a prop lies and why, how far it moved, and how far
 TEST_CASE("explain names the limb whose hand a hand holds, and how it is")
 {
     HoldingBodies bodies = holding(1);
-    const SolvedLinks solved(bodies);
+    const SolvedBodies solved(bodies);
     for (std::uint32_t n = 0; n < 40; ++n) {
         const bool reaches = solved.flags(HoldingBodies::free, n) & SWIVEL_REACHED;
         CHECK(solved.crowd.explain(HoldingBodies::follower, n)
@@ -292,10 +292,10 @@ TEST_CASE("explain names bad input of hands and props, and what depends on it, a
     ApprovedTexts texts("hands.txt");
     const auto tell = [&](const char* scene, const auto& spoil) {
         HoldingBodies bodies = holding(2);
-        for (LinkedInput& input : bodies.inputs)
+        for (BodyInput& input : bodies.inputs)
             if (input.field == SWIVEL_GRIP) input.write(kBody, Float7{0, 0, 0.1f, 0, 0, 0, 1});
         spoil(bodies);
-        const SolvedLinks solved(bodies);
+        const SolvedBodies solved(bodies);
         texts.scene(scene);
         for (std::uint32_t g = 0; g < bodies.groups.size(); ++g)
             if (const std::string text = solved.crowd.explain(g, kBody); text.starts_with("Bad input"))
