@@ -18,6 +18,7 @@ struct BodyLimbJoints {
     std::vector<std::uint32_t> twist_bones;
 };
 
+struct Body;
 struct BodySkeleton {
     std::vector<std::int32_t> parents;
     std::vector<Float4> rotations;
@@ -27,6 +28,7 @@ struct BodySkeleton {
     std::uint32_t size() const { return static_cast<std::uint32_t>(parents.size()); }
     swivel_skeleton view() const { return view_of(*this); }
     swivel_limb_joints joints(std::size_t limb) const;
+    Body rest() const;
     // Whether a joint is another or above it.
     bool is_above(std::uint32_t joint, std::uint32_t below) const;
 };
@@ -61,6 +63,8 @@ struct JointAt {
 };
 // Where all joints of a body are: from the root's place, in the world's directions.
 std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body);
+// The same below a root that is anywhere.
+std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body, const JointAt& root);
 
 // The same values as they are relative to the root, and back.
 Body in_body_space(const BodySkeleton& skeleton, const Body& local);

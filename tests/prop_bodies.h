@@ -238,12 +238,7 @@ private:
     }
     double rest_length(std::uint32_t limb) const
     {
-        Body rest;
-        rest.rotations = skeleton.rotations, rest.translations = skeleton.translations;
-        rest.scales.assign(skeleton.size(), Float3{1, 1, 1});
-        const std::vector<JointAt> at = joints_at(skeleton, rest);
-        const BodyLimbJoints& of = skeleton.limbs[limb];
-        return (at[of.elbow].place - at[of.shoulder].place).norm() + (at[of.wrist].place - at[of.elbow].place).norm();
+        return LimbAt(skeleton, skeleton.rest(), joints_at(skeleton, skeleton.rest()), skeleton.limbs[limb]).length();
     }
 };
 
