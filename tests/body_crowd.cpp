@@ -176,13 +176,12 @@ double way_to(const BodySkeleton& skeleton, const std::vector<JointAt>& at, std:
     return way;
 }
 
-PoseLayout random_layout(Random& random, const BodySkeleton* in_body)
+PoseLayout random_layout(Random& random)
 {
     PoseLayout layout;
     layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
-    layout.translates = layout.scales = in_body || layout.form != SWIVEL_ROTATIONS || random.below(2);
+    layout.translates = layout.scales = layout.form != SWIVEL_ROTATIONS || random.below(2);
     layout.roots = random.below(2);
-    layout.in_body = in_body;
     return layout;
 }
 

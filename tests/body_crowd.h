@@ -80,8 +80,7 @@ struct PoseLayout {
     const BodySkeleton* in_body = nullptr;  // then all is relative to the root
 };
 
-// Any form. in_body: of bodies whose poses are in the body's space.
-PoseLayout random_layout(Random& random, const BodySkeleton* in_body = nullptr);
+PoseLayout random_layout(Random& random);  // of any form
 
 // Bytes between values are a pattern that nobody may change.
 struct PoseBuffer {
@@ -110,15 +109,13 @@ private:
     std::size_t element(int row, int column) const;
 };
 
-// region: of all limbs, with SWIVEL_WITH_REGION.
-inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count,
-                        const swivel_region* region = nullptr)
+// A group for each limb, with the same features.
+inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count)
 {
     std::vector<swivel_limb_joints> joints;
     for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
     std::vector<swivel_group_def> groups;
     for (const swivel_limb_joints& each : joints) groups.push_back(body_group(each, features));
-    for (swivel_group_def& group : groups) group.region = features & SWIVEL_WITH_REGION ? region : nullptr;
     return Crowd(skeleton.view(), body_count, groups);
 }
 
@@ -127,27 +124,11 @@ struct BodyGoal {
     Float3 target, pole;
     Float4 hand;
 };
-using BodyGoals = std::vector<std::vector<BodyGoal>>;  // of each group's limbs
 
 // The limb's own wrist.
 BodyGoal own_goal(const BodySkeleton& skeleton, const Body& body, std::size_t limb);
 // Any that the limb reaches.
 BodyGoal random_goal(Random& random, const BodySkeleton& skeleton, const Body& body, std::size_t limb);
-
-inline void write_goals(Crowd& crowd, const BodyGoals& goals)
-{
-    for (std::uint32_t g = 0; g < goals.size(); ++g) {
-        const std::span<const BodyGoal> all = goals[g];
-        const swivel_features features = swivel_group_features(crowd.get(), g);
-        const auto write = [&](swivel_field field, const void* first) {
-            check(swivel_write(crowd.get(), field, g, 0, static_cast<std::uint32_t>(all.size()),
-                               {first, sizeof(BodyGoal)}));
-        };
-        write(SWIVEL_TARGET, &all[0].target);
-        if (swivel_field_row_count(crowd.get(), g, SWIVEL_POLE)) write(SWIVEL_POLE, &all[0].pole);
-        if (features & SWIVEL_WITH_HAND) write(SWIVEL_HAND, &all[0].hand);
-    }
-}
 
 // A limb as it comes.
 struct LimbAt {

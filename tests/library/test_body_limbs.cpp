@@ -11,7 +11,7 @@
 
 #include <map>
 
-#include "tests/body_crowd.h"
+#include "tests/posed_bodies.h"
 #include "tests/region_oracle.h"
 #include "tests/test_whole_limb.h"
 
@@ -210,22 +210,26 @@ double apart(const Numbers& a, const Numbers& b, swivel_field field, std::uint32
 }
 
 // A crowd of bodies, and one of free limbs, of which kTwins are in the place of each. Only bodies have a time, if any.
-struct Twins {
+struct Twins : PosedBodies {
     Random& random;
     const swivel_features features = random_features(random);
-    const BodySkeleton skeleton = random_body_skeleton(random, {1 + random.below(8), 2, random.below(3), false});
     const RandomRegion region = random_region(random);
     const bool has_time = random.below(4);
-    std::vector<Body> bodies;
     std::vector<float> times = std::vector<float>(kPosedBodies);
-    Crowd crowd = body_crowd(skeleton, features & ~kPosed, kPosedBodies, &region.region),
-          free = Crowd({free_group(), free_group()});
+    Crowd posed = posed_crowd(), free = Crowd({free_group(), free_group()});
     std::vector<bool> is_between;  // limbs that are neither straight nor bent, or against nothing
 
-    explicit Twins(Random& from) : random(from)
+    explicit Twins(Random& from)
+        : PosedBodies(from, {1 + from.below(8), 2, from.below(3), false}, kPosedBodies,
+                      {.translates = true, .scales = true, .roots = true}),
+          random(from)
     {
-        for (std::uint32_t n = 0; n < kPosedBodies; ++n)
-            bodies.push_back(random_body(random, skeleton, {true, true, true}));
+    }
+    Crowd posed_crowd()
+    {
+        add_limbs(features & ~kPosed);
+        for (swivel_group_def& group : groups) group.region = has(0, SWIVEL_WITH_REGION) ? &region.region : nullptr;
+        return crowd();
     }
     swivel_group_def free_group() const
     {
@@ -236,45 +240,42 @@ struct Twins {
     void write(int frame)
     {
         is_between.clear();
-        for (float& time : times) time = random.below(6) ? static_cast<float>(random.spread(1e-3, 1)) : 0;
+        for (float& each : times) each = random.below(6) ? static_cast<float>(random.spread(1e-3, 1)) : 0;
         for (std::uint32_t g = 0; g < 2; ++g)
             for (std::uint32_t n = 0; n < kPosedBodies; ++n) {
                 const std::vector<JointAt> at = joints_at(skeleton, bodies[n]);
-                const LimbInBody posed(skeleton, g, features);
+                const LimbInBody in_body(skeleton, g, features);
                 const LimbAt limb(skeleton, bodies[n], at, skeleton.limbs[g]);
-                Values values =
-                    random_values(random, random_goal(random, skeleton, bodies[n], g), features, limb.length());
+                Values values = random_values(random, goal(random, g, n), features, limb.length());
                 if (frame == 0 && random.below(4) == 0) values.erase(SWIVEL_MOST_SWIVEL);
-                write_values(crowd, g, n, values);
+                write_values(posed, g, n, values);
                 if (has_time && values.count(SWIVEL_MOST_SWIVEL))
                     values[SWIVEL_MOST_SWIVEL] = list(timed_step(values[SWIVEL_MOST_SWIVEL], double{times[n]}));
                 for (std::uint32_t twin = 0; twin < kTwins; ++twin)
                     write_values(free, g, n * kTwins + twin,
-                                 posed.seen(values, bodies[n].root_position, rounded(random, at, limb.way)));
-                const auto [sine, side] = posed.bend(at);
+                                 in_body.seen(values, bodies[n].root_position, rounded(random, at, limb.way)));
+                const auto [sine, side] = in_body.bend(at);
                 is_between.push_back((sine > 0.04 && sine < 0.18) || std::fabs(side) < 0.01);
             }
     }
     void solve()
     {
-        PoseLayout layout;
-        layout.translates = layout.scales = layout.roots = true;
-        PoseBuffer poses(layout, bodies);
+        PoseBuffer poses = incoming();
         swivel_pose pose = poses.view();
         if (has_time) pose.time = stream(times);
-        solve_poses(crowd, pose);
+        solve_poses(posed, pose);
         free.solve();
     }
     // Where no swivel keeps the limits, many violate them about as little, and rounding chooses.
     bool is_infeasible(std::uint32_t g, std::uint32_t n) const
     {
         std::uint32_t flags = 0;
-        check(swivel_read(crowd.get(), SWIVEL_FLAGS, g, n, 1, {&flags, sizeof flags}));
+        check(swivel_read(posed.get(), SWIVEL_FLAGS, g, n, 1, {&flags, sizeof flags}));
         return flags & SWIVEL_INFEASIBLE;
     }
     void forget(std::uint32_t g, std::uint32_t n)
     {
-        check(swivel_reset(crowd.get(), g, n, 1));
+        check(swivel_reset(posed.get(), g, n, 1));
         check(swivel_reset(free.get(), g, n * kTwins, kTwins));
     }
     // Calls take(field, how far it is from the nearest twin, how far twins are from each other) for each limb's
@@ -290,7 +291,7 @@ struct Twins {
                 if (info.kind == SWIVEL_FIELD_INPUT || count == 0 || is_between[limb]) continue;
                 if (info.field != SWIVEL_FLAGS && is_infeasible(g, n)) continue;
                 Numbers mine{}, twins[kTwins] = {};
-                check(swivel_read(crowd.get(), info.field, g, n, 1, {&mine, sizeof mine}));
+                check(swivel_read(posed.get(), info.field, g, n, 1, {&mine, sizeof mine}));
                 check(swivel_read(free.get(), info.field, g, n * kTwins, kTwins, {&twins, sizeof mine}));
                 double nearest = 1e9, spread = 0;
                 for (const Numbers& twin : twins) {

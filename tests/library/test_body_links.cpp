@@ -17,7 +17,7 @@ using namespace swivel;
 using namespace swivel::test;
 
 // `tools/test --full bodies` makes a million: RC_PARAMS=max_success=6000.
-constexpr std::size_t kPosedBodies = 200, kPropBodies = 200;
+constexpr std::size_t kLinkedBodies = 200, kPropBodies = 200;
 
 // Limbs that lie beside each other, each linked to an earlier one or to none.
 struct RandomLinks : PosedBodies {
@@ -25,7 +25,7 @@ struct RandomLinks : PosedBodies {
         : PosedBodies(random,
                       {random.below(8), 2 + random.below(3), random.below(3), random.below(4) == 0,
                        random.below(3) == 0 ? 1 + random.below(2) : 0},
-                      kPosedBodies, random_layout(random))
+                      kLinkedBodies, random_layout(random))
     {
         if (layout.scales && random.below(4) == 0) is_in_body = true;
         for (std::uint32_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
@@ -263,7 +263,7 @@ TEST_CASE("a linked hand is at its grip on the hand that the other limb reached"
         const RandomLinks bodies(random);
         const SolvedBodies solved(bodies);
         ++seeds;
-        for (std::size_t n = 0; n < kPosedBodies; ++n) {
+        for (std::size_t n = 0; n < kLinkedBodies; ++n) {
             const SolvedBody body(solved, n);
             const double root = 2e-7 * vec(body.was_body.root_position).norm();  // of floats in the world
             for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) {
