@@ -16,6 +16,14 @@ swivel_limb_joints BodySkeleton::joints(std::size_t limb) const
     return joints;
 }
 
+Body BodySkeleton::rest() const
+{
+    Body rest;
+    rest.rotations = rotations, rest.translations = translations;
+    rest.scales.assign(size(), Float3{1, 1, 1});
+    return rest;
+}
+
 bool BodySkeleton::is_above(std::uint32_t joint, std::uint32_t below) const
 {
     for (auto at = static_cast<std::int32_t>(below); at >= 0; at = parents[static_cast<std::size_t>(at)])
@@ -66,10 +74,7 @@ BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish)
         joints.elbow = static_cast<std::uint32_t>(elbow);
         joints.wrist = static_cast<std::uint32_t>(wrist);
         add_parts(s, wish, joints);
-        Body rest;
-        rest.rotations = s.rotations, rest.translations = s.translations;
-        rest.scales.assign(s.size(), Float3{1, 1, 1});
-        const std::vector<JointAt> at = joints_at(s, rest);
+        const std::vector<JointAt> at = joints_at(s, s.rest());
         const Vector3d upper = at[joints.elbow].place - at[joints.shoulder].place;
         joints.bend = floats(Vector3d(at[joints.shoulder].rotation.conjugate() * random.across(upper)));
         s.limbs.push_back(joints);
@@ -108,8 +113,12 @@ Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& w
 
 std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body)
 {
+    return joints_at(skeleton, body, {quat(body.root_rotation).normalized(), Vector3d::Zero(), body.root_scale});
+}
+
+std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body, const JointAt& root)
+{
     std::vector<JointAt> at(skeleton.size());
-    const JointAt root{quat(body.root_rotation).normalized(), Vector3d::Zero(), body.root_scale};
     std::vector<bool> is_known(skeleton.size());
     for (std::size_t known = 0; known < skeleton.size();)
         for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
@@ -167,13 +176,12 @@ double way_to(const BodySkeleton& skeleton, const std::vector<JointAt>& at, std:
     return way;
 }
 
-PoseLayout random_layout(Random& random, const BodySkeleton* in_body)
+PoseLayout random_layout(Random& random)
 {
     PoseLayout layout;
     layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
-    layout.translates = layout.scales = in_body || layout.form != SWIVEL_ROTATIONS || random.below(2);
+    layout.translates = layout.scales = layout.form != SWIVEL_ROTATIONS || random.below(2);
     layout.roots = random.below(2);
-    layout.in_body = in_body;
     return layout;
 }
 
@@ -272,6 +280,12 @@ Eigen::Matrix3d PoseBuffer::matrix(std::size_t n, std::size_t joint) const
             axes(row, column) = number;
         }
     return axes;
+}
+
+std::vector<unsigned char> PoseBuffer::joint_bytes(std::size_t n, std::size_t joint) const
+{
+    const unsigned char* const first = &bytes[rotation_at(n, joint)];
+    return {first, first + rotation_bytes()};
 }
 
 swivel_pose PoseBuffer::view()

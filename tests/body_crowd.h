@@ -18,6 +18,7 @@ struct BodyLimbJoints {
     std::vector<std::uint32_t> twist_bones;
 };
 
+struct Body;
 struct BodySkeleton {
     std::vector<std::int32_t> parents;
     std::vector<Float4> rotations;
@@ -27,6 +28,7 @@ struct BodySkeleton {
     std::uint32_t size() const { return static_cast<std::uint32_t>(parents.size()); }
     swivel_skeleton view() const { return view_of(*this); }
     swivel_limb_joints joints(std::size_t limb) const;
+    Body rest() const;
     // Whether a joint is another or above it.
     bool is_above(std::uint32_t joint, std::uint32_t below) const;
 };
@@ -61,6 +63,8 @@ struct JointAt {
 };
 // Where all joints of a body are: from the root's place, in the world's directions.
 std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body);
+// The same below a root that is anywhere.
+std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body, const JointAt& root);
 
 // The same values as they are relative to the root, and back.
 Body in_body_space(const BodySkeleton& skeleton, const Body& local);
@@ -76,8 +80,7 @@ struct PoseLayout {
     const BodySkeleton* in_body = nullptr;  // then all is relative to the root
 };
 
-// Any form. in_body: of bodies whose poses are in the body's space.
-PoseLayout random_layout(Random& random, const BodySkeleton* in_body = nullptr);
+PoseLayout random_layout(Random& random);  // of any form
 
 // Bytes between values are a pattern that nobody may change.
 struct PoseBuffer {
@@ -91,7 +94,8 @@ struct PoseBuffer {
     void write(std::size_t n, const Body& body);
     // The body that it holds. Values that its form has none of are taken from `otherwise`.
     Body read(std::size_t n, const Body& otherwise) const;
-    Eigen::Matrix3d matrix(std::size_t n, std::size_t joint) const;  // where its form has matrices
+    Eigen::Matrix3d matrix(std::size_t n, std::size_t joint) const;                  // where its form has matrices
+    std::vector<unsigned char> joint_bytes(std::size_t n, std::size_t joint) const;  // of its rotation or matrix
     swivel_pose view();
 
 private:
@@ -105,15 +109,13 @@ private:
     std::size_t element(int row, int column) const;
 };
 
-// region: of all limbs, with SWIVEL_WITH_REGION.
-inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count,
-                        const swivel_region* region = nullptr)
+// A group for each limb, with the same features.
+inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count)
 {
     std::vector<swivel_limb_joints> joints;
     for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
     std::vector<swivel_group_def> groups;
     for (const swivel_limb_joints& each : joints) groups.push_back(body_group(each, features));
-    for (swivel_group_def& group : groups) group.region = features & SWIVEL_WITH_REGION ? region : nullptr;
     return Crowd(skeleton.view(), body_count, groups);
 }
 
@@ -122,27 +124,11 @@ struct BodyGoal {
     Float3 target, pole;
     Float4 hand;
 };
-using BodyGoals = std::vector<std::vector<BodyGoal>>;  // of each group's limbs
 
 // The limb's own wrist.
 BodyGoal own_goal(const BodySkeleton& skeleton, const Body& body, std::size_t limb);
 // Any that the limb reaches.
 BodyGoal random_goal(Random& random, const BodySkeleton& skeleton, const Body& body, std::size_t limb);
-
-inline void write_goals(Crowd& crowd, const BodyGoals& goals)
-{
-    for (std::uint32_t g = 0; g < goals.size(); ++g) {
-        const std::span<const BodyGoal> all = goals[g];
-        const swivel_features features = swivel_group_features(crowd.get(), g);
-        const auto write = [&](swivel_field field, const void* first) {
-            check(swivel_write(crowd.get(), field, g, 0, static_cast<std::uint32_t>(all.size()),
-                               {first, sizeof(BodyGoal)}));
-        };
-        write(SWIVEL_TARGET, &all[0].target);
-        if (swivel_field_row_count(crowd.get(), g, SWIVEL_POLE)) write(SWIVEL_POLE, &all[0].pole);
-        if (features & SWIVEL_WITH_HAND) write(SWIVEL_HAND, &all[0].hand);
-    }
-}
 
 // A limb as it comes.
 struct LimbAt {

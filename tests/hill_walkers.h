@@ -139,8 +139,7 @@ struct HillWalkers {
         support = {origin.x(), origin.y(), origin.z()};
     }
     PoseBuffer poses() const { return PoseBuffer({.roots = true}, bodies); }
-    Crowd crowd(swivel_features features = kFeatures, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE,
-                std::vector<swivel_group_def> more = {}) const
+    Crowd crowd(swivel_features features = kFeatures, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE) const
     {
         const std::array<swivel_limb_joints, 2> joints = {skeleton.joints(0), skeleton.joints(1)};
         std::vector<swivel_group_def> groups;
@@ -154,7 +153,6 @@ struct HillWalkers {
             groups.push_back(swivel_default_fit_group_def());
             groups.back().fit = fit;
         }
-        groups.insert(groups.end(), more.begin(), more.end());
         Crowd made(skeleton.view(), count(), groups);
         for (std::uint32_t leg = 0; leg < 2; ++leg) {
             made.write_all(SWIVEL_EFFECTOR, leg, kToe);

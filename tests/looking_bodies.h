@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tests/linked_bodies.h"
+#include "tests/posed_bodies.h"
 
 namespace swivel::test {
 
@@ -15,11 +15,11 @@ using Float6 = std::array<float, 6>;
 
 // A look of one body: its joints as earlier looks have left them, and as they are.
 struct TurnedChain {
-    const LinkedBody& body;
+    const SolvedBody& body;
     const swivel_look& look;
     std::vector<JointAt> before;
 
-    TurnedChain(const LinkedBody& of, const swivel_look& with) : body(of), look(with)
+    TurnedChain(const SolvedBody& of, const swivel_look& with) : body(of), look(with)
     {
         const std::int32_t above = body.of.skeleton.parents[look.joints[0]];
         for (std::uint32_t n = 0; n < look.joint_count; ++n) {
@@ -76,21 +76,22 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
         look.cos_most[n] = static_cast<float>(random.below(3) ? -1 : std::cos(random.between(0.05, 2)));
     }
     look.share[look.joint_count - 1] = static_cast<float>(random.between(0.1, 3));
-    const Float3 eye = floats(random.vector(0, 0.1)),
+    const Float3 eye = random.below(3) ? floats(random.vector(0, 0.1)) : Float3{},
                  axis = floats(Vector3d(random.spread(0.1, 10) * random.direction()));
     std::copy(eye.begin(), eye.end(), look.eye);
     std::copy(axis.begin(), axis.end(), look.axis);
-    look.fade_distance = 0.02f;
+    look.cos_none = static_cast<float>(random.between(-1, 0)), look.cos_full = look.cos_none + 0.5f;
+    look.fade_distance = static_cast<float>(random.spread(0.02, 2));
     look.rate = 0;
     return def;
 }
 
 // Bodies with a look in the trunk, some with another below it, and all limbs of theirs.
-struct LookingBodies : LinkedBodies {
+struct LookingBodies : PosedBodies {
     std::vector<std::uint32_t> looks;  // groups
 
     LookingBodies(Random& random, std::size_t body_count, const PoseLayout& of)
-        : LinkedBodies(random, {3 + random.below(5), 2 + random.below(2), random.below(2), true, 0, 2}, body_count, of)
+        : PosedBodies(random, {3 + random.below(5), 2 + random.below(2), random.below(2), true, 0, 2}, body_count, of)
     {
         std::vector<std::uint32_t> way;  // the longest
         for (const BodyLimbJoints& limb : skeleton.limbs)
@@ -133,21 +134,24 @@ struct Upright {
     BodySkeleton skeleton;
     swivel_group_def look = swivel_default_group_def(0);
 
-    Upright()
+    Upright() : Upright({{0, 1, 0}, {0, 0.15f, 0}, {0, 0.3f, 0.02f}, {0, 0.12f, 0.01f}})
     {
-        const Float3 offsets[] = {{0, 1, 0}, {0, 0.15f, 0}, {0, 0.3f, 0.02f}, {0, 0.12f, 0.01f}};
-        for (int n = 0; n < 4; ++n) {
-            skeleton.parents.push_back(n - 1);
-            skeleton.rotations.push_back({0, 0, 0, 1});
-            skeleton.translations.push_back(offsets[n]);
-            look.look.joints[n] = static_cast<std::uint32_t>(n);
-        }
-        look.features = SWIVEL_LOOK;
         look.look.joint_count = 4;
+        for (std::uint32_t n = 0; n < 4; ++n) look.look.joints[n] = n;
         const float most[] = {0.97f, 0.94f, 0.8f, 0.5f}, share[] = {1, 1, 2, 4};  // 14, 20, 37 and 60 degrees
         std::copy_n(most, 4, look.look.cos_most), std::copy_n(share, 4, look.look.share);
         look.look.eye[1] = 0.08f, look.look.eye[2] = 0.1f;
         look.look.rate = 0;
+    }
+    // Other bones in a line, with a look that is the caller's.
+    explicit Upright(const std::vector<Float3>& offsets)
+    {
+        for (const Float3& offset : offsets) {
+            skeleton.parents.push_back(static_cast<std::int32_t>(skeleton.size()) - 1);
+            skeleton.rotations.push_back({0, 0, 0, 1});
+            skeleton.translations.push_back(offset);
+        }
+        look.features = SWIVEL_LOOK;
     }
     Vector3d eye() const { return {0, 1.65, 0.13}; }
 };

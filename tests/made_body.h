@@ -1,6 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A body made up as a BVH file, with the names of the CMU library. It is known without the code where each joint is.
+// Figures that are made up: a body as a BVH file, with the names of the CMU library, of which it is known without the
+// code where each joint is; and skeletons of names alone.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "tests/plain_motion.h"
+#include "tools/formats/clip.h"
 
 namespace swivel::test {
 
@@ -78,4 +80,18 @@ struct MadeBody {
         return hierarchy() + fmt::format("Frames: {}\nFrame Time: 0.02\n{}", rows.size(), frames);
     }
 };
+
+using Names = std::vector<std::string>;
+
+// Puts a chain of joints below one; -1: below none. Returns the last of them.
+inline int add_chain(formats::Clip& clip, int parent, const Names& names)
+{
+    for (const std::string& name : names) {
+        clip.joints.push_back({name, parent, {1, 0, 0}});
+        parent = static_cast<int>(clip.joints.size()) - 1;
+        clip.joints.back().number = parent;
+    }
+    return parent;
+}
+
 }  // namespace swivel::test

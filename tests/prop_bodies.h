@@ -3,7 +3,7 @@
 // Random bodies whose hands hold a prop, and where that belongs, by Eigen in double.
 #pragma once
 
-#include "tests/linked_bodies.h"
+#include "tests/posed_bodies.h"
 
 namespace swivel::test {
 
@@ -18,15 +18,15 @@ struct UnmovedProp {
     double most, off;                        // off: what floats may be off
 };
 
-struct PropBodies : LinkedBodies {
+struct PropBodies : PosedBodies {
     std::vector<std::uint32_t> arms;  // groups
     std::uint32_t prop = 0, shift = kNoLimbHere;
     swivel_features bounds;
 
     // Arms are nearly straight in one crowd of four.
     explicit PropBodies(Random& random, std::size_t body_count)
-        : LinkedBodies(random, {3 + random.below(4), 3, random.below(2), false, random.below(2)}, body_count,
-                       random_layout(random), random.below(4) ? 3.1 : 1e-4),
+        : PosedBodies(random, {3 + random.below(4), 3, random.below(2), false, random.below(2)}, body_count,
+                      random_layout(random), random.below(4) ? 3.1 : 1e-4),
           bounds((random.below(3) ? 0 : SWIVEL_WITH_FLEXION_LIMIT) | (random.below(3) ? 0 : SWIVEL_WITH_CAP))
     {
         const std::uint32_t arm_count = random.below(5) ? 2 : 1, prop_at = random.below(arm_count + 1);
@@ -43,7 +43,7 @@ struct PropBodies : LinkedBodies {
         for (const std::uint32_t arm : arms) give_arm(random, arm);
         give_prop(random);
     }
-    Vector3d root(std::size_t n, const SolvedLinks& solved) const
+    Vector3d root(std::size_t n, const SolvedBodies& solved) const
     {
         const Body& body = bodies[n];
         Vector3d root = vec(body.root_position);
@@ -52,7 +52,7 @@ struct PropBodies : LinkedBodies {
                     (quat(body.root_rotation).normalized() * Vector3d::UnitY());
         return root;
     }
-    UnmovedProp unmoved(const LinkedBody& body, const Vector3d& root) const
+    UnmovedProp unmoved(const SolvedBody& body, const Vector3d& root) const
     {
         UnmovedProp is{};
         double size = 0;
@@ -88,13 +88,13 @@ struct PropBodies : LinkedBodies {
         return is;
     }
     // The same limbs with the same goals, that hold nothing.
-    LinkedBodies free() const
+    PosedBodies free() const
     {
-        LinkedBodies of = *this;
+        PosedBodies of = *this;
         of.groups.erase(of.groups.begin() + prop), of.limb_of.erase(of.limb_of.begin() + prop);
         std::erase_if(of.inputs,
-                      [&](const LinkedInput& input) { return input.group == prop || input.field == SWIVEL_GRIP; });
-        for (LinkedInput& input : of.inputs) input.group -= input.group > prop;
+                      [&](const BodyInput& input) { return input.group == prop || input.field == SWIVEL_GRIP; });
+        for (BodyInput& input : of.inputs) input.group -= input.group > prop;
         for (swivel_group_def& group : of.groups) group.features &= ~SWIVEL_WITH_LINK;
         return of;
     }
@@ -190,7 +190,7 @@ private:
         give(prop, SWIVEL_PROP_TURN,
              [&](std::size_t n) { return is_ever_written && random.below(2) ? floats(written[n].rotation) : kNoTurn; });
     }
-    void add_animated(const LinkedBody& body, std::uint32_t arm, const Vector3d& root, UnmovedProp& is) const
+    void add_animated(const SolvedBody& body, std::uint32_t arm, const Vector3d& root, UnmovedProp& is) const
     {
         const JointAt& wrist = body.was[body.joints(arm).wrist];
         Held point = body.point(arm, {wrist.rotation, wrist.place});
@@ -209,28 +209,28 @@ private:
         q.coeffs() = (1 - share) * a.rotation.coeffs() + side * share * b.rotation.coeffs();
         return {q.normalized(), (1 - share) * a.place + share * b.place};
     }
-    double nearest(const LinkedBody& body, std::uint32_t arm) const
+    double nearest(const SolvedBody& body, std::uint32_t arm) const
     {
         const BodyLimbJoints& limb = body.joints(arm);
         const double upper = (body.was[limb.elbow].place - body.was[limb.shoulder].place).norm(),
                      fore = (body.was[limb.wrist].place - body.was[limb.elbow].place).norm();
         double bend = std::numbers::pi;
-        if (const LinkedInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT))
+        if (const BodyInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT))
             bend = 2 * std::acos(double{limit->of<Float2>(body.n)[1]});  // the largest flexion
         return std::sqrt(std::max(0.0, upper * upper + fore * fore + 2 * upper * fore * std::cos(bend)));
     }
-    Ball moves(const LinkedBody& body, std::uint32_t arm, const Held& frame) const
+    Ball moves(const SolvedBody& body, std::uint32_t arm, const Held& frame) const
     {
         const BodyLimbJoints& limb = body.joints(arm);
         const Vector3d shoulder = body.was[limb.shoulder].place, elbow = body.was[limb.elbow].place,
                        wrist = body.was[limb.wrist].place;
         const double upper = (elbow - shoulder).norm(), fore = (wrist - elbow).norm(), bones = upper + fore;
         double far = bones;
-        if (const LinkedInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT)) {
+        if (const BodyInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT)) {
             const double half = std::acos(double{limit->of<Float2>(body.n)[0]});  // of the least flexion
             far = std::sqrt(upper * upper + fore * fore + 2 * upper * fore * std::cos(2 * half));
         }
-        if (const LinkedInput* const cap = find(arm, SWIVEL_CAP))  // which eases from where the incoming limb is
+        if (const BodyInput* const cap = find(arm, SWIVEL_CAP))  // which eases from where the incoming limb is
             far = std::min(far, std::max((wrist - shoulder).norm(), double{cap->of<Float3>(body.n)[1]} * bones));
         const Held hand = frame * body.grip(arm);
         const Float3 effector = value(arm, SWIVEL_EFFECTOR, body.n, Float3{});
@@ -238,22 +238,8 @@ private:
     }
     double rest_length(std::uint32_t limb) const
     {
-        Body rest;
-        rest.rotations = skeleton.rotations, rest.translations = skeleton.translations;
-        rest.scales.assign(skeleton.size(), Float3{1, 1, 1});
-        const std::vector<JointAt> at = joints_at(skeleton, rest);
-        const BodyLimbJoints& of = skeleton.limbs[limb];
-        return (at[of.elbow].place - at[of.shoulder].place).norm() + (at[of.wrist].place - at[of.elbow].place).norm();
+        return LimbAt(skeleton, skeleton.rest(), joints_at(skeleton, skeleton.rest()), skeleton.limbs[limb]).length();
     }
 };
-
-// The bytes that a pose has of a joint.
-inline std::vector<unsigned char> joint_bytes(PoseBuffer& poses, std::size_t body, std::uint32_t joint)
-{
-    const swivel_pose pose = poses.view();
-    const auto* const first = static_cast<const unsigned char*>(pose.rotations.data) +
-                              body * pose.rotations.body_stride + joint * pose.rotations.joint_stride;
-    return {first, first + (pose.form == SWIVEL_ROTATIONS ? 16 : pose.form == SWIVEL_MATRIX_COLUMNS ? 64 : 48)};
-}
 
 }  // namespace swivel::test

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "tests/named_skeleton.h"
+#include "tests/made_body.h"
 #include "tools/retarget/joint_pairs.h"
 #include "tools/rig/joint_names.h"
 #include "tools/rig/limbs.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/named_skeleton.h"
+#include "tests/made_body.h"
 #include "tests/test_data.h"
 #include "tools/rig/joint_names.h"
 #include "tools/rig/limb_joints.h"

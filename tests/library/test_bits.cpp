@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/linked_bodies.h"
 #include "tests/looking_bodies.h"
+#include "tests/posed_bodies.h"
 #include "tests/test_crowd.h"
 #include "tests/test_scopes.h"
 #include "tests/ways.h"
@@ -91,7 +91,7 @@ void play(const Recipe& recipe, const Take& take, std::uint32_t limb_count = kLi
 
 // The same of bodies, that are solved twice.
 template <class Take>
-void play(const LinkedBodies& bodies, const Take& take)
+void play(const PosedBodies& bodies, const Take& take)
 {
     Scene scene{"bodies", bodies.skeleton.size(), [&](const std::vector<std::uint32_t>& counts) {
                     return Crowd(bodies.skeleton.view(), counts[0], bodies.groups);
@@ -106,7 +106,7 @@ void play(const LinkedBodies& bodies, const Take& take)
     for (int n = 0; n < 2; ++n) take(scene, crowd, Job{.pose = &pose});
 }
 
-LinkedBodies any_bodies(Random& random)
+PosedBodies any_bodies(Random& random)
 {
     PoseLayout layout;
     layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));

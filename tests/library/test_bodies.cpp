@@ -27,68 +27,40 @@ SkeletonWish random_wish(Random& random, swivel_pose_form form)
     const std::uint32_t most = random.below(4) ? 20 : is_chain ? most_in_line : 180;
     return {random.below(most), 1 + random.below(5), random.below(3), is_chain};
 }
-// One in four is in the body's space.
-PoseLayout any_layout(Random& random, const BodySkeleton* skeleton)
+PoseLayout any_layout(Random& random)
 {
-    PoseLayout layout;
-    layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
-    if (random.below(4) == 0) layout.in_body = skeleton;
-    layout.translates = layout.in_body || layout.form != SWIVEL_ROTATIONS || random.below(2);
-    layout.scales = layout.in_body || layout.form != SWIVEL_ROTATIONS || random.below(2);
-    layout.roots = random.below(2);
+    PoseLayout layout = random_layout(random);
     layout.gap = random.below(100);
+    if (layout.form == SWIVEL_ROTATIONS) layout.scales = random.below(2);
     return layout;
 }
 
-// Some bodies of one skeleton, before and after a solve.
-struct SolvedBodies {
-    PoseLayout layout;
-    BodySkeleton skeleton;
-    std::vector<Body> bodies;
-    PoseBuffer poses;
-    BodyGoals goals;
-    Crowd crowd;
-
+// Bodies of one skeleton, whose limbs have goals. One crowd in four is in the body's space.
+struct AnyBodies : PosedBodies {
     template <class GoalOf>
-    SolvedBodies(Random& random, swivel_features features, const GoalOf& goal_of)
-        : layout(any_layout(random, &skeleton)),
-          skeleton(random_body_skeleton(random, random_wish(random, layout.form))),
-          bodies(random_bodies(random)),
-          poses(layout, bodies),
-          crowd(body_crowd(skeleton, features, static_cast<std::uint32_t>(bodies.size())))
+    AnyBodies(Random& random, swivel_features features, const GoalOf& goal_of) : AnyBodies(random, any_layout(random))
     {
-        for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
-            goals.emplace_back();
-            for (const Body& body : bodies) goals.back().push_back(goal_of(skeleton, body, limb));
-        }
-        write_goals(crowd, goals);
-        solve_poses(crowd, poses.view());
-    }
-    // Calls take(goal, limb's joints, the limb as it came, joints as they came, joints as they are).
-    template <class Take>
-    void for_each_limb(const Take& take) const
-    {
-        for (std::size_t n = 0; n < bodies.size(); ++n) {
-            const std::vector<JointAt> was = joints_at(skeleton, bodies[n]),
-                                       is = joints_at(skeleton, poses.read(n, bodies[n]));
-            for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
-                const BodyLimbJoints& joints = skeleton.limbs[limb];
-                BodyGoal goal = goals[limb][n];
-                goal.target = floats(Vector3d(vec(goal.target) - vec(bodies[n].root_position)));
-                take(goal, joints, LimbAt(skeleton, bodies[n], was, joints), was, is);
-            }
-        }
+        if (random.below(4) == 0) put_in_body_space();
+        add_limbs(features);
+        for (std::uint32_t g = 0; g < groups.size(); ++g)
+            give_goals(g, [&](std::size_t n) { return goal_of(skeleton, bodies[n], g); });
     }
 
 private:
-    std::vector<Body> random_bodies(Random& random)
+    AnyBodies(Random& random, const PoseLayout& of) : PosedBodies(random, random_wish(random, of.form), kSeedBodies, of)
     {
-        std::vector<Body> made;
-        for (int n = 0; n < kSeedBodies; ++n)
-            made.push_back(random_body(random, skeleton, {layout.translates, layout.scales, layout.roots}));
-        return made;
     }
 };
+// Calls take(body, group) for each limb after a solve.
+template <class Take>
+void for_each_limb(const PosedBodies& bodies, const Take& take)
+{
+    const SolvedBodies solved(bodies);
+    for (std::size_t n = 0; n < bodies.bodies.size(); ++n) {
+        const SolvedBody body(solved, n);
+        for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) take(body, g);
+    }
+}
 
 constexpr std::size_t kWeighedBodies = 40;
 
@@ -96,7 +68,7 @@ constexpr std::size_t kWeighedBodies = 40;
 struct WeighedBodies : LookingBodies {
     WeighedBodies(Random& random, bool look_too) : LookingBodies(random, kWeighedBodies, random_layout(random))
     {
-        if (random.below(2)) layout.translates = layout.scales = true, layout.in_body = &skeleton;
+        if (random.below(2)) put_in_body_space();
         for (const std::uint32_t group : looks) groups[group].look.rate = 3;
         if (look_too) return;
         for (const std::uint32_t group : looks)
@@ -109,10 +81,10 @@ struct Weighed {
     Crowd crowd;
     PoseBuffer poses;
 
-    Weighed(const WeighedBodies& of, const std::vector<float>& weights) : crowd(of.crowd()), poses(of.layout, of.bodies)
+    Weighed(const WeighedBodies& of, const std::vector<float>& weights) : crowd(of.crowd()), poses(of.incoming())
     {
         for (int frame = 0; frame < 2; ++frame) {
-            poses = PoseBuffer(of.layout, of.bodies);
+            poses = of.incoming();
             swivel_pose pose = of.view(poses);
             if (!weights.empty()) pose.weight = stream(weights);
             for (const std::uint32_t group : of.looks)
@@ -141,10 +113,8 @@ TEST_CASE("untouched goals give back the incoming pose")
 {
     rc::prop("as exactly as floats know it", [](std::uint64_t seed) {
         Random random{seed};
-        const SolvedBodies solved(random, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND, own_goal);
-        solved.for_each_limb([](const BodyGoal&, const BodyLimbJoints& joints, const LimbAt& limb,
-                                const std::vector<JointAt>& was,
-                                const std::vector<JointAt>& is) { RC_ASSERT(strayed(limb, joints, was, is) <= 1); });
+        for_each_limb(AnyBodies(random, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND, own_goal),
+                      [](const SolvedBody& body, std::uint32_t g) { RC_ASSERT(body.strayed(g) <= 1); });
     });
 }
 
@@ -152,18 +122,17 @@ TEST_CASE("any goal in reach is met")
 {
     rc::prop("by wrist and hand", [](std::uint64_t seed) {
         Random random{seed};
-        const SolvedBodies solved(random, SWIVEL_WITH_HAND,
-                                  [&](const BodySkeleton& skeleton, const Body& body, std::size_t limb) {
-                                      return random_goal(random, skeleton, body, limb);
-                                  });
-        solved.for_each_limb([&](const BodyGoal& goal, const BodyLimbJoints& joints, const LimbAt& limb,
-                                 const std::vector<JointAt>& was, const std::vector<JointAt>& is) {
+        const auto goal_of = [&](const auto&... of) { return random_goal(random, of...); };
+        for_each_limb(AnyBodies(random, SWIVEL_WITH_HAND, goal_of), [](const SolvedBody& body, std::uint32_t g) {
+            const JointAt &was = body.was[body.joints(g).wrist], &is = body.is[body.joints(g).wrist];
             // In the body's space each of shoulder, elbow and wrist carries places that are floats from the root. It
             // rotates them, four roundings, and adds the shift, a difference of two places, in four more.
-            const double from_root = std::max(was[joints.wrist].place.norm(), is[joints.wrist].place.norm()),
-                         carried = solved.layout.in_body ? 3 * 8 * 0x1p-24 * from_root : 0;
-            RC_ASSERT((is[joints.wrist].place - vec(goal.target)).norm() <= limb.wrist_bound() + carried);
-            RC_ASSERT(is[joints.wrist].rotation.angularDistance(quat(goal.hand).normalized()) <= 5e-6);
+            const double from_root = std::max(was.place.norm(), is.place.norm()),
+                         carried = body.of.is_in_body ? 3 * 8 * 0x1p-24 * from_root : 0;
+            const Vector3d target = vec(body.of.value(g, SWIVEL_TARGET, body.n, kNoPlace)) - body.root();
+            const Float4 hand = body.of.value(g, SWIVEL_HAND, body.n, kNoTurn);
+            RC_ASSERT((is.place - target).norm() <= body.limb(g).wrist_bound() + carried);
+            RC_ASSERT(is.rotation.angularDistance(quat(hand).normalized()) <= 5e-6);
         });
     });
 }
@@ -171,52 +140,42 @@ TEST_CASE("any goal in reach is met")
 TEST_CASE("with a pole, elbows that are bent against their hinge come back bent with it")
 {
     Random random{8};
-    const BodySkeleton skeleton = random_body_skeleton(random, {3, 1, 0, false});
-    const BodyLimbJoints& limb = skeleton.limbs[0];
-    std::vector<Body> bodies;
-    BodyGoals goals(1);
-    for (int n = 0; n < 1000; ++n) {
-        bodies.push_back(random_body(random, skeleton, {false, false, true}));
-        goals[0].push_back(random_goal(random, skeleton, bodies.back(), 0));
-    }
-    PoseBuffer poses({.roots = true}, bodies);
-    Crowd crowd = body_crowd(skeleton, 0, 1000);
-    write_goals(crowd, goals);
-    solve_poses(crowd, poses.view());
-    // How far the forearm is towards where flexion carries it.
-    const auto flexed = [&](const Body& body) {
-        const std::vector<JointAt> at = joints_at(skeleton, body);
-        return (at[limb.wrist].place - at[limb.elbow].place).dot(at[limb.shoulder].rotation * vec(limb.bend));
-    };
+    PosedBodies bodies(random, {3, 1, 0, false}, 1000, {.roots = true});
+    bodies.add_limbs(0);
+    bodies.give_random_goals(random);
     int backward_count = 0;
-    for (std::size_t n = 0; n < bodies.size(); ++n) {
-        backward_count += flexed(bodies[n]) < 0;
-        REQUIRE(flexed(poses.read(n, bodies[n])) > -1e-5);
-    }
+    for_each_limb(bodies, [&](const SolvedBody& body, std::uint32_t g) {
+        // How far the forearm is towards where flexion carries it.
+        const auto flexed = [&](const std::vector<JointAt>& at) {
+            const BodyLimbJoints& limb = body.joints(g);
+            return (at[limb.wrist].place - at[limb.elbow].place).dot(at[limb.shoulder].rotation * vec(limb.bend));
+        };
+        backward_count += flexed(body.was) < 0;
+        REQUIRE(flexed(body.is) > -1e-5);
+    });
     REQUIRE(backward_count > 300);
 }
 
 TEST_CASE("matrices that are solved in place again and again stay rotations")
 {
     Random random{7};
-    const BodySkeleton skeleton = random_body_skeleton(random, {3, 1, 0, false});
-    std::vector<Body> bodies;
-    for (int n = 0; n < 40; ++n) bodies.push_back(random_body(random, skeleton, {true, false, true}));
     PoseLayout layout;
     layout.form = GENERATE(SWIVEL_MATRIX_ROWS, SWIVEL_MATRIX_COLUMNS);
-    layout.roots = true;
-    PoseBuffer poses(layout, bodies);
-    Crowd crowd = body_crowd(skeleton, SWIVEL_WITH_HAND, 40);
-    for (int frame = 0; frame < 100; ++frame) {
-        BodyGoals goals(1);
-        for (const Body& body : bodies) goals[0].push_back(random_goal(random, skeleton, body, 0));
-        write_goals(crowd, goals);
-        solve_poses(crowd, poses.view());
+    layout.translates = layout.roots = true;
+    PosedBodies bodies(random, {3, 1, 0, false}, 40, layout);
+    bodies.add_limbs(SWIVEL_WITH_HAND);
+    bodies.give_random_goals(random);
+    SolvedBodies solved(bodies);
+    for (int frame = 1; frame < 100; ++frame) {
+        bodies.inputs.clear();
+        bodies.give_random_goals(random);
+        bodies.write(solved.crowd);
+        solved.solve();
     }
-    const BodyLimbJoints& limb = skeleton.limbs[0];
-    for (std::size_t n = 0; n < bodies.size(); ++n)
+    const BodyLimbJoints& limb = bodies.skeleton.limbs[0];
+    for (std::size_t n = 0; n < 40; ++n)
         for (const std::uint32_t joint : {limb.shoulder, limb.elbow, limb.wrist}) {
-            const Eigen::Matrix3d axes = poses.matrix(n, joint);
+            const Eigen::Matrix3d axes = solved.poses.matrix(n, joint);
             REQUIRE((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm() <= 3e-5);
         }
 }
@@ -230,7 +189,7 @@ TEST_CASE("a weight of 1 changes no bit; one of 0 keeps the pose's bits, and wha
             none(of, std::vector<float>(kWeighedBodies, 0));
         RC_ASSERT(all_words(all.crowd) == all_words(without.crowd));
         RC_ASSERT(all.poses.bytes == without.poses.bytes);
-        RC_ASSERT(none.poses.bytes == PoseBuffer(of.layout, of.bodies).bytes);
+        RC_ASSERT(none.poses.bytes == of.incoming().bytes);
         using Turns = std::array<float, 25>;
         const std::uint32_t first = of.looks.front();  // another goes on from where the first one's part has brought it
         RC_ASSERT(

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: feet stand on ground as it lies. What they do on hills is measured by forward kinematics of Eigen's, in
-// double: how far soles are from the ground, how they slide, and how fast legs turn. docs/howto/hills.md has the
-// numbers.
+// The promise: feet stand on ground as it lies, for which the library asks once for each chosen foot. What they do on
+// hills is measured by forward kinematics of Eigen's, in double: how far soles are from the ground, how they slide, and
+// how fast legs turn. docs/howto/hills.md has the numbers.
 #include <catch2/catch.hpp>
 
+#include <atomic>
+
 #include "tests/hill_walkers.h"
+#include "tests/test_scopes.h"
 
 namespace {
 
@@ -112,60 +115,6 @@ Gait gait_of(HillWalkers& walkers, const Solve& solve, int first = 1)
     }
     return gauge.is;
 }
-// Walkers whose hands hold a rifle: where the animation has it, or where the root goes. Then arms take up what the
-// pelvis's shift moves shoulders by.
-struct ArmedWalkers : HillWalkers {
-    static constexpr std::uint32_t kShift = 2, kRifle = 3, kFirstArm = 4;  // groups
-
-    ArmedWalkers(std::uint64_t seed, std::uint32_t count) : HillWalkers(seed, count, bumpy_field())
-    {
-        for (const float side : {0.18f, -0.18f}) {
-            const std::uint32_t first = skeleton.size();
-            for (const std::int32_t parent : {0, static_cast<int>(first), static_cast<int>(first) + 1})
-                skeleton.parents.push_back(parent);
-            for (const Float3& place : {Float3{side, 0.5f, 0}, Float3{0, -0.3f, 0}, Float3{0, -0.26f, 0}})
-                skeleton.translations.push_back(place), skeleton.rotations.push_back({0, 0, 0, 1});
-            skeleton.limbs.push_back({first, first + 1, first + 2, {0, 0, 1}, {}});
-        }
-    }
-    Crowd armed_crowd() const
-    {
-        const std::array<swivel_limb_joints, 2> arms = {skeleton.joints(2), skeleton.joints(3)};
-        std::vector<swivel_group_def> more = {swivel_default_prop_group_def()};
-        for (const swivel_limb_joints& arm : arms) {
-            more.push_back(body_group(arm, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK));
-            more.back().link = kRifle;
-        }
-        Crowd made = crowd(kFeatures, SWIVEL_KEEP_POSE, more);
-        made.write_all(SWIVEL_GRIP, kFirstArm, std::array{0.1f, 0.02f, 0.15f, 0.f, 0.f, 0.f, 1.f});
-        made.write_all(SWIVEL_GRIP, kFirstArm + 1, std::array{-0.1f, 0.f, -0.1f, 0.f, 0.f, 0.f, 1.f});
-        return made;
-    }
-    // Arms as they are animated: bent, in front of the chest.
-    void raise_arms()
-    {
-        for (Body& body : bodies)
-            for (const std::size_t arm : {2u, 3u}) {
-                body.rotations[skeleton.limbs[arm].shoulder] = pitched(-0.6);
-                body.rotations[skeleton.limbs[arm].elbow] = pitched(-1.2);
-            }
-    }
-    void write_rifles(Crowd& crowd) const
-    {
-        std::vector<Float3> places;
-        std::vector<Float4> turns;
-        for (std::uint32_t n = 0; n < count(); ++n) {
-            const Quaterniond facing = quat(bodies[n].root_rotation);
-            places.push_back(floats(Vector3d(roots[n] + facing * Vector3d(0, kPelvis + 0.3, 0.3))));
-            turns.push_back(bodies[n].root_rotation);
-        }
-        crowd.write(SWIVEL_PROP_PLACE, kRifle, places), crowd.write(SWIVEL_PROP_TURN, kRifle, turns);
-    }
-
-private:
-    static Float4 pitched(double angle) { return floats(Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitX()))); }
-};
-
 }  // namespace
 
 TEST_CASE("feet stand on hills, however their ground is sampled, with the same bits")
@@ -297,69 +246,19 @@ TEST_CASE("over creases a sole in the air turns slowly with its ground, and lies
     CHECK(lies < 1e-3);
 }
 
-TEST_CASE("arms that hold a rifle turn slowly while the pelvis comes down")
-{
-    const auto turn = [](bool goes_with_root) {
-        ArmedWalkers walkers(1, 500);
-        Crowd crowd = walkers.armed_crowd();
-        std::vector<std::array<Quaterniond, 6>> was(walkers.count());
-        double most = 0, shift = 0;
-        for (int frame = 0; frame < kWalkedFrames; ++frame) {
-            walkers.go_to(frame);
-            walkers.raise_arms();
-            if (goes_with_root) walkers.write_rifles(crowd);
-            PoseBuffer poses = walkers.poses();
-            walkers.probe_and_solve(crowd, poses);
-            const auto shifts = read<Float3>(crowd, SWIVEL_SHIFT, ArmedWalkers::kShift);
-            for (std::uint32_t n = 0; n < walkers.count(); ++n) {
-                const std::vector<JointAt> at = joints_at(walkers.skeleton, poses.read(n, walkers.bodies[n]));
-                shift = std::max(shift, double{std::fabs(shifts[n][0])});
-                for (std::uint32_t joint = 0; joint < 6; ++joint) {
-                    const Quaterniond& is = at[walkers.skeleton.limbs[2].shoulder + joint].rotation;
-                    if (frame > 0) most = std::max(most, is.angularDistance(was[n][joint]));
-                    was[n][joint] = is;
-                }
-                for (std::uint32_t arm = 0; arm < 2; ++arm)
-                    REQUIRE(flags_of(crowd, ArmedWalkers::kFirstArm + arm, n) & SWIVEL_REACHED);
-            }
-        }
-        CHECK(shift > 0.1);
-        return most;
-    };
-    CHECK(turn(false) <= 0.052);
-    CHECK(turn(true) <= 0.058);
-}
-
 TEST_CASE("far from the origin, places are from the root, and feet stand as well")
 {
     HillWalkers walkers(5, kFewWalkers, bumpy_field());
     walkers.has_doubles = true;
     walkers.origin = {3e6 + 0.25, 0, -5e6 + 0.75};
     const bool asks = GENERATE(true, false);
-    walkers.go_to(0);
-    Crowd crowd = walkers.crowd();
-    int rest_count = 0;
-    for (int frame = 0; frame < 240; ++frame) {
-        walkers.go_to(frame);
-        PoseBuffer poses = walkers.poses();
-        if (asks)
-            walkers.ask_and_solve(crowd, poses);
-        else
-            walkers.probe_and_solve(crowd, poses);
+    const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) {
+        asks ? walkers.ask_and_solve(crowd, poses) : walkers.probe_and_solve(crowd, poses);
         for (std::uint32_t leg = 0; leg < 2; ++leg)
-            for (std::uint32_t n = 0; n < kFewWalkers; ++n) {
-                const Vector3d probe = vec(value_of<Float3>(crowd, SWIVEL_PROBE, leg, n));
-                REQUIRE(probe.norm() < 1.5);
-                const auto plant = value_of<std::array<float, 11>>(crowd, SWIVEL_PLANT, leg, n);
-                const std::uint32_t flags = flags_of(crowd, leg, n);
-                REQUIRE((flags & SWIVEL_BAD_INPUT) == 0);
-                if (!(flags & SWIVEL_PLANTED) || !(flags & SWIVEL_REACHED) || plant[9] != 0) continue;
-                ++rest_count;
-                const double shift = double{value_of<Float3>(crowd, SWIVEL_SHIFT, 2, n)[0]};
-                REQUIRE(std::fabs(walkers.terrain.over(walkers.leg(poses, n, leg, shift).toe)) <= 1e-4);
-            }
-    }
-    CHECK(rest_count > 2000);
+            for (const Float3& probe : read<Float3>(crowd, SWIVEL_PROBE, leg)) REQUIRE(vec(probe).norm() < 1.5);
+    });
+    CHECK(is.rest_count > 2000);
+    CHECK(is.from_ground <= 1e-4);
 }
 
 TEST_CASE("ground that is not known, or too steep, is as if there were none")
@@ -383,4 +282,105 @@ TEST_CASE("ground that is not known, or too steep, is as if there were none")
             REQUIRE(read<Lift>(unknown, SWIVEL_LIFT, leg) == std::vector<Lift>(kFewWalkers, {0, 0, 1, 0, 1, 0}));
         }
     }
+}
+
+TEST_CASE("a sample function is asked for each chosen foot once")
+{
+    constexpr std::uint32_t kMany = 700;  // on threads
+    HillWalkers walkers(5, kMany, bumpy_field());
+    Crowd crowd = walkers.crowd();
+    PoseBuffer poses = walkers.poses();
+    struct Asked {
+        const HillWalkers& walkers;
+        std::array<std::array<std::atomic<int>, kMany>, 2> counts = {};
+    } asked{walkers};
+    std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
+    const auto is_chosen = [](std::uint32_t n) { return n % 7 == 3 || n / 50 == 2; };
+    for (std::uint32_t n = 0; n < kMany; ++n) mask[n / 32] |= (is_chosen(n) ? 1u : 0u) << n % 32;
+    walkers.write_labels(crowd);
+    const swivel_pose pose = walkers.view(poses);
+    swivel_job job = swivel_default_job();
+    job.pose = &pose, job.mask = mask.data(), job.mask_word_count = static_cast<std::uint32_t>(mask.size());
+    job.sample_user = &asked;
+    job.sample = [](const swivel_probes* probes, void* user) {
+        auto& to = *static_cast<Asked*>(user);
+        for (std::uint32_t n = 0; n < probes->count; ++n) ++to.counts[probes->group][probes->bodies[n]];
+        HillWalkers::answer(probes, const_cast<HillWalkers*>(&to.walkers));
+    };
+    check(swivel_solve(crowd.get(), &job));
+    for (const auto& counts : asked.counts)
+        for (std::uint32_t n = 0; n < kMany; ++n) REQUIRE(counts[n] == is_chosen(n));
+}
+
+TEST_CASE("a sample function runs in its thread's floating-point environment, which changes no bit")
+{
+    struct Seen {
+        std::vector<GroundSample> planes[2];
+        bool is_other = true;
+        int calls = 0;
+    };
+    HillWalkers walkers(5, kFewWalkers, bumpy_field());
+    Crowd crowd = walkers.crowd(), usual = walkers.crowd();
+    PoseBuffer poses = walkers.poses(), usual_poses = poses;
+    walkers.find_probes(usual, usual_poses);
+    Seen seen;
+    for (std::uint32_t leg = 0; leg < 2; ++leg) seen.planes[leg] = walkers.samples(usual, leg);
+    walkers.probe_and_solve(usual, usual_poses);
+    walkers.write_labels(crowd);
+    const swivel_pose pose = walkers.view(poses);
+    swivel_job job = swivel_default_job();
+    job.pose = &pose, job.on_this_thread = 1, job.sample_user = &seen;
+    job.sample = [](const swivel_probes* probes, void* user) {
+        auto& to = *static_cast<Seen*>(user);
+        to.is_other = to.is_other && OtherEnvironment::is(), ++to.calls;
+        for (std::uint32_t n = 0; n < probes->count; ++n)
+            HillWalkers::store(*probes, n, to.planes[probes->group][probes->bodies[n]]);
+        std::feraiseexcept(FE_OVERFLOW);
+    };
+    swivel_status status;
+    bool is_other;
+    int raised;
+    {
+        const OtherEnvironment other;
+        status = swivel_solve(crowd.get(), &job);
+        is_other = OtherEnvironment::is();
+        raised = std::fetestexcept(FE_ALL_EXCEPT);
+    }
+    CHECK(status == SWIVEL_OK);
+    CHECK(seen.calls == 2);
+    CHECK((seen.is_other && is_other));
+    CHECK((raised & (FE_OVERFLOW | FE_INVALID | FE_DIVBYZERO | FE_UNDERFLOW)) == FE_OVERFLOW);  // the function's own
+    CHECK(poses.bytes == usual_poses.bytes);
+    CHECK(swivel_digest(crowd.get()) == swivel_digest(usual.get()));
+}
+
+TEST_CASE("jobs that sample no ground are refused in one line")
+{
+    const HillWalkers walkers(5, 4, bumpy_field());
+    Crowd crowd = walkers.crowd(), without = walkers.crowd(HillWalkers::kFeatures & ~SWIVEL_WITH_GROUND),
+          free = crowd_of(0, 4);
+    PoseBuffer poses = walkers.poses();
+    const swivel_pose pose = walkers.view(poses);
+    const std::uint32_t shift_alone = 4;
+    swivel_job job = swivel_default_job();
+    job.pose = &pose;
+    const auto refuses = [&](Crowd& of, const char* part) {
+        CHECK_REFUSED(swivel_solve(of.get(), &job), SWIVEL_INVALID_ARGUMENT);
+        CHECK(std::string(swivel_last_error()).find(part) != std::string::npos);
+    };
+    const auto before = all_words(crowd);
+    job.sample = [](const swivel_probes*, void*) {};
+    job.probes_only = 1;
+    refuses(crowd, "give one of them");
+    job.groups = &shift_alone, job.group_word_count = 1, job.sample = nullptr;
+    refuses(crowd, "is for probes_only, but names no group that is SWIVEL_WITH_GROUND");
+    CHECK(all_words(crowd) == before);
+    job.groups = nullptr, job.group_word_count = 0;
+    refuses(without, "probes_only");
+    swivel_job plain = swivel_default_job();
+    plain.probes_only = 1;
+    CHECK_REFUSED(swivel_solve(free.get(), &plain), SWIVEL_INVALID_ARGUMENT);
+    plain.probes_only = 0;
+    plain.sample = [](const swivel_probes*, void*) { FAIL("no limb of this crowd stands on ground"); };
+    CHECK(swivel_solve(free.get(), &plain) == SWIVEL_OK);
 }

@@ -4,238 +4,168 @@
 // more, the incoming bits stay. A hand on one that keeps its pose goes there.
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <cstddef>
+#include <numeric>
 
-#include "tests/body_crowd.h"
-#include "tests/linked_bodies.h"
 #include "tests/looking_bodies.h"
+#include "tests/posed_bodies.h"
 #include "tests/test_crowd.h"
 
 namespace {
 
 using namespace swivel;
 using namespace swivel::test;
+using H = HoldingBodies;
 
-// A skeleton whose limbs all hang below joint 0.
-BodySkeleton skeleton_of(Random& random) { return random_body_skeleton(random, {2, 3, 1, true}); }
-
-struct PosedStage {
-    BodySkeleton skeleton;
-    std::vector<Body> bodies;
-    BodyGoals goals;
-    Crowd crowd;
+constexpr swivel_pose_form kForms[] = {SWIVEL_ROTATIONS, SWIVEL_MATRIX_ROWS, SWIVEL_MATRIX_COLUMNS,
+                                       SWIVEL_MATRIX_COLUMNS3};
+PoseLayout whole_layout(swivel_pose_form form)
+{
     PoseLayout layout;
-
-    PosedStage(std::uint64_t seed, swivel_features features)
-        : skeleton([&] {
-              Random random{seed};
-              return skeleton_of(random);
-          }()),
-          crowd(body_crowd(skeleton, features, 20))
-    {
-        Random random{seed + 1};
-        layout.translates = layout.scales = layout.roots = true;
-        for (int n = 0; n < 20; ++n) bodies.push_back(random_body(random, skeleton, {true, true, true}));
-        for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
-            goals.emplace_back();
-            for (const Body& body : bodies) goals.back().push_back(random_goal(random, skeleton, body, limb));
-        }
-        write_goals(crowd, goals);
-    }
-};
-
-}  // namespace
-
-TEST_CASE("bad input of a joint is that of the limbs below it, which keep their pose")
-{
-    const struct {
-        const char* name;
-        bool is_whole_body;
-        void (*spoil)(Body& body, const BodyLimbJoints& limb);
-    } rows[] = {
-        {"a shoulder's rotation", false, [](auto& body, auto& limb) { body.rotations[limb.shoulder][2] = kNan; }},
-        {"an elbow's rotation", false,
-         [](auto& body, auto& limb) {
-             body.rotations[limb.elbow] = {0, 0, 0, 0};
-         }},
-        {"a wrist's rotation", false, [](auto& body, auto& limb) { body.rotations[limb.wrist][0] = kNan; }},
-        {"a wrist's translation", false, [](auto& body, auto& limb) { body.translations[limb.wrist][0] = kNan; }},
-        {"an elbow's translation", false, [](auto& body, auto& limb) { body.translations[limb.elbow][1] = kInf; }},
-        {"an uneven scale", false,
-         [](auto& body, auto& limb) {
-             body.scales[limb.elbow] = {1, 1, 1.01f};
-         }},
-        {"a negative scale", false,
-         [](auto& body, auto& limb) {
-             body.scales[limb.shoulder] = {-1, -1, -1};
-         }},
-        {"a rotation above all limbs", true,
-         [](auto& body, auto&) {
-             body.rotations[0] = {kInf, 0, 0, 1};
-         }},
-        {"the root's place", true, [](auto& body, auto&) { body.root_position[1] = kNan; }},
-        {"the root's scale", true, [](auto& body, auto&) { body.root_scale = 0; }},
-    };
-    constexpr std::size_t bad_body = 17;
-    for (const auto& [name, is_whole_body, spoil] : rows) {
-        PosedStage stage(1, SWIVEL_WITH_HAND), bad(1, SWIVEL_WITH_HAND);
-        PoseBuffer good(stage.layout, stage.bodies);
-        solve_poses(stage.crowd, good.view());
-        spoil(bad.bodies[bad_body], stage.skeleton.limbs[1]);
-        PoseBuffer poses(bad.layout, bad.bodies);
-        const std::vector<unsigned char> before = poses.bytes;
-        solve_poses(bad.crowd, poses.view());
-        for (std::uint32_t n = 0; n < 20; ++n)
-            for (std::uint32_t g = 0; g < 3; ++g) {
-                const bool is_bad = n == bad_body && (is_whole_body || g == 1);
-                INFO(name << ", body " << n << ", group " << g);
-                REQUIRE((flags_of(bad.crowd, g, n) == SWIVEL_BAD_INPUT) == is_bad);
-                const BodyLimbJoints& joints = stage.skeleton.limbs[g];
-                for (const std::uint32_t joint : {joints.shoulder, joints.elbow, joints.wrist}) {
-                    const std::size_t at = n * poses.body_stride + joint * 16;
-                    REQUIRE(std::memcmp(&poses.bytes[at], is_bad ? &before[at] : &good.bytes[at], 16) == 0);
-                }
-            }
-    }
+    layout.form = form, layout.translates = layout.scales = layout.roots = true;
+    return layout;
 }
-
-TEST_CASE("a matrix that is slanted or uneven is bad input")
-{
-    PosedStage stage(2, 0);
-    stage.layout.form = SWIVEL_MATRIX_COLUMNS;
-    PoseBuffer poses(stage.layout, stage.bodies);
-    const BodyLimbJoints& limb = stage.skeleton.limbs[0];
-    const std::uint32_t elbow = limb.elbow, bad = GENERATE(true, false) ? elbow : limb.wrist;
-    const bool is_slanted = GENERATE(true, false);
-    float* const column = reinterpret_cast<float*>(&poses.bytes[5 * poses.body_stride + bad * 64]);
-    for (int n = 0; n < 3; ++n) column[n] = is_slanted ? column[n] + 0.01f * column[4 + n] : 1.01f * column[n];
-    const std::vector<unsigned char> before = poses.bytes;
-    solve_poses(stage.crowd, poses.view());
-    for (std::uint32_t n = 0; n < 20; ++n)
-        for (std::uint32_t g = 0; g < 3; ++g)
-            REQUIRE((flags_of(stage.crowd, g, n) == SWIVEL_BAD_INPUT) == (n == 5 && g == 0));
-    for (const std::uint32_t joint : {stage.skeleton.limbs[0].shoulder, elbow}) {
-        const std::size_t at = 5 * poses.body_stride + joint * 64;
-        REQUIRE(std::memcmp(&poses.bytes[at], &before[at], 64) == 0);
-    }
-}
-
-TEST_CASE("without any weight the incoming bits stay, in every form")
-{
-    const int form = GENERATE(0, 1, 2, 3);
-    PosedStage stage(3, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS | SWIVEL_POLE_INCOMING);
-    for (std::uint32_t g = 0; g < 3; ++g) stage.crowd.write_all(SWIVEL_WEIGHTS, g, Float3{0, 0, 0});
-    stage.layout.form = static_cast<swivel_pose_form>(form);
-    for (Body& body : stage.bodies)
-        for (Float4& q : body.rotations)
-            for (float& x : q) x *= 3;  // of any length, and of either sign
-    PoseBuffer poses(stage.layout, stage.bodies);
-    const std::vector<unsigned char> before = poses.bytes;
-    solve_poses(stage.crowd, poses.view());
-    REQUIRE(poses.bytes == before);
-    for (std::uint32_t n = 0; n < 20; ++n) REQUIRE(flags_of(stage.crowd, 0, n) == SWIVEL_REACHED);
-}
-
-TEST_CASE("lengths that are written count instead of the pose's")
-{
-    PosedStage stage(4, 0);
-    for (std::uint32_t g = 0; g < 3; ++g) stage.crowd.write_all(SWIVEL_LENGTHS, g, Float2{1e-3f, 1e-3f});
-    PoseBuffer poses(stage.layout, stage.bodies);
-    solve_poses(stage.crowd, poses.view());
-    for (std::uint32_t n = 0; n < 20; ++n) REQUIRE(flags_of(stage.crowd, 0, n) == SWIVEL_CLAMPED_FAR);
-}
-
-TEST_CASE("limbs rest where they are told to, and a body that kept its pose keeps it")
-{
-    PosedStage stage(5, SWIVEL_WITH_HAND);
-    const swivel_limb_joints joints = stage.skeleton.joints(0);
-    swivel_group_def group = swivel_default_body_group_def(&joints);
-    group.on_bad_input = SWIVEL_REST_POSE;
-    const swivel_skeleton view = stage.skeleton.view();
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.skeleton = &view, def.body_count = 20, def.groups = &group, def.group_count = 1;
-    Crowd crowd(def);  // no target is written
-    const int form = GENERATE(0, 1, 2, 3);
-    stage.layout.form = static_cast<swivel_pose_form>(form);
-    PoseBuffer poses(stage.layout, stage.bodies);
-    solve_poses(crowd, poses.view());
-    for (std::size_t n = 0; n < 20; ++n) {
-        const Body body = poses.read(n, stage.bodies[n]);
-        for (const std::uint32_t joint : {joints.shoulder, joints.elbow})
-            REQUIRE(distance(quat(body.rotations[joint]), quat(stage.skeleton.rotations[joint]).normalized()) < 1e-6);
-    }
-}
-
-TEST_CASE("a pose of an older header is read as far as it goes")
-{
-    PosedStage stage(9, SWIVEL_WITH_HAND);
-    PoseBuffer whole(stage.layout, stage.bodies), older(stage.layout, stage.bodies);
-    solve_poses(stage.crowd, whole.view());
-    swivel_pose pose = older.view();
-    pose.size = offsetof(swivel_pose, space);
-    pose.reserved = 1;  // beyond its end
-    solve_poses(stage.crowd, pose);
-    REQUIRE(whole.bytes == older.bytes);
-}
-
-// ---- hands and props
-
-namespace {
 
 constexpr std::size_t kBadBody = 20;  // whose share is 2/3, or what a case makes it; without a written place
 
+// Bodies that hold each other and props, and the same where a part of one is bad.
 struct BadBodies {
     HoldingBodies good_bodies, bodies;
+    PoseBuffer came;
 
-    explicit BadBodies(std::uint64_t seed, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE)
-        : good_bodies(made(seed, on_bad_input)), bodies(made(seed, on_bad_input))
+    explicit BadBodies(std::uint64_t seed, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE,
+                       swivel_pose_form form = SWIVEL_ROTATIONS)
+        : good_bodies(made(seed, on_bad_input, form)), bodies(made(seed, on_bad_input, form)), came(bodies.incoming())
     {
     }
-    static HoldingBodies made(std::uint64_t seed, swivel_on_bad_input on_bad_input)
+    static HoldingBodies made(std::uint64_t seed, swivel_on_bad_input on_bad_input, swivel_pose_form form)
     {
         Random random{seed};
-        PoseLayout layout;
-        layout.translates = layout.scales = layout.roots = true;
-        HoldingBodies made(random, 40, layout, on_bad_input);
-        made.find(HoldingBodies::left, SWIVEL_TARGET)->at(kBadBody)[0] = kNan;
-        for (int c = 0; c < 3; ++c) made.find(HoldingBodies::prop, SWIVEL_PROP_PLACE)->at(kBadBody)[c] = kNan;
-        made.find(HoldingBodies::prop, SWIVEL_PROP_SHARE)->at(kBadBody)[0] = 0;
+        HoldingBodies made(random, 40, whole_layout(form), on_bad_input);
+        made.find(H::left, SWIVEL_TARGET)->at(kBadBody)[0] = kNan;
+        for (int c = 0; c < 3; ++c) made.find(H::prop, SWIVEL_PROP_PLACE)->at(kBadBody)[c] = kNan;
+        made.find(H::prop, SWIVEL_PROP_SHARE)->at(kBadBody)[0] = 0;
         return made;
     }
     float* input(std::uint32_t group, swivel_field field) { return bodies.find(group, field)->at(kBadBody); }
-    Float4& rotation(std::uint32_t joint) { return bodies.bodies[kBadBody].rotations[joint]; }
     const BodyLimbJoints& limb(std::uint32_t group) const { return bodies.skeleton.limbs[bodies.limb_of[group]]; }
-
-    // Groups that are bad in that body; in others no bit changes.
+    // Changes the bad body. Numbers of the pose may be changed after that.
+    template <class Spoil>
+    void spoil(std::uint32_t group, const Spoil& spoil)
+    {
+        spoil(bodies.bodies[kBadBody], limb(group));
+        came = bodies.incoming();
+    }
+    SolvedBodies solved() const { return SolvedBodies(bodies, came); }
+    // Whether one of the two holds the other, or both hold the same.
+    static bool hold(std::uint32_t a, std::uint32_t b)
+    {
+        constexpr std::uint32_t first[] = {H::prop, H::prop, H::prop, H::prop,   H::free,
+                                           H::free, H::leg,  H::leg,  H::handle, H::handle};
+        return first[a] == first[b];
+    }
+    // groups: that are bad in that body. Then in others, but for those that hold them, and in other bodies no bit
+    // changes.
     void check_bad(const std::vector<std::uint32_t>& groups) const
     {
-        const SolvedLinks good(good_bodies), solved(bodies);
+        const SolvedBodies good(good_bodies), now = solved();
         for (std::size_t n = 0; n < 40; ++n)
             if (n != kBadBody)
-                REQUIRE((bits_of_body(bodies, solved.crowd, solved.poses, n) ==
-                         bits_of_body(good_bodies, good.crowd, good.poses, n)));
-        const PoseBuffer before(bodies.layout, bodies.bodies);
+                REQUIRE((bits_of_body(now.crowd, now.poses, n) == bits_of_body(good.crowd, good.poses, n)));
         for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) {
-            const bool is_bad = std::ranges::find(groups, g) != groups.end();
-            INFO("group " << g << ", flags " << solved.flags(g, kBadBody));
-            CHECK((solved.flags(g, kBadBody) == SWIVEL_BAD_INPUT) == is_bad);
+            const bool is_bad = std::ranges::find(groups, g) != groups.end(),
+                       is_apart = !groups.empty() &&
+                                  std::ranges::none_of(groups, [&](std::uint32_t bad) { return hold(g, bad); }),
+                       is_limb = bodies.limb_of[g] != kNoLimbHere;
+            INFO("group " << g << ", flags " << now.flags(g, kBadBody));
+            CHECK((now.flags(g, kBadBody) == SWIVEL_BAD_INPUT) == is_bad);
             CHECK(!(good.flags(g, kBadBody) & SWIVEL_BAD_INPUT));
-            if (!is_bad || bodies.limb_of[g] == kNoLimbHere || bodies.groups[g].on_bad_input != SWIVEL_KEEP_POSE)
-                continue;
-            for (const std::uint32_t joint : {limb(g).shoulder, limb(g).elbow, limb(g).wrist}) {
-                const std::size_t at = kBadBody * before.body_stride + joint * 16;
-                CHECK(std::memcmp(&solved.poses.bytes[at], &before.bytes[at], 16) == 0);
-            }
+            if (is_apart) CHECK(bits_of_group(now.crowd, g, kBadBody) == bits_of_group(good.crowd, g, kBadBody));
+            if (is_apart && is_limb) check_joints(g, now.poses, good.poses);
+            if (is_bad && is_limb && bodies.groups[g].on_bad_input == SWIVEL_KEEP_POSE)
+                check_joints(g, now.poses, came);
         }
+    }
+
+private:
+    void check_joints(std::uint32_t group, const PoseBuffer& are, const PoseBuffer& wanted) const
+    {
+        for (const std::uint32_t joint : {limb(group).shoulder, limb(group).elbow, limb(group).wrist})
+            CHECK(are.joint_bytes(kBadBody, joint) == wanted.joint_bytes(kBadBody, joint));
     }
 };
 
 }  // namespace
 
+TEST_CASE("bad input of a joint is that of the limbs below it, which keep their pose, and of what hangs on them")
+{
+    std::vector<std::uint32_t> all(10);
+    std::iota(all.begin(), all.end(), 0u);
+    const auto all_but = [&](std::uint32_t group) {
+        std::vector<std::uint32_t> some = all;
+        std::erase(some, group);
+        return some;
+    };
+    const std::vector<std::uint32_t> right = {H::right}, free = {H::free, H::follower};
+    const struct {
+        const char* name;
+        std::uint32_t group;
+        std::vector<std::uint32_t> groups;
+        void (*spoil)(Body& body, const BodyLimbJoints& limb);
+    } rows[] = {
+        {"a shoulder's rotation", H::right, right, [](auto& b, auto& limb) { b.rotations[limb.shoulder][2] = kNan; }},
+        {"an elbow's rotation", H::right, right, [](auto& b, auto& limb) { b.rotations[limb.elbow][1] = kNan; }},
+        {"a wrist's rotation, whose hand another one holds", H::free, free,
+         [](auto& b, auto& limb) { b.rotations[limb.wrist][0] = kNan; }},
+        {"a wrist's translation", H::right, right, [](auto& b, auto& limb) { b.translations[limb.wrist][0] = kNan; }},
+        {"an elbow's translation", H::right, right, [](auto& b, auto& limb) { b.translations[limb.elbow][1] = kInf; }},
+        {"an uneven scale", H::right, right, [](auto& b, auto& limb) { b.scales[limb.elbow][2] *= 1.01f; }},
+        {"a negative scale", H::free, free, [](auto& b, auto& limb) { b.scales[limb.shoulder].fill(-1); }},
+        {"a rotation above all limbs", H::right, all_but(H::fit), [](auto& b, auto&) { b.rotations[0][0] = kInf; }},
+        {"the root's place", H::right, all, [](auto& b, auto&) { b.root_position[1] = kNan; }},
+        {"the root's scale", H::right, all_but(H::handle), [](auto& b, auto&) { b.root_scale = 0; }},
+    };
+    for (const swivel_pose_form form : {SWIVEL_ROTATIONS, SWIVEL_MATRIX_COLUMNS})
+        for (const auto& [name, group, groups, spoil] : rows) {
+            INFO(name << ", form " << form);
+            BadBodies stage(1, SWIVEL_KEEP_POSE, form);
+            stage.spoil(group, spoil);
+            stage.check_bad(groups);
+        }
+    INFO("a rotation of no length");
+    BadBodies zero(1);
+    zero.spoil(H::right, [](auto& b, auto& limb) { b.rotations[limb.elbow] = {}; });
+    zero.check_bad(right);
+    INFO("a slanted matrix");
+    BadBodies slanted(1, SWIVEL_KEEP_POSE, SWIVEL_MATRIX_COLUMNS);
+    for (const std::uint32_t joint : {slanted.limb(H::right).elbow, slanted.limb(H::right).wrist}) {
+        slanted.came = slanted.bodies.incoming();
+        auto* const column =
+            reinterpret_cast<float*>(&slanted.came.bytes[kBadBody * slanted.came.body_stride + joint * 64]);
+        for (int n = 0; n < 3; ++n) column[n] += 0.01f * column[4 + n];
+        slanted.check_bad(right);
+    }
+}
+
+TEST_CASE("bad input that a prop comes from is its own, and one hand takes it from afar where the other is bad")
+{
+    BadBodies of_prop(1), far(1);
+    of_prop.bodies.bodies[kBadBody].rotations[1][2] = kNan;
+    of_prop.came = of_prop.bodies.incoming();
+    const SolvedBodies solved = of_prop.solved();
+    CHECK(solved.flags(H::handle, kBadBody) == SWIVEL_BAD_INPUT);
+    CHECK(solved.flags(H::on_handle, kBadBody) == SWIVEL_BAD_INPUT);
+    for (HoldingBodies* const each : {&far.good_bodies, &far.bodies}) {
+        each->groups[H::prop].prop.most_move = 1000;
+        each->find(H::prop, SWIVEL_PROP_PLACE)->write(kBadBody, Float3{30, 0, 0});
+    }
+    far.input(H::right, SWIVEL_GRIP)[1] = kNan;
+    far.check_bad({H::right});
+    CHECK(far.solved().flags(H::prop, kBadBody) == SWIVEL_REACHED);
+}
+
 TEST_CASE("bad input of hands and props is that of what depends on them, and of no other body")
 {
-    using H = HoldingBodies;
     const std::vector<std::uint32_t> none, follower = {H::follower}, right = {H::right},
                                            all = {H::prop, H::left, H::right};
     const struct {
@@ -272,61 +202,37 @@ TEST_CASE("bad input of hands and props is that of what depends on them, and of 
         }
 }
 
-TEST_CASE("bad input of joints is that of the hands and props that hang on them")
-{
-    using H = HoldingBodies;
-    BadBodies elbow(1), wrist(1), far(1), of_prop(1);
-    elbow.rotation(elbow.limb(H::right).elbow)[1] = kNan;
-    elbow.check_bad({H::right});
-    wrist.rotation(wrist.limb(H::free).wrist)[0] = kNan;  // which another one holds
-    wrist.check_bad({H::free, H::follower});
-    of_prop.rotation(1)[2] = kNan;
-    const SolvedLinks solved(of_prop.bodies);
-    CHECK(solved.flags(H::handle, kBadBody) == SWIVEL_BAD_INPUT);
-    CHECK(solved.flags(H::on_handle, kBadBody) == SWIVEL_BAD_INPUT);
-    // A prop that comes from far away to one hand alone.
-    for (HoldingBodies* const each : {&far.good_bodies, &far.bodies}) {
-        each->groups[H::prop].prop.most_move = 1000;
-        each->find(H::prop, SWIVEL_PROP_PLACE)->write(kBadBody, Float3{30, 0, 0});
-    }
-    far.input(H::right, SWIVEL_GRIP)[1] = kNan;
-    far.check_bad({H::right});
-    CHECK(SolvedLinks(far.bodies).flags(H::prop, kBadBody) == SWIVEL_REACHED);
-}
-
 TEST_CASE("a hand on a limb that keeps its pose after bad input holds it there")
 {
     BadBodies stage(2);
-    stage.input(HoldingBodies::free, SWIVEL_TARGET)[0] = kNan;
-    stage.check_bad({HoldingBodies::free});
-    const SolvedLinks solved(stage.bodies);
-    const LinkedBody body(solved, kBadBody);
-    const JointAt& wrist = body.was[stage.limb(HoldingBodies::free).wrist];
-    const Held told = solved.from_root(SWIVEL_HAND_FRAME, HoldingBodies::free, kBadBody);
-    const double off = 2e-7 * vec(body.was_body.root_position).norm() + body.bound(HoldingBodies::free);
+    stage.input(H::free, SWIVEL_TARGET)[0] = kNan;
+    stage.check_bad({H::free});
+    const SolvedBodies solved = stage.solved();
+    const SolvedBody body(solved, kBadBody);
+    const JointAt& wrist = body.was[stage.limb(H::free).wrist];
+    const Held told = solved.from_root(SWIVEL_HAND_FRAME, H::free, kBadBody);
+    const double off = 2e-7 * vec(body.was_body.root_position).norm() + body.bound(H::free);
     const Vector3d up = quat(body.was_body.root_rotation).normalized() * Vector3d::UnitY(),
-                   shifted = double{solved.result<Float3>(SWIVEL_SHIFT, HoldingBodies::fit, kBadBody)[0]} * up;
+                   shifted = double{solved.result<Float3>(SWIVEL_SHIFT, H::fit, kBadBody)[0]} * up;
     CHECK((told.place - shifted - wrist.place).norm() <= off);
     CHECK(told.rotation.angularDistance(wrist.rotation) <= 2e-6);
-    if (solved.flags(HoldingBodies::follower, kBadBody) & SWIVEL_REACHED) {
-        const Held wanted = body.wanted(HoldingBodies::follower, {wrist.rotation, wrist.place});
-        CHECK((body.hand(HoldingBodies::follower).place - wanted.place).norm() <=
-              body.bound(HoldingBodies::follower) + off);
+    if (solved.flags(H::follower, kBadBody) & SWIVEL_REACHED) {
+        const Held wanted = body.wanted(H::follower, {wrist.rotation, wrist.place});
+        CHECK((body.hand(H::follower).place - wanted.place).norm() <= body.bound(H::follower) + off);
     }
 }
 
 TEST_CASE("a hand on a limb with bad input and its rest pose has bad input")
 {
     BadBodies stage(3, SWIVEL_REST_POSE);
-    stage.input(HoldingBodies::free, SWIVEL_TARGET)[0] = kNan;
-    stage.check_bad({HoldingBodies::free, HoldingBodies::follower});
-    const SolvedLinks solved(stage.bodies);
-    for (const float x : solved.result<Float7>(SWIVEL_HAND_FRAME, HoldingBodies::free, kBadBody)) CHECK(std::isnan(x));
+    stage.input(H::free, SWIVEL_TARGET)[0] = kNan;
+    stage.check_bad({H::free, H::follower});
+    const SolvedBodies solved = stage.solved();
+    for (const float x : solved.result<Float7>(SWIVEL_HAND_FRAME, H::free, kBadBody)) CHECK(std::isnan(x));
     const Body is = solved.poses.read(kBadBody, stage.bodies.bodies[kBadBody]);
     const swivel_binding bound =
-        bind(stage.bodies.skeleton.view(), stage.bodies.joints[stage.bodies.limb_of[HoldingBodies::follower]]);
-    CHECK(quat(is.rotations[stage.limb(HoldingBodies::follower).shoulder]).angularDistance(quat(bound.shoulder_rest)) <=
-          1e-6);
+        bind(stage.bodies.skeleton.view(), stage.bodies.joints[stage.bodies.limb_of[H::follower]]);
+    CHECK(quat(is.rotations[stage.limb(H::follower).shoulder]).angularDistance(quat(bound.shoulder_rest)) <= 1e-6);
 }
 
 TEST_CASE("bad input of a look keeps its joints, and is that of no other body")
@@ -357,4 +263,74 @@ TEST_CASE("bad input of a look keeps its joints, and is that of no other body")
             for (std::size_t n = 0; n < 20; ++n)
                 if (n != 7) CHECK((bodies.rotations[n] == good.rotations[n]));
         }
+}
+
+namespace {
+
+// Limbs that all hang below joint 0, without goals.
+struct PlainBodies : PosedBodies {
+    PlainBodies(Random& random, swivel_features features, swivel_pose_form form)
+        : PosedBodies(random, {2, 3, 1, true}, 20, whole_layout(form))
+    {
+        add_limbs(features);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("without any weight the incoming bits stay, in every form")
+{
+    for (const swivel_pose_form form : kForms) {
+        Random random{3};
+        PlainBodies bodies(random, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS | SWIVEL_POLE_INCOMING, form);
+        bodies.give_random_goals(random);
+        for (std::uint32_t g = 0; g < 3; ++g) bodies.give(g, SWIVEL_WEIGHTS, [](std::size_t) { return Float3{}; });
+        for (Body& body : bodies.bodies)
+            for (Float4& q : body.rotations)
+                for (float& x : q) x *= 3;  // of any length, and of either sign
+        const SolvedBodies solved(bodies);
+        REQUIRE(solved.poses.bytes == bodies.incoming().bytes);
+        for (std::size_t n = 0; n < 20; ++n) REQUIRE(solved.flags(0, n) == SWIVEL_REACHED);
+    }
+}
+
+TEST_CASE("lengths that are written count instead of the pose's")
+{
+    Random random{4};
+    PlainBodies bodies(random, 0, SWIVEL_ROTATIONS);
+    bodies.give_random_goals(random);
+    bodies.give(0, SWIVEL_LENGTHS, [](std::size_t) { return Float2{1e-3f, 1e-3f}; });
+    const SolvedBodies solved(bodies);
+    for (std::size_t n = 0; n < 20; ++n) REQUIRE(solved.flags(0, n) == SWIVEL_CLAMPED_FAR);
+}
+
+TEST_CASE("limbs with bad input are at rest where their group says so")
+{
+    for (const swivel_pose_form form : kForms) {
+        Random random{5};
+        PlainBodies bodies(random, 0, form);  // no target is written
+        for (swivel_group_def& group : bodies.groups) group.on_bad_input = SWIVEL_REST_POSE;
+        const SolvedBodies solved(bodies);
+        for (std::size_t n = 0; n < 20; ++n) {
+            const Body body = solved.poses.read(n, bodies.bodies[n]);
+            for (const BodyLimbJoints& limb : bodies.skeleton.limbs)
+                for (const std::uint32_t joint : {limb.shoulder, limb.elbow})
+                    REQUIRE(distance(quat(body.rotations[joint]), quat(bodies.skeleton.rotations[joint]).normalized()) <
+                            1e-6);
+        }
+    }
+}
+
+TEST_CASE("a pose of an older header is read as far as it goes")
+{
+    Random random{9};
+    PlainBodies bodies(random, SWIVEL_WITH_HAND, SWIVEL_ROTATIONS);
+    bodies.give_random_goals(random);
+    PoseBuffer older = bodies.incoming();
+    swivel_pose pose = older.view();
+    pose.size = offsetof(swivel_pose, space);
+    pose.reserved = 1;  // beyond its end
+    Crowd crowd = bodies.crowd();
+    solve_poses(crowd, pose);
+    REQUIRE(older.bytes == SolvedBodies(bodies).poses.bytes);
 }

@@ -8,10 +8,7 @@
 
 #include <rapidcheck/catch.h>
 
-#include <cstring>
-#include <numeric>
-
-#include "tests/body_crowd.h"
+#include "tests/posed_bodies.h"
 
 namespace {
 
@@ -19,125 +16,59 @@ using namespace swivel;
 using namespace swivel::test;
 using Eigen::AngleAxisd;
 
-// One limb below a line of joints, before and after a solve. Poses are local or in the body's space.
-struct SolvedLimb {
-    BodySkeleton skeleton;
-    Body body;
+// One limb below a line of joints, whose pose is local or in the body's space.
+struct OneLimb : PosedBodies {
     BodyLimbJoints limb;
-    std::vector<JointAt> was, is;
-    Crowd crowd;
+    std::vector<JointAt> was;
 
-    // scales: bodies have bones and scales of their own.
-    template <class GoalOf>
-    SolvedLimb(Random& random, swivel_features features, std::uint32_t twist_bones, float share, const GoalOf& goal_of,
-               bool scales = false)
-        : skeleton(random_body_skeleton(random, {2 + random.below(3), 1, random.below(3), true, twist_bones, 2})),
-          body(random_body(random, skeleton, {scales, scales, random.below(2) == 1, 2.8})),
+    // scales: it has bones and scales of its own.
+    OneLimb(Random& random, swivel_features features, std::uint32_t twist_bones, bool scales = false)
+        : PosedBodies(random, {2 + random.below(3), 1, random.below(3), true, twist_bones, 2}, 1,
+                      {.translates = scales, .scales = scales, .roots = random.below(2) == 1}, 2.8),
           limb(skeleton.limbs[0]),
-          was(joints_at(skeleton, body)),
-          crowd(body_crowd(skeleton, features | twist_bones * SWIVEL_WITH_TWIST_BONES, 1))
+          was(joints_at(skeleton, bodies[0]))
     {
-        write_goals(crowd, {{goal_of(*this)}});
-        if (features & SWIVEL_WITH_CLAVICLE) crowd.write_all(SWIVEL_CLAVICLE, 0, std::array{share});
-        PoseLayout layout;
-        layout.roots = true, layout.in_body = random.below(2) ? &skeleton : nullptr;
-        layout.translates = scales || layout.in_body, layout.scales = scales;
-        PoseBuffer poses(layout, {body});
-        solve_poses(crowd, poses.view());
-        REQUIRE(!swivel_find(crowd.get(), SWIVEL_BAD_INPUT, &group, &found));
-        is = joints_at(skeleton, poses.read(0, body));
+        if (random.below(2)) put_in_body_space();
+        add_limbs(features | twist_bones * SWIVEL_WITH_TWIST_BONES);
     }
-    Quaterniond turn(std::uint32_t joint) const { return is[joint].rotation * was[joint].rotation.conjugate(); }
-    // How far it turns beyond what another does.
-    Quaterniond turn(std::uint32_t joint, std::uint32_t beside) const { return turn(joint) * turn(beside).conjugate(); }
     std::uint32_t clavicle() const { return static_cast<std::uint32_t>(skeleton.parents[limb.shoulder]); }
-    BodyGoal own() const { return own_goal(skeleton, body, 0); }
-    Vector3d target(const BodyGoal& goal) const { return vec(goal.target) - vec(body.root_position); }
-
-private:
-    std::uint32_t group = 0, found = 0;
+    BodyGoal own() const { return own_goal(skeleton, bodies[0], 0); }
+    SolvedBody solved(const BodyGoal& goal)
+    {
+        give_goals(0, [&](std::size_t) { return goal; });
+        const SolvedBodies all(*this);
+        REQUIRE(!(all.flags(0, 0) & SWIVEL_BAD_INPUT));
+        return SolvedBody(all, 0);
+    }
 };
 
 constexpr double kBound = 1e-4;  // radians and metres
 
-// A target beside the wrist, and any hand.
-BodyGoal near_goal(Random& random, const SolvedLimb& limb)
-{
-    BodyGoal goal = random_goal(random, limb.skeleton, limb.body, 0);
-    goal.target = floats(Vector3d(vec(limb.own().target) + random.vector(0.01, 0.3)));
-    return goal;
-}
-
-struct SolvedPoses {
-    BodySkeleton skeleton;
-    PoseLayout layout;
-    std::vector<Body> was, is;
-    PoseBuffer poses;
-    std::vector<unsigned char> before;
-    std::vector<std::vector<Float4>> joint_rotations;
-    std::vector<std::vector<Float3>> joint_places;
-
-    // in_body: of the poses. bad: a body that has bad input. some: the job names some groups, in place of all.
-    SolvedPoses(Random& random, bool in_body, std::size_t bad = ~std::size_t{0}, bool some = false)
-        : skeleton(
-              random_body_skeleton(random, {1 + random.below(20), 1 + random.below(4), random.below(3), false, 0, 3})),
-          layout(random_layout(random, in_body ? &skeleton : nullptr)),
-          was(random_bodies(random)),
-          poses(layout, was)
+// Bodies of any skeleton. Half of the jobs name some groups, in place of all.
+struct FewBodies : PosedBodies {
+    explicit FewBodies(Random& random)
+        : PosedBodies(random, {1 + random.below(20), 1 + random.below(4), random.below(3), false, 0, 3}, 20,
+                      random_layout(random))
     {
-        Crowd crowd = body_crowd(skeleton, SWIVEL_WITH_HAND, static_cast<std::uint32_t>(was.size()));
-        BodyGoals goals;
-        for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
-            goals.emplace_back();
-            for (const Body& body : was) goals.back().push_back(random_goal(random, skeleton, body, limb));
-            if (bad < was.size()) goals.back()[bad].target[1] = std::nanf("");
-        }
-        write_goals(crowd, goals);
-        swivel_pose pose = poses.view();
-        if (bad < was.size()) {  // a finger's -0, which no product gives
-            constexpr float kMinusZero = -0.0f;
-            std::memcpy(&poses.bytes[bad * poses.body_stride + (skeleton.size() - 1) * pose.rotations.joint_stride],
-                        &kMinusZero, sizeof kMinusZero);
-        }
-        before = poses.bytes;
-        joint_rotations.assign(was.size(), std::vector<Float4>(skeleton.size()));
-        joint_places.assign(was.size(), std::vector<Float3>(skeleton.size()));
-        for (std::size_t n = 0; n < was.size(); ++n) is.push_back({});
-        std::vector<Float4> all_rotations(was.size() * skeleton.size());
-        std::vector<Float3> all_places(all_rotations.size());
-        pose.joint_rotations = {all_rotations.data(), skeleton.size() * sizeof(Float4), sizeof(Float4), nullptr};
-        pose.joint_places = {all_places.data(), skeleton.size() * sizeof(Float3), sizeof(Float3), nullptr};
-        std::vector<std::uint32_t> groups(skeleton.limbs.size());
-        std::iota(groups.begin(), groups.end(), 0u);
-        if (some) std::erase_if(groups, [&](std::uint32_t g) { return g != 0 && random.below(2); });
-        crowd.solve({.groups = groups, .pose = &pose});
-        for (std::size_t n = 0; n < was.size(); ++n) {
-            is[n] = poses.read(n, was[n]);
-            for (std::size_t joint = 0; joint < skeleton.size(); ++joint) {
-                joint_rotations[n][joint] = all_rotations[n * skeleton.size() + joint];
-                joint_places[n][joint] = all_places[n * skeleton.size() + joint];
-            }
-        }
+        add_limbs(SWIVEL_WITH_HAND);
+        give_random_goals(random);
     }
-
-    double bound(const std::vector<JointAt>& at, std::size_t body, std::uint32_t joint) const
+    std::vector<std::uint32_t> some_groups(Random& random) const
     {
-        double length = 0;
-        for (const BodyLimbJoints& limb : skeleton.limbs)
-            length = std::max(length, (at[limb.elbow].place - at[limb.shoulder].place).norm() +
-                                          (at[limb.wrist].place - at[limb.elbow].place).norm());
-        return 2e-6 * length + 5e-7 * (way_to(skeleton, at, joint) + vec(was[body].root_position).norm());
-    }
-
-private:
-    std::vector<Body> random_bodies(Random& random)
-    {
-        std::vector<Body> made;
-        for (int n = 0; n < 20; ++n)
-            made.push_back(random_body(random, skeleton, {layout.translates, layout.scales, layout.roots}));
-        return made;
+        std::vector<std::uint32_t> some = {0};
+        for (std::uint32_t g = 1; g < groups.size(); ++g)
+            if (random.below(2)) some.push_back(g);
+        return some;
     }
 };
+// How far floats may have a joint off its place.
+double bound(const SolvedBody& body, const std::vector<JointAt>& at, std::uint32_t joint)
+{
+    double length = 0;
+    for (std::uint32_t g = 0; g < body.of.groups.size(); ++g)
+        length = std::max(length, LimbAt(body.of.skeleton, body.was_body, at, body.joints(g)).length());
+    return 2e-6 * length + 5e-7 * (way_to(body.of.skeleton, at, joint) + body.root().norm());
+}
 
 bool is_limb_joint(const BodySkeleton& skeleton, std::uint32_t joint)
 {
@@ -150,39 +81,35 @@ bool is_limb_joint(const BodySkeleton& skeleton, std::uint32_t joint)
 
 TEST_CASE("twist bones of bodies")
 {
-    const swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND;
-    rc::prop("take their share of the change", [=](std::uint64_t seed) {
+    rc::prop("take their share of the change", [](std::uint64_t seed) {
         Random random{seed};
         const std::uint32_t bones = 1 + random.below(SWIVEL_MOST_TWIST_BONES);
         const double angle = random.between(-3, 3);
-        const SolvedLimb solved(random, features, bones, 0, [&](const SolvedLimb& limb) {
-            BodyGoal goal = limb.own();
-            const Vector3d fore = (limb.was[limb.limb.wrist].place - limb.was[limb.limb.elbow].place).normalized();
-            goal.hand = floats(Quaterniond(AngleAxisd(angle, fore) * limb.was[limb.limb.wrist].rotation));
-            return goal;
-        });
-        const auto& [joints, was] = std::tie(solved.limb, solved.was);
+        OneLimb one(random, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND, bones);
+        const auto& [joints, was] = std::tie(one.limb, one.was);
         const Vector3d fore = (was[joints.wrist].place - was[joints.elbow].place).normalized(),
                        upper = (was[joints.elbow].place - was[joints.shoulder].place).normalized();
         RC_PRE(fore.cross(upper).norm() > 0.1);  // floats know the roll of a straight limb only so well
+        BodyGoal goal = one.own();
+        goal.hand = floats(Quaterniond(AngleAxisd(angle, fore) * was[joints.wrist].rotation));
+        const SolvedBody body = one.solved(goal);
         // The bone's joint and the elbow's may each be off by what rounding of a short or nearly straight limb costs.
-        const double rounding = kBound + 2 * LimbAt(solved.skeleton, solved.body, was, joints).joint_bound();
+        const double rounding = kBound + 2 * body.limb(0).joint_bound();
         for (std::uint32_t n = 0; n < bones; ++n) {
-            const Quaterniond wanted(AngleAxisd(angle * (n + 1) / (bones + 1), fore));
-            const double off = solved.turn(joints.twist_bones[n], joints.elbow).angularDistance(wanted);
-            RC_ASSERT(off <= (2 * (n + 1) == bones + 1 ? rounding : 0.0022 + rounding));  // a half is exact
+            const Quaterniond wanted(AngleAxisd(angle * (n + 1) / (bones + 1), fore)),
+                is = body.turn(joints.twist_bones[n]) * body.turn(joints.elbow).conjugate();
+            RC_ASSERT(is.angularDistance(wanted) <=
+                      (2 * (n + 1) == bones + 1 ? rounding : 0.0022 + rounding));  // a half is exact
         }
     });
-    rc::prop("keep what they have beside a twist, and move with the forearm", [=](std::uint64_t seed) {
+    rc::prop("keep what they have beside a twist, and move with the forearm", [](std::uint64_t seed) {
         Random random{seed};
-        const SolvedLimb solved(random, SWIVEL_WITH_HAND, 2, 0, [&](const SolvedLimb& limb) {
-            return random_goal(random, limb.skeleton, limb.body, 0);
-        });
-        const auto& [joints, was, is] = std::tie(solved.limb, solved.was, solved.is);
-        for (const std::uint32_t bone : joints.twist_bones) {
+        OneLimb one(random, SWIVEL_WITH_HAND, 2);
+        const SolvedBody body = one.solved(one.goal(random, 0, 0));
+        for (const std::uint32_t bone : one.limb.twist_bones) {
             // It turns with the forearm, and then about the forearm alone.
-            const Quaterniond about = solved.turn(bone, joints.elbow);
-            const Vector3d fore = (is[joints.wrist].place - is[joints.elbow].place).normalized();
+            const Quaterniond about = body.turn(bone) * body.turn(one.limb.elbow).conjugate();
+            const Vector3d fore = (body.is[one.limb.wrist].place - body.is[one.limb.elbow].place).normalized();
             RC_ASSERT(about.vec().cross(fore).norm() <= kBound);
         }
     });
@@ -190,36 +117,37 @@ TEST_CASE("twist bones of bodies")
 
 TEST_CASE("the clavicle of bodies")
 {
-    const swivel_features clavicle = SWIVEL_WITH_CLAVICLE;
-    rc::prop("stays where goals are untouched", [=](std::uint64_t seed) {
+    rc::prop("stays where goals are untouched", [](std::uint64_t seed) {
         Random random{seed};
-        const SolvedLimb solved(random, clavicle | SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND, 2, 1,
-                                [](const SolvedLimb& limb) { return limb.own(); });
-        for (std::uint32_t joint = 0; joint < solved.skeleton.size(); ++joint)
-            RC_ASSERT(solved.turn(joint).angularDistance(Quaterniond::Identity()) <= 2e-3);  // of a bend of 0.01
-        RC_ASSERT(solved.turn(solved.clavicle()).angularDistance(Quaterniond::Identity()) <= kBound);
+        OneLimb one(random, SWIVEL_WITH_CLAVICLE | SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND, 2);
+        one.give(0, SWIVEL_CLAVICLE, [](std::size_t) { return Float1{1}; });
+        const SolvedBody body = one.solved(one.own());
+        for (std::uint32_t joint = 0; joint < one.skeleton.size(); ++joint)
+            RC_ASSERT(angle_of(body.turn(joint)) <= 2e-3);  // of a bend of 0.01
+        RC_ASSERT(angle_of(body.turn(one.clavicle())) <= kBound);
     });
-    rc::prop("turns by its share, and the wrist is met", [=](std::uint64_t seed) {
+    rc::prop("turns by its share, and the wrist is met", [](std::uint64_t seed) {
         Random random{seed};
-        const double share = random.below(4) ? random.between(0, 1) : 1;
-        BodyGoal goal;
-        const SolvedLimb solved(random, clavicle | SWIVEL_WITH_HAND, 2, static_cast<float>(share),
-                                [&](const SolvedLimb& limb) { return goal = near_goal(random, limb); });
-        const auto& [limb, was, is] = std::tie(solved.limb, solved.was, solved.is);
-        const Vector3d at = was[solved.clavicle()].place, from = was[limb.wrist].place - at,
-                       to = solved.target(goal) - at;
+        const float share = random.below(4) ? static_cast<float>(random.unit()) : 1;
+        OneLimb one(random, SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_HAND, 2);
+        one.give(0, SWIVEL_CLAVICLE, [&](std::size_t) { return Float1{share}; });
+        BodyGoal goal = one.goal(random, 0, 0);
+        goal.target = floats(Vector3d(vec(one.own().target) + random.vector(0.01, 0.3)));
+        const SolvedBody body = one.solved(goal);
+        const auto& [limb, was, is] = std::tie(one.limb, body.was, body.is);
+        const Vector3d target = vec(goal.target) - body.root(), at = was[one.clavicle()].place,
+                       from = was[limb.wrist].place - at, to = target - at;
         RC_PRE(from.norm() > 0.1 && to.norm() > 0.1);
-        const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+        const double angle = angle_between(from, to), s = share;
         // core/clavicle.h has the curve.
-        const double half = std::atan2(share * std::sin(angle), 2 * (1 - share) + share * (1 + std::cos(angle)));
+        const double half = std::atan2(s * std::sin(angle), 2 * (1 - s) + s * (1 + std::cos(angle)));
         const Quaterniond wanted(AngleAxisd(2 * half, from.cross(to).normalized()));
-        RC_ASSERT(solved.turn(solved.clavicle()).angularDistance(wanted) <= kBound);
+        RC_ASSERT(body.turn(one.clavicle()).angularDistance(wanted) <= kBound);
         RC_ASSERT(is[limb.wrist].rotation.angularDistance(quat(goal.hand).normalized()) <= kBound);
-        const double upper = (was[limb.elbow].place - was[limb.shoulder].place).norm(),
-                     fore = (was[limb.wrist].place - was[limb.elbow].place).norm(),
-                     far = (at + wanted * (was[limb.shoulder].place - at) - solved.target(goal)).norm();
-        const bool is_in_reach = far < 0.999 * (upper + fore) && far > 1.001 * std::fabs(upper - fore);
-        if (is_in_reach) RC_ASSERT((is[limb.wrist].place - solved.target(goal)).norm() <= kBound);
+        const LimbAt bones = body.limb(0);
+        const double far = (at + wanted * (was[limb.shoulder].place - at) - target).norm();
+        if (far < 0.999 * bones.length() && far > 1.001 * std::fabs(bones.upper - bones.fore))
+            RC_ASSERT((is[limb.wrist].place - target).norm() <= kBound);
     });
 }
 
@@ -227,29 +155,39 @@ TEST_CASE("poses in the body's space")
 {
     rc::prop("carry along what hangs below limbs", [](std::uint64_t seed) {
         Random random{seed};
-        const SolvedPoses solved(random, true);
-        for (std::size_t n = 0; n < solved.was.size(); ++n) {
-            const BodySkeleton& skeleton = solved.skeleton;
-            const std::vector<JointAt> at = joints_at(skeleton, solved.is[n]);
-            for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) {
-                const Body &was = solved.was[n], &is = solved.is[n];
-                const double scale = at[joint].scale / is.scales[joint][0];
+        FewBodies bodies(random);
+        bodies.put_in_body_space();
+        const SolvedBodies solved(bodies);
+        for (std::size_t n = 0; n < bodies.bodies.size(); ++n) {
+            const SolvedBody body(solved, n);
+            const Body &was = body.was_body, is = solved.poses.read(n, was);
+            for (std::uint32_t joint = 0; joint < bodies.skeleton.size(); ++joint) {
+                const double scale = body.is[joint].scale / is.scales[joint][0];
                 RC_ASSERT(scale * (vec(is.translations[joint]) - vec(was.translations[joint])).norm() <=
-                          solved.bound(at, n, joint));
-                if (!is_limb_joint(skeleton, joint))
-                    RC_ASSERT(quat(is.rotations[joint])
-                                  .normalized()
-                                  .angularDistance(quat(was.rotations[joint]).normalized()) <= 5e-6);
+                          bound(body, body.is, joint));
+                if (is_limb_joint(bodies.skeleton, joint)) continue;
+                const Quaterniond now = quat(is.rotations[joint]).normalized();
+                RC_ASSERT(now.angularDistance(quat(was.rotations[joint]).normalized()) <= 5e-6);
             }
         }
     });
     rc::prop("keep their bits where input is bad", [](std::uint64_t seed) {
         Random random{seed};
-        const SolvedPoses solved(random, true, 7);
+        FewBodies bodies(random);
+        bodies.put_in_body_space();
+        for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) bodies.find(g, SWIVEL_TARGET)->at(7)[1] = kNan;
+        SolvedBodies solved(bodies);
+        solved.poses = bodies.incoming();
+        const swivel_pose pose = solved.poses.view();
+        constexpr float kMinusZero = -0.0f;  // of a finger, which no product gives
+        std::memcpy(static_cast<char*>(pose.rotations.data) + 7 * pose.rotations.body_stride +
+                        (bodies.skeleton.size() - 1) * pose.rotations.joint_stride,
+                    &kMinusZero, sizeof kMinusZero);
+        const PoseBuffer before = solved.poses;
+        solved.solve();
         const auto differ = [&](std::size_t n) {
-            const std::size_t stride = solved.poses.body_stride;
-            return !std::equal(&solved.before[n * stride], &solved.before[n * stride] + stride,
-                               &solved.poses.bytes[n * stride]);
+            const unsigned char* const first = &before.bytes[n * before.body_stride];
+            return !std::equal(first, first + before.body_stride, &solved.poses.bytes[n * before.body_stride]);
         };
         RC_ASSERT(!differ(7));
         RC_ASSERT(differ(6));
@@ -262,24 +200,27 @@ TEST_CASE("where joints are after a solve")
     rc::prop("is what forward kinematics of the poses says, also of limbs that the job does not name",
              [](std::uint64_t seed) {
                  Random random{seed};
-                 const bool in_body = random.below(2), some = random.below(2);
-                 const SolvedPoses solved(random, in_body, ~std::size_t{0}, some);
-                 const BodySkeleton& skeleton = solved.skeleton;
-                 for (std::size_t n = 0; n < solved.is.size(); ++n) {
-                     Body body = solved.is[n];
+                 FewBodies bodies(random);
+                 if (random.below(2)) bodies.put_in_body_space();
+                 const SolvedBodies solved(bodies,
+                                           random.below(2) ? std::vector<std::uint32_t>{} : bodies.some_groups(random));
+                 const BodySkeleton& skeleton = bodies.skeleton;
+                 for (std::size_t n = 0; n < bodies.bodies.size(); ++n) {
+                     const SolvedBody solved_body(solved, n);
+                     Body body = solved.poses.read(n, bodies.bodies[n]);
                      body.root_rotation = {0, 0, 0, 1}, body.root_scale = 1;
                      const std::vector<JointAt> at = joints_at(skeleton, body);
                      for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) {
                          const bool is_needed = std::ranges::any_of(skeleton.limbs, [&](const BodyLimbJoints& limb) {
                              return skeleton.is_above(joint, limb.wrist);
                          });
-                         const Float4& rotation = solved.joint_rotations[n][joint];
+                         const Float4& rotation = solved.joint_rotations[n * skeleton.size() + joint];
                          RC_ASSERT((rotation == Float4{}) != is_needed);
                          if (!is_needed) continue;
                          RC_ASSERT(rotation[3] >= 0);
                          RC_ASSERT(quat(rotation).angularDistance(at[joint].rotation) <= 5e-6);
-                         RC_ASSERT((vec(solved.joint_places[n][joint]) - at[joint].place).norm() <=
-                                   2e-6 + solved.bound(at, n, joint));
+                         const Float3& place = solved.joint_places[n * skeleton.size() + joint];
+                         RC_ASSERT((vec(place) - at[joint].place).norm() <= 2e-6 + bound(solved_body, at, joint));
                      }
                  }
              });
@@ -288,42 +229,32 @@ TEST_CASE("where joints are after a solve")
 TEST_CASE("matrices that go elsewhere are whole")
 {
     Random random{3};
-    const BodySkeleton skeleton = random_body_skeleton(random, {3, 2, 1, false});
-    std::vector<Body> bodies;
-    for (int n = 0; n < 20; ++n) bodies.push_back(random_body(random, skeleton, {true, true, false}));
     PoseLayout layout;
     layout.form = GENERATE(SWIVEL_MATRIX_ROWS, SWIVEL_MATRIX_COLUMNS, SWIVEL_MATRIX_COLUMNS3);
-    PoseBuffer in_place(layout, bodies), untouched(layout, bodies);
-    layout.gap = in_place.body_stride;  // each body's second half is for its results
-    PoseBuffer apart(layout, bodies);
+    layout.translates = layout.scales = true;
+    PosedBodies bodies(random, {3, 2, 1, false}, 20, layout);
+    bodies.add_limbs(SWIVEL_WITH_HAND);
+    bodies.give_random_goals(random);
+    const SolvedBodies in_place(bodies);
+    PoseBuffer came = bodies.incoming();
+    layout.gap = came.body_stride;  // each body's second half is for its results
+    PoseBuffer apart(layout, bodies.bodies), untouched = apart;
     swivel_pose pose = apart.view();
-    std::vector<std::size_t> offsets;
-    for (std::size_t joint = 0; joint < skeleton.size(); ++joint)
-        offsets.push_back(in_place.body_stride + joint * pose.rotations.joint_stride);
-    pose.results = pose.rotations, pose.results.offsets = offsets.data();
-    Crowd crowd = body_crowd(skeleton, SWIVEL_WITH_HAND, 20);
-    BodyGoals goals(2);
-    for (std::size_t limb = 0; limb < 2; ++limb)
-        for (const Body& body : bodies) goals[limb].push_back(random_goal(random, skeleton, body, limb));
-    write_goals(crowd, goals);
-    solve_poses(crowd, in_place.view());
+    pose.results = pose.rotations;
+    pose.results.data = &apart.bytes[came.body_stride];
+    Crowd crowd = bodies.crowd();
     solve_poses(crowd, pose);
-    for (std::size_t n = 0; n < bodies.size(); ++n) {
-        const unsigned char *const all = &apart.bytes[n * apart.body_stride], *const solved =
-                                                                                  &in_place
-                                                                                       .bytes[n * in_place.body_stride];
-        REQUIRE(std::equal(all, all + in_place.body_stride, &untouched.bytes[n * untouched.body_stride]));
-        for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) {
-            if (!is_limb_joint(skeleton, joint)) continue;
-            const std::size_t first = joint * pose.rotations.joint_stride;
-            const auto is_same = [&](std::size_t number) {
-                return std::memcmp(solved + first + 4 * number, all + offsets[joint] + 4 * number, 4) == 0;
-            };
-            for (std::size_t row = 0; row < 3; ++row)
-                for (std::size_t column = 0; column < 4; ++column)
-                    REQUIRE(is_same(layout.form == SWIVEL_MATRIX_ROWS      ? 4 * row + column
-                                    : layout.form == SWIVEL_MATRIX_COLUMNS ? 4 * column + row
-                                                                           : 3 * column + row));
+    for (std::size_t n = 0; n < 20; ++n) {
+        const unsigned char *const from = &untouched.bytes[n * apart.body_stride], *const end = from + came.body_stride;
+        REQUIRE(std::equal(from, end, &apart.bytes[n * apart.body_stride]));
+        PoseBuffer results = came;
+        std::copy_n(&apart.bytes[n * apart.body_stride + came.body_stride], came.body_stride,
+                    &results.bytes[n * came.body_stride]);
+        for (std::uint32_t joint = 0; joint < bodies.skeleton.size(); ++joint) {
+            if (!is_limb_joint(bodies.skeleton, joint)) continue;
+            REQUIRE(results.matrix(n, joint) == in_place.poses.matrix(n, joint));
+            const Body to = results.read(n, bodies.bodies[n]), wanted = in_place.poses.read(n, bodies.bodies[n]);
+            REQUIRE(to.translations[joint] == wanted.translations[joint]);
         }
     }
 }
@@ -334,29 +265,29 @@ TEST_CASE("what a limb records of its pose")
         Random random{seed};
         for (int n = 0; n < 18; ++n) {
             const swivel_features clavicle = random.below(2) ? SWIVEL_WITH_CLAVICLE : 0;
+            OneLimb one(random, SWIVEL_WITH_RECORD | SWIVEL_WITH_HAND | clavicle, 0, true);
+            if (clavicle) one.give(0, SWIVEL_CLAVICLE, [](std::size_t) { return Float1{0.5f}; });
             const float beyond = random.below(4) ? 0 : 100;  // how far the target is out of reach
-            BodyGoal goal;
-            const auto make = [&](const SolvedLimb& limb) {
-                goal = random_goal(random, limb.skeleton, limb.body, 0);
-                for (float& x : goal.target) x += beyond;
-                return goal;
-            };
-            const SolvedLimb solved(random, SWIVEL_WITH_RECORD | SWIVEL_WITH_HAND | clavicle, 0, 0.5f, make, true);
+            one.give_goals(0, [&](std::size_t) { return one.goal(random, 0, 0); });
+            Float3 target = one.value(0, SWIVEL_TARGET, 0, kNoPlace);
+            for (float& x : target) x += beyond;
+            one.find(0, SWIVEL_TARGET)->write(0, target);
+            const SolvedBodies solved(one);
+            const SolvedBody body(solved, 0);
             std::array<double, 3> elbow, wrist;
             std::array<double, 4> hand;
             double residual;
             const auto out = [](auto& value) { return swivel_out{&value, sizeof value}; };
             check(swivel_forward(solved.crowd.get(), 0, 0, 1, out(elbow), out(wrist), out(hand)));
             check(swivel_residuals(solved.crowd.get(), 0, 0, 1, out(residual)));
-            const auto& [limb, at] = std::tie(solved.limb, solved.is);
-            const Vector3d root = vec(solved.body.root_position), place = root + at[limb.wrist].place;
-            const double length = (at[limb.elbow].place - at[limb.shoulder].place).norm() +
-                                  (at[limb.wrist].place - at[limb.elbow].place).norm();
-            const double way = way_to(solved.skeleton, at, limb.wrist), bound = 1e-5 * (way + root.norm());
-            RC_ASSERT((Vector3d(elbow.data()) - root - at[limb.elbow].place).norm() <= bound);
+            const JointAt &elbow_at = body.is[one.limb.elbow], &wrist_at = body.is[one.limb.wrist];
+            const Vector3d place = body.root() + wrist_at.place;
+            const double length = LimbAt(one.skeleton, body.was_body, body.is, one.limb).length(),
+                         way = way_to(one.skeleton, body.is, one.limb.wrist), bound = 1e-5 * (way + body.root().norm());
+            RC_ASSERT((Vector3d(elbow.data()) - body.root() - elbow_at.place).norm() <= bound);
             RC_ASSERT((Vector3d(wrist.data()) - place).norm() <= bound);
-            RC_ASSERT(Quaterniond(hand.data()).angularDistance(at[limb.wrist].rotation) <= 1e-5);
-            const double missed = (place - vec(goal.target)).norm() / length;
+            RC_ASSERT(Quaterniond(hand.data()).angularDistance(wrist_at.rotation) <= 1e-5);
+            const double missed = (place - vec(target)).norm() / length;
             const double length_error = 1e-6 * length + 2e-7 * way;  // floats of the way are rounded, too
             RC_ASSERT(std::fabs(residual - missed) * length <= bound + length_error * missed);
         }

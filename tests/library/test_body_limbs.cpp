@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: a body's limb is a free limb that is told where the body has it. For any features, both have the same
-// rows of results. Eigen finds by forward kinematics where a limb is and which incoming rotations the arm's own
-// formulas see. Floats know that so well, and where a solve branches little decides much. So each limb is compared with
-// several free ones that are off by rounding.
+// rows of results. Where a pose has a time, a step of the swivel is as far a second at any frame rate. Eigen finds by
+// forward kinematics where a limb is and which incoming rotations the arm's own formulas see. Floats know that so well,
+// and where a solve branches little decides much. So each limb is compared with several free ones that are off by
+// rounding.
 #include <catch2/catch.hpp>
 
 #include <rapidcheck/catch.h>
 
 #include <map>
-#include <numbers>
 
-#include "tests/body_crowd.h"
+#include "tests/posed_bodies.h"
 #include "tests/region_oracle.h"
 #include "tests/test_whole_limb.h"
 
@@ -78,7 +78,7 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     values[SWIVEL_ANGLE] = list(turn(random.between(-3, 3)));
     values[SWIVEL_WEIGHTS] = {number(0, 1), number(0, 1), random.below(2) ? number(0.1, 1) : 0};
     values[SWIVEL_REACH] = {number(0, 0.2), number(0, 0.2), number(1, 1.3), number(0, 0.2)};
-    values[SWIVEL_MOST_SWIVEL] = list(turn(random.between(0, 1)));
+    values[SWIVEL_MOST_SWIVEL] = list(turn(random.below(6) ? random.between(0, 1) : kPi));
     values[SWIVEL_CAP] = {number(0, 0.2), number(0, 0.9), number(0, 0.2)};
     // Rounding decides whether a least flexion near 0 shortens the reach.
     values[SWIVEL_FLEXION_LIMIT] = list(flexion(random.between(0.05, 1), random.between(1.5, 3)));
@@ -90,6 +90,14 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     for (int n = 0; n < 3; ++n) limits.shoulder_box.range[n] = angles(), limits.wrist_box.range[n] = angles();
     each_limit(limits, [&](swivel_field field, const auto& value) { values[field] = list(value); });
     return values;
+}
+
+// A step of the swivel is so far in a 60th of a second. The tangent of half of its angle goes with time; half a turn,
+// no limit, is one in any time but 0.
+Float2 timed_step(const std::vector<float>& step, double seconds)
+{
+    const double half = 0.5 * std::atan2(double{step[1]}, double{step[0]});
+    return turn(seconds == 0 ? 0 : 2 * std::atan(60 * seconds * std::tan(half)));
 }
 
 // Joints as they are, with the rounding of floats.
@@ -201,21 +209,27 @@ double apart(const Numbers& a, const Numbers& b, swivel_field field, std::uint32
     return count == 4 ? std::min((p - q).norm(), (p + q).norm()) : (p - q).norm();
 }
 
-// A crowd of bodies, and one of free limbs, of which kTwins are in the place of each.
-struct Twins {
+// A crowd of bodies, and one of free limbs, of which kTwins are in the place of each. Only bodies have a time, if any.
+struct Twins : PosedBodies {
     Random& random;
     const swivel_features features = random_features(random);
-    const BodySkeleton skeleton = random_body_skeleton(random, {1 + random.below(8), 2, random.below(3), false});
     const RandomRegion region = random_region(random);
-    std::vector<Body> bodies;
-    Crowd crowd = body_crowd(skeleton, features & ~kPosed, kPosedBodies, &region.region),
-          free = Crowd({free_group(), free_group()});
+    const bool has_time = random.below(4);
+    std::vector<float> times = std::vector<float>(kPosedBodies);
+    Crowd posed = posed_crowd(), free = Crowd({free_group(), free_group()});
     std::vector<bool> is_between;  // limbs that are neither straight nor bent, or against nothing
 
-    explicit Twins(Random& from) : random(from)
+    explicit Twins(Random& from)
+        : PosedBodies(from, {1 + from.below(8), 2, from.below(3), false}, kPosedBodies,
+                      {.translates = true, .scales = true, .roots = true}),
+          random(from)
     {
-        for (std::uint32_t n = 0; n < kPosedBodies; ++n)
-            bodies.push_back(random_body(random, skeleton, {true, true, true}));
+    }
+    Crowd posed_crowd()
+    {
+        add_limbs(features & ~kPosed);
+        for (swivel_group_def& group : groups) group.region = has(0, SWIVEL_WITH_REGION) ? &region.region : nullptr;
+        return crowd();
     }
     swivel_group_def free_group() const
     {
@@ -223,42 +237,45 @@ struct Twins {
         if (features & SWIVEL_WITH_REGION) made.region = &region.region;
         return made;
     }
-    void write()
+    void write(int frame)
     {
         is_between.clear();
+        for (float& each : times) each = random.below(6) ? static_cast<float>(random.spread(1e-3, 1)) : 0;
         for (std::uint32_t g = 0; g < 2; ++g)
             for (std::uint32_t n = 0; n < kPosedBodies; ++n) {
                 const std::vector<JointAt> at = joints_at(skeleton, bodies[n]);
-                const LimbInBody posed(skeleton, g, features);
+                const LimbInBody in_body(skeleton, g, features);
                 const LimbAt limb(skeleton, bodies[n], at, skeleton.limbs[g]);
-                const Values values =
-                    random_values(random, random_goal(random, skeleton, bodies[n], g), features, limb.length());
-                write_values(crowd, g, n, values);
+                Values values = random_values(random, goal(random, g, n), features, limb.length());
+                if (frame == 0 && random.below(4) == 0) values.erase(SWIVEL_MOST_SWIVEL);
+                write_values(posed, g, n, values);
+                if (has_time && values.count(SWIVEL_MOST_SWIVEL))
+                    values[SWIVEL_MOST_SWIVEL] = list(timed_step(values[SWIVEL_MOST_SWIVEL], double{times[n]}));
                 for (std::uint32_t twin = 0; twin < kTwins; ++twin)
                     write_values(free, g, n * kTwins + twin,
-                                 posed.seen(values, bodies[n].root_position, rounded(random, at, limb.way)));
-                const auto [sine, side] = posed.bend(at);
+                                 in_body.seen(values, bodies[n].root_position, rounded(random, at, limb.way)));
+                const auto [sine, side] = in_body.bend(at);
                 is_between.push_back((sine > 0.04 && sine < 0.18) || std::fabs(side) < 0.01);
             }
     }
     void solve()
     {
-        PoseLayout layout;
-        layout.translates = layout.scales = layout.roots = true;
-        PoseBuffer poses(layout, bodies);
-        solve_poses(crowd, poses.view());
+        PoseBuffer poses = incoming();
+        swivel_pose pose = poses.view();
+        if (has_time) pose.time = stream(times);
+        solve_poses(posed, pose);
         free.solve();
     }
     // Where no swivel keeps the limits, many violate them about as little, and rounding chooses.
     bool is_infeasible(std::uint32_t g, std::uint32_t n) const
     {
         std::uint32_t flags = 0;
-        check(swivel_read(crowd.get(), SWIVEL_FLAGS, g, n, 1, {&flags, sizeof flags}));
+        check(swivel_read(posed.get(), SWIVEL_FLAGS, g, n, 1, {&flags, sizeof flags}));
         return flags & SWIVEL_INFEASIBLE;
     }
     void forget(std::uint32_t g, std::uint32_t n)
     {
-        check(swivel_reset(crowd.get(), g, n, 1));
+        check(swivel_reset(posed.get(), g, n, 1));
         check(swivel_reset(free.get(), g, n * kTwins, kTwins));
     }
     // Calls take(field, how far it is from the nearest twin, how far twins are from each other) for each limb's
@@ -274,7 +291,7 @@ struct Twins {
                 if (info.kind == SWIVEL_FIELD_INPUT || count == 0 || is_between[limb]) continue;
                 if (info.field != SWIVEL_FLAGS && is_infeasible(g, n)) continue;
                 Numbers mine{}, twins[kTwins] = {};
-                check(swivel_read(crowd.get(), info.field, g, n, 1, {&mine, sizeof mine}));
+                check(swivel_read(posed.get(), info.field, g, n, 1, {&mine, sizeof mine}));
                 check(swivel_read(free.get(), info.field, g, n * kTwins, kTwins, {&twins, sizeof mine}));
                 double nearest = 1e9, spread = 0;
                 for (const Numbers& twin : twins) {
@@ -295,7 +312,7 @@ TEST_CASE("a body's limb is a free limb in its place")
         Random random{seed};
         Twins twins(random);
         for (int frame = 0; frame < 3; ++frame) {
-            twins.write();
+            twins.write(frame);
             for (std::uint32_t n = 0; n < kPosedBodies; ++n)
                 for (std::uint32_t g = 0; g < 2; ++g)
                     if (twins.is_infeasible(g, n) || (frame == 2 && n % 3 == 0)) twins.forget(g, n);
@@ -307,83 +324,4 @@ TEST_CASE("a body's limb is a free limb in its place")
         }
     });
     CHECK(static_cast<double>(sure) >= 0.9 * static_cast<double>(count));
-}
-
-// Where a pose has a time, SWIVEL_MOST_SWIVEL is a step of a 60th of a second.
-namespace {
-
-// An arm along x whose pole turns from below to aside.
-struct SteppingArm {
-    static constexpr std::array<std::int32_t, 4> kParents = {-1, 0, 1, 2};
-    static constexpr std::array<Float3, 4> kOffsets = {{{0, 1, 0}, {0.2f, 0.4f, 0}, {0.3f, 0, 0}, {0.3f, 0, 0}}};
-
-    swivel_limb_joints joints = swivel_default_limb_joints(1, 2, 3);
-    Crowd crowd;
-
-    SteppingArm() : crowd(made()) { crowd.write_all(SWIVEL_TARGET, 0, Float3{0.6f, 1.4f, 0.1f}); }
-    void limit(double angle) { crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(angle)); }
-    // The elbow's direction across the line from shoulder to wrist.
-    Vector3d step(const Float3& pole, float seconds)
-    {
-        crowd.write_all(SWIVEL_POLE, 0, pole);
-        std::array<Float4, 4> rotations;
-        std::array<Float3, 4> places;
-        rotations.fill({0, 0, 0, 1});
-        swivel_pose pose = swivel_default_pose();
-        pose.rotations = {rotations.data(), 0, sizeof rotations[0], nullptr};
-        pose.joint_places = {places.data(), sizeof places, sizeof places[0], nullptr};
-        pose.time = {&seconds, 0};
-        crowd.solve({.pose = &pose});
-        const Vector3d line = (vec(places[3]) - vec(places[1])).normalized(), elbow = vec(places[2]) - vec(places[1]);
-        return (elbow - elbow.dot(line) * line).normalized();
-    }
-
-private:
-    Crowd made()
-    {
-        swivel_skeleton skeleton = swivel_default_skeleton();
-        skeleton.parents = stream(kParents);
-        skeleton.translations = stream(kOffsets);
-        skeleton.joint_count = 4;
-        joints.bend[2] = 1;
-        const std::array groups = {body_group(joints, SWIVEL_WITH_MOST_SWIVEL | SWIVEL_POLE_DIRECTION)};
-        return Crowd(skeleton, 1, groups);
-    }
-};
-constexpr Float3 kBelow{0, -1, 0}, kAside{0, 0, -1};
-
-}  // namespace
-
-TEST_CASE(
-    "an elbow's step is as far a second at any frame rate, none where time stands still, and free if none is given")
-{
-    constexpr double kFree = std::numbers::pi / 2;  // to where its new pole has it
-    const struct {
-        double limit;  // in a 60th of a second; below 0: none is written
-        int frames;
-        float seconds;  // of all frames
-        double turns, off;
-    } rows[] = {
-        {0.05, 1, 0.1f, 0.3, 0.009},
-        {0.05, 3, 0.1f, 0.3, 0.009},
-        {0.05, 6, 0.1f, 0.3, 0.009},
-        {0.05, 12, 0.1f, 0.3, 0.009},
-        {0.05, 24, 0.1f, 0.3, 0.009},
-        {0.05, 1, 0, 0, 1e-5},
-        {-1, 1, 1e-3f, kFree, 0.157},
-        {-1, 1, 1 / 60.0f, kFree, 0.157},
-        {-1, 1, 1, kFree, 0.157},
-        {std::numbers::pi, 1, 1e-3f, kFree, 0.157},
-        {std::numbers::pi, 1, 1 / 60.0f, kFree, 0.157},
-        {std::numbers::pi, 1, 1, kFree, 0.157},
-    };
-    for (const auto& [limit, frames, seconds, turns, off] : rows) {
-        SteppingArm arm;
-        if (limit >= 0) arm.limit(limit);
-        const Vector3d from = arm.step(kBelow, 0.1f);
-        Vector3d to = from;
-        for (int n = 0; n < frames; ++n) to = arm.step(kAside, seconds / static_cast<float>(frames));
-        INFO("a limit of " << limit << ", " << seconds << " s in " << frames << " frames");
-        CHECK(std::fabs(angle_between(from, to) - turns) <= off);
-    }
 }

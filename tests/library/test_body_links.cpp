@@ -20,14 +20,14 @@ using namespace swivel::test;
 constexpr std::size_t kLinkedBodies = 200, kPropBodies = 200;
 
 // Limbs that lie beside each other, each linked to an earlier one or to none.
-struct RandomLinks : LinkedBodies {
+struct RandomLinks : PosedBodies {
     explicit RandomLinks(Random& random)
-        : LinkedBodies(random,
-                       {random.below(8), 2 + random.below(3), random.below(3), random.below(4) == 0,
-                        random.below(3) == 0 ? 1 + random.below(2) : 0},
-                       kLinkedBodies, random_layout(random))
+        : PosedBodies(random,
+                      {random.below(8), 2 + random.below(3), random.below(3), random.below(4) == 0,
+                       random.below(3) == 0 ? 1 + random.below(2) : 0},
+                      kLinkedBodies, random_layout(random))
     {
-        if (layout.scales && random.below(4) == 0) layout.in_body = &skeleton;
+        if (layout.scales && random.below(4) == 0) is_in_body = true;
         for (std::uint32_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
             const bool is_linked = limb > 0 && random.below(4) > 0;
             add_limb(limb, (is_linked ? SWIVEL_WITH_LINK : 0) | random_features(random, limb, is_linked),
@@ -129,7 +129,7 @@ private:
     }
 };
 
-bool is_leader(const LinkedBodies& of, std::uint32_t group)
+bool is_leader(const PosedBodies& of, std::uint32_t group)
 {
     for (std::uint32_t g = 0; g < of.groups.size(); ++g)
         if (of.has(g, SWIVEL_WITH_LINK) && of.groups[g].link == group) return true;
@@ -144,8 +144,8 @@ struct PropCounts {
 struct PropStage {
     const PropBodies& of;
     PropBodies fixed_of;
-    LinkedBodies free_of;
-    SolvedLinks solved, fixed, free;
+    PosedBodies free_of;
+    SolvedBodies solved, fixed, free;
     PoseBuffer before;
 
     explicit PropStage(const PropBodies& bodies)
@@ -155,7 +155,7 @@ struct PropStage {
           solved(of),
           fixed(fixed_of),
           free(free_of),
-          before(bodies.layout, bodies.bodies)
+          before(bodies.incoming())
     {
     }
     static PropBodies fixed_at(PropBodies bodies)
@@ -163,16 +163,16 @@ struct PropStage {
         bodies.groups[bodies.prop].prop.most_move = 0;
         return bodies;
     }
-    static bool same_bytes(PoseBuffer& a, PoseBuffer& b, const BodyLimbJoints& limb, std::size_t n)
+    static bool same_bytes(const PoseBuffer& a, const PoseBuffer& b, const BodyLimbJoints& limb, std::size_t n)
     {
         for (const std::uint32_t joint : {limb.shoulder, limb.elbow, limb.wrist})
-            if (joint_bytes(a, n, joint) != joint_bytes(b, n, joint)) return false;
+            if (a.joint_bytes(n, joint) != b.joint_bytes(n, joint)) return false;
         return true;
     }
     // Judges the prop of one body.
     void check_prop(std::size_t n, PropCounts& counts)
     {
-        const LinkedBody body(solved, n);
+        const SolvedBody body(solved, n);
         const Vector3d root = of.root(n, solved);
         const UnmovedProp wanted = of.unmoved(body, root);
         std::uint32_t flags = solved.flags(of.prop, n);
@@ -230,7 +230,7 @@ struct PropStage {
         counts.kept += stays, counts.moved += !stays && flags == SWIVEL_REACHED,
             counts.missed += flags != SWIVEL_REACHED;
     }
-    void check_sayer(std::size_t n, const LinkedBody& body, const UnmovedProp& wanted, bool stays, PropCounts& counts)
+    void check_sayer(std::size_t n, const SolvedBody& body, const UnmovedProp& wanted, bool stays, PropCounts& counts)
     {
         const float share = of.value(of.prop, SWIVEL_PROP_SHARE, n, Float1{})[0];
         const std::size_t sayer = of.arms.size() == 1 || share == 0 ? 0 : 1, other = of.arms.size() - 1 - sayer;
@@ -261,10 +261,10 @@ TEST_CASE("a linked hand is at its grip on the hand that the other limb reached"
     const bool held_all = rc::check("by forward kinematics", [&](std::uint64_t seed) {
         Random random{seed};
         const RandomLinks bodies(random);
-        const SolvedLinks solved(bodies);
+        const SolvedBodies solved(bodies);
         ++seeds;
         for (std::size_t n = 0; n < kLinkedBodies; ++n) {
-            const LinkedBody body(solved, n);
+            const SolvedBody body(solved, n);
             const double root = 2e-7 * vec(body.was_body.root_position).norm();  // of floats in the world
             for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) {
                 RC_ASSERT(!(solved.flags(g, n) & SWIVEL_BAD_INPUT));

@@ -21,12 +21,6 @@ using namespace swivel::test;
 // `tools/test --full bodies` makes a million: RC_PARAMS=max_success=6000.
 constexpr std::size_t kLookingBodies = 200;
 
-void put_in_body_space(LookingBodies& bodies)
-{
-    bodies.layout.translates = bodies.layout.scales = true;
-    bodies.layout.in_body = &bodies.skeleton;
-}
-
 struct LookCounts {
     int bodies = 0, sees = 0, held = 0, faded = 0, reached = 0, told = 0;
 };
@@ -34,7 +28,7 @@ struct LookCounts {
 struct LookStage {
     const LookingBodies& of;
     bool has_limbs;  // else the looks alone are solved, and limbs come along as they are
-    SolvedLinks solved;
+    SolvedBodies solved;
 
     LookStage(const LookingBodies& bodies, bool limbs)
         : of(bodies), has_limbs(limbs), solved(bodies, limbs ? std::vector<std::uint32_t>{} : bodies.looks)
@@ -43,7 +37,7 @@ struct LookStage {
 
     // By how much a joint's place may be off: each rotation above it is rounded, which moves it by its distance from
     // there.
-    double off(const LinkedBody& body, std::uint32_t joint) const
+    double off(const SolvedBody& body, std::uint32_t joint) const
     {
         const Vector3d place = body.was[joint].place;
         double levers = place.norm();
@@ -52,7 +46,7 @@ struct LookStage {
             levers += (place - body.was[static_cast<std::size_t>(at)].place).norm();
         return 2e-7 * levers + 1e-7 * vec(of.bodies[body.n].root_position).norm();
     }
-    void check_look(const LinkedBody& body, std::uint32_t group, LookCounts& counts) const
+    void check_look(const SolvedBody& body, std::uint32_t group, LookCounts& counts) const
     {
         const TurnedChain chain{body, of.groups[group].look};
         const std::uint32_t flags = solved.flags(group, body.n);
@@ -84,6 +78,7 @@ struct LookStage {
             if (rounding <= 5e-5) RC_ASSERT(flags & SWIVEL_REACHED);
         }
         if (is_whole) check_shares(chain, target, off_place);
+        check_fade(chain, target, is_whole, last_is_free, off_place);
         counts.sees += (flags & SWIVEL_REACHED) != 0, counts.held += (flags & SWIVEL_LIMITED_LOOK) != 0;
         counts.faded += !is_whole;
         ++counts.bodies;
@@ -107,7 +102,22 @@ struct LookStage {
                           (1e-5 + 4 * rounding) / (std::sin(angle) * angle_of(turn)));
         }
     }
-    void check_limbs(const LinkedBody& body, LookCounts& counts) const
+    // Behind by the cosine of the angle, and very near by the distance. Where one joint turns about the eye, the line
+    // turns by so much of the whole.
+    static void check_fade(const TurnedChain& chain, const Vector3d& target, bool is_whole, bool is_free,
+                           double off_place)
+    {
+        const Vector3d to = target - chain.eye_after(0), axis = chain.axis_after(0);
+        const double angle = angle_between(axis, to), none = chain.look.cos_none,
+                     ahead = (std::cos(angle) - none) / (double{chain.look.cos_full} - none),
+                     far = to.norm() / (double{chain.look.fade_distance} * chain.was(chain.last()).scale);
+        const auto smooth = [](double x) { return x <= 0 ? 0 : x >= 1 ? 1 : x * x * (3 - 2 * x); };
+        if (std::fabs(std::min(ahead, far) - 1) > 1e-3) RC_ASSERT(is_whole == (std::min(ahead, far) > 1));
+        if (chain.last() > 0 || !is_free || vec(chain.look.eye).norm() > 0) return;
+        const double turned = angle_between(axis, chain.axis_after(1)), wanted = smooth(ahead) * smooth(far) * angle;
+        RC_ASSERT(std::fabs(turned - wanted) <= 1.1e-3 + 1e-6 / to.norm() + off_place / to.norm());
+    }
+    void check_limbs(const SolvedBody& body, LookCounts& counts) const
     {
         for (std::uint32_t g = 0; g < of.groups.size(); ++g) {
             if (of.limb_of[g] == kNoLimbHere || !(solved.flags(g, body.n) & SWIVEL_REACHED)) continue;
@@ -123,7 +133,7 @@ struct LookStage {
         }
     }
     // All that nothing turns keeps its local rotation.
-    void check_others(const LinkedBody& body) const
+    void check_others(const SolvedBody& body) const
     {
         const Body now = solved.poses.read(body.n, body.was_body);
         std::vector<bool> turns(of.skeleton.size());
@@ -140,10 +150,10 @@ struct LookStage {
                 RC_ASSERT(quat(now.rotations[joint])
                               .normalized()
                               .angularDistance(quat(body.was_body.rotations[joint]).normalized()) <=
-                          (of.layout.in_body ? 3e-6 : 1e-6));
+                          (of.is_in_body ? 3e-6 : 1e-6));
     }
     // The solve says where joints are, in the body's space.
-    void check_told(const LinkedBody& body, LookCounts& counts) const
+    void check_told(const SolvedBody& body, LookCounts& counts) const
     {
         const Quaterniond root = quat(body.was_body.root_rotation).normalized();
         const double scale = body.was_body.root_scale;
@@ -175,10 +185,10 @@ TEST_CASE("a chain looks at its target, each joint by its share and within its c
     CHECK(rc::check("by forward kinematics", [&](std::uint64_t seed) {
         Random random{seed};
         LookingBodies bodies(random, kLookingBodies, random_layout(random));
-        if (random.below(3) == 0) put_in_body_space(bodies);
+        if (random.below(3) == 0) bodies.put_in_body_space();
         const LookStage stage(bodies, random.below(5) > 0);
         for (std::size_t n = 0; n < kLookingBodies; ++n) {
-            const LinkedBody body(stage.solved, n);
+            const SolvedBody body(stage.solved, n);
             for (const std::uint32_t group : bodies.looks) stage.check_look(body, group, counts);
             if (stage.has_limbs) stage.check_limbs(body, counts);
             stage.check_others(body);
@@ -274,36 +284,6 @@ TEST_CASE("a target straight behind, no weight and no target keep the incoming b
     for (std::size_t n = 0; n < 48; ++n) CHECK(std::fabs(bodies.line(n).norm() - 1) <= 1e-6);
     for (std::uint32_t n = 0; n < 48; ++n)
         CHECK((bodies.flags(n) & ~(n % 3 == 1 ? SWIVEL_FADED : 0)) == (n % 3 == 2 ? SWIVEL_FADED : 0));
-}
-
-TEST_CASE("a look fades behind, by the angle's cosine, and very near, by the distance")
-{
-    constexpr std::uint32_t kCount = 2000;
-    Upright upright;
-    swivel_look& look = upright.look.look;
-    look.joint_count = 1, look.joints[0] = 3, look.share[0] = 1, look.cos_most[0] = -1, look.fade_distance = 0.3f;
-    std::fill_n(look.eye, 3, 0.0f);
-    UprightCrowd bodies(upright, kCount);
-    const Vector3d head(0, 1.57, 0.03), ahead = vec({look.axis[0], look.axis[1], look.axis[2]}).normalized();
-    Random random{4};
-    std::vector<Float3> targets;
-    for (std::uint32_t n = 0; n < kCount; ++n)
-        targets.push_back(floats(Vector3d(head + random.spread(0.02, 3) * random.direction())));
-    bodies.solve(targets);
-    const auto smooth = [](double x) { return x <= 0 ? 0 : x >= 1 ? 1 : x * x * (3 - 2 * x); };
-    int between = 0;
-    for (std::uint32_t n = 0; n < kCount; ++n) {
-        const Vector3d to = vec(targets[n]) - head;
-        const double angle = angle_between(ahead, to),
-                     behind = smooth((std::cos(angle) - double{look.cos_none}) /
-                                     (double{look.cos_full} - double{look.cos_none})),
-                     near = smooth(to.norm() / double{look.fade_distance}), weight = behind * near;
-        CAPTURE(n, angle, behind, near);
-        CHECK(std::fabs(angle_between(ahead, bodies.line(n)) - weight * angle) <= 1.1e-3 + 1e-6 / to.norm());
-        CHECK(((bodies.flags(n) & SWIVEL_FADED) != 0) == (weight < 1));
-        between += weight > 0.1 && weight < 0.9 && near < 0.9 && behind < 0.9;
-    }
-    CHECK(between > 20);
 }
 
 TEST_CASE("at any frame rate a line of sight comes to rest on its target, and says so until then")

@@ -5,7 +5,8 @@
 // what they carry, and a support may change. All is checked by forward kinematics of Eigen's, in double.
 #include <catch2/catch.hpp>
 
-#include "tests/planted_bodies.h"
+#include "tests/hill_walkers.h"
+#include "tests/posed_bodies.h"
 #include "tests/test_crowd.h"
 
 namespace {
@@ -27,21 +28,9 @@ struct LockedFor {
     }
 };
 
-struct Effectors {
-    std::vector<std::vector<Float3>> of;  // of each group
-
-    Effectors(Random& random, std::size_t limbs, std::size_t bodies)
-    {
-        for (std::size_t g = 0; g < limbs; ++g) {
-            of.emplace_back();
-            for (std::size_t n = 0; n < bodies; ++n) of.back().push_back(floats(random.vector(0, 0.1)));
-        }
-    }
-};
-
 }  // namespace
 
-TEST_CASE("a planted limb is where it is sent, and stands still on its support")
+TEST_CASE("a planted limb is where it is sent, and stands still on its support; without contact the pose stays")
 {
     const Ground ground = GENERATE(Ground::still, Ground::moving, Ground::far);
     const bool has_effector = GENERATE(true, false), turns = GENERATE(true, false);
@@ -50,9 +39,24 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support")
     Crowd crowd =
         stage.crowd(kPlanted | (has_effector ? SWIVEL_WITH_EFFECTOR : 0) | (turns ? SWIVEL_WITH_PLANT_TURN : 0), plant);
     Random random{9};
-    const Effectors effectors(random, 3, stage.body_count);
-    if (has_effector)
-        for (std::uint32_t g = 0; g < 3; ++g) crowd.write(SWIVEL_EFFECTOR, g, effectors.of[g]);
+    // Some bodies are never in contact, some have targets and hands that are written, and count instead of the pose's.
+    const auto is_free = [](std::uint32_t n) { return n % 5 == 0; };
+    const auto is_written = [](std::uint32_t n) { return n % 8 == 1; };
+    const auto from_root = [&](std::uint32_t n) { return ground == Ground::far ? Vector3d::Zero() : stage.roots[n]; };
+    std::vector<std::vector<Float3>> effectors(3);
+    std::vector<std::vector<BodyGoal>> written(3);
+    for (std::uint32_t g = 0; g < 3; ++g) {
+        for (std::uint32_t n = 0; n < stage.body_count; ++n) {
+            effectors[g].push_back(has_effector ? floats(random.vector(0, 0.1)) : Float3{});
+            BodyGoal& goal = written[g].emplace_back(random_goal(random, stage.skeleton, stage.bodies[n], g));
+            const Vector3d from = vec(goal.target) - vec(stage.bodies[n].root_position);
+            goal.target = floats(Vector3d(from_root(n) + from));
+            if (!is_written(n)) continue;
+            crowd.write(SWIVEL_TARGET, g, std::span(&goal.target, 1), n);
+            crowd.write(SWIVEL_HAND, g, std::span(&goal.hand, 1), n);
+        }
+        if (has_effector) crowd.write(SWIVEL_EFFECTOR, g, effectors[g]);
+    }
     LockedFor locked(3, stage.body_count);
     using TurnBits = std::array<std::uint32_t, 10>;  // its first four are the mark's
     std::vector<std::vector<PlantBits>> last(3, std::vector<PlantBits>(stage.body_count));
@@ -60,14 +64,23 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support")
     int reached_count = 0, limb_count = 0, stood_count = 0;
     for (int frame = 0; frame < kFrames; ++frame) {
         stage.go_to(frame);
+        for (std::vector<float>& labels : stage.labels)
+            for (std::uint32_t n = 0; n < stage.body_count; ++n)
+                if (is_free(n)) labels[n] = 0.5f;
         stage.solve(crowd);
         for (std::uint32_t n = 0; n < stage.body_count; ++n) {
             const std::vector<JointAt> was = joints_at(stage.skeleton, stage.bodies[n]),
                                        is = joints_at(stage.skeleton, stage.poses.read(n, stage.bodies[n]));
             for (std::uint32_t g = 0; g < 3; ++g) {
                 const BodyLimbJoints& joints = stage.skeleton.limbs[g];
+                const LimbAt limb(stage.skeleton, stage.bodies[n], was, joints);
                 const std::uint32_t flags = flags_of(crowd, g, n);
                 REQUIRE(!(flags & SWIVEL_BAD_INPUT));
+                if (is_free(n) && !is_written(n)) {
+                    REQUIRE((flags & (SWIVEL_PLANTED | SWIVEL_RELEASED | SWIVEL_CUT)) == 0);
+                    REQUIRE(strayed(limb, joints, was, is) <= 1);
+                    continue;
+                }
                 const PlantBits bits = plant_bits(crowd, g, n);
                 const bool stays = frame > 0 && (flags & SWIVEL_PLANTED) && locked.seconds[g][n] > 0;
                 const double locked_for = locked.after(g, n, flags, stage.times[n]);
@@ -78,21 +91,23 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support")
                     if (stays) REQUIRE(std::equal(&turn[0], &turn[4], &last_turn[g][n][0]));
                     last_turn[g][n] = turn;
                 }
-                ++limb_count;
-                reached_count += (flags & SWIVEL_REACHED) != 0;
-                if (!(flags & SWIVEL_REACHED)) continue;
+                if (!is_written(n)) ++limb_count, reached_count += (flags & SWIVEL_REACHED) != 0;
                 const auto goal = value_of<std::array<float, 7>>(crowd, SWIVEL_GOAL, g, n);
-                const Vector3d sent(goal[0], goal[1], goal[2]);
-                const Quaterniond hand = quat({goal[3], goal[4], goal[5], goal[6]});
-                const LimbAt limb(stage.skeleton, stage.bodies[n], was, joints);
+                const Vector3d sent(goal[0], goal[1], goal[2]), from = from_root(n);
+                const Quaterniond hand = quat({goal[3], goal[4], goal[5], goal[6]}),
+                                  comes = is_written(n) ? quat(written[g][n].hand) : was[joints.wrist].rotation;
                 const double scale = stage.bodies[n].root_scale, root = stage.roots[n].norm();
-                Vector3d point = is[joints.wrist].place;
-                if (has_effector) point += scale * (is[joints.wrist].rotation * vec(effectors.of[g][n]));
-                const Vector3d from = ground == Ground::far ? Vector3d(Vector3d::Zero()) : stage.roots[n];
                 const double bound = limb.wrist_bound() + 5e-6 * 0.1 * scale + (from.norm() > 0 ? 2e-7 * root : 0);
+                if (!turns) REQUIRE(hand.angularDistance(comes) <= 2e-6);
+                if (is_written(n) && frame == 0) {
+                    REQUIRE((sent - vec(written[g][n].target)).norm() <= bound);
+                    REQUIRE(hand.angularDistance(comes) <= 2e-6);
+                }
+                if (!(flags & SWIVEL_REACHED)) continue;
+                const Vector3d point =
+                    is[joints.wrist].place + scale * (is[joints.wrist].rotation * vec(effectors[g][n]));
                 REQUIRE((point + from - sent).norm() <= bound);
                 REQUIRE(is[joints.wrist].rotation.angularDistance(hand) <= 5e-6);
-                if (!turns) REQUIRE(hand.angularDistance(was[joints.wrist].rotation) <= 2e-6);
                 if (!(stays && locked_for > double{plant.stop} + 0.03)) continue;
                 ++stood_count;
                 // The root comes from its support in floats, rounded once.
@@ -109,54 +124,6 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support")
     }
     REQUIRE(reached_count > 0.7 * limb_count);
     REQUIRE(stood_count > 0.2 * limb_count);
-}
-
-TEST_CASE("without contact the pose stays as it comes")
-{
-    const Ground ground = GENERATE(Ground::still, Ground::moving, Ground::far);
-    PlantedBodies stage(3, ground);
-    Crowd crowd = stage.crowd(kPlanted);
-    for (int frame = 0; frame < 20; ++frame) {
-        stage.go_to(frame);
-        for (std::vector<float>& labels : stage.labels) std::ranges::fill(labels, 0.5f);
-        stage.solve(crowd);
-        for (std::uint32_t n = 0; n < stage.body_count; ++n) {
-            const std::vector<JointAt> was = joints_at(stage.skeleton, stage.bodies[n]),
-                                       is = joints_at(stage.skeleton, stage.poses.read(n, stage.bodies[n]));
-            for (std::uint32_t g = 0; g < 3; ++g) {
-                const BodyLimbJoints& joints = stage.skeleton.limbs[g];
-                const LimbAt limb(stage.skeleton, stage.bodies[n], was, joints);
-                REQUIRE((flags_of(crowd, g, n) & (SWIVEL_PLANTED | SWIVEL_RELEASED | SWIVEL_CUT | SWIVEL_BAD_INPUT)) ==
-                        0);
-                REQUIRE(strayed(limb, joints, was, is) <= 1);
-            }
-        }
-    }
-}
-
-TEST_CASE("a target and a hand that are written count instead of the pose's")
-{
-    PlantedBodies stage(4, Ground::still);
-    Crowd crowd = stage.crowd(kPlanted);
-    for (std::vector<float>& labels : stage.labels) std::ranges::fill(labels, 1.0f);
-    Random random{5};
-    BodyGoals goals(3);
-    for (std::uint32_t g = 0; g < 3; ++g)
-        for (const Body& body : stage.bodies) goals[g].push_back(random_goal(random, stage.skeleton, body, g));
-    write_goals(crowd, goals);
-    stage.solve(crowd);
-    for (std::uint32_t n = 0; n < stage.body_count; ++n) {
-        const std::vector<JointAt> is = joints_at(stage.skeleton, stage.poses.read(n, stage.bodies[n]));
-        for (std::uint32_t g = 0; g < 3; ++g) {
-            const JointAt& wrist = is[stage.skeleton.limbs[g].wrist];
-            const LimbAt limb(stage.skeleton, stage.bodies[n], joints_at(stage.skeleton, stage.bodies[n]),
-                              stage.skeleton.limbs[g]);
-            REQUIRE((flags_of(crowd, g, n) & SWIVEL_PLANTED) != 0);
-            REQUIRE((wrist.place + stage.roots[n] - vec(goals[g][n].target)).norm() <=
-                    limb.wrist_bound() + 2e-7 * stage.roots[n].norm());
-            REQUIRE(wrist.rotation.angularDistance(quat(goals[g][n].hand).normalized()) <= 5e-6);
-        }
-    }
 }
 
 TEST_CASE("contact by motion is a hysteresis of speed and height")
@@ -237,13 +204,8 @@ TEST_CASE("a job that names groups steps those alone, and needs no time where no
     }
     swivel_pose pose = stage.view();
     pose.time = {};
-    swivel_job job = swivel_default_job();
-    job.pose = &pose;
-    CHECK_REFUSED(swivel_solve(crowd.get(), &job), SWIVEL_INVALID_ARGUMENT);
-    CHECK(std::string(swivel_last_error()).find("time") != std::string::npos);
-    const std::uint32_t third = 1u << 2;
-    job.groups = &third, job.group_word_count = 1;
-    CHECK(swivel_solve(crowd.get(), &job) == SWIVEL_OK);
+    CHECK_THROWS_WITH(crowd.solve({.pose = &pose}), Catch::Contains("the pose has no time"));
+    CHECK_NOTHROW(crowd.solve({.groups = {2u}, .pose = &pose}));
 }
 
 TEST_CASE("a support changes without a jump")
@@ -288,4 +250,179 @@ TEST_CASE("a support changes without a jump")
     const Float4 none{};
     CHECK_REFUSED(swivel_change_support(crowd.get(), 0, 0, 1, {{}, {&none, 0}}, {}), SWIVEL_INVALID_ARGUMENT);
     CHECK(swivel_change_support(crowd.get(), 0, 0, 1, {}, {}) == SWIVEL_OK);
+}
+
+// ---- feet that walk over hills, on supports that move and turn
+
+namespace {
+
+constexpr std::uint32_t kWalkers = 40;
+constexpr swivel_features kCarrying = HillWalkers::kFeatures | SWIVEL_WITH_PLANT_TURN | SWIVEL_WITH_WEIGHTS |
+                                      SWIVEL_WITH_SHOULDER_CONE;  // with all inputs that faults are in
+
+// Walkers on supports that move and turn.
+struct Stage {
+    HillWalkers walkers;
+    Crowd crowd;
+    PoseBuffer poses;
+
+    explicit Stage(swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE, float longest = 0, swivel_features more = 0)
+        : walkers(walkers_of(longest)), crowd(walkers.crowd(kCarrying | more, on_bad_input)), poses(walkers.poses())
+    {
+    }
+    void go_to(int frame)
+    {
+        walkers.go_to(frame);
+        const double t = 0.01 * frame;
+        walkers.supports.assign(walkers.count(), floats(Vector3d(t, 2 * std::sin(t), 1)));
+        walkers.support_turns.assign(walkers.count(), floats(Quaterniond(Eigen::AngleAxisd(t, Vector3d(1, 2, 2) / 3))));
+        poses = walkers.poses();
+    }
+    // With the ground that is written.
+    void step() { walkers.solve(crowd, poses); }
+    void write_ground()
+    {
+        walkers.find_probes(crowd, poses);
+        for (std::uint32_t leg = 0; leg < 2; ++leg) HillWalkers::write(crowd, leg, walkers.samples(crowd, leg));
+    }
+    void play(int first, int end)
+    {
+        for (int frame = first; frame < end; ++frame) {
+            go_to(frame);
+            write_ground();
+            step();
+        }
+    }
+
+private:
+    static HillWalkers walkers_of(float longest)
+    {
+        HillWalkers of(5, kWalkers, bumpy_field());
+        of.plant.longest = longest;
+        return of;
+    }
+};
+
+// The bits of all that a leg carries.
+std::vector<std::uint32_t> carried(const Crowd& crowd, std::uint32_t leg, std::uint32_t body)
+{
+    return bits_of_group(crowd, leg, body, SWIVEL_FIELD_CARRIED);
+}
+
+// One thing that is wrong with body 17, or with a number of its leg 1.
+constexpr std::uint32_t kBad = 17;
+struct Fault {
+    const char* name;
+    swivel_field field;
+    Float4 value;
+    void (*spoil)(HillWalkers& walkers) = nullptr;  // then it is the body's
+};
+const Fault kFaults[] = {
+    {"normal NaN", SWIVEL_GROUND_NORMAL, {0, kNan, 0}},
+    {"normal of no length", SWIVEL_GROUND_NORMAL, {}},
+    {"normal too short", SWIVEL_GROUND_NORMAL, {0, 1e-10f, 0}},
+    {"normal without end", SWIVEL_GROUND_NORMAL, {kInf, 0, 0}},
+    {"weight NaN", SWIVEL_GROUND_WEIGHT, {kNan}},
+    {"weight 2", SWIVEL_GROUND_WEIGHT, {2}},
+    {"weight below 0", SWIVEL_GROUND_WEIGHT, {-0.1f}},
+    {"effector NaN", SWIVEL_EFFECTOR, {kNan, 0, 0}},
+    {"effector without end", SWIVEL_EFFECTOR, {kInf, 0, 0}},
+    {"label 2", SWIVEL_CONTACT, {2}},
+    {"label NaN", SWIVEL_CONTACT, {kNan}},
+    {"target without end", SWIVEL_TARGET, {kInf, 0, 0}},
+    {"hand of no length", SWIVEL_HAND, {}},
+    {"limb weight 2", SWIVEL_WEIGHTS, {2, 1, 1}},
+    {"cone of no axis", SWIVEL_SHOULDER_CONE, {}},
+    {"cap NaN", SWIVEL_CAP, {kNan, 0, 0}},
+    {"lengths below 0", SWIVEL_LENGTHS, {-1, 1}},
+    {"time NaN", {}, {}, [](HillWalkers& of) { of.times[kBad] = kNan; }},
+    {"time below 0", {}, {}, [](HillWalkers& of) { of.times[kBad] = -0.01f; }},
+    {"time without end", {}, {}, [](HillWalkers& of) { of.times[kBad] = kInf; }},
+    {"support nowhere", {}, {}, [](HillWalkers& of) { of.supports[kBad][1] = kNan; }},
+    {"support's rotation NaN", {}, {}, [](HillWalkers& of) { of.support_turns[kBad][3] = kNan; }},
+    {"support's rotation 0", {}, {}, [](HillWalkers& of) { of.support_turns[kBad] = {}; }},
+};
+void make(const Fault& fault, Stage& stage)
+{
+    if (fault.spoil) return fault.spoil(stage.walkers);
+    if (fault.field == SWIVEL_CONTACT)
+        stage.walkers.labels[1][kBad] = fault.value[0];  // written by each solve
+    else
+        check(swivel_write(stage.crowd.get(), fault.field, 1, kBad, 1, {&fault.value, sizeof fault.value}));
+}
+
+}  // namespace
+
+TEST_CASE("bad input of a planted foot is its own, and keeps what it carries")
+{
+    const swivel_on_bad_input on_bad_input = GENERATE(SWIVEL_KEEP_POSE, SWIVEL_REST_POSE);
+    const swivel_features by_motion = GENERATE(swivel_features{0}, SWIVEL_PLANT_BY_MOTION);
+    Stage good(on_bad_input, 0, by_motion);
+    good.play(0, 31);
+    for (const Fault& fault : kFaults) {
+        if (by_motion && fault.field == SWIVEL_CONTACT) continue;
+        Stage stage(on_bad_input, 0, by_motion);
+        stage.play(0, 30);
+        const std::vector<std::uint32_t> before[] = {carried(stage.crowd, 0, kBad), carried(stage.crowd, 1, kBad)};
+        stage.go_to(30);
+        stage.write_ground();
+        make(fault, stage);
+        const PoseBuffer came = stage.poses;
+        stage.step();
+        for (std::uint32_t leg = 0; leg < 2; ++leg)
+            for (std::uint32_t n = 0; n < kWalkers; ++n) {
+                INFO(fault.name << ", leg " << leg << ", body " << n);
+                const bool is_bad = n == kBad && (fault.spoil || leg == 1);
+                REQUIRE((flags_of(stage.crowd, leg, n) == SWIVEL_BAD_INPUT) == is_bad);
+                if (n != kBad)
+                    REQUIRE(bits_of_body(stage.crowd, stage.poses, n) == bits_of_body(good.crowd, good.poses, n));
+                if (!is_bad) continue;
+                for (std::uint32_t joint = 1 + 3 * leg; joint < 4 + 3 * leg && on_bad_input == SWIVEL_KEEP_POSE;
+                     ++joint)
+                    REQUIRE(stage.poses.joint_bytes(n, joint) == came.joint_bytes(n, joint));
+                const std::vector<std::uint32_t> anew(before[leg].size());  // as at the start
+                REQUIRE(before[leg] != anew);
+                REQUIRE(carried(stage.crowd, leg, n) == (on_bad_input == SWIVEL_KEEP_POSE ? before[leg] : anew));
+            }
+    }
+}
+
+TEST_CASE("time 0 changes no bit of what feet on ground carry")
+{
+    Stage stage;
+    for (const int frame : {1, 25, 40, 55}) {
+        stage.play(frame - 1, frame);
+        std::vector<std::vector<std::uint32_t>> before;
+        for (std::uint32_t n = 0; n < 2 * kWalkers; ++n) before.push_back(carried(stage.crowd, n % 2, n / 2));
+        // Elsewhere, on other ground.
+        stage.go_to(frame + 7);
+        std::ranges::fill(stage.walkers.times, 0.0f);
+        stage.write_ground();
+        stage.step();
+        for (std::uint32_t n = 0; n < 2 * kWalkers; ++n) REQUIRE(carried(stage.crowd, n % 2, n / 2) == before[n]);
+    }
+}
+
+TEST_CASE("a walker that is reset, or was not solved for longer than `longest`, is on its ground at once")
+{
+    Stage stage(SWIVEL_KEEP_POSE, 0.5f), fresh(SWIVEL_KEEP_POSE, 0.5f);
+    stage.play(0, 30);
+    const auto is_reset = [](std::uint32_t n) { return n >= 7 && n < 12; };
+    const auto is_old = [](std::uint32_t n) { return n >= 27 && n < 32; };
+    stage.go_to(75), fresh.go_to(75);
+    for (std::uint32_t g = 0; g < 2; ++g) check(swivel_reset(stage.crowd.get(), g, 7, 5));
+    for (std::uint32_t n = 27; n < 32; ++n) stage.walkers.times[n] = 0.6f;
+    stage.write_ground(), fresh.write_ground();
+    stage.step(), fresh.step();
+    int other_count = 0;
+    for (std::uint32_t leg = 0; leg < 2; ++leg)
+        for (std::uint32_t n = 0; n < kWalkers; ++n) {
+            const bool is_anew = carried(stage.crowd, leg, n) == carried(fresh.crowd, leg, n);
+            const auto lift = value_of<std::array<float, 9>>(stage.crowd, SWIVEL_LIFT, leg, n);
+            if (is_reset(n) || is_old(n))
+                REQUIRE((is_anew && lift[1] == 0 && lift[2] == 1));
+            else
+                other_count += !is_anew;
+        }
+    REQUIRE(other_count > 30);
 }

@@ -2,10 +2,11 @@
 //
 // The promise: a limb bound by joints of a skeleton poses that skeleton. It may have joints in between, which stay at
 // rest, and twist bones. Forward kinematics over all joints, by Eigen in double, finds the wrist on its target.
-#include "tests/rest_skeleton.h"
+#include "tests/body_crowd.h"
 #include "tests/test_whole_limb.h"
 
 #include <cstring>
+#include <numeric>
 #include <string>
 
 using namespace swivel;
@@ -13,56 +14,128 @@ using namespace swivel::test;
 
 namespace {
 
-constexpr Between kShapes[] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 0, 1}, {3, 2, 3}};
+// How many joints lie above the shoulder, and between those of the limb.
+struct Shape {
+    std::uint32_t above, upper, fore;
+};
+constexpr Shape kShapes[] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 0, 1}, {3, 2, 3}};
 
-Quaterniond result_of(const Crowd& crowd, swivel_field field, std::uint32_t n, std::uint32_t component = 0)
+// Every joint gets another index.
+BodySkeleton shuffled(Random& random, const BodySkeleton& skeleton)
+{
+    std::vector<std::uint32_t> to(skeleton.size());
+    std::iota(to.begin(), to.end(), 0u);
+    for (std::uint32_t n = skeleton.size(); n > 1; --n) std::swap(to[n - 1], to[random.below(n)]);
+    BodySkeleton moved = skeleton;
+    for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
+        const std::int32_t parent = skeleton.parents[n];
+        moved.parents[to[n]] = parent < 0 ? -1 : static_cast<std::int32_t>(to[static_cast<std::uint32_t>(parent)]);
+        moved.rotations[to[n]] = skeleton.rotations[n];
+        moved.translations[to[n]] = skeleton.translations[n];
+    }
+    BodyLimbJoints& limb = moved.limbs[0];
+    for (std::uint32_t* const joint : {&limb.shoulder, &limb.elbow, &limb.wrist}) *joint = to[*joint];
+    for (std::uint32_t& joint : limb.twist_bones) joint = to[joint];
+    return moved;
+}
+
+// A limb that is hidden in a skeleton: rotations of any length, joints in any order, and others that nobody may look
+// at.
+BodySkeleton random_skeleton(Random& random, const Shape& shape, std::uint32_t twist_bone_count)
+{
+    BodySkeleton s;
+    BodyLimbJoints limb{};
+    std::uint32_t last = ~0u;
+    const auto put = [&](std::uint32_t parent, const Float4& rotation, const Float3& translation) {
+        s.parents.push_back(static_cast<std::int32_t>(parent));
+        s.rotations.push_back(rotation);
+        s.translations.push_back(translation);
+        return last = s.size() - 1;
+    };
+    const auto turn = [&] { return floats(Quaterniond(random.spread(0.1, 10) * random.rotation().coeffs())); };
+    const auto add = [&](std::uint32_t more) {  // some joints, and then one
+        for (; more > 0; --more) put(last, turn(), floats(random.vector(0.2, 1)));
+        return put(last, turn(), floats(random.vector(0.2, 1)));
+    };
+    limb.shoulder = add(shape.above), limb.elbow = add(shape.upper), limb.wrist = add(shape.fore);
+    const auto at = [&] { return joints_at(s, s.rest()); };
+    if (shape.fore == 0 && random.below(3) == 0) {  // the forearm lies along the upper arm
+        const Vector3d upper = at()[limb.elbow].place - at()[limb.shoulder].place;
+        s.translations[limb.wrist] =
+            floats(Vector3d(at()[limb.elbow].rotation.conjugate() * (random.between(0.2, 1) * upper.normalized())));
+    }
+    // Twist bones below any of the forearm's joints, on a line beside the bone; some below a joint of their own.
+    const std::vector<JointAt> rest = at();
+    const Vector3d fore = rest[limb.wrist].place - rest[limb.elbow].place;
+    for (std::uint32_t n = 0; n < twist_bone_count; ++n) {
+        last = limb.elbow + random.below(limb.wrist - limb.elbow);
+        const JointAt& from = rest[last];
+        const Vector3d place =
+            rest[limb.elbow].place + (n + 1.0) / (twist_bone_count + 1) * fore + 0.1 * random.across(fore);
+        if (random.below(3) == 0) put(last, {0, 0, 0, 2}, {0, 0, 0});
+        limb.twist_bones.push_back(
+            put(last, turn(), floats(Vector3d(from.rotation.conjugate() * (place - from.place)))));
+    }
+    for (const std::uint32_t joint : {limb.shoulder, limb.elbow, limb.wrist, last})
+        put(put(joint, {0, 0, 0, 0}, {NAN, 0, 0}), {NAN, 0, 0, 0}, {INFINITY, 0, 0});
+    const Vector3d upper = rest[limb.elbow].place - rest[limb.shoulder].place;
+    limb.bend = floats(Vector3d(rest[limb.shoulder].rotation.conjugate() *
+                                (random.across(upper) + random.between(-1, 1) * upper.normalized())));
+    s.limbs = {limb};
+    return shuffled(random, s);
+}
+
+Float4 result_of(const Crowd& crowd, swivel_field field, std::uint32_t n, std::uint32_t component = 0)
 {
     std::array<float, 28> value{};
     REQUIRE(swivel_read(crowd.get(), field, 0, n, 1, {value.data(), sizeof value}) == SWIVEL_OK);
     Float4 q;
     std::copy_n(value.begin() + component, 4, q.begin());
     CHECK(is_unit(q));
-    return quat(q).normalized();
+    return q;
 }
 
 // The limb's results in the skeleton's places; all other joints rest.
-Locals posed(const RestSkeleton& skeleton, const Crowd& crowd, std::uint32_t n)
+Body posed(const BodySkeleton& skeleton, const Crowd& crowd, std::uint32_t n)
 {
-    Locals locals = rest_locals(skeleton);
-    locals[skeleton.shoulder] = result_of(crowd, SWIVEL_SHOULDER, n);
-    locals[skeleton.elbow] = result_of(crowd, SWIVEL_ELBOW, n);
+    Body body = skeleton.rest();
+    const BodyLimbJoints& limb = skeleton.limbs[0];
+    body.rotations[limb.shoulder] = result_of(crowd, SWIVEL_SHOULDER, n);
+    body.rotations[limb.elbow] = result_of(crowd, SWIVEL_ELBOW, n);
     if (swivel_field_row_count(crowd.get(), 0, SWIVEL_WRIST))
-        locals[skeleton.wrist] = result_of(crowd, SWIVEL_WRIST, n);
+        body.rotations[limb.wrist] = result_of(crowd, SWIVEL_WRIST, n);
     if (swivel_field_row_count(crowd.get(), 0, SWIVEL_TWIST_BONES))
-        for (std::uint32_t bone = 0; bone < skeleton.twist_bones.size(); ++bone)
-            locals[skeleton.twist_bones[bone]] = result_of(crowd, SWIVEL_TWIST_BONES, n, 4 * bone);
-    return locals;
+        for (std::uint32_t bone = 0; bone < limb.twist_bones.size(); ++bone)
+            body.rotations[limb.twist_bones[bone]] = result_of(crowd, SWIVEL_TWIST_BONES, n, 4 * bone);
+    return body;
 }
 
 // The root's place in a world in which the limb's shoulder and its parent are as the goal has them; without WORLD that
 // is the arm frame.
-Parent root_of(const RestSkeleton& skeleton, const swivel_binding& bound, const Limb& limb, swivel_features features)
+JointAt root_of(const BodySkeleton& skeleton, const swivel_binding& bound, const Limb& limb, swivel_features features)
 {
     Parent parent = limb.parent();
     if (!(features & SWIVEL_WORLD)) parent.rotation = quat(bound.parent_from_arm).normalized().conjugate();
-    const Locals rest = rest_locals(skeleton);
-    const Parent none{Vector3d::Zero(), Quaterniond::Identity(), 1};
-    const Quaterniond above = place_of_parent(skeleton, rest, none, skeleton.shoulder).rotation;
-    const Vector3d shoulder = place_of(skeleton, rest, none, skeleton.shoulder).position;
-    const Quaterniond root = parent.rotation * above.conjugate();
-    return {parent.position - parent.scale * (root * shoulder), root, parent.scale};
+    const std::vector<JointAt> rest = joints_at(skeleton, skeleton.rest());
+    const std::uint32_t shoulder = skeleton.limbs[0].shoulder;
+    const std::int32_t above = skeleton.parents[shoulder];
+    const Quaterniond root =
+        above < 0 ? parent.rotation : parent.rotation * rest[static_cast<std::size_t>(above)].rotation.conjugate();
+    return {root, parent.position - parent.scale * (root * rest[shoulder].place), parent.scale};
 }
 
 struct Posed {
-    RestSkeleton skeleton;
-    swivel_binding bound = swivel_default_binding();
+    BodySkeleton skeleton;
+    BodyLimbJoints limb;
+    swivel_binding bound;
     Crowd crowd;
     std::vector<Limb> limbs;
-    std::vector<Parent> roots;
+    std::vector<JointAt> roots;
 
-    Posed(Random& random, const Between& shape, swivel_features features, std::uint32_t count, std::uint32_t bones = 0)
+    Posed(Random& random, const Shape& shape, swivel_features features, std::uint32_t count, std::uint32_t bones = 0)
         : skeleton(random_skeleton(random, shape, bones)),
-          bound(skeleton.bound()),
+          limb(skeleton.limbs[0]),
+          bound(bind(skeleton.view(), skeleton.joints(0))),
           crowd(crowd_of(features | bones * SWIVEL_WITH_TWIST_BONES, count, bound))
     {
         for (std::uint32_t n = 0; n < count; ++n) {
@@ -71,15 +144,7 @@ struct Posed {
             roots.push_back(root_of(skeleton, bound, limbs[n], features));
         }
     }
-    JointPlace place(const Locals& locals, std::uint32_t n, std::uint32_t joint) const
-    {
-        return place_of(skeleton, locals, roots[n], joint);
-    }
-    Places places(const Locals& locals, std::uint32_t n) const
-    {
-        const JointPlace wrist = place(locals, n, skeleton.wrist);
-        return {place(locals, n, skeleton.elbow).position, wrist.position, wrist.rotation};
-    }
+    std::vector<JointAt> at(const Body& body, std::uint32_t n) const { return joints_at(skeleton, body, roots[n]); }
 };
 
 double turn_about(const Quaterniond& q, const Vector3d& axis)
@@ -94,7 +159,7 @@ TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, 
     const swivel_features j = SWIVEL_JOINTS, w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
     for (const swivel_features features :
          {j, j | h, j | w, j | w | h, j | w | h | d, j | w | h | SWIVEL_WITH_ANGLE, j | SWIVEL_WITH_ANGLE})
-        for (const Between& shape : kShapes)
+        for (const Shape& shape : kShapes)
             for (std::uint64_t seed = 0; seed < 4; ++seed) {
                 Random random{features * 8 + seed};
                 Posed p(random, shape, features, 21);
@@ -105,18 +170,16 @@ TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, 
                 for (std::uint32_t n = 0; n < 21; ++n) {
                     INFO("features " << features << ", between " << shape.upper << " and " << shape.fore << ", seed "
                                      << seed << ", limb " << n);
-                    const Locals locals = posed(p.skeleton, p.crowd, n);
-                    places.push_back(p.places(locals, n));
+                    const std::vector<JointAt> at = p.at(posed(p.skeleton, p.crowd, n), n);
+                    places.push_back({at[p.limb.elbow].place, at[p.limb.wrist].place, at[p.limb.wrist].rotation});
                     check_places(p.limbs[n], features, places[n], flags[n]);
                     // Flexion carries the forearm towards the bend, which goes along with the upper arm.
-                    const JointPlace shoulder = p.place(locals, n, p.skeleton.shoulder);
-                    const Vector3d upper = places[n].elbow - shoulder.position,
-                                   fore = places[n].wrist - places[n].elbow,
-                                   bend = shoulder.rotation * vec(p.skeleton.bend);
+                    const JointAt& shoulder = at[p.limb.shoulder];
+                    const Vector3d upper = places[n].elbow - shoulder.place, fore = places[n].wrist - places[n].elbow,
+                                   bend = shoulder.rotation * vec(p.limb.bend);
                     CHECK(upper.cross(fore).normalized().dot(upper.cross(bend).normalized()) == Approx(1).margin(1e-6));
                     // The elbow turns about one axis of the upper arm.
-                    const Quaterniond elbow =
-                        shoulder.rotation.conjugate() * p.place(locals, n, p.skeleton.elbow).rotation;
+                    const Quaterniond elbow = shoulder.rotation.conjugate() * at[p.limb.elbow].rotation;
                     if (n == 0) first = elbow;
                     const Vector3d hinge = shoulder.rotation.conjugate() * upper.cross(bend).normalized();
                     CHECK((elbow * first.conjugate()).vec().cross(hinge).norm() <= 3e-6);
@@ -129,15 +192,16 @@ TEST_CASE("skeletons by joints: where nothing is in between, the binding is the 
 {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         Random random{seed};
-        const RestSkeleton s = random_skeleton(random, {seed % 2 == 0 ? 3u : 0u, 0, 0}, 0);
+        const BodySkeleton s = random_skeleton(random, {seed % 2 == 0 ? 3u : 0u, 0, 0}, 0);
+        const BodyLimbJoints& limb = s.limbs[0];
         swivel_chain chain = swivel_default_chain();
-        std::ranges::copy(s.rotations[s.shoulder], chain.shoulder_rotation);
-        std::ranges::copy(s.rotations[s.elbow], chain.elbow_rotation);
-        std::ranges::copy(s.rotations[s.wrist], chain.wrist_rotation);
-        std::ranges::copy(s.translations[s.elbow], chain.elbow_offset);
-        std::ranges::copy(s.translations[s.wrist], chain.wrist_offset);
-        std::ranges::copy(s.bend, chain.bend);
-        const swivel_binding by_joints = s.bound(), by_chain = bind(chain);
+        std::ranges::copy(s.rotations[limb.shoulder], chain.shoulder_rotation);
+        std::ranges::copy(s.rotations[limb.elbow], chain.elbow_rotation);
+        std::ranges::copy(s.rotations[limb.wrist], chain.wrist_rotation);
+        std::ranges::copy(s.translations[limb.elbow], chain.elbow_offset);
+        std::ranges::copy(s.translations[limb.wrist], chain.wrist_offset);
+        std::ranges::copy(limb.bend, chain.bend);
+        const swivel_binding by_joints = bind(s.view(), s.joints(0)), by_chain = bind(chain);
         CHECK(std::memcmp(&by_joints, &by_chain, sizeof by_chain) == 0);
         CHECK(std::memcmp(by_chain.elbow_parent_from_arm, by_chain.upper_from_arm, 16) == 0);
         CHECK(std::memcmp(by_chain.wrist_parent_from_arm, by_chain.fore_from_arm, 16) == 0);
@@ -148,7 +212,7 @@ TEST_CASE("skeletons by joints: where nothing is in between, the binding is the 
 TEST_CASE("skeletons by joints: how they lie in memory changes no bit")
 {
     Random random{3};
-    const RestSkeleton s = random_skeleton(random, {2, 1, 2}, 3);
+    const BodySkeleton s = random_skeleton(random, {2, 1, 2}, 3);
     struct Joint {
         float place[3];
         std::int32_t parent;
@@ -165,36 +229,37 @@ TEST_CASE("skeletons by joints: how they lie in memory changes no bit")
     skeleton.parents = swivel::stream(joints, &Joint::parent);
     skeleton.translations = swivel::stream(joints, &Joint::place);
     skeleton.rotations = swivel::stream(joints, &Joint::rotation);
-    const swivel_binding apart = bind(skeleton, s.joints()), together = s.bound();
+    const swivel_binding apart = bind(skeleton, s.joints(0)), together = bind(s.view(), s.joints(0));
     CHECK(std::memcmp(&apart, &together, sizeof apart) == 0);
 }
 
 TEST_CASE("skeletons by joints: twist bones, wherever they hang, share the hand's twist about the forearm")
 {
     constexpr std::uint32_t count = 24, features = kWorldJointsHand;
-    for (const Between& shape : kShapes)
+    for (const Shape& shape : kShapes)
         for (const std::uint32_t bones : {1u, 3u, 7u}) {
             Random random{bones + 10 * shape.fore};
             Posed p(random, shape, features, count, bones);
             p.crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{kNan, 0, 0}}, count - 1);
             p.crowd.solve();
-            const Locals rest = rest_locals(p.skeleton);
             int twisted = 0;
             for (std::uint32_t n = 0; n < count; ++n) {
                 INFO("between " << shape.fore << ", bones " << bones << ", limb " << n);
-                const Locals locals = posed(p.skeleton, p.crowd, n);
-                Locals carried = locals;  // the forearm as it is, with all that is below it at rest
-                carried[p.skeleton.wrist] = rest[p.skeleton.wrist];
-                for (const std::uint32_t bone : p.skeleton.twist_bones) carried[bone] = rest[bone];
-                const Vector3d axis = (p.places(locals, n).wrist - p.places(locals, n).elbow).normalized();
+                const Body body = posed(p.skeleton, p.crowd, n);
+                Body carried = body;  // the forearm as it is, with all that is below it at rest
+                carried.rotations[p.limb.wrist] = p.skeleton.rotations[p.limb.wrist];
+                for (const std::uint32_t bone : p.limb.twist_bones)
+                    carried.rotations[bone] = p.skeleton.rotations[bone];
+                const std::vector<JointAt> at = p.at(body, n), at_rest = p.at(carried, n);
+                const Vector3d axis = (at[p.limb.wrist].place - at[p.limb.elbow].place).normalized();
                 const auto added = [&](std::uint32_t joint) {
-                    return p.place(locals, n, joint).rotation * p.place(carried, n, joint).rotation.conjugate();
+                    return Quaterniond(at[joint].rotation * at_rest[joint].rotation.conjugate());
                 };
-                const double twist = n == count - 1 ? 0 : turn_about(added(p.skeleton.wrist), axis);
+                const double twist = n == count - 1 ? 0 : turn_about(added(p.limb.wrist), axis);
                 if (std::fabs(twist) > 3.1) continue;
                 if (std::fabs(twist) > 0.5) ++twisted;
                 for (std::uint32_t bone = 0; bone < bones; ++bone) {
-                    const Quaterniond turn = added(p.skeleton.twist_bones[bone]);
+                    const Quaterniond turn = added(p.limb.twist_bones[bone]);
                     CHECK(turn.vec().cross(axis).norm() <= 2e-6);
                     CHECK(turn_about(turn, axis) == Approx(twist * (bone + 1) / (bones + 1)).margin(2.1e-3));
                 }
@@ -209,7 +274,7 @@ TEST_CASE("skeletons by joints: an incoming pose is read as it was written")
     constexpr std::pair<swivel_field, swivel_field> kIncoming[] = {{SWIVEL_SHOULDER, SWIVEL_INCOMING_SHOULDER},
                                                                    {SWIVEL_ELBOW, SWIVEL_INCOMING_ELBOW},
                                                                    {SWIVEL_WRIST, SWIVEL_INCOMING_WRIST}};
-    for (const Between& shape : kShapes) {
+    for (const Shape& shape : kShapes) {
         Random random{shape.above + 20};
         Posed p(random, shape, kWorldJointsHand, count);
         p.crowd.solve();
@@ -237,9 +302,10 @@ TEST_CASE("skeletons by joints: an incoming pose is read as it was written")
             const_cast<Crowd*>(crowd)->solve();
             for (std::uint32_t n = 0; n < count; ++n) {
                 INFO("between " << shape.upper << " and " << shape.fore << ", limb " << n);
-                const Locals was = posed(p.skeleton, p.crowd, n), now = posed(p.skeleton, *crowd, n);
-                for (const std::uint32_t joint : {p.skeleton.shoulder, p.skeleton.elbow, p.skeleton.wrist})
-                    CHECK(distance(was[joint], now[joint]) <= 2e-4);
+                const Body was = posed(p.skeleton, p.crowd, n), now = posed(p.skeleton, *crowd, n);
+                for (const std::uint32_t joint : {p.limb.shoulder, p.limb.elbow, p.limb.wrist})
+                    CHECK(distance(quat(was.rotations[joint]).normalized(), quat(now.rotations[joint]).normalized()) <=
+                          2e-4);
             }
         }
         for (const auto& [out, in] : kIncoming) {  // and the same comes out
@@ -253,7 +319,7 @@ TEST_CASE("skeletons by joints: an incoming pose is read as it was written")
 TEST_CASE("skeletons by joints: effectors and aims are the wrist joint's own")
 {
     constexpr std::uint32_t count = 20;
-    for (const Between& shape : kShapes)
+    for (const Shape& shape : kShapes)
         for (const swivel_features features :
              {kWorldJointsHand | SWIVEL_WITH_EFFECTOR, kWorldJointsHand | SWIVEL_WITH_AIM,
               swivel_features{SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_AIM}}) {
@@ -268,22 +334,23 @@ TEST_CASE("skeletons by joints: effectors and aims are the wrist joint's own")
             p.crowd.residuals(0, residuals);
             for (std::uint32_t n = 0; n < count; ++n) {
                 INFO("features " << features << ", between " << shape.upper << " and " << shape.fore << ", limb " << n);
-                const Locals locals = posed(p.skeleton, p.crowd, n);
-                const JointPlace wrist = p.place(locals, n, p.skeleton.wrist);
+                const Body body = posed(p.skeleton, p.crowd, n);
+                const JointAt wrist = p.at(body, n)[p.limb.wrist];
                 const double scale = p.roots[n].scale,
                              length = scale * p.limbs[n].lengths[0] + scale * p.limbs[n].lengths[1];
                 const Vector3d target = vec(p.limbs[n].target), line = wrist.rotation * axis;
-                double off = (wrist.position + scale * (wrist.rotation * point) - target).norm();
+                double off = (wrist.place + scale * (wrist.rotation * point) - target).norm();
                 if (features & SWIVEL_WITH_AIM) {  // from the ray, which starts at the wrist
-                    const Vector3d ahead = target - wrist.position;
+                    const Vector3d ahead = target - wrist.place;
                     off = ahead.dot(line) > 0 ? ahead.cross(line).norm() : ahead.norm();
                 }
                 if (flags[n] & SWIVEL_REACHED) CHECK(off <= 3e-6 * length);
                 if (flags[n] & SWIVEL_REACHED)
-                    CHECK((features & SWIVEL_WITH_EFFECTOR || (target - wrist.position).dot(line) > 0));
+                    CHECK((features & SWIVEL_WITH_EFFECTOR || (target - wrist.place).dot(line) > 0));
                 CHECK(residuals[n] == Approx(off / length).margin(3e-6));
                 if (features == (kWorldJointsHand | SWIVEL_WITH_AIM))
-                    CHECK(distance(locals[p.skeleton.wrist], quat(p.limbs[n].hand).normalized()) <= 2e-6);
+                    CHECK(distance(quat(body.rotations[p.limb.wrist]).normalized(),
+                                   quat(p.limbs[n].hand).normalized()) <= 2e-6);
             }
         }
 }

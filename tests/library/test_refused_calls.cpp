@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-#include "tests/linked_bodies.h"
+#include "tests/posed_bodies.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_whole_limb.h"

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "swivel/lecture.h"
-#include "tests/rest_skeleton.h"
+#include "tests/body_crowd.h"
 #include "tests/test_crowd.h"
 #include "tests/test_scopes.h"
 #include "tools/corpus/corpus.h"
@@ -206,13 +206,13 @@ TEST_CASE("the other calls take at most 32 KiB of stack")
 {
     Most most;
     Random random{7};
-    const RestSkeleton rest = random_skeleton(random, {300, 3, 3}, 7);
+    const BodySkeleton rest = random_body_skeleton(random, {300, 1, 3, true, 7});
     double axis[3], closing;
     float value[12];
     swivel_binding binding = swivel_default_binding();
     most.take("bind joints", [&] {
         const swivel_skeleton skeleton = rest.view();
-        const swivel_limb_joints joints = rest.joints();
+        const swivel_limb_joints joints = rest.joints(0);
         swivel_bind_joints(&skeleton, &joints, &binding);
     });
     const float up[4] = {0, 0, 0, 1};

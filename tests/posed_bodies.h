@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd of random bodies whose limbs hold each other's hands, or a prop. And where hands and props belong, by Eigen
-// in double.
+// A crowd of bodies with any groups and inputs, solved, and where joints, hands and props are then, by Eigen in double.
+// Limbs may hold each other's hands, or a prop.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ inline Float7 floats(const Held& of)
 }
 
 // An input of all bodies.
-struct LinkedInput {
+struct BodyInput {
     std::uint32_t group;
     swivel_field field;
     std::size_t size;  // numbers of a body
@@ -55,18 +55,19 @@ inline constexpr std::uint32_t kNoLimbHere = ~0u;
 inline constexpr Float3 kNoPlace = {kNan, kNan, kNan};
 inline constexpr Float4 kNoTurn = {kNan, kNan, kNan, kNan};
 
-struct LinkedBodies {
+struct PosedBodies {
     BodySkeleton skeleton;
     std::vector<swivel_limb_joints> joints;  // of each limb
     std::vector<swivel_group_def> groups;
     std::vector<std::uint32_t> limb_of;  // of each group
     std::vector<Body> bodies;
-    std::vector<LinkedInput> inputs;
+    std::vector<BodyInput> inputs;
     PoseLayout layout;
-    float time = 0.02f;  // of groups that are FIT
+    bool is_in_body = false;  // poses are in the body's space
+    float time = 0.02f;
 
-    LinkedBodies(Random& random, const SkeletonWish& wish, std::size_t body_count, const PoseLayout& of,
-                 double most_bend = 3.1)
+    PosedBodies(Random& random, const SkeletonWish& wish, std::size_t body_count, const PoseLayout& of,
+                double most_bend = 3.1)
         : layout(of)
     {
         skeleton = random_body_skeleton(random, wish);
@@ -74,12 +75,23 @@ struct LinkedBodies {
         for (std::size_t n = 0; n < body_count; ++n)
             bodies.push_back(random_body(random, skeleton, {of.translates, of.scales, of.roots, most_bend}));
     }
+    PosedBodies(BodySkeleton of, std::vector<Body> all, const PoseLayout& with)
+        : skeleton(std::move(of)), bodies(std::move(all)), layout(with)
+    {
+        for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
+    }
+    void put_in_body_space() { layout.translates = layout.scales = is_in_body = true; }
     std::uint32_t add_limb(std::uint32_t limb, swivel_features features, std::uint32_t link = 0)
     {
         groups.push_back(body_group(joints[limb], features));
         groups.back().link = link;
         limb_of.push_back(limb);
         return static_cast<std::uint32_t>(groups.size() - 1);
+    }
+    // All limbs, each in a group of its own.
+    void add_limbs(swivel_features features)
+    {
+        for (std::uint32_t limb = 0; limb < skeleton.limbs.size(); ++limb) add_limb(limb, features);
     }
     std::uint32_t add(const swivel_group_def& no_limb)
     {
@@ -94,37 +106,68 @@ struct LinkedBodies {
     void give(std::uint32_t group, swivel_field field, const Make& make)
     {
         using Value = decltype(make(std::size_t{}));
-        LinkedInput& input = inputs.emplace_back(LinkedInput{group, field, sizeof(Value) / sizeof(float), {}});
+        BodyInput& input = inputs.emplace_back(BodyInput{group, field, sizeof(Value) / sizeof(float), {}});
         input.numbers.resize(input.size * bodies.size());
         for (std::size_t n = 0; n < bodies.size(); ++n) {
             const Value value = make(n);
             std::memcpy(input.at(n), &value, sizeof value);
         }
     }
-    const LinkedInput* find(std::uint32_t group, swivel_field field) const
+    // The same of a goal, as far as the group has inputs for it.
+    template <class GoalOf>
+    void give_goals(std::uint32_t group, const GoalOf& goal_of)
     {
-        for (const LinkedInput& input : inputs)
+        std::vector<BodyGoal> goals;
+        for (std::size_t n = 0; n < bodies.size(); ++n) goals.push_back(goal_of(n));
+        give(group, SWIVEL_TARGET, [&](std::size_t n) { return goals[n].target; });
+        if (!has(group, SWIVEL_POLE_INCOMING)) give(group, SWIVEL_POLE, [&](std::size_t n) { return goals[n].pole; });
+        if (has(group, SWIVEL_WITH_HAND)) give(group, SWIVEL_HAND, [&](std::size_t n) { return goals[n].hand; });
+    }
+    // A goal in reach.
+    BodyGoal goal(Random& random, std::uint32_t group, std::size_t n) const
+    {
+        return random_goal(random, skeleton, bodies[n], limb_of[group]);
+    }
+    void give_random_goals(Random& random)
+    {
+        for (std::uint32_t g = 0; g < groups.size(); ++g)
+            if (limb_of[g] != kNoLimbHere) give_goals(g, [&](std::size_t n) { return goal(random, g, n); });
+    }
+    const BodyInput* find(std::uint32_t group, swivel_field field) const
+    {
+        for (const BodyInput& input : inputs)
             if (input.group == group && input.field == field) return &input;
         return nullptr;
     }
-    LinkedInput* find(std::uint32_t group, swivel_field field)
+    BodyInput* find(std::uint32_t group, swivel_field field)
     {
-        return const_cast<LinkedInput*>(static_cast<const LinkedBodies*>(this)->find(group, field));
+        return const_cast<BodyInput*>(static_cast<const PosedBodies*>(this)->find(group, field));
     }
     template <class Value>
     Value value(std::uint32_t group, swivel_field field, std::size_t body, const Value& otherwise) const
     {
-        const LinkedInput* const input = find(group, field);
+        const BodyInput* const input = find(group, field);
         return input ? input->of<Value>(body) : otherwise;
     }
     std::uint32_t body_count() const { return static_cast<std::uint32_t>(bodies.size()); }
     Crowd crowd() const
     {
         Crowd made(skeleton.view(), body_count(), groups);
-        for (const LinkedInput& input : inputs)
-            check(swivel_write(made.get(), input.field, input.group, 0, body_count(),
-                               {input.numbers.data(), input.size * sizeof(float)}));
+        write(made);
         return made;
+    }
+    void write(Crowd& to) const
+    {
+        for (const BodyInput& input : inputs)
+            check(swivel_write(to.get(), input.field, input.group, 0, body_count(),
+                               {input.numbers.data(), input.size * sizeof(float)}));
+    }
+    // The poses as they come.
+    PoseBuffer incoming() const
+    {
+        PoseLayout of = layout;
+        of.in_body = is_in_body ? &skeleton : nullptr;
+        return PoseBuffer(of, bodies);
     }
     swivel_pose view(PoseBuffer& poses) const
     {
@@ -134,20 +177,30 @@ struct LinkedBodies {
     }
 };
 
-struct SolvedLinks {
-    const LinkedBodies& of;
+struct SolvedBodies {
+    const PosedBodies& of;
+    std::vector<std::uint32_t> groups;  // that the job names; none: all
     Crowd crowd;
     PoseBuffer poses;
     std::vector<Float4> joint_rotations;  // body after body
     std::vector<Float3> joint_places;
 
-    // groups: of the solve; none: all.
-    explicit SolvedLinks(const LinkedBodies& bodies, const std::vector<std::uint32_t>& groups = {})
+    explicit SolvedBodies(const PosedBodies& bodies, std::vector<std::uint32_t> some = {})
+        : SolvedBodies(bodies, bodies.incoming(), std::move(some))
+    {
+    }
+    SolvedBodies(const PosedBodies& bodies, PoseBuffer come, std::vector<std::uint32_t> some = {})
         : of(bodies),
+          groups(std::move(some)),
           crowd(bodies.crowd()),
-          poses(bodies.layout, bodies.bodies),
+          poses(std::move(come)),
           joint_rotations(bodies.bodies.size() * bodies.skeleton.size()),
           joint_places(joint_rotations.size())
+    {
+        solve();
+    }
+    // The poses that are there, in another frame those that come.
+    void solve()
     {
         swivel_pose pose = of.view(poses);
         const std::size_t count = of.skeleton.size();
@@ -157,6 +210,7 @@ struct SolvedLinks {
         if (!groups.empty()) job.groups = groups;
         crowd.solve(job);
     }
+    void solve_next() { poses = of.incoming(), solve(); }
     template <class Value>
     Value result(swivel_field field, std::uint32_t group, std::size_t body) const
     {
@@ -178,14 +232,14 @@ struct SolvedLinks {
 };
 
 // One body: where its joints are, by forward kinematics of Eigen's.
-struct LinkedBody {
-    const LinkedBodies& of;
+struct SolvedBody {
+    const PosedBodies& of;
     std::size_t n;
     Body was_body;
     std::vector<JointAt> was, is;
     std::vector<double> stretch;  // of each group
 
-    LinkedBody(const SolvedLinks& solved, std::size_t body)
+    SolvedBody(const SolvedBodies& solved, std::size_t body)
         : of(solved.of),
           n(body),
           was_body(of.bodies[n]),
@@ -196,6 +250,12 @@ struct LinkedBody {
             stretch.push_back(of.has(g, SWIVEL_WITH_REACH) ? double{solved.result<float>(SWIVEL_STRETCH, g, body)} : 1);
     }
     const BodyLimbJoints& joints(std::uint32_t group) const { return of.skeleton.limbs[of.limb_of[group]]; }
+    Vector3d root() const { return vec(was_body.root_position); }
+    // The limb as it came, and how far an untouched goal has left it from there, as a share of what is allowed.
+    LimbAt limb(std::uint32_t group) const { return LimbAt(of.skeleton, was_body, was, joints(group)); }
+    double strayed(std::uint32_t group) const { return test::strayed(limb(group), joints(group), was, is); }
+    // By which a joint has turned, in the world.
+    Quaterniond turn(std::uint32_t joint) const { return is[joint].rotation * was[joint].rotation.conjugate(); }
     // The scale of the bones' unit.
     double scale(std::uint32_t group) const
     {
@@ -223,18 +283,13 @@ struct LinkedBody {
         if (!of.has(link, SWIVEL_PROP)) in.place *= scale(link);
         return on * in;
     }
-    double length(std::uint32_t group) const
-    {
-        const BodyLimbJoints& limb = joints(group);
-        return (was[limb.elbow].place - was[limb.shoulder].place).norm() +
-               (was[limb.wrist].place - was[limb.elbow].place).norm();
-    }
+    double length(std::uint32_t group) const { return limb(group).length(); }
     // How far floats may be off, as they know where the hand is from the root.
     double rounding(std::uint32_t group) const
     {
         const std::uint32_t link = of.groups[group].link;
         const double grip_scale = !of.has(group, SWIVEL_WITH_LINK) || of.has(link, SWIVEL_PROP) ? 1 : scale(link);
-        return (of.layout.in_body ? 8e-7 : 3e-7) *
+        return (of.is_in_body ? 8e-7 : 3e-7) *
                (way_to(of.skeleton, was, joints(group).wrist) + grip_scale * grip(group).place.norm());
     }
     double bound(std::uint32_t group) const { return 2e-6 * length(group) + rounding(group); }
@@ -247,12 +302,12 @@ struct LinkedBody {
 
 // Bodies in which all that holds comes together: two hands on a prop, a hand on one of these, a hand on a free limb's,
 // a hand on a prop of a joint, and a leg that shifts the body.
-struct HoldingBodies : LinkedBodies {
+struct HoldingBodies : PosedBodies {
     enum Group : std::uint32_t { prop, left, right, third, free, follower, leg, fit, handle, on_handle };
 
     HoldingBodies(Random& random, std::size_t body_count, const PoseLayout& of,
                   swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE)
-        : LinkedBodies(random, {3, 7, 1, false}, body_count, of)
+        : PosedBodies(random, {3, 7, 1, false}, body_count, of)
     {
         constexpr swivel_features kHand = SWIVEL_WITH_HAND | SWIVEL_WITH_RECORD, kLinked = kHand | SWIVEL_WITH_LINK;
         add(swivel_default_prop_group_def());
@@ -283,28 +338,30 @@ struct HoldingBodies : LinkedBodies {
         give(prop, SWIVEL_PROP_PLACE, [&](std::size_t n) { return n % 5 ? kNoPlace : goal(random, right, n).target; });
         give(prop, SWIVEL_PROP_TURN, [&](std::size_t n) { return n % 7 ? kNoTurn : goal(random, right, n).hand; });
     }
-
-private:
-    BodyGoal goal(Random& random, std::uint32_t g, std::size_t n) const
-    {
-        return random_goal(random, skeleton, bodies[n], limb_of[g]);
-    }
 };
 
-// Every bit that a solve left of a body: its results, and its pose.
-inline std::vector<std::uint32_t> bits_of_body(const LinkedBodies& of, const Crowd& crowd, const PoseBuffer& poses,
-                                               std::size_t n)
+// Every bit that a solve left of a body: the results of a group, or those of a kind, and of all groups with the pose.
+inline std::vector<std::uint32_t> bits_of_group(const Crowd& crowd, std::uint32_t group, std::size_t n,
+                                                std::optional<swivel_field_kind> kind = {})
 {
     std::vector<std::uint32_t> bits;
     swivel_field_info info;
-    for (std::uint32_t g = 0; g < of.groups.size(); ++g)
-        for (std::uint32_t i = 0; swivel_describe_field(i, &info); ++i) {
-            const std::uint32_t count = swivel_field_row_count(crowd.get(), g, info.field);
-            if (info.kind == SWIVEL_FIELD_INPUT || count == 0) continue;
-            bits.resize(bits.size() + count);
-            check(swivel_read(crowd.get(), info.field, g, static_cast<std::uint32_t>(n), 1,
-                              {&bits[bits.size() - count], count * sizeof bits[0]}));
-        }
+    for (std::uint32_t i = 0; swivel_describe_field(i, &info); ++i) {
+        const std::uint32_t count = swivel_field_row_count(crowd.get(), group, info.field);
+        if (info.kind == SWIVEL_FIELD_INPUT || (kind && info.kind != *kind) || count == 0) continue;
+        bits.resize(bits.size() + count);
+        check(swivel_read(crowd.get(), info.field, group, static_cast<std::uint32_t>(n), 1,
+                          {&bits[bits.size() - count], count * sizeof bits[0]}));
+    }
+    return bits;
+}
+inline std::vector<std::uint32_t> bits_of_body(const Crowd& crowd, const PoseBuffer& poses, std::size_t n)
+{
+    std::vector<std::uint32_t> bits;
+    for (std::uint32_t g = 0; g < swivel_group_count(crowd.get()); ++g) {
+        const std::vector<std::uint32_t> more = bits_of_group(crowd, g, n);
+        bits.insert(bits.end(), more.begin(), more.end());
+    }
     const unsigned char* const first = &poses.bytes[n * poses.body_stride];
     bits.insert(bits.end(), first, first + poses.body_stride);
     return bits;
