@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/fuzz/require.h"
-
 namespace swivel::fuzz {
 namespace {
 
