@@ -2,7 +2,7 @@
 //
 // BVH files: the clip that they give, and new rotations, positions and frames written into them. Hand-made files have
 // known answers, and rotation matrices from the bare text judge all others. That all other text of real files stays is
-// for tests/command/test_clip_back.cpp, and whole motions are for tests/command/test_retarget.cpp.
+// for tests/command/test_rigs.cpp, and whole motions are for tests/command/test_retarget.cpp.
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
 
