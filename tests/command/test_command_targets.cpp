@@ -264,13 +264,7 @@ constexpr std::size_t kFrames = 12;
 struct BetweenStage {
     TempFolder folder;
 
-    BetweenStage()
-    {
-        const std::size_t at = kTwoArms.find("Frames: 2"), frames = kTwoArms.find("\n1 2 3 0") + 1;
-        std::string clip = kTwoArms.substr(0, at) + fmt::format("Frames: {}\nFrame Time: .01\n", kFrames);
-        for (std::size_t n = 0; n < kFrames / 2; ++n) clip += kTwoArms.substr(frames);
-        spill(folder / "clip.bvh", clip);
-    }
+    BetweenStage() { spill(folder / "clip.bvh", cut(plain_motion(kTwoArms), 0, 1, kFrames / 2)); }
     std::string solve(Words more) const
     {
         more.insert(more.begin(), {"solve", "clip.bvh"});
