@@ -221,13 +221,11 @@ nlohmann::json report_of(const fs::path& folder, Words words, int exit_code)
     return nlohmann::json::parse(outcome.out);
 }
 
-nlohmann::json rig_report(const GltfRig& rig, const Words& options)
+nlohmann::json rig_report(const GltfRig& rig)
 {
     const TempFolder folder;
     rig.write(folder / "rig.glb");
-    Words words = {"rig", "rig.glb", "--json"};
-    words.insert(words.end(), options.begin(), options.end());
-    const Outcome outcome = run_command(folder.path, words);
+    const Outcome outcome = run_command(folder.path, {"rig", "rig.glb", "--json"});
     INFO(outcome.err);
     REQUIRE(!outcome.out.empty());
     return nlohmann::json::parse(outcome.out);

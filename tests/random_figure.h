@@ -80,7 +80,7 @@ std::vector<float> turns(const Eigen::Vector3d& axis, const std::vector<double>&
 // What the command says in a folder with --json. It must end with this code.
 nlohmann::json report_of(const fs::path& folder, Words words, int exit_code = 0);
 
-nlohmann::json rig_report(const GltfRig& rig, const Words& options = {});
+nlohmann::json rig_report(const GltfRig& rig);
 
 nlohmann::json limb_of(const nlohmann::json& report, const std::string& name);
 

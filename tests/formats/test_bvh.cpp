@@ -314,57 +314,37 @@ TEST_CASE("bvh: any rotation in any order comes back to 1e-9 rad")
     }
 }
 
-TEST_CASE("bvh: keys follow a smooth motion over full turns, through the lock, from the file's first values")
+TEST_CASE("bvh: keys follow a motion over full turns, through the lock and at it, from the file's first values")
 {
+    struct Course {
+        const char* start;  // the file's
+        int frame_count;
+        Vector3d (*angles_deg)(double frame);
+        double most;
+    };
+    const Course courses[] = {
+        // The middle angle crosses 90 between two frames, then once hits it exactly.
+        {"702 -199 1", 300,
+         [](double f) { return Vector3d(700 + 3.1 * f, -200 + (f < 150 ? 1.3 * f : 195 + 0.5 * (f - 150)), -4.7 * f); },
+         1e-6},
+        // At gimbal lock the first angle rests and the last takes the motion.
+        {"30 80 10", 100, [](double f) { return Vector3d(30, 90, 10 + 5 * f); }, 1e-6},
+        {"30 80 10", 100, [](double f) { return Vector3d(30, -90, 10 + 5 * f); }, 1e-6},
+        {"1e9 -9e8 3e6", 1, [](double) { return Vector3d(10, 20, 30); }, 1e-8},  // enormous ones spoil nothing
+    };
     const TempFolder folder;
-    for (const std::string order : kOrders) {
-        CAPTURE(order);
-        std::vector<Quaterniond> rotations;
-        std::vector<Vector3d> wanted;
-        for (int frame = 0; frame < 300; ++frame) {
-            const double f = frame;
-            // The middle angle crosses 90 between two frames, then once hits it exactly.
-            const Vector3d angles_deg(700 + 3.1 * f, -200 + (f < 150 ? 1.3 * f : 195 + 0.5 * (f - 150)), -4.7 * f);
-            wanted.push_back(angles_deg);
-            rotations.emplace_back(matrix_of(order, angles_deg));
-            if (frame % 2) rotations.back().coeffs() *= -1;
-        }
-        const std::vector<Vector3d> angles = written_angles(folder, order, rotations, "702 -199 1");
-        double worst = 0;
-        for (std::size_t i = 0; i < rotations.size(); ++i) {
-            worst = std::max(worst, (angles[i] - wanted[i]).norm());
-        }
-        CHECK(worst < 1e-6);
-    }
-}
-
-TEST_CASE("bvh: at gimbal lock the first angle rests and the last takes the motion")
-{
-    const TempFolder folder;
-    for (const std::string order : kOrders) {
-        for (const double side : {90.0, -90.0}) {
-            CAPTURE(order, side);
+    for (const std::string order : kOrders)
+        for (const Course& course : courses) {
+            CAPTURE(order, course.start);
             std::vector<Quaterniond> rotations;
-            for (int frame = 0; frame < 100; ++frame) {
-                const Vector3d angles(30, side, 10 + 5.0 * frame);
-                rotations.emplace_back(matrix_of(order, angles));
+            for (int frame = 0; frame < course.frame_count; ++frame) {
+                rotations.emplace_back(matrix_of(order, course.angles_deg(frame)));
+                if (frame % 2) rotations.back().coeffs() *= -1;
             }
-            const std::vector<Vector3d> angles = written_angles(folder, order, rotations, "30 80 10");
-            for (std::size_t i = 0; i < rotations.size(); ++i) {
-                REQUIRE(std::abs(angles[i][0] - 30) < 1e-6);
-                REQUIRE(std::abs(angles[i][1] - side) < 1e-6);
-                REQUIRE(std::abs(angles[i][2] - (10 + 5.0 * static_cast<double>(i))) < 1e-6);
-            }
+            const std::vector<Vector3d> angles = written_angles(folder, order, rotations, course.start);
+            for (std::size_t n = 0; n < angles.size(); ++n)
+                REQUIRE((angles[n] - course.angles_deg(static_cast<double>(n))).norm() < course.most);
         }
-    }
-}
-
-TEST_CASE("bvh: enormous original angles do not spoil the new ones")
-{
-    const TempFolder folder;
-    const std::vector<Quaterniond> rotations = {Quaterniond(matrix_of("ZYX", {10, 20, 30}))};
-    const std::vector<Vector3d> angles = written_angles(folder, "ZYX", rotations, "1e9 -9e8 3e6");
-    CHECK((angles[0] - Vector3d(10, 20, 30)).norm() < 1e-8);
 }
 
 TEST_CASE("bvh: overrides that fit no file are the caller's mistake")

@@ -197,6 +197,9 @@ void call_isa(Bytes& bytes)
     }
 }
 
+// What a call may take or give: null stands for nothing.
+bool is_sound(const Strided& values) { return values.is_null() || values.is_valid(); }
+
 bool are_solved(const Session& session, const Limbs& limbs)
 {
     for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count; ++n)
@@ -288,7 +291,6 @@ void call_change_support(Session& session)
     const swivel_status status =
         swivel_change_support(session.crowd, limbs.group, limbs.first, limbs.count, {values[0].in(), values[1].in()},
                               {values[2].in(), values[3].in()});
-    const auto is_sound = [](const Strided& in) { return in.is_null() || in.is_valid(); };
     const bool may_be = limbs.is_valid && has_features(session, limbs.group, SWIVEL_WITH_PLANT) &&
                         std::ranges::all_of(values, is_sound);
     // Whether numbers of any bits are supports is the library's to say.
@@ -346,7 +348,6 @@ void call_forward(Session& session)
         hand(session.bytes, count, 32, false);
     const swivel_status status =
         swivel_forward(session.crowd, limbs.group, limbs.first, limbs.count, elbow.out(), wrist.out(), hand.out());
-    const auto is_sound = [](const Strided& out) { return out.is_null() || out.is_valid(); };
     check_status(session, status,
                  limbs.is_valid && is_known(session, limbs.group) && is_sound(elbow) && is_sound(wrist) &&
                      is_sound(hand) && (hand.is_null() || has_features(session, limbs.group, SWIVEL_WITH_HAND)));
