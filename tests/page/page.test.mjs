@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { copyFileSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertEqualBits, choose, clip, demo, difference, file, range, refusal, run, signed, tiny, visit, write } from './harness.mjs';
+import { assertEqualBits, choose, clip, demo, difference, file, onPage, range, refusal, run, signed, tiny, visit, write } from './harness.mjs';
 
 test('one classic inline script, no network, the command\'s digests, a picture that moves', async () => {
   const text = readFileSync(demo, 'utf8');
@@ -135,18 +135,16 @@ for (const [name, [toml, ...options]] of Object.entries(caches))
     await visit(write('cache.html', 'view', 'crowd.zarr'), (page) => assertEqualBits(page, [...range(9), 3]));
   });
 
-test('a long clip opens', async () => {
-  await visit(write('long.html', 'demo', '--characters', '2'), async (page) => {
-    const frames = await page.evaluate(async () => {  // the clip 450 times: more than the module's memory was without it
-      const { data } = swivelPage.stage, long = (text) => text.repeat(450), canvas = document.createElement('canvas');
-      document.body.replaceChildren(canvas);
-      const page = await swivelView.start({ ...data, frame_count: 450 * data.frame_count, positions: long(data.positions),
-        limbs: data.limbs.map((limb) => ({ ...limb, sources: long(limb.sources) })) });
-      page.setFrame(100);
-      return [page.stage.frameCount, page.stage.digestState()];
-    });
-    assert.deepEqual(frames, [108000, 'equal']);
+onPage('a long clip opens', () => write('long.html', 'demo', '--characters', '2'), async (page) => {
+  const frames = await page.evaluate(async () => {  // the clip 450 times: more than the module's memory was without it
+    const { data } = swivelPage.stage, long = (text) => text.repeat(450), canvas = document.createElement('canvas');
+    document.body.replaceChildren(canvas);
+    const page = await swivelView.start({ ...data, frame_count: 450 * data.frame_count, positions: long(data.positions),
+      limbs: data.limbs.map((limb) => ({ ...limb, sources: long(limb.sources) })) });
+    page.setFrame(100);
+    return [page.stage.frameCount, page.stage.digestState()];
   });
+  assert.deepEqual(frames, [108000, 'equal']);
 });
 
 test('names from files are text', async () => {
