@@ -35,8 +35,11 @@ struct Session {
     // The lanes that jobs choose; those of bodies are bodies.
     std::uint32_t lane_count() const { return swivel_block_count(crowd) * SWIVEL_LANES; }
     SomeLimbs limbs_that(bool are) const;  // all limbs or none
-    // The byte that was there before the call at hand.
-    const char* before(const char* now) const { return arena_before.data() + (now - arena.data()); }
+    // The bytes that were there before the call at hand.
+    const char* before(const float* now) const
+    {
+        return arena_before.data() + (reinterpret_cast<const char*>(now) - arena.data());
+    }
 };
 
 // Some limbs of one group, there or not.
