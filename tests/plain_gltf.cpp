@@ -153,42 +153,45 @@ Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, doub
     return world;
 }
 
+void Closure::keep(const LimbPose& before, const LimbPose& after)
+{
+    const auto most = [](double& worst, double error) { worst = error <= worst ? worst : error; };  // NaN stays
+    const Eigen::Vector3d upper = before.place[1] - before.place[0], lower = before.place[2] - before.place[1];
+    const double length = upper.norm() + lower.norm(), sine = upper.normalized().cross(lower.normalized()).norm(),
+                 allowed = 2e-6 + 4e-7 * length * length / (upper.norm() * lower.norm() * sine);
+    const auto off = [&](std::size_t joint) { return (after.place[joint] - before.place[joint]).norm() / length; };
+    if (sine > 0.02)
+        most(lower_bent, off(1) / allowed);
+    else if (upper.dot(lower) < 0)  // folded
+        most(lower_bent, off(1) / (1e-5 + 4e-7 / sine));
+    else
+        most(lower_straight, off(1));
+    most(end, off(2));
+    most(orientation, (after.end_axes - before.end_axes).norm());
+    most(others, off(0));
+    for (std::size_t n = 0; n < 3; ++n) most(turn, turn_between(before.turn[n], after.turn[n]) / allowed);
+}
+
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs)
 {
     const int written = std::max(animation, 0);
+    const auto limb_pose = [](const PlainGltf& gltf, int of, const LimbNodes& limb, double time) {
+        LimbPose pose;
+        for (std::size_t n = 0; n < 3; ++n) {
+            pose.place[n] = plain_world(gltf, of, limb[n], time).translation();
+            pose.turn[n] = plain_axes(plain_local(gltf, of, limb[n], time));
+        }
+        pose.end_axes = plain_axes(plain_world(gltf, of, limb[2], time));
+        return pose;
+    };
     std::vector<bool> solved(to.nodes().size());
     for (const LimbNodes& limb : limbs)
         for (const int node : limb) solved.at(static_cast<std::size_t>(node)) = true;
     Closure worst;
     for (const double time : key_times(to, limbs.at(0)[0], "rotation", written)) {
         ++worst.frames;
-        for (const LimbNodes& limb : limbs) {
-            std::array<Eigen::Affine3d, 3> before, after;
-            for (std::size_t n = 0; n < 3; ++n) {
-                before[n] = plain_world(from, animation, limb[n], time);
-                after[n] = plain_world(to, written, limb[n], time);
-            }
-            const auto place = [](const Eigen::Affine3d& pose) { return Eigen::Vector3d(pose.translation()); };
-            const Eigen::Vector3d upper = place(before[1]) - place(before[0]),
-                                  lower = place(before[2]) - place(before[1]);
-            const double length = upper.norm() + lower.norm();
-            const bool is_bent = upper.normalized().cross(lower.normalized()).norm() > 0.02 || upper.dot(lower) < 0;
-            const auto keep = [](double& most, double error) { most = error <= most ? most : error; };  // NaN stays
-            keep(worst.end, (place(after[2]) - place(before[2])).norm() / length);
-            const double sine = upper.normalized().cross(lower.normalized()).norm(),
-                         most = 2e-6 + 4e-7 * length * length / (upper.norm() * lower.norm() * sine),
-                         off = (place(after[1]) - place(before[1])).norm() / length;
-            const bool is_folded = is_bent && sine <= 0.02;
-            keep(is_bent ? worst.lower_bent : worst.lower_straight, is_folded ? off / (1e-5 + 4e-7 / sine)
-                                                                    : is_bent ? off / most
-                                                                              : off);
-            keep(worst.orientation, (plain_axes(after[2]) - plain_axes(before[2])).norm());
-            keep(worst.others, (place(after[0]) - place(before[0])).norm() / length);
-            for (const int node : limb)
-                keep(worst.turn, turn_between(plain_axes(plain_local(from, animation, node, time)),
-                                              plain_axes(plain_local(to, written, node, time))) /
-                                     most);
-        }
+        for (const LimbNodes& limb : limbs)
+            worst.keep(limb_pose(from, animation, limb, time), limb_pose(to, written, limb, time));
         for (int node = 0; node < static_cast<int>(solved.size()); ++node)
             if (!solved[static_cast<std::size_t>(node)])
                 worst.others = std::max(worst.others, (plain_local(to, written, node, time).matrix() -

@@ -57,31 +57,46 @@ Eigen::Affine3d plain_local(const PlainGltf& gltf, int animation, int node, doub
 // A node's transform in the world; animation -1: at rest.
 Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, double time);
 
-// ---- A written file beside the one that it was solved from. The plain reading of both gives the places of wrists and
+// ---- A written file beside the one that it was solved from. A plain reading of both gives the places of wrists and
 // elbows, and tells whether anything else moved.
 
 // Upper, lower and end joint, as nodes.
 using LimbNodes = std::array<int, 3>;
 
+inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.linear().colwise().normalized(); }
+
+// A limb in one frame: where its three joints are, how they are turned against their parents, and its end's axes.
+struct LimbPose {
+    std::array<Eigen::Vector3d, 3> place;
+    std::array<Eigen::Matrix3d, 3> turn;
+    Eigen::Matrix3d end_axes;
+};
+
 // Worst of all frames and limbs: places in the limb's length, the end joint's orientation as its axes' distance.
 struct Closure {
     double end = 0, lower_straight = 0, orientation = 0, others = 0;
-    double turn = 0, lower_bent = 0;  // as shares of what is allowed; turns are the joints' against their parents
+    double turn = 0, lower_bent = 0;  // as shares of what is allowed
     std::size_t frames = 0;
+
+    void keep(const LimbPose& before, const LimbPose& after);
 };
 
-inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.linear().colwise().normalized(); }
-
-// animation: index in `from`, or -1 (rest) for a file that had none: `to` has one then. Nodes that are no limb's joint
-// must have the local transforms they had.
+// Of glTF files. animation: index in `from`, or -1 (rest) for a file that had none: `to` has one then. Nodes that are
+// no limb's joint must have the local transforms they had.
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs);
 
 // Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad. An elbow misses its
-// place by at most this number times the limb's length, all else by 1e-5 of that length. For an elbow bent by less than
-// 0.02 rad it is 2e-3. The elbow's height over the line from shoulder to wrist is then the root of a float's error in
-// the reach; see tests/command/test_clip_back.cpp. A folded elbow, within 0.02 rad of 180 degrees, may miss by 1e-5 +
-// 4e-7 / sin b: with d the reach and c the angle at the wrist, the law of cosines turns an error e of d, at most 4e-7
-// of L, into e cos c / sin b of the elbow's place.
+// place by at most this number times the limb's length, all else by 1e-5 of that length.
+//
+// An elbow bent by less than 0.02 rad may miss by 2e-3. It lies at height h over the line from shoulder to wrist, its
+// foot at a from the shoulder and b from the wrist, d = a + b. From h^2 = L1^2 - a^2 and a = (d^2 + L1^2 - L2^2) / 2d
+// follows da/dd = b/d, so |dh^2/dd| = 2ab/d <= 2 L1 L2 / d. The solver knows d to e, so it knows h to the root of
+// 2 L1 L2 e / d. Wrist and shoulder are floats relative to the root, each off by 2^-24 of its distance from it
+// (together up to 3.5 limb lengths), bone lengths by 6e-8, d by two roundings: e is 4e-7 of L. That is 5e-4 of L for
+// the height alone, and 2e-3 with the direction in which it points.
+//
+// A folded elbow, within 0.02 rad of 180 degrees, may miss by 1e-5 + 4e-7 / sin b: with c the angle at the wrist, the
+// law of cosines turns the error e into e cos c / sin b of the elbow's place.
 void require_closed(const Closure& worst);
 
 // ---- Khronos' validator and three.js

@@ -113,26 +113,15 @@ std::vector<PlainPose> pose_of(const PlainMotion& motion, std::size_t frame)
     return pose;
 }
 
-std::vector<PlainArm> arms_of(const PlainMotion& motion)
+std::vector<PlainArm> limbs_of(const PlainMotion& motion, const std::array<std::string, 3>& parts)
 {
-    std::vector<PlainArm> arms;
+    std::vector<PlainArm> limbs;
     for (const std::string side : {"Left", "Right"}) {
-        const int elbow = joint_named(motion, side + "ForeArm"), wrist = joint_named(motion, side + "Hand");
-        arms.push_back({side == "Left" ? "left" : "right", joint_named(motion, side + "Arm"), elbow, wrist,
-                        motion.joint(elbow).offset.norm(), motion.joint(wrist).offset.norm()});
+        const int elbow = joint_named(motion, side + parts[1]), wrist = joint_named(motion, side + parts[2]);
+        limbs.push_back({side == "Left" ? "left" : "right", joint_named(motion, side + parts[0]), elbow, wrist,
+                         motion.joint(elbow).offset.norm(), motion.joint(wrist).offset.norm()});
     }
-    return arms;
-}
-
-std::vector<PlainArm> legs_of(const PlainMotion& motion)
-{
-    std::vector<PlainArm> legs;
-    for (const std::string side : {"Left", "Right"}) {
-        const int knee = joint_named(motion, side + "Leg"), ankle = joint_named(motion, side + "Foot");
-        legs.push_back({side == "Left" ? "left" : "right", joint_named(motion, side + "UpLeg"), knee, ankle,
-                        motion.joint(knee).offset.norm(), motion.joint(ankle).offset.norm()});
-    }
-    return legs;
+    return limbs;
 }
 
 PlainArmPose arm_pose(const PlainMotion& motion, const PlainArm& arm, std::size_t frame)

@@ -5,6 +5,7 @@
 // them, with names of one word and line ends of either kind. Anything else fails the test.
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -54,10 +55,11 @@ struct PlainArm {
     double length() const { return upper + fore; }
 };
 
-std::vector<PlainArm> arms_of(const PlainMotion& motion);
-
+// Of both sides. parts: what the joints are called after Left and Right.
+std::vector<PlainArm> limbs_of(const PlainMotion& motion, const std::array<std::string, 3>& parts);
+inline std::vector<PlainArm> arms_of(const PlainMotion& motion) { return limbs_of(motion, {"Arm", "ForeArm", "Hand"}); }
 // The legs, in the same words: hip, knee and ankle.
-std::vector<PlainArm> legs_of(const PlainMotion& motion);
+inline std::vector<PlainArm> legs_of(const PlainMotion& motion) { return limbs_of(motion, {"UpLeg", "Leg", "Foot"}); }
 
 // Where one arm is in one frame.
 struct PlainArmPose {

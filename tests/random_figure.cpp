@@ -13,9 +13,6 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr std::array<const char*, 7> kVrmNames = {"UpperArm", "LowerArm", "Hand", "UpperLeg",
-                                                  "LowerLeg", "Foot",     "Toes"};
-
 class FigureMaker {
 public:
     // draws: the bones' lengths and bends are random, too.
@@ -42,7 +39,6 @@ public:
         if (!body_.clip.empty() || body_.between) clip_ = figure_.rig.add_animation("clip");
         for (LimbNodes& limb : figure_.limbs) limb = {-1, -1, -1};
         for (const std::size_t limb : body_.limbs) add_limb(limb, limb < 2 ? chest : hips);
-        if (body_.vrm > 0) write_vrm();
         if (wish_.moves) move();
         return figure_;
     }
@@ -106,10 +102,9 @@ private:
     {
         const bool is_arm = limb < 2, is_left = limb % 2 == 0;
         const double x = is_left ? body_.left_at : -body_.left_at;
-        const auto name = [&](std::string text) {
-            return text.replace(text.find('*'), 1, is_left ? body_.left : body_.right);
-        };
-        const auto& names = is_arm ? body_.arm : body_.leg;
+        const std::array<const char*, 3> parts =
+            is_arm ? std::array{"Arm", "ForeArm", "Hand"} : std::array{"UpLeg", "Leg", "Foot"};
+        const auto name = [&](const std::string& part) { return (is_left ? "Left" : "Right") + part; };
         const Vector3d of_left = is_arm ? body_.arm_bone : body_.leg_bone,
                        top = is_arm ? Vector3d(0.2 * x, 1.5, 0) : Vector3d(0.1 * x, 1, 0);
         Vector3d bone(x * of_left.x(), of_left.y(), of_left.z());
@@ -125,17 +120,15 @@ private:
         const Quaterniond turn(AngleAxisd(bend, axis));
         const Vector3d elbow = top + bone, wrist = elbow + turn * (lower * bone.normalized());
         LimbNodes& nodes = figure_.limbs[limb];
-        nodes[0] = joint(name(names[0]), parent, top, Part::bone);
+        nodes[0] = joint(name(parts[0]), parent, top, Part::bone);
         const int above =
-            body_.between && limb == 0 ? between(nodes[0], top, elbow) : twists(name(names[0]), nodes[0], top, elbow);
-        nodes[1] = joint(name(names[1]), above, elbow, Part::bone, turn);
+            body_.between && limb == 0 ? between(nodes[0], top, elbow) : twists(name(parts[0]), nodes[0], top, elbow);
+        nodes[1] = joint(name(parts[1]), above, elbow, Part::bone, turn);
         nodes[2] =
-            joint(name(names[2]), twists(name(names[1]), nodes[1], elbow, wrist), wrist, Part::tip, turn.conjugate());
-        for (std::size_t part = 0; part < 3; ++part) say(part + (is_arm ? 0 : 3), is_left, nodes[part]);
+            joint(name(parts[2]), twists(name(parts[1]), nodes[1], elbow, wrist), wrist, Part::tip, turn.conjugate());
         if (!is_arm && body_.toe_step) {
             const Vector3d& step = *body_.toe_step;
-            say(6, is_left,
-                joint(name(body_.toe), nodes[2], wrist + Vector3d(x * step.x(), step.y(), step.z()), Part::tip));
+            joint(name(body_.toe), nodes[2], wrist + Vector3d(x * step.x(), step.y(), step.z()), Part::tip);
         }
         figure_.upper[limb] = (poses_[1].linear() * (elbow - top)).norm();
         figure_.lower[limb] = (poses_[1].linear() * (wrist - elbow)).norm();
@@ -150,26 +143,6 @@ private:
         std::vector<float> seconds;
         for (std::size_t n = 0; n < count; ++n) seconds.push_back(static_cast<float>(n) / 30);
         return seconds;
-    }
-
-    void say(std::size_t part, bool is_left, int node)
-    {
-        human_.emplace_back((is_left ? "left" : "right") + std::string(kVrmNames[part]), node);
-    }
-    void write_vrm()
-    {
-        const bool is_old = body_.vrm < 1;
-        nlohmann::json bones = is_old ? nlohmann::json::array() : nlohmann::json::object();
-        for (const auto& [bone, node] : human_)
-            if (is_old)
-                bones.push_back({{"bone", bone}, {"node", node}, {"useDefaultValues", true}});
-            else
-                bones[bone] = {{"node", node}};
-        nlohmann::json vrm = {{"humanoid", {{"humanBones", bones}}}};
-        vrm["specVersion"] = is_old ? "0.0" : "1.0";
-        const char* const key = is_old ? "VRM" : "VRMC_vrm";
-        figure_.rig.json["extensionsUsed"] = {key};
-        figure_.rig.json["extensions"][key] = vrm;
     }
 
     bool is_between(int node) const { return std::find(twists_.begin(), twists_.end(), node) != twists_.end(); }
@@ -209,9 +182,8 @@ private:
     bool draws_;
     Figure figure_;
     int clip_ = -1;
-    std::vector<Eigen::Affine3d> poses_;              // of each node, in the world; 1: the figure
-    std::vector<int> twists_;                         // nodes
-    std::vector<std::pair<std::string, int>> human_;  // VRM's name of a bone, and its node
+    std::vector<Eigen::Affine3d> poses_;  // of each node, in the world; 1: the figure
+    std::vector<int> twists_;             // nodes
 };
 
 }  // namespace
@@ -249,13 +221,11 @@ nlohmann::json report_of(const fs::path& folder, Words words, int exit_code)
     return nlohmann::json::parse(outcome.out);
 }
 
-nlohmann::json rig_report(const GltfRig& rig, const Words& options)
+nlohmann::json rig_report(const GltfRig& rig)
 {
     const TempFolder folder;
     rig.write(folder / "rig.glb");
-    Words words = {"rig", "rig.glb", "--json"};
-    words.insert(words.end(), options.begin(), options.end());
-    const Outcome outcome = run_command(folder.path, words);
+    const Outcome outcome = run_command(folder.path, {"rig", "rig.glb", "--json"});
     INFO(outcome.err);
     REQUIRE(!outcome.out.empty());
     return nlohmann::json::parse(outcome.out);

@@ -34,20 +34,18 @@ struct Between {
 };
 
 struct Body {
-    std::array<std::string, 3> arm = {"*Arm", "*ForeArm", "*Hand"}, leg = {"*UpLeg", "*Leg", "*Foot"};  // *: the side
-    std::string left = "Left", right = "Right", toe = "*Toe";
-    std::vector<std::size_t> limbs = {0, 1, 2, 3};                             // those that it has
-    double left_at = 1;                                                        // -1: what is called left is at -x
-    Eigen::Vector3d arm_bone = {0.3, 0, 0}, leg_bone = {0, -0.45, 0};          // on the left
-    Bends rest = {};                                                           // in the rest pose
-    std::vector<Bends> clip = {};                                              // in each frame; empty: no clip
-    Bends aside = {};                                                          // by which the clip's axes are turned
-                                                                               // about the upper bones from rest's
+    std::string toe = "Toe";                                           // after the side, which is called Left or Right
+    std::vector<std::size_t> limbs = {0, 1, 2, 3};                     // those that it has
+    double left_at = 1;                                                // -1: what is called left is at -x
+    Eigen::Vector3d arm_bone = {0.3, 0, 0}, leg_bone = {0, -0.45, 0};  // on the left
+    Bends rest = {};                                                   // in the rest pose
+    std::vector<Bends> clip = {};                                      // in each frame; empty: no clip
+    Bends aside = {};                                                  // by which the clip's axes are turned
+                                                                       // about the upper bones from rest's
     std::optional<Eigen::Vector3d> toe_step = Eigen::Vector3d(0, -0.05, 0.1);  // from the foot, on the left
     Eigen::Vector3d scale = {1, 1, 1};                                         // of what is above the figure
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();                  // of the figure
     std::optional<Between> between = {};
-    double vrm = 0;  // 0.1 or 1: the file says its limbs as VRM of that version does
 };
 
 // What is random about a figure.
@@ -82,7 +80,7 @@ std::vector<float> turns(const Eigen::Vector3d& axis, const std::vector<double>&
 // What the command says in a folder with --json. It must end with this code.
 nlohmann::json report_of(const fs::path& folder, Words words, int exit_code = 0);
 
-nlohmann::json rig_report(const GltfRig& rig, const Words& options = {});
+nlohmann::json rig_report(const GltfRig& rig);
 
 nlohmann::json limb_of(const nlohmann::json& report, const std::string& name);
 

@@ -24,7 +24,6 @@ struct Surroundings {
     Words environment{};                     // "NAME=value" on top of this process's own; "NAME" alone removes it
     bool terminal = false;                   // stderr is a terminal
     unsigned short columns = 0;              // of that; 0: it does not say
-    std::string stdout_file{};               // where stdout goes instead of Outcome::out
     std::function<void()> before{};          // called in the process before it becomes the program: only calls that
                                              // are safe after fork(), such as for limits and signals
     std::function<void(pid_t)> meanwhile{};  // called some 100 times a second while it runs

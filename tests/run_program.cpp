@@ -123,11 +123,6 @@ Outcome run_program(const std::filesystem::path& folder, Words words, const Surr
     open_channel(err, surroundings.terminal);
     const winsize size{24, surroundings.columns, 0, 0};
     if (surroundings.terminal) REQUIRE(::ioctl(err.writing, TIOCSWINSZ, &size) == 0);
-    if (!surroundings.stdout_file.empty()) {
-        Channel::close_end(out.writing);
-        out.writing = ::open(surroundings.stdout_file.c_str(), O_WRONLY | O_CLOEXEC);
-        REQUIRE(out.writing >= 0);
-    }
     Words environment = merged_environment(surroundings.environment);
     const std::vector<char*> argv = pointers(words), envp = pointers(environment);
 

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
-#include <set>
 #include <tuple>
 
 #include "swivel/swivel.h"
@@ -90,7 +89,7 @@ TEST_CASE("exported targets, given back unchanged, change nothing")
     }
 }
 
-TEST_CASE("exported targets of figures that are mirrored, scaled and have twist bones")
+TEST_CASE("targets, effectors and aims of figures that are mirrored, scaled and have twist bones")
 {
     const TempFolder folder;
     std::mt19937 random(11);
@@ -101,65 +100,45 @@ TEST_CASE("exported targets of figures that are mirrored, scaled and have twist 
         INFO("figure " << n);
         figure.rig.write(folder / "in.glb");
         const PlainGltf clip = plain_gltf_of(folder / "in.glb");
-        const auto solved = [&](const std::string& option, const std::string& table) {
-            const Words words = {"solve", "in.glb", "--limbs", "all", "--out", "out.glb", option, table};
-            done(run_command(folder.path, words));
+        const auto solved = [&](const std::string& toml, const std::string& option, const std::string& table) {
+            spill(folder / "c.toml", "[limb.all]\n" + toml);
+            done(run_command(folder.path, {"solve", "in.glb", "--limbs", "all", "--crowd", "c.toml", "--out", "out.glb",
+                                           option, table}));
             return plain_gltf_of(folder / "out.glb");
         };
         const auto require_closed_by = [&](const TargetTable& table) {
             spill(folder / "given.csv", table.text());
             require_closed(
-                closure(clip, solved("--targets", "given.csv"), 0, {figure.limbs.begin(), figure.limbs.end()}));
+                closure(clip, solved("", "--targets", "given.csv"), 0, {figure.limbs.begin(), figure.limbs.end()}));
         };
-        const std::vector<double> times = key_times(solved("--export-targets", "t.csv"), figure.limbs[0][0]);
+        const std::vector<double> times = key_times(solved("", "--export-targets", "t.csv"), figure.limbs[0][0]);
         TargetTable table(slurp(folder / "t.csv"));
         require_clips_own(table, clip, figure, times);
         require_closed_by(table);
         table.leave_out({"pole_x", "pole_y", "pole_z", "qx", "qy", "qz", "qw"});
         require_closed_by(table);
+
+        // Effectors and aims are in the hand joint's own axes.
+        solved("effector = [0.03, 0.05, -0.02]\n", "--export-targets", "t.csv");
+        const TargetTable touching(slurp(folder / "t.csv"));
+        for (std::size_t row = 0; row < touching.rows.size(); ++row) {
+            const int hand = figure.limbs[row % 4][2];
+            const double time = times[row / 4];
+            const Vector3d at = plain_world(clip, 0, hand, time).translation() +
+                                own_axes(clip, hand, time) * Vector3d(0.03, 0.05, -0.02);
+            CHECK((point(touching.rows[row], "") - at).norm() < 1e-5);
+        }
+        const Vector3d target(3, 4, 5);
+        const PlainGltf aimed = solved("target.point = [3, 4, 5]\naim = {axis = [0.6, 0.8, 0], flexion_deg = 20}\n",
+                                       "--export-targets", "t.csv");
+        for (const auto& limb : figure.limbs) {
+            const Vector3d way = target - plain_world(aimed, 0, limb[2], times[0]).translation();
+            CHECK((own_axes(aimed, limb[2], times[0]) * Vector3d(0.6, 0.8, 0) - way.normalized()).norm() < 1e-4);
+        }
         mirrored += figure.is_mirrored;
     }
     CHECK(mirrored > 2);
     CHECK(mirrored < 7);
-}
-
-TEST_CASE("effectors and aims are in the hand joint's own axes, of mirrored figures, too")
-{
-    const TempFolder folder;
-    std::mt19937 random(12);
-    std::size_t mirrored = 0;
-    for (int n = 0; n < 6; ++n) {
-        const Figure figure = random_figure(random, {.mirrors = 0.7});
-        INFO("figure " << n);
-        figure.rig.write(folder / "in.glb");
-        const PlainGltf clip = plain_gltf_of(folder / "in.glb");
-        const auto solved = [&](const std::string& toml) {
-            spill(folder / "c.toml", "[limb.all]\n" + toml);
-            const Words words{"solve", "in.glb",  "--limbs",          "all",  "--crowd", "c.toml",
-                              "--out", "out.glb", "--export-targets", "t.csv"};
-            done(run_command(folder.path, words));
-            return plain_gltf_of(folder / "out.glb");
-        };
-        const Vector3d point(0.03, 0.05, -0.02);
-        const std::vector<double> times = key_times(solved("effector = [0.03, 0.05, -0.02]\n"), figure.limbs[0][0]);
-        const TargetTable table(slurp(folder / "t.csv"));
-        for (std::size_t row = 0; row < table.rows.size(); ++row) {
-            const int hand = figure.limbs[row % 4][2];
-            const double time = times[row / 4];
-            const Vector3d at = plain_world(clip, 0, hand, time).translation() + own_axes(clip, hand, time) * point;
-            CHECK((swivel::test::point(table.rows[row], "") - at).norm() < 1e-5);
-        }
-        const Vector3d target(3, 4, 5);
-        const PlainGltf aimed = solved("target.point = [3, 4, 5]\naim = {axis = [0.6, 0.8, 0], flexion_deg = 20}\n");
-        for (const auto& limb : figure.limbs) {
-            const Eigen::Affine3d hand = plain_world(aimed, 0, limb[2], times[0]);
-            const Vector3d way = (target - hand.translation()).normalized();
-            CHECK((own_axes(aimed, limb[2], times[0]) * Vector3d(0.6, 0.8, 0) - way).norm() < 1e-4);
-        }
-        mirrored += figure.is_mirrored;
-    }
-    CHECK(mirrored > 1);
-    CHECK(mirrored < 6);
 }
 
 TEST_CASE("an edit of one exported row moves that wrist alone")
@@ -218,13 +197,26 @@ TEST_CASE("a character of another size is the clip's whole body in that size, ta
     }
 }
 
-TEST_CASE(
-    "characters stand on the documented grid, and the columns size and start say how a character's poses come from the "
-    "clip's, in the table and in JSON")
+TEST_CASE("every frame, character and limb is in order, on the grid, and posed as its size and start say; so says JSON")
 {
     const CrowdStage stage;
     const std::string toml = "[crowd]\ncharacters = 6\nsize = [0.5, 2]\n";
-    const std::vector<PoseLine> rows = stage.rows(toml, "left_arm");
+    std::vector<PoseLine> rows = pose_lines(stage.output(toml, "out.csv"));
+    const std::vector<PoseLine> alone = pose_lines(stage.output("[crowd]\n", "alone.csv"));
+    REQUIRE(rows.size() == 6 * alone.size());
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        const std::string limb = n % 2 == 0 ? "left_arm" : "right_arm";
+        CHECK(rows[n].place() == std::tuple(n / 12, n / 2 % 6, limb));
+        CHECK((rows[n].flags & SWIVEL_REACHED) != 0);
+        for (std::size_t j = 0; j < 3; ++j) {
+            CHECK(std::abs(rows[n].joint[j].norm() - 1) < 1e-6);
+            if (n % 12 < 2)  // the first character has the bits of one alone
+                CHECK(rows[n].joint[j].coeffs() == alone[n / 12 * 2 + n % 12].joint[j].coeffs());
+        }
+    }
+    std::erase_if(rows, [](const PoseLine& row) { return row.limb != "left_arm"; });
+    for (const nlohmann::json& any : stage.json("[crowd]\n", {"--characters", "50"}).at("each_character"))
+        CHECK((any.at("size") >= 0.85 && any.at("size") <= 1.15));
     const nlohmann::json each = stage.json(toml).at("each_character");
     REQUIRE(each.size() == 6);
     const std::size_t frames = stage.clip.lines.size();
@@ -264,13 +256,7 @@ constexpr std::size_t kFrames = 12;
 struct BetweenStage {
     TempFolder folder;
 
-    BetweenStage()
-    {
-        const std::size_t at = kTwoArms.find("Frames: 2"), frames = kTwoArms.find("\n1 2 3 0") + 1;
-        std::string clip = kTwoArms.substr(0, at) + fmt::format("Frames: {}\nFrame Time: .01\n", kFrames);
-        for (std::size_t n = 0; n < kFrames / 2; ++n) clip += kTwoArms.substr(frames);
-        spill(folder / "clip.bvh", clip);
-    }
+    BetweenStage() { spill(folder / "clip.bvh", cut(plain_motion(kTwoArms), 0, 1, kFrames / 2)); }
     std::string solve(Words more) const
     {
         more.insert(more.begin(), {"solve", "clip.bvh"});
@@ -398,34 +384,4 @@ TEST_CASE("the elbow's distance from the clip's is reported where goals are give
     CHECK(report.at("differences_from_clip").at("elbow_bent").at("count") == 2 * kFrames - 1);
     CHECK_THAT(stage.solve({"--targets", "t.csv"}),
                Contains("differs  elbow from clip, goal given ") && !Contains("error    elbow"));
-}
-
-TEST_CASE("crowd: the table holds every frame, character and limb in order, and unit quaternions")
-{
-    const CrowdStage stage;
-    const std::vector<PoseLine> rows = pose_lines(stage.output("[crowd]\n", "poses.csv", {"--characters", "50"}));
-    const std::size_t frames = stage.clip.lines.size();
-    REQUIRE(rows.size() == frames * 50 * 2);
-    std::size_t misplaced = 0, unreached = 0;
-    double worst_length = 0;
-    std::set<std::string> poses_of_frame_0;
-    for (std::size_t n = 0; n < rows.size(); ++n) {
-        misplaced +=
-            rows[n].place() != std::tuple(n / 100, n / 2 % 50, std::string(n % 2 == 0 ? "left_arm" : "right_arm"));
-        unreached += (rows[n].flags & SWIVEL_REACHED) == 0;
-        misplaced += rows[n].number("size") < 0.85 || rows[n].number("size") > 1.15;
-        for (const Quaterniond& q : rows[n].joint) worst_length = std::max(worst_length, std::abs(q.norm() - 1));
-        if (n < 100)
-            poses_of_frame_0.insert(std::to_string(rows[n].joint[0].x()) + std::to_string(rows[n].joint[1].x()));
-    }
-    CHECK(misplaced == 0);
-    CHECK(unreached == 0);
-    CHECK(worst_length < 1e-6);
-    CHECK(poses_of_frame_0.size() > 80);  // characters differ
-
-    const std::vector<PoseLine> alone = pose_lines(stage.output("[crowd]\n", "alone.csv"));
-    REQUIRE(alone.size() == frames * 2);
-    for (std::size_t n = 0; n < alone.size(); ++n)
-        for (std::size_t j = 0; j < 3; ++j)
-            CHECK(alone[n].joint[j].coeffs() == rows[n / 2 * 100 + n % 2].joint[j].coeffs());  // the same bits
 }

@@ -59,40 +59,6 @@ TRIES = [  # the words of a command line; those that name an output begin with o
 ]
 
 
-def clip(along_x):
-    """A figure that stands and swings its arms, as BVH. along_x: where no joint turns, its bones are along x, as in some sets of motion."""
-    lines, turns = ["HIERARCHY"], []
-
-    def joint(kind, name, offset, turned, *children):
-        lines.extend([f"{kind} {name}", "{", "OFFSET {} {} {}".format(*offset)])
-        if kind != "End":
-            lines.append("CHANNELS " + ("6 Xposition Yposition Zposition " if kind == "ROOT" else "3 ") + "Zrotation Yrotation Xrotation")
-            turns.append((name, turned))
-        for child in children:
-            joint(*child)
-        lines.append("}")
-
-    def limb(side, names, start, turned, bone):
-        nested = ("End", "Site", (0, 0, 1), 0)
-        for name, offset, angle in reversed([*zip(names, (start, bone, bone, (0, 0, 2)), (turned, 0, 0, 0))]):
-            nested = ("JOINT", side + name, offset, angle, nested)
-        return nested
-
-    legs, arms = ("UpLeg", "Leg", "Foot", "ToeBase"), ("Arm", "ForeArm", "Hand")
-    if along_x:
-        limbs = [limb(side, legs, (sign, 0, 0), -90, (4, 0, 0)) for side, sign in (("Left", 1), ("Right", -1))]
-        trunk = ("JOINT", "Spine", (0, 0, 0), 90, ("JOINT", "Head", (4, 0, 0), 0, ("End", "Site", (1, 0, 0), 0)),
-                 limb("Left", arms, (3, -2, 0), -90, (3, 0, 0)), limb("Right", arms, (3, 2, 0), 90, (3, 0, 0)))
-    else:
-        limbs = [limb(side, legs, (sign, 0, 0), 0, (0, -4, 0)) for side, sign in (("Left", 1), ("Right", -1))]
-        trunk = ("JOINT", "Spine", (0, 0, 0), 0, ("JOINT", "Head", (0, 4, 0), 0, ("End", "Site", (0, 1, 0), 0)),
-                 *(limb(side, arms, (2 * sign, 3, 0), 0, (3 * sign, 0, 0)) for side, sign in (("Left", 1), ("Right", -1))))
-    joint("ROOT", "Hips", (0, 0, 0), 0, *limbs, trunk)
-    swing = lambda name: 0 if "Arm" not in name else -3 if along_x or "Left" in name else 3  # forwards
-    frames = [[0, 8, 0] + [number for name, turned in turns for number in (turned, swing(name) * min(f, 24 - f), 0)] for f in range(25)]
-    return "\n".join([*lines, "MOTION", f"Frames: {len(frames)}", "Frame Time: 0.0333333", *(" ".join(map(str, frame)) for frame in frames)]) + "\n"
-
-
 def make_inputs(folder, program):
     folder.mkdir()
     for name, along_x in (("clip.bvh", False), ("along_x.bvh", True)):

@@ -12,7 +12,6 @@
 #include <csignal>
 #include <cstring>
 #include <functional>
-#include <sstream>
 
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
@@ -46,15 +45,9 @@ constexpr bool is_sanitized()
 struct LongRun {
     TempFolder folder;
 
-    explicit LongRun(int frames = 20'000)
+    explicit LongRun(std::size_t frames = 20'000)
     {
-        const std::size_t motion = kTwoArms.find("Frames: ");
-        std::string clip = kTwoArms.substr(0, motion) + "Frames: " + std::to_string(frames) + "\nFrame Time: .01\n";
-        std::istringstream lines(kTwoArms.substr(motion));
-        std::string line;
-        for (int n = 0; n < 3; ++n) std::getline(lines, line);
-        for (int n = 0; n < frames; ++n) clip += line + "\n";
-        spill(folder / "clip.bvh", clip);
+        spill(folder / "clip.bvh", cut(plain_motion(kTwoArms), 0, 1, frames / 2));
     }
     // When: a partial file is there.
     Outcome run(Surroundings surroundings, int characters, std::function<void(pid_t)> then) const

@@ -313,22 +313,31 @@ TEST_CASE("retarget: a motion on its own figure is the same motion")
         CHECK(turn < 1e-5);
         CHECK(place < 1e-5);
     }
-    for (const char* name : {"m2m_human_ymca.glb", "m2m_human_skeleton_tpose.glb"}) {
-        const fs::path path = find_or_warn(name);
-        if (path.empty()) continue;
-        INFO(name);
-        retargeted(folder, path, path, "same.glb");
-        const PlainGltf before = plain_gltf_of(path), after = plain_gltf_of(folder / "same.glb");
-        const std::vector<double> times = key_times(before), new_times = key_times(after);
-        REQUIRE(new_times.size() == times.size());
-        double turn = 0;
-        for (std::size_t n = 0; n < times.size(); ++n)
-            for (std::size_t node = 0; node < before.nodes().size(); ++node)
-                turn = std::max(turn,
-                                turn_between(plain_local(before, 0, static_cast<int>(node), times[n]).rotation(),
-                                             plain_local(after, 0, static_cast<int>(node), new_times[n]).rotation()));
-        CHECK(turn < 1e-5);
-    }
+    for (const char* name : {"m2m_human_ymca.glb", "m2m_human_skeleton_tpose.glb"})
+        for (const char* out : {"same.glb", "same.gltf"}) {
+            const fs::path path = find_or_warn(name);
+            if (path.empty()) continue;
+            INFO(name << " to " << out);
+            retargeted(folder, path, path, out);
+            const PlainGltf before = plain_gltf_of(path), after = plain_gltf_of(folder / out);
+            for (const char* list : {"meshes", "skins", "materials", "scenes"})
+                CHECK(after.json.value(list, nlohmann::json()) == before.json.value(list, nlohmann::json()));
+            CHECK(new_gltf_messages(path, folder / out) == std::multiset<std::string>());
+            const std::vector<double> times = key_times(before), new_times = key_times(after);
+            REQUIRE(new_times.size() == times.size());
+            double turn = 0, place = 0, size = 0;
+            for (std::size_t n = 0; n < times.size(); ++n)
+                for (int node = 0; node < static_cast<int>(before.nodes().size()); ++node) {
+                    turn = std::max(turn, turn_between(plain_local(before, 0, node, times[n]).rotation(),
+                                                       plain_local(after, 0, node, new_times[n]).rotation()));
+                    const Eigen::Affine3d was = plain_world(before, 0, node, times[n]),
+                                          is = plain_world(after, 0, node, new_times[n]);
+                    place = std::max(place, (was.matrix() - is.matrix()).norm());
+                    size = std::max(size, was.matrix().norm());
+                }
+            CHECK(turn < 1e-5);
+            CHECK(place < 1e-5 * size);
+        }
 }
 
 TEST_CASE("retarget: a walk goes to a figure and comes back, and its feet slide no more than before")

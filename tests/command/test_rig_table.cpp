@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The rules of docs/rigs.md, as a table of made-up figures. A figure knows of each limb whether it binds, which way it
-// bends and what tells so.
+// The rules of docs/rigs.md, as a table of made-up figures. Names are for test_limb_joints.cpp. A figure knows of each
+// limb whether it binds, which way it bends and what tells so.
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
@@ -51,22 +51,6 @@ std::array<Want, 4> with(std::array<Want, 4> wants, std::size_t limb, const Want
 
 const Want kMissing = {};
 const std::vector<Bends> kWalk = {{20, 20, 10, 10}, {40, 40, 40, 40}, {60, 60, 60, 60}, {40, 40, 40, 40}};
-
-Body named(const std::array<std::string, 3>& arm, const std::array<std::string, 3>& leg, const std::string& left,
-           const std::string& right)
-{
-    return {.arm = arm, .leg = leg, .left = left, .right = right};
-}
-
-Body vrm_body(double version)  // its names say nothing, or the wrong; files of 0.x face -z
-{
-    return {.arm = {"*a", "*b", "*c"},
-            .left = "Right",
-            .right = "Left",
-            .toe = "*d",
-            .turn = Quaterniond(AngleAxisd(version < 1 ? 180 * kDegree : 0, kY)),
-            .vrm = version};
-}
 
 Vector3d swung(double degrees, const Vector3d& from, const Vector3d& to)
 {
@@ -159,9 +143,9 @@ std::vector<Row> front_rows()
         {"toes against left and right", {.left_at = -1}, anatomy("toes")},
         {"no toes", toeless, anatomy("shoulder")},
         {"a lone joint below the foot that is no toe by name",
-         {.toe = "*End", .left_at = -1},
+         {.toe = "End", .left_at = -1},
          pairs({-kZ, "shoulder"}, {kZ, "shoulder"})},
-        {"the ball of the foot", {.toe = "*Ball", .left_at = -1}, anatomy("toes")},
+        {"the ball of the foot", {.toe = "Ball", .left_at = -1}, anatomy("toes")},
         {"legs alone, no toes", {.limbs = legs, .toe_step = {}}, pairs(kMissing, {-kZ, "hip"})},
         {"one leg with a toe", {.limbs = {0, 1, 2}, .left_at = -1}, with(anatomy("toes"), 3, kMissing)},
         {"arms alone", {.limbs = arms}, pairs({kZ, "shoulder"}, kMissing)},
@@ -182,17 +166,6 @@ std::vector<Row> front_rows()
         {"ahead, and bent by the clip",
          {.arm_bone = {0, 0, 0.3}, .clip = {{30, 30, 0, 0}, {40, 40, 0, 0}}},
          pairs({-kY, "clip"}, {-kZ, "toes"})},
-    };
-}
-
-std::vector<Row> name_rows()  // of other names: tests/command/test_limb_joints.cpp
-{
-    return {
-        {"a figure's name before all",
-         named({"Bob_*_shoulder", "Bob_*_elbow", "Bob_*_wrist"}, {"Bob_*_hip", "Bob_*_knee", "Bob_*_ankle"}, "L", "R"),
-         anatomy("toes")},
-        {"VRM 0.x", vrm_body(0.1), anatomy("toes")},
-        {"VRM 1.0", vrm_body(1), anatomy("toes")},
     };
 }
 
@@ -294,7 +267,6 @@ TEST_CASE("rig table: the first of the page's rules that holds tells a bend, wha
     judge({{"noise", {.clip = {{40, 40, 40, 40}, {-38, -38, -38, -38}}}, anatomy("toes")}});
 }
 TEST_CASE("rig table: which way a figure faces") { judge(front_rows()); }
-TEST_CASE("rig table: names") { judge(name_rows()); }
 TEST_CASE("rig table: joints in between and scales") { judge(joint_rows()); }
 
 TEST_CASE("rig table: the bend that a refusal offers is a hanging limb's swung there, and binds")

@@ -2,8 +2,9 @@
 //
 // Any figure that binds gives its clip back, and one that does not says why. The command solves the files. A forward
 // kinematics of the test's own and Khronos' validator judge them. Made-up figures are also judged by what they were
-// made of.
+// made of, and recorded motion by the words of its file.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -112,6 +113,73 @@ TEST_CASE("rigs: every animation of the shared figures comes back, and bends the
         }
     }
     require_no_new_messages(files);
+}
+
+namespace {
+
+// Where a motion has a limb.
+LimbPose limb_pose(const PlainMotion& motion, const std::vector<PlainPose>& pose, const PlainArm& limb)
+{
+    const std::array joints{limb.shoulder, limb.elbow, limb.wrist};
+    const auto at = [&](int joint) { return pose[static_cast<std::size_t>(joint)]; };
+    LimbPose is;
+    for (std::size_t n = 0; n < 3; ++n) {
+        is.place[n] = at(joints[n]).position;
+        is.turn[n] = at(motion.joint(joints[n]).parent).rotation.transpose() * at(joints[n]).rotation;
+    }
+    is.end_axes = at(limb.wrist).rotation;
+    return is;
+}
+
+// Solves limbs of a BVH file from where it has their ends. They come back, and all other words of the file stay.
+void require_clip_back(const fs::path& path, std::size_t frame_count, bool has_arms, bool has_legs,
+                       const Words& options)
+{
+    INFO(path << ": " << fmt::format("{}", fmt::join(options, " ")));
+    const TempFolder folder;
+    Words words = {"solve", path.string(), "--targets", "clip", "--out", "out.bvh"};
+    words.insert(words.end(), options.begin(), options.end());
+    CHECK(done(run_command(folder.path, words)).err.empty());
+    REQUIRE(folder.file_count() == 1);
+    const PlainMotion clip = plain_motion_of(path), written = plain_motion_of(folder / "out.bvh");
+    REQUIRE(written.header == clip.header);
+    REQUIRE(clip.lines.size() == frame_count);
+    REQUIRE(written.lines.size() == frame_count);
+    std::vector<PlainArm> limbs;
+    for (const PlainArm& arm : arms_of(clip))
+        if (has_arms) limbs.push_back(arm);
+    for (const PlainArm& leg : legs_of(clip))
+        if (has_legs) limbs.push_back(leg);
+    std::vector<std::size_t> solved;  // channels
+    for (const PlainArm& limb : limbs)
+        for (const int joint : {limb.shoulder, limb.elbow, limb.wrist})
+            for (std::size_t c = 0; c < clip.joint(joint).channels.size(); ++c)
+                if (clip.joint(joint).channels[c].ends_with("rotation"))
+                    solved.push_back(clip.joint(joint).first_channel + c);
+    REQUIRE(solved.size() == 9 * limbs.size());
+    Closure worst;
+    for (std::size_t frame = 0; frame < frame_count; ++frame, ++worst.frames) {
+        const std::vector<PlainPose> before = pose_of(clip, frame), after = pose_of(written, frame);
+        for (const PlainArm& limb : limbs) worst.keep(limb_pose(clip, before, limb), limb_pose(written, after, limb));
+        REQUIRE(rest_of(clip.lines[frame], solved) == rest_of(written.lines[frame], solved));
+        REQUIRE(clip.lines[frame] != written.lines[frame]);  // else nothing was solved
+    }
+    require_closed(worst);
+}
+
+}  // namespace
+
+TEST_CASE("rigs: recorded arms and legs come back, and all other words of their file stay")
+{
+    require_clip_back(must_find_jump(), 2752, true, false, {});
+    require_clip_back(must_find_jump(), 2752, false, true, {"--limbs", "legs"});
+    if (const fs::path walk = find_or_warn("cmu_02_01_walk.bvh"); !walk.empty()) {  // with CRLF
+        require_clip_back(walk, 343, true, false, {});
+        require_clip_back(walk, 343, false, true,
+                          {"--leg", "RightUpLeg,RightLeg,RightFoot", "--leg", "LeftUpLeg,LeftLeg,LeftFoot"});
+    }
+    if (const fs::path dance = find_or_warn("cmu_05_06_dance.bvh"); !dance.empty())
+        require_clip_back(dance, 885, true, true, {"--limbs", "all"});
 }
 
 TEST_CASE("rigs: the bends of the shared clips")

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 namespace swivel::fuzz {
 
@@ -186,28 +187,20 @@ void BodyDef::spoil(Bytes& bytes)
     const std::size_t g = bytes.below(static_cast<std::uint32_t>(joints.size()));
     swivel_limb_joints& limb = joints[g];
     swivel_group_def& group = groups[bytes.below(static_cast<std::uint32_t>(groups.size()))];
-    switch (bytes.take<std::uint8_t>() % 14) {
-        case 0:  // also in a circle
-            spoil_word(bytes, parents.data(), parents.data() + parents.size());
-            break;
-        case 1:
-            spoil_word(bytes, translations.data(), translations.data() + translations.size());
-            break;
-        case 2:
-            spoil_word(bytes, rotations.data(), rotations.data() + rotations.size());
-            break;
-        case 3:
-            spoil_word(bytes, &limb.shoulder, &limb.twist_bone_count);
-            break;
-        case 4:
-            spoil_word(bytes, limb.bend, &limb + 1);
+    const std::pair<void*, const void*> words[] = {
+        {parents.data(), parents.data() + parents.size()},  // also in a circle
+        {translations.data(), translations.data() + translations.size()},
+        {rotations.data(), rotations.data() + rotations.size()},
+        {&limb.shoulder, &limb.twist_bone_count},
+        {limb.bend, &limb + 1},
+        {&group.plant, &group.region}};  // how it stands, fits, links and looks, also of a group that does not
+    const std::uint32_t kind = bytes.take<std::uint8_t>() % 14;
+    switch (kind) {
+        default:
+            spoil_word(bytes, words[std::min(kind, 5u)].first, words[std::min(kind, 5u)].second);
             break;
         case 5:  // the limb of another group
             limb = joints[bytes.below(static_cast<std::uint32_t>(joints.size()))];
-            break;
-        case 6:
-        case 7:  // how it stands, fits, links and looks, also of a group that does not
-            spoil_word(bytes, &group.plant, &group.region);
             break;
         case 8:
             group.features ^= bytes.one_in(2) ? SWIVEL_WITH_LINK : swivel_features{1} << bytes.below(64);
@@ -224,7 +217,7 @@ void BodyDef::spoil(Bytes& bytes)
         case 12:  // also a second shift, and a prop that nobody holds
             groups.push_back(bytes.one_in(2) ? swivel_default_fit_group_def() : swivel_default_prop_group_def());
             break;
-        default:
+        case 13:
             bytes.one_in(2) ? void(up[1] = bytes.any_float()) : void(groups[g].joints = nullptr);
     }
 }

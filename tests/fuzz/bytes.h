@@ -1,15 +1,24 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A fuzzer's input, taken piece by piece from the front. Past the end all is 0, so every input means something.
+// A fuzzer's input, taken piece by piece from the front: past the end all is 0, so every input means something. And
+// what must hold whatever the input. A fuzzer takes the abort for a finding and keeps the input; fuzz_seeds fails.
 
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 
 namespace swivel::fuzz {
+
+[[noreturn]] inline void report(const char* condition, const char* file, int line)
+{
+    std::fprintf(stderr, "%s:%d: does not hold: %s\n", file, line, condition);
+    std::abort();
+}
 
 class Bytes {
 public:
@@ -49,3 +58,6 @@ private:
 };
 
 }  // namespace swivel::fuzz
+
+#define SWIVEL_REQUIRE(condition) \
+    ((condition) ? static_cast<void>(0) : ::swivel::fuzz::report(#condition, __FILE__, __LINE__))

@@ -11,7 +11,6 @@
 
 #include "swivel/swivel.h"
 #include "tests/fuzz/crowd_of_bytes.h"
-#include "tests/fuzz/require.h"
 
 namespace swivel::fuzz {
 

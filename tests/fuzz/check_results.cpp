@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/fuzz/require.h"
-
 namespace swivel::fuzz {
 namespace {
 
@@ -31,27 +29,14 @@ bool is_on_its_side(const float* q)
     return false;
 }
 
-// A group's rows, of floats or of words.
-struct Rows {
-    char* base;
-    std::size_t row_count, number_bytes;
-
-    char* at(std::size_t lane, std::size_t row) const
-    {
-        return base + ((lane / SWIVEL_LANES * row_count + row) * SWIVEL_LANES + lane % SWIVEL_LANES) * number_bytes;
-    }
-};
-Rows rows_of(const swivel_rows& rows) { return {reinterpret_cast<char*>(rows.base), rows.row_count, sizeof(float)}; }
-Rows inputs_of(swivel_crowd* crowd, std::uint32_t group) { return rows_of(swivel_input_rows(crowd, group)); }
-Rows results_of(swivel_crowd* crowd, std::uint32_t group) { return rows_of(swivel_result_rows(crowd, group)); }
 // A lane has the bits that it had before the call at hand, but for the rows of a field.
-void require_untouched(const Session& session, const Rows& rows, std::size_t lane, std::size_t first = 0,
+void require_untouched(const Session& session, const swivel_rows& rows, std::size_t lane, std::size_t first = 0,
                        std::size_t end = 0)
 {
     for (std::size_t row = 0; row < rows.row_count; ++row) {
         if (row >= first && row < end) continue;
-        const char* const now = rows.at(lane, row);
-        SWIVEL_REQUIRE(std::memcmp(now, session.before(now), rows.number_bytes) == 0);
+        const float& now = number_at(rows, lane, row);
+        SWIVEL_REQUIRE(std::memcmp(&now, session.before(&now), sizeof now) == 0);
     }
 }
 // Where a field's rows begin and end.
@@ -196,12 +181,13 @@ void check_alone(Session& session, std::uint32_t group, std::uint32_t limb)
 
 void copy_limb(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to)
 {
-    const Rows inputs = inputs_of(session.crowd, group), results = results_of(session.crowd, group),
-               put = inputs_of(alone, to), got = results_of(alone, to);
+    const swivel_rows inputs = swivel_input_rows(session.crowd, group),
+                      results = swivel_result_rows(session.crowd, group), put = swivel_input_rows(alone, to),
+                      got = swivel_result_rows(alone, to);
     for (std::size_t row = 0; row < put.row_count; ++row)
-        std::memcpy(put.at(0, row), inputs.at(limb, row), put.number_bytes);
+        std::memcpy(&number_at(put, 0, row), &number_at(inputs, limb, row), sizeof(float));
     for (std::size_t row = 0; row < got.row_count; ++row)
-        std::memcpy(got.at(0, row), session.before(results.at(limb, row)), got.number_bytes);
+        std::memcpy(&number_at(got, 0, row), session.before(&number_at(results, limb, row)), sizeof(float));
 }
 
 void solve_scalar(swivel_crowd* alone, const swivel_job* job)
@@ -216,11 +202,11 @@ void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb
                  swivel_field except)
 {
     if (is_overwritten(session, group, limb)) return;
-    const Rows results = results_of(session.crowd, group), got = results_of(alone, to);
+    const swivel_rows results = swivel_result_rows(session.crowd, group), got = swivel_result_rows(alone, to);
     const auto [first, end] = rows_of_field(session, group, except);
     for (std::size_t row = 0; row < got.row_count; ++row)
         if (row < first || row >= end)
-            SWIVEL_REQUIRE(std::memcmp(got.at(0, row), results.at(limb, row), got.number_bytes) == 0);
+            SWIVEL_REQUIRE(std::memcmp(&number_at(got, 0, row), &number_at(results, limb, row), sizeof(float)) == 0);
 }
 
 void check_probes(const Session& session, const SomeLimbs& chosen)
@@ -228,7 +214,7 @@ void check_probes(const Session& session, const SomeLimbs& chosen)
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
         const auto [first, end] = rows_of_field(session, group, SWIVEL_PROBE);
         for (std::size_t limb = 0; limb < chosen[group].size(); ++limb)
-            require_untouched(session, results_of(session.crowd, group), limb, first, end);
+            require_untouched(session, swivel_result_rows(session.crowd, group), limb, first, end);
     }
     check_others(session, chosen);
 }
@@ -244,7 +230,8 @@ void check_others(const Session& session, const SomeLimbs& chosen)
             for (std::size_t limb = first; limb < end; ++limb) is_untouched = is_untouched && !is_chosen(limb);
             for (std::size_t lane = first; lane < first + SWIVEL_LANES; ++lane) {
                 if (!is_untouched && (lane >= end || is_chosen(lane))) continue;
-                for (const Rows& rows : {inputs_of(session.crowd, group), results_of(session.crowd, group)})
+                for (const swivel_rows& rows :
+                     {swivel_input_rows(session.crowd, group), swivel_result_rows(session.crowd, group)})
                     require_untouched(session, rows, lane);
             }
         }

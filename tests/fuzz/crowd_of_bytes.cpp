@@ -23,7 +23,6 @@ float hard_number(Random& random)
     return hard[random.below(static_cast<std::uint32_t>(hard.size()))];
 }
 
-std::array<double, 3> any_axis(Random& random) { return {random.share(), random.share(), random.share()}; }
 // Two angles, the smaller first, of 0 to `most`.
 std::array<double, 2> two_angles(Random& random, double most)
 {
@@ -37,69 +36,39 @@ void make_range(Random& random, float* range)
     swivel_range(least - 3, most - 3, range);
 }
 
-// What limits and the like are made with; false for other fields.
-bool make_limit(Random& random, swivel_field field, float* value)
-{
-    const std::array<double, 3> axis = any_axis(random);
-    const auto [least, most] = two_angles(random, 3.1415926);
-    switch (field) {
-        case SWIVEL_ANGLE:
-            return swivel_turn(4 * least - 6, value), true;
-        case SWIVEL_MOST_SWIVEL:
-            return swivel_turn(least, value), true;
-        case SWIVEL_FLEXION_LIMIT:
-            return swivel_flexion(least, most, value), true;
-        case SWIVEL_SHOULDER_CONE:
-        case SWIVEL_HAND_CONE:
-            return swivel_cone(axis.data(), most, value), true;
-        case SWIVEL_HUMERAL_TWIST:
-        case SWIVEL_FOREARM_TWIST:
-            return make_range(random, value), true;
-        case SWIVEL_HAND_TWIST: {
-            float cone[4] = {0, 0, 1, 0};
-            swivel_cone(axis.data(), 1, cone);
-            std::copy_n(cone, 3, value);
-            return make_range(random, value + 3), true;
-        }
-        case SWIVEL_SHOULDER_BOX:
-        case SWIVEL_WRIST_BOX:
-            for (int n = 0; n < 3; ++n) make_range(random, value + 4 * n);
-            return true;
-        case SWIVEL_AIM:
-            return swivel_aim(axis.data(), most, value), true;
-        default:
-            return false;
-    }
-}
-
+// A value of a field's range, as the library says it in words: by its own maker of such values where it names one.
 void make_ordinary(Random& random, swivel_field field, std::span<float> value)
 {
-    if (make_limit(random, field, value.data())) return;
+    const std::array<double, 3> axis = {random.share(), random.share(), random.share()};
+    const auto [least, most] = two_angles(random, 3.1415926);
+    const std::string_view range = described(field).range;
+    const auto says = [&](std::string_view words) { return range.find(words) != range.npos; };
+    if (says("swivel_turn()")) return void(swivel_turn(says("of 0 to pi") ? least : 4 * least - 6, value.data()));
+    if (says("swivel_flexion()")) return void(swivel_flexion(least, most, value.data()));
+    if (says("swivel_cone()")) return void(swivel_cone(axis.data(), most, value.data()));
+    if (says("swivel_aim()")) return void(swivel_aim(axis.data(), most, value.data()));
+    if (says("swivel_range()")) {  // below an axis, or alone
+        std::array<float, 4> cone = {0, 0, 1, 0};
+        swivel_cone(axis.data(), 1, cone.data());
+        std::copy_n(cone.begin(), value.size() % 4, value.begin());
+        for (std::size_t n = value.size() % 4; n < value.size(); n += 4) make_range(random, &value[n]);
+        return;
+    }
     for (float& x : value) x = random.share();
-    switch (field) {
-        case SWIVEL_LENGTHS:
-        case SWIVEL_PARENT_SCALE:
-            for (float& x : value) x = std::abs(x) + 0.01f;
-            break;
-        case SWIVEL_GROUND:
-        case SWIVEL_PROP_PLACE:
-        case SWIVEL_PROP_TURN:
-            if (random.below(4) == 0) std::ranges::fill(value, std::numeric_limits<float>::quiet_NaN());  // none
-            break;
-        case SWIVEL_REACH:
-            for (float& x : value) x = 0.25f * std::abs(x);
-            value[2] += 1;
-            break;
-        case SWIVEL_CLAVICLE:
-            value.back() = std::abs(value.back());
-            break;
-        case SWIVEL_TARGET:
-            for (float& x : value) x *= 2;
-            break;
-        default:
-            if (!std::string_view(described(field).range).starts_with("0 to 1")) break;
-            for (float& x : value) x = std::abs(x);
-            if (random.below(4) == 0) value[0] = std::round(value[0]);  // nothing or all
+    if (says("the stretch 1 to 1000")) {
+        for (float& x : value) x = 0.25f * std::abs(x);
+        value[2] += 1;
+    } else if (says("a share of 0 to 1")) {
+        value.back() = std::abs(value.back());
+    } else if (range.starts_with("0 to 1")) {
+        for (float& x : value) x = std::abs(x);
+        if (random.below(4) == 0) value[0] = std::round(value[0]);  // nothing or all
+    } else if (says("1e-15 to 1e15")) {
+        for (float& x : value) x = std::abs(x) + 0.01f;
+    } else if (field == SWIVEL_GROUND || field == SWIVEL_PROP_PLACE || field == SWIVEL_PROP_TURN) {
+        if (random.below(4) == 0) std::ranges::fill(value, std::numeric_limits<float>::quiet_NaN());  // none
+    } else if (field == SWIVEL_TARGET) {
+        for (float& x : value) x *= 2;
     }
 }
 

@@ -2,17 +2,21 @@
 //
 // The readers of files: any bytes are read or refused in one line. What is read is sound, and reads the same when it is
 // written down again. The first byte picks the format.
+#include <stdlib.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <variant>
 
 #include "tests/fuzz/bytes.h"
-#include "tests/fuzz/scratch_folder.h"
 #include "tools/formats/bvh.h"
 #include "tools/formats/contacts_csv.h"
 #include "tools/formats/crowd_file.h"
@@ -28,6 +32,40 @@ using namespace swivel::fuzz;
 using Eigen::Quaterniond;
 
 namespace {
+
+// Files for readers, which take paths, in a folder of the fuzzer's own. It lives as long as the object.
+struct ScratchFolder {
+    std::filesystem::path path;
+
+    ScratchFolder()
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "swivel-fuzz-XXXXXX").string();
+        SWIVEL_REQUIRE(::mkdtemp(name.data()) != nullptr);
+        path = name;
+    }
+    ~ScratchFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    // Writes a file of this name; its path.
+    std::filesystem::path spill(const char* name, std::string_view text) const
+    {
+        std::ofstream out(path / name, std::ios::binary);
+        out.write(text.data(), static_cast<std::streamsize>(text.size()));
+        SWIVEL_REQUIRE(out.flush().good());
+        return path / name;
+    }
+};
+
+std::string slurp(const std::filesystem::path& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
 
 // One line that can be printed as it is.
 void check_message(const InputError& error)

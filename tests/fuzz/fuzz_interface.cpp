@@ -11,7 +11,6 @@
 #include <memory>
 
 #include "tests/fuzz/interface_session.h"
-#include "tests/fuzz/require.h"
 
 using namespace swivel::fuzz;
 

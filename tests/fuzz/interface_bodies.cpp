@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/interface_job.h"
+#include "tests/fuzz/interface_session.h"
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,8 @@ constexpr Root kRoots[] = {{&swivel_pose::root_position, SWIVEL_TARGET, 3, true}
                            {&swivel_pose::root_scale, SWIVEL_PARENT_SCALE, 1},
                            {&swivel_pose::time, SWIVEL_COMING_TIME, 1},
                            {&swivel_pose::support_position, SWIVEL_TARGET, 3, true},
-                           {&swivel_pose::support_rotation, SWIVEL_INCOMING_SHOULDER, 4}};
+                           {&swivel_pose::support_rotation, SWIVEL_INCOMING_SHOULDER, 4},
+                           {&swivel_pose::weight, SWIVEL_FIT_WEIGHT, 1}};
 
 // Bytes of a rotation or a matrix, as far as a solve may touch them.
 std::size_t rotation_bytes(swivel_pose_form form)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/interface_job.h"
+#include "tests/fuzz/interface_session.h"
 
 #include <algorithm>
 #include <array>

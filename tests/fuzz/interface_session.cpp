@@ -5,8 +5,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "tests/fuzz/require.h"
-
 namespace swivel::fuzz {
 
 SomeLimbs Session::limbs_that(bool are) const

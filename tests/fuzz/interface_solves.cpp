@@ -5,7 +5,7 @@
 #include <bit>
 #include <memory>
 
-#include "tests/fuzz/interface_job.h"
+#include "tests/fuzz/interface_session.h"
 
 namespace swivel::fuzz {
 namespace {

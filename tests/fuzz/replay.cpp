@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "tests/fuzz/scratch_folder.h"
 
 #define FUZZER(name) extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
 #include "fuzzers.inc"
@@ -69,7 +69,8 @@ int replay(const Fuzzer& fuzzer, const std::filesystem::path& folder)
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / fuzzer.name)) {
         std::mt19937 random(7);
-        const std::string seed = swivel::fuzz::slurp(entry.path());
+        std::ifstream in(entry.path(), std::ios::binary);
+        const std::string seed{std::istreambuf_iterator<char>(in), {}};
         for (int round = 0; round < kRounds; ++round) {
             std::printf("%s, round %d\n", entry.path().c_str(), round);
             std::fflush(stdout);

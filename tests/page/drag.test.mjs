@@ -5,9 +5,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, clip, demo, digest, digests, drag, file, pixel, pull, range, state, visit, write } from './harness.mjs';
+import { choose, clip, digest, digests, drag, file, link, onDemo, onPage, pixel, pull, range, state, visit, write } from './harness.mjs';
 
-const link = { hash: '#frame=20&character=3&limb=left_arm' };
 const everyone = (page) => page.getByLabel("Drag everyone's"), undo = (page) => page.getByRole('button', { name: 'Undo' });
 const letGo = (page) => page.getByRole('button', { name: 'Let go' }), letAllGo = (page) => page.getByRole('button', { name: 'Let all go' });
 const table = (page) => page.getByRole('button', { name: 'Save as table' });
@@ -41,21 +40,19 @@ test('a wrist\'s target follows the pointer: one alone, and then everyone\'s by 
   }, link);
 });
 
-test('a dragged pole turns the elbow and leaves the wrist; everyone\'s follow if asked', async () => {
-  await visit(demo, async (page) => {
-    const poses = () => page.evaluate(() => [3, 7].map((n) => swivelPage.stage.pose(limbOf('left_arm'), n)));
-    const move = async () => {
-      const before = await poses();
-      await pull(page, 'pole', 50, 70);
-      const after = await poses();
-      return [0, 1].map((n) => ['elbow', 'wrist'].map((joint) => Math.hypot(...before[n][joint].map((x, axis) => x - after[n][joint][axis]))));
-    };
-    const [[elbow, wrist], [other]] = await move();
-    assert.ok(elbow > 0.001 && wrist < 1e-6 && other === 0, `${elbow} ${wrist} ${other}`);
-    await everyone(page).check();
-    const [, [followed]] = await move();
-    assert.ok(followed > 0.001, `${followed}`);
-  }, link);
+onDemo('a dragged pole turns the elbow and leaves the wrist; everyone\'s follow if asked', async (page) => {
+  const poses = () => page.evaluate(() => [3, 7].map((n) => swivelPage.stage.pose(limbOf('left_arm'), n)));
+  const move = async () => {
+    const before = await poses();
+    await pull(page, 'pole', 50, 70);
+    const after = await poses();
+    return [0, 1].map((n) => ['elbow', 'wrist'].map((joint) => Math.hypot(...before[n][joint].map((x, axis) => x - after[n][joint][axis]))));
+  };
+  const [[elbow, wrist], [other]] = await move();
+  assert.ok(elbow > 0.001 && wrist < 1e-6 && other === 0, `${elbow} ${wrist} ${other}`);
+  await everyone(page).check();
+  const [, [followed]] = await move();
+  assert.ok(followed > 0.001, `${followed}`);
 });
 
 test('everyone\'s poles that are directions go where the pointer points, whatever a character\'s size', async () => {
@@ -73,44 +70,40 @@ test('everyone\'s poles that are directions go where the pointer points, whateve
   });
 });
 
-test('a choice by keys ends the drag of a handle', async () => {
-  await visit(demo, async (page) => {
-    for (const key of ['n', 'Escape']) {
-      const at = await pixel(page, 'target');
-      await page.mouse.move(at.x, at.y);
-      await page.mouse.down();
-      await page.keyboard.press(key);
-      await page.mouse.move(at.x + 30, at.y + 20, { steps: 3 });
-      await page.mouse.up();
-      assert.equal(await state(page), 'equal', key);
-    }
-    assert.equal(await page.evaluate(() => swivelPage.selection), null);
-  }, link);
+onDemo('a choice by keys ends the drag of a handle', async (page) => {
+  for (const key of ['n', 'Escape']) {
+    const at = await pixel(page, 'target');
+    await page.mouse.move(at.x, at.y);
+    await page.mouse.down();
+    await page.keyboard.press(key);
+    await page.mouse.move(at.x + 30, at.y + 20, { steps: 3 });
+    await page.mouse.up();
+    assert.equal(await state(page), 'equal', key);
+  }
+  assert.equal(await page.evaluate(() => swivelPage.selection), null);
 });
 
-test('two fingers choose nothing, and a second one does not drag', async () => {
-  await visit(demo, async (page) => {
-    const client = await page.context().newCDPSession(page), places = new Map();
-    const touch = (type) => client.send('Input.dispatchTouchEvent', { type, touchPoints: [...places].map(([id, { x, y }]) => ({ id, x, y })) });
-    const down = (id, at) => touch('touchStart', places.set(id, at)), move = (id, at) => touch('touchMove', places.set(id, at));
-    const up = (id) => touch('touchEnd', places.delete(id));
-    const chosen = () => page.evaluate(() => swivelPage.selection?.character);
-    const wrist = await pixel(page, 'wrist'), target = await pixel(page, 'target');
-    await down(0, target);
-    await down(1, { x: target.x - 90, y: target.y });
-    await move(1, { x: target.x - 120, y: target.y + 60 });
-    const now = await pixel(page, 'target');
-    assert.ok(Math.hypot(now.x - target.x, now.y - target.y) < 2, 'the target stays under the first finger');
-    await up(1), await up(0);
-    assert.equal(await chosen(), 3);
-    await choose(page, null);
-    await down(0, wrist);
-    await down(1, { x: wrist.x - 90, y: wrist.y });
-    await move(1, { x: wrist.x - 130, y: wrist.y + 10 });
-    await up(0), await up(1);
-    assert.equal(await chosen(), undefined);
-  }, { ...link, hasTouch: true });
-});
+onDemo('two fingers choose nothing, and a second one does not drag', async (page) => {
+  const client = await page.context().newCDPSession(page), places = new Map();
+  const touch = (type) => client.send('Input.dispatchTouchEvent', { type, touchPoints: [...places].map(([id, { x, y }]) => ({ id, x, y })) });
+  const down = (id, at) => touch('touchStart', places.set(id, at)), move = (id, at) => touch('touchMove', places.set(id, at));
+  const up = (id) => touch('touchEnd', places.delete(id));
+  const chosen = () => page.evaluate(() => swivelPage.selection?.character);
+  const wrist = await pixel(page, 'wrist'), target = await pixel(page, 'target');
+  await down(0, target);
+  await down(1, { x: target.x - 90, y: target.y });
+  await move(1, { x: target.x - 120, y: target.y + 60 });
+  const now = await pixel(page, 'target');
+  assert.ok(Math.hypot(now.x - target.x, now.y - target.y) < 2, 'the target stays under the first finger');
+  await up(1), await up(0);
+  assert.equal(await chosen(), 3);
+  await choose(page, null);
+  await down(0, wrist);
+  await down(1, { x: wrist.x - 90, y: wrist.y });
+  await move(1, { x: wrist.x - 130, y: wrist.y + 10 });
+  await up(0), await up(1);
+  assert.equal(await chosen(), undefined);
+}, { ...link, hasTouch: true });
 
 test('a hand that holds the other one has no ball, and follows that one', async () => {
   const toml = file('hold.toml', '[limb.left_arm]\nhold = "right_arm"\n');
@@ -134,47 +127,43 @@ test('a hand that holds the other one has no ball, and follows that one', async 
 const cone = file('undo.toml', '[limb.all]\nlimits.shoulder_cone = { axis = [0, 0, 1], opening_deg = 60 }\n');
 const undone = write('undo.html', 'view', clip, '--characters', '6', '--frames', '30', '--crowd', cone);
 
-test('every kind of change is one step, and all are taken back in turn, by key and by button', async () => {
-  await visit(undone, async (page) => {
-    await page.getByText('Limits and weights').click();
-    const sweep = async (name) => {  // a slider of the shoulder cone, by the mouse
-      const box = await page.locator('.field').filter({ hasText: 'Shoulder cone' }).getByLabel(name).boundingBox(), y = box.y + box.height / 2;
-      await drag(page, { x: box.x + box.width * 0.3, y }, { x: box.x + box.width * 0.8, y });
-    };
-    const box = (name) => page.locator(`[data-field=${name}]`);
-    const look = async () => [await digest(page), await page.evaluate(() => swivelPage.fields.SHOULDER_CONE.box.querySelector('input[type=range]').value)];
-    const steps = [() => pull(page, 'target', 50, 30), () => pull(page, 'pole', 50, 30), () => letGo(page).click(), () => pull(page, 'cone', 50, 30), () => sweep('Opening'),
-      () => box('SHOULDER_CONE').uncheck(), () => box('FLEXION_LIMIT').check(), async () => { await everyone(page).check(); await pull(page, 'target', 50, 30); },
-      () => letAllGo(page).click()];
-    assert.equal(await undo(page).isVisible(), false);
-    const seen = [await look()];
-    for (const step of steps) {
-      await step();
-      seen.push(await look());
-    }
-    const last = seen.pop();
-    assert.notDeepEqual(last, seen.at(-1));
-    assert.equal(await page.evaluate(() => swivelPage.undo.before.length), seen.length);
-    await page.locator('canvas').focus();
-    while (seen.length > 0) {
-      await (seen.length % 2 ? page.keyboard.press('Control+z') : undo(page).click());
-      assert.deepEqual(await look(), seen.pop(), `step ${seen.length}`);
-    }
-    await page.keyboard.press('Control+z');
-    assert.deepEqual([await undo(page).isVisible(), await box('SHOULDER_CONE').isChecked(), await state(page)], [false, true, 'equal']);
-  }, link);
-});
+onPage('every kind of change is one step, and all are taken back in turn, by key and by button', () => undone, async (page) => {
+  await page.getByText('Limits and weights').click();
+  const sweep = async (name) => {  // a slider of the shoulder cone, by the mouse
+    const box = await page.locator('.field').filter({ hasText: 'Shoulder cone' }).getByLabel(name).boundingBox(), y = box.y + box.height / 2;
+    await drag(page, { x: box.x + box.width * 0.3, y }, { x: box.x + box.width * 0.8, y });
+  };
+  const box = (name) => page.locator(`[data-field=${name}]`);
+  const look = async () => [await digest(page), await page.evaluate(() => swivelPage.fields.SHOULDER_CONE.box.querySelector('input[type=range]').value)];
+  const steps = [() => pull(page, 'target', 50, 30), () => pull(page, 'pole', 50, 30), () => letGo(page).click(), () => pull(page, 'cone', 50, 30), () => sweep('Opening'),
+    () => box('SHOULDER_CONE').uncheck(), () => box('FLEXION_LIMIT').check(), async () => { await everyone(page).check(); await pull(page, 'target', 50, 30); },
+    () => letAllGo(page).click()];
+  assert.equal(await undo(page).isVisible(), false);
+  const seen = [await look()];
+  for (const step of steps) {
+    await step();
+    seen.push(await look());
+  }
+  const last = seen.pop();
+  assert.notDeepEqual(last, seen.at(-1));
+  assert.equal(await page.evaluate(() => swivelPage.undo.before.length), seen.length);
+  await page.locator('canvas').focus();
+  while (seen.length > 0) {
+    await (seen.length % 2 ? page.keyboard.press('Control+z') : undo(page).click());
+    assert.deepEqual(await look(), seen.pop(), `step ${seen.length}`);
+  }
+  await page.keyboard.press('Control+z');
+  assert.deepEqual([await undo(page).isVisible(), await box('SHOULDER_CONE').isChecked(), await state(page)], [false, true, 'equal']);
+}, link);
 
-test('keys with Ctrl do nothing else, and the last 64 steps are kept', async () => {
-  await visit(undone, async (page) => {
-    await page.keyboard.press('Control+h');
-    await page.keyboard.press('z');
-    assert.equal(await page.locator('dialog').isVisible(), false);
-    await pull(page, 'target', -30, 0);
-    await page.evaluate(() => { for (let n = 0; n < 70; ++n) swivelPage.letAllGo(); });
-    assert.equal(await page.evaluate(() => swivelPage.undo.before.length), 64);
-  }, link);
-});
+onPage('keys with Ctrl do nothing else, and the last 64 steps are kept', () => undone, async (page) => {
+  await page.keyboard.press('Control+h');
+  await page.keyboard.press('z');
+  assert.equal(await page.locator('dialog').isVisible(), false);
+  await pull(page, 'target', -30, 0);
+  await page.evaluate(() => { for (let n = 0; n < 70; ++n) swivelPage.letAllGo(); });
+  assert.equal(await page.evaluate(() => swivelPage.undo.before.length), 64);
+}, link);
 
 // ---- tables
 const crowd = ['view', clip, '--characters', '6', '--frames', '10'];
@@ -194,26 +183,24 @@ const near = async (page, name, character) => {
   await page.evaluate((who) => swivelPage.view.lookAt(who, true), character);
 };
 
-test('a table has goals of one and of everyone, targets and poles', async () => {
-  await visit(write('save.html', ...crowd), async (page) => {
-    assert.equal(await table(page).isVisible(), false);
-    await near(page, 'left_arm', 2);
-    await pull(page, 'target', -30, -25);
-    await page.evaluate(() => swivelPage.setFrame(7));
-    await pull(page, 'pole', 60, 20);
-    await near(page, 'right_arm', 4);
-    await everyone(page).check();
-    await pull(page, 'target', 20, -35);
-    const before = await digest(page), [header, ...rows] = await save(page, 'saved.csv');
-    assert.deepEqual(await page.evaluate(() => { swivelPage.stage.solve(); return [swivelPage.stage.frame, swivelPage.stage.digest()]; }), [7, before]);
-    assert.equal(header, 'frame,character,limb,x,y,z,pole_x,pole_y,pole_z');
-    assert.equal(rows.length, 10 * 7);
-    const kinds = rows.map((row) => row.split(',')).map(([, character, limb, , , , ...pole]) => `${limb} ${character} ${pole.every((cell) => cell !== '')}`);
-    assert.deepEqual([...new Set(kinds)].sort(), ['left_arm 2 true', ...range(6).map((n) => `right_arm ${n} false`)]);
-    const dragged = await digests(page, range(10));
-    assert.ok(dragged.every(([, isEqual]) => isEqual === 'changed'));
-    await assertSolved('saved.html', crowd, 'saved.csv', dragged);
-  });
+onPage('a table has goals of one and of everyone, targets and poles', () => write('save.html', ...crowd), async (page) => {
+  assert.equal(await table(page).isVisible(), false);
+  await near(page, 'left_arm', 2);
+  await pull(page, 'target', -30, -25);
+  await page.evaluate(() => swivelPage.setFrame(7));
+  await pull(page, 'pole', 60, 20);
+  await near(page, 'right_arm', 4);
+  await everyone(page).check();
+  await pull(page, 'target', 20, -35);
+  const before = await digest(page), [header, ...rows] = await save(page, 'saved.csv');
+  assert.deepEqual(await page.evaluate(() => { swivelPage.stage.solve(); return [swivelPage.stage.frame, swivelPage.stage.digest()]; }), [7, before]);
+  assert.equal(header, 'frame,character,limb,x,y,z,pole_x,pole_y,pole_z');
+  assert.equal(rows.length, 10 * 7);
+  const kinds = rows.map((row) => row.split(',')).map(([, character, limb, , , , ...pole]) => `${limb} ${character} ${pole.every((cell) => cell !== '')}`);
+  assert.deepEqual([...new Set(kinds)].sort(), ['left_arm 2 true', ...range(6).map((n) => `right_arm ${n} false`)]);
+  const dragged = await digests(page, range(10));
+  assert.ok(dragged.every(([, isEqual]) => isEqual === 'changed'));
+  await assertSolved('saved.html', crowd, 'saved.csv', dragged);
 });
 
 test('a table has a crowd file\'s offsets once, everyone\'s poles that are directions, and state', async () => {

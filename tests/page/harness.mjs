@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after } from 'node:test';
+import { after, test } from 'node:test';
 import { close, forget, keep, leave, open, show, take } from './tabs.mjs';
 
 const { SWIVEL, WORK } = process.env;
@@ -48,6 +48,12 @@ export async function visit(file, use, { before, hash = '', isFresh = false, spo
     leave(tab, isGood);
   }
 }
+
+/** A test of one page. make: gives its file. use, options: as visit() has them. */
+export const onPage = (name, make, use, options) => test(name, () => visit(make(), use, options));
+/** Looks at character 3 of the demo from near; its left arm is chosen by a link. */
+export const link = { hash: '#frame=20&character=3&limb=left_arm' };
+export const onDemo = (name, use, options = link) => onPage(name, () => demo, use, options);
 
 /** What a page shows in place of a crowd. before: as visit() has it. */
 export async function refusal(place, { before } = {}) {

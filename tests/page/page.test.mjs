@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The promise: the page opens from disk alone, gives the command's bits in every frame, and draws what the solver found. What cannot be shown
-// is said.
+// The promise: the page opens from disk alone, gives the command's bits in every frame, and draws what the solver found, in the lesson step by
+// step. What cannot be shown is said.
 import assert from 'node:assert/strict';
 import { copyFileSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertEqualBits, choose, clip, demo, difference, file, range, refusal, run, signed, tiny, visit, write } from './harness.mjs';
+import { assertEqualBits, choose, clip, demo, difference, file, onDemo, onPage, pull, range, refusal, run, signed, tiny, visit, write } from './harness.mjs';
 
 test('one classic inline script, no network, the command\'s digests, a picture that moves', async () => {
   const text = readFileSync(demo, 'utf8');
@@ -106,6 +106,52 @@ test('panel, overlays and lesson show the limb that is solved, with clavicle, ef
   }
 });
 
+onDemo('the lesson shows the library\'s entities, step by step, while the arm is dragged', async (page) => {
+  const heading = () => page.textContent('.lesson h3'), summary = page.getByText('The lecture, step by step');
+  await summary.focus();
+  await page.keyboard.press('ArrowRight');  // while it is closed, keys are not its own
+  const open = await difference(page, async () => {
+    await summary.click();
+    await page.locator('.labels span').first().waitFor();
+  });
+  assert.ok(open.share > 0.003, `${open.share}`);
+  const wanted = [['pw', 'πswivel', 'S1', 'S2', 'PP', 'pe'], ['lse', 'lew', 'c4', 'qe'], ['pze', 'πM', 'πe', 'lM'], ['q12'], ['c3', 'q3', 'qs']];
+  for (const [step, names] of wanted.entries()) {
+    assert.deepEqual(await page.locator('.entities dt').allTextContents(), names);
+    assert.ok((await heading()).startsWith(`${step + 1}. `));
+    assert.doesNotMatch(await page.textContent('.lesson'), /[a-z]_|\bpi|\^/, 'names are typeset');
+    assert.ok(await page.locator('.labels span:visible').count() > 0);
+    const text = await page.locator('.entities dd').last().textContent();
+    await pull(page, 'target', 6, -6);
+    assert.notEqual(await page.locator('.entities dd').last().textContent(), text);
+    await page.getByRole('button', { name: 'Next', exact: true }).click();
+  }
+  assert.ok((await heading()).startsWith('1. '));
+  await summary.focus();
+  await page.keyboard.press('ArrowRight');
+  assert.ok((await heading()).startsWith('2. '));
+  const off = await page.textContent('.lesson .hint');
+  assert.ok(Number(off.match(/[\d.]+e-\d\d/)[0]) < 1e-12, off);
+  await pull(page, 'target', -260, -100);
+  assert.match(await page.textContent('.lesson p'), /too far by/);
+});
+
+test('the lesson says where the solver goes another way', async () => {
+  const limbs = [['left_arm', 'aim = { axis = [0, 1, 0], flexion_deg = 60 }', /This limb aims/],
+    ['right_arm', 'target.offset = [3, 0, 0]\npole.angle_deg = 40', /The elbow is 40\.0° from where the limb's own pole wishes it: limits, an angle, weights or a step turn it/],
+    ['left_leg', 'target.offset = [0, 3, 0]\nweights.position = 0.3', /The lecture knows no limits: .* hold the leg that you see 0\.\d+ leg lengths from this one/]];
+  const toml = file('lessons.toml', limbs.map(([name, lines]) => `[limb.${name}]\n${lines}\n`).join(''));
+  await visit(write('lessons.html', 'view', clip, '--limbs', 'all', '--frames', '5', '--crowd', toml), async (page) => {
+    await page.getByText('The lecture, step by step').click();
+    await page.locator('.lesson h3', { hasText: '1. ' }).waitFor();
+    for (const [name, , expected] of limbs) {
+      await choose(page, name, 0);
+      assert.match(await page.textContent('.lesson'), expected);
+    }
+    assert.doesNotMatch(await page.textContent('.lesson'), /\b(arms?|wrist|elbow|shoulder|forearm)\b/i, 'of a leg');
+  });
+});
+
 test('a crowd that carries state has the command\'s digests, in whatever order its frames are looked at', async () => {
   const toml = file('state.toml', '[budget]\nblocks = 3\n[limb.all]\nswivel.most_deg_per_frame = 2\n');
   await visit(write('state.html', 'view', clip, '--characters', '100', '--frames', '40', '--crowd', toml), (page) => assertEqualBits(page, [...range(40), 20, 21, 0, 1, 39, 2]));
@@ -135,18 +181,16 @@ for (const [name, [toml, ...options]] of Object.entries(caches))
     await visit(write('cache.html', 'view', 'crowd.zarr'), (page) => assertEqualBits(page, [...range(9), 3]));
   });
 
-test('a long clip opens', async () => {
-  await visit(write('long.html', 'demo', '--characters', '2'), async (page) => {
-    const frames = await page.evaluate(async () => {  // the clip 450 times: more than the module's memory was without it
-      const { data } = swivelPage.stage, long = (text) => text.repeat(450), canvas = document.createElement('canvas');
-      document.body.replaceChildren(canvas);
-      const page = await swivelView.start({ ...data, frame_count: 450 * data.frame_count, positions: long(data.positions),
-        limbs: data.limbs.map((limb) => ({ ...limb, sources: long(limb.sources) })) });
-      page.setFrame(100);
-      return [page.stage.frameCount, page.stage.digestState()];
-    });
-    assert.deepEqual(frames, [108000, 'equal']);
+onPage('a long clip opens', () => write('long.html', 'demo', '--characters', '2'), async (page) => {
+  const frames = await page.evaluate(async () => {  // the clip 450 times: more than the module's memory was without it
+    const { data } = swivelPage.stage, long = (text) => text.repeat(450), canvas = document.createElement('canvas');
+    document.body.replaceChildren(canvas);
+    const page = await swivelView.start({ ...data, frame_count: 450 * data.frame_count, positions: long(data.positions),
+      limbs: data.limbs.map((limb) => ({ ...limb, sources: long(limb.sources) })) });
+    page.setFrame(100);
+    return [page.stage.frameCount, page.stage.digestState()];
   });
+  assert.deepEqual(frames, [108000, 'equal']);
 });
 
 test('names from files are text', async () => {

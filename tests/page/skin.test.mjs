@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { difference, file, run, visit, write } from './harness.mjs';
+import { difference, file, onPage, run, visit, write } from './harness.mjs';
 
 const figure = fileURLToPath(new URL('../../tools/view/figure.glb', import.meta.url)), check = fileURLToPath(new URL('../gltf/check.mjs', import.meta.url));
 const crowd = file('skins.toml', `[crowd]
@@ -50,23 +50,22 @@ test('joints are where the command writes them, above and below limbs and of hea
   });
 });
 
-test('a skin is seen, a chosen limb in another colour; limbs\' own colours and large crowds are capsules', async () => {
-  await visit(write('many.html', 'view', figure, '--limbs', 'all', '--characters', '301', '--frames', '2'), async (page) => {
-    const colour = page.getByLabel('Colour limbs by'), isSkin = () => page.evaluate(() => swivelPage.view.bodies.skins.meshes[0].visible);
-    assert.deepEqual([await page.evaluate(() => swivelPage.drawnCount), await isSkin(), await colour.inputValue()], [300, true, '-1']);
-    await page.evaluate(() => {  // pictures of 300 take long
-      swivelPage.drawFirst(9);
-      swivelPage.home();
-    });
-    const chosen = await difference(page, () => page.evaluate(() => swivelPage.view.bodies.choose(swivelPage.stage.limbs[2], swivelPage.view.middle)));
-    assert.ok(chosen.share > 0.0005, `${chosen.share}`);
-    const { share } = await difference(page, () => colour.selectOption('Limb'));
-    assert.ok(share > 0.02 && !await isSkin(), `${share}`);
-    await colour.selectOption('Skin');
-    assert.equal(await isSkin(), true);
-    await page.evaluate(() => swivelPage.drawFirst(301));
-    assert.equal(await isSkin(), false);
+onPage('a skin is seen, a chosen limb in another colour; limbs\' own colours and large crowds are capsules',
+  () => write('many.html', 'view', figure, '--limbs', 'all', '--characters', '301', '--frames', '2'), async (page) => {
+  const colour = page.getByLabel('Colour limbs by'), isSkin = () => page.evaluate(() => swivelPage.view.bodies.skins.meshes[0].visible);
+  assert.deepEqual([await page.evaluate(() => swivelPage.drawnCount), await isSkin(), await colour.inputValue()], [300, true, '-1']);
+  await page.evaluate(() => {  // pictures of 300 take long
+    swivelPage.drawFirst(9);
+    swivelPage.home();
   });
+  const chosen = await difference(page, () => page.evaluate(() => swivelPage.view.bodies.choose(swivelPage.stage.limbs[2], swivelPage.view.middle)));
+  assert.ok(chosen.share > 0.0005, `${chosen.share}`);
+  const { share } = await difference(page, () => colour.selectOption('Limb'));
+  assert.ok(share > 0.02 && !await isSkin(), `${share}`);
+  await colour.selectOption('Skin');
+  assert.equal(await isSkin(), true);
+  await page.evaluate(() => swivelPage.drawFirst(301));
+  assert.equal(await isSkin(), false);
 });
 
 /** A page of a figure that is one arm of four joints, with these nodes, meshes and so on beside. */
@@ -110,32 +109,31 @@ test('a mesh that cannot be read is said, and capsules are drawn', async () => {
   });
 });
 
-test('heads look at the pointer, bodies and bits stay', async () => {
-  await visit(write('heads.html', 'view', figure, '--limbs', 'all', '--characters', '4'), async (page) => {
-    /** How far each face is turned from the point that heads look at, in degrees, and how all joints that are not of the neck lie. */
-    const look = () => page.evaluate(() => {
-      const { stage, view } = swivelPage, { poses } = view.bodies.skins, { head, face } = stage.data.skin;
-      const found = [];
-      poses.each(0, 4, (_, matrices) => {
-        const matrix = matrices[head.at(-1)].clone(), line = view.camera.position.clone().set(...face).transformDirection(matrix);
-        const from = view.camera.position.clone().setFromMatrixPosition(matrix);
-        const bodies = matrices.filter((_, joint) => !poses.heads.below.includes(joint)).map(({ elements }) => [...elements]);
-        found.push([poses.heads.at ? line.angleTo(view.camera.position.clone().set(...poses.heads.at).sub(from)) * 180 / Math.PI : NaN, bodies]);
-      });
-      return found;
+onPage('heads look at the pointer, bodies and bits stay',
+  () => write('heads.html', 'view', figure, '--limbs', 'all', '--characters', '4'), async (page) => {
+  /** How far each face is turned from the point that heads look at, in degrees, and how all joints that are not of the neck lie. */
+  const look = () => page.evaluate(() => {
+    const { stage, view } = swivelPage, { poses } = view.bodies.skins, { head, face } = stage.data.skin;
+    const found = [];
+    poses.each(0, 4, (_, matrices) => {
+      const matrix = matrices[head.at(-1)].clone(), line = view.camera.position.clone().set(...face).transformDirection(matrix);
+      const from = view.camera.position.clone().setFromMatrixPosition(matrix);
+      const bodies = matrices.filter((_, joint) => !poses.heads.below.includes(joint)).map(({ elements }) => [...elements]);
+      found.push([poses.heads.at ? line.angleTo(view.camera.position.clone().set(...poses.heads.at).sub(from)) * 180 / Math.PI : NaN, bodies]);
     });
-    await page.mouse.move(300, 250);
-    const [left, bits] = [await look(), await page.evaluate(() => swivelPage.stage.digestState())];
-    assert.equal(bits, 'equal');
-    for (const [off] of left) assert.ok(off < 1, `${off} degrees`);
-    const { share } = await difference(page, () => page.mouse.move(60, 400));
-    assert.ok(share > 0.0005, `${share}`);
-    const right = await look();
-    right.forEach(([off, bodies], n) => {
-      assert.ok(off < 1, `${off} degrees`);
-      assert.deepEqual(bodies, left[n][1]);
-    });
-    await page.evaluate(() => swivelPage.lead(null));
-    assert.ok(Number.isNaN((await look())[0][0]));
+    return found;
   });
+  await page.mouse.move(300, 250);
+  const [left, bits] = [await look(), await page.evaluate(() => swivelPage.stage.digestState())];
+  assert.equal(bits, 'equal');
+  for (const [off] of left) assert.ok(off < 1, `${off} degrees`);
+  const { share } = await difference(page, () => page.mouse.move(60, 400));
+  assert.ok(share > 0.0005, `${share}`);
+  const right = await look();
+  right.forEach(([off, bodies], n) => {
+    assert.ok(off < 1, `${off} degrees`);
+    assert.deepEqual(bodies, left[n][1]);
+  });
+  await page.evaluate(() => swivelPage.lead(null));
+  assert.ok(Number.isNaN((await look())[0][0]));
 });

@@ -3,10 +3,8 @@
 // light and dark. What is dragged is in drag.test.mjs.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { choose, clip, demo, difference, file, pixel, pull, state, until, visit, write } from './harness.mjs';
+import { choose, clip, demo, difference, file, link, onDemo, onPage, pixel, pull, state, until, visit, write } from './harness.mjs';
 
-/** Looks at character 3 from near; its left arm is chosen by a link. */
-const link = { hash: '#frame=20&character=3&limb=left_arm' };
 const chosen = (page) => page.evaluate(() => swivelPage.selection && [swivelPage.selection.limb.name, swivelPage.selection.character]);
 const forearm = (page, name, character) => page.evaluate(([which, who]) => {
   const { elbow, wrist } = swivelPage.stage.pose(limbOf(which), who);
@@ -21,141 +19,85 @@ const isSeen = (page, character) => page.evaluate((who) => {
   });
 }, character);
 
-test('a click chooses the limb under it, and the panel says why it is as it is; another place chooses nothing', async () => {
-  await visit(demo, async (page) => {
-    await choose(page, null);
-    const at = await forearm(page, 'right_arm', 3);
-    await page.mouse.click(at.x, at.y);
-    assert.deepEqual(await chosen(page), ['right_arm', 3]);
-    assert.equal(await page.textContent('aside h3'), 'right arm of character 3');
-    assert.equal(await page.textContent('.why'), await page.evaluate(() => swivelPage.stage.explain(swivelPage.selection.limb, 3)));
-    await page.mouse.click(30, 400);
-    assert.equal(await chosen(page), null);
-  }, link);
+onDemo('a click chooses the limb under it, and the panel says why it is as it is; another place chooses nothing', async (page) => {
+  await choose(page, null);
+  const at = await forearm(page, 'right_arm', 3);
+  await page.mouse.click(at.x, at.y);
+  assert.deepEqual(await chosen(page), ['right_arm', 3]);
+  assert.equal(await page.textContent('aside h3'), 'right arm of character 3');
+  assert.equal(await page.textContent('.why'), await page.evaluate(() => swivelPage.stage.explain(swivelPage.selection.limb, 3)));
+  await page.mouse.click(30, 400);
+  assert.equal(await chosen(page), null);
 });
 
-test('limits: switches add them, sliders and the rim of the cone move them, flags say so', async () => {
-  await visit(demo, async (page) => {
-    const flags = () => page.evaluate(() => swivelPage.stage.flags(limbOf('left_arm'), 3));
-    const opening = () => page.evaluate(() => Math.acos(swivelPage.stage.field(limbOf('left_arm'), 'SHOULDER_CONE')[3]) * 180 / Math.PI);
-    await page.getByText('Limits and weights').click();
-    await page.locator('[data-field=SHOULDER_CONE]').check();
-    await page.locator('.field').filter({ hasText: 'Shoulder cone' }).getByLabel('Opening').fill('35');
-    assert.ok((await flags()) & (1 << 7 | 1 << 15), 'limited by the cone, or infeasible');
-    assert.ok(Math.abs((await opening()) - 35) < 0.1);
-    await pull(page, 'cone', 40, 40);
-    assert.ok(Math.abs((await opening()) - 35) > 3, `${await opening()}`);
-    for (const field of ['FLEXION_LIMIT', 'HUMERAL_TWIST', 'SHOULDER_BOX', 'WRIST_BOX', 'HAND_CONE', 'FOREARM_TWIST', 'HAND_TWIST', 'WEIGHTS', 'REACH', 'MOST_SWIVEL']) {
-      await page.locator(`[data-field=${field}]`).check();
-      assert.ok(await page.evaluate((name) => swivelPage.stage.has(limbOf('left_arm'), name), field), field);
-      assert.equal((await flags()) >>> 30, 0, `${field}: bad input`);
-    }
-    for (const box of await page.locator('[data-field]').all()) await box.uncheck();
-    assert.equal(await state(page), 'equal');
-  }, link);
+onDemo('limits: switches add them, sliders and the rim of the cone move them, flags say so', async (page) => {
+  const flags = () => page.evaluate(() => swivelPage.stage.flags(limbOf('left_arm'), 3));
+  const opening = () => page.evaluate(() => Math.acos(swivelPage.stage.field(limbOf('left_arm'), 'SHOULDER_CONE')[3]) * 180 / Math.PI);
+  await page.getByText('Limits and weights').click();
+  await page.locator('[data-field=SHOULDER_CONE]').check();
+  await page.locator('.field').filter({ hasText: 'Shoulder cone' }).getByLabel('Opening').fill('35');
+  assert.ok((await flags()) & (1 << 7 | 1 << 15), 'limited by the cone, or infeasible');
+  assert.ok(Math.abs((await opening()) - 35) < 0.1);
+  await pull(page, 'cone', 40, 40);
+  assert.ok(Math.abs((await opening()) - 35) > 3, `${await opening()}`);
+  for (const field of ['FLEXION_LIMIT', 'HUMERAL_TWIST', 'SHOULDER_BOX', 'WRIST_BOX', 'HAND_CONE', 'FOREARM_TWIST', 'HAND_TWIST', 'WEIGHTS', 'REACH', 'MOST_SWIVEL']) {
+    await page.locator(`[data-field=${field}]`).check();
+    assert.ok(await page.evaluate((name) => swivelPage.stage.has(limbOf('left_arm'), name), field), field);
+    assert.equal((await flags()) >>> 30, 0, `${field}: bad input`);
+  }
+  for (const box of await page.locator('[data-field]').all()) await box.uncheck();
+  assert.equal(await state(page), 'equal');
 });
 
-test('overlays, colours, light and dark, drawn characters change the picture', async () => {
-  await visit(demo, async (page) => {
-    await page.evaluate(() => swivelPage.fields.SHOULDER_CONE.set([50]));
-    await pull(page, 'pole', -100, 0);  // at the elbow, its lines would lie on the limb
-    await page.getByText('Limits and weights').click();
-    await page.locator('[data-field=SHOULDER_CONE]').check();
-    await page.getByText('Overlays', { exact: true }).click();
-    const changes = async (act, least, name) => {
-      const { share } = await difference(page, act);
-      assert.ok(share > least, `${name}: ${share}`);
-    };
-    for (const overlay of ['spheres', 'circle', 'plane', 'middle', 'pole', 'cones'])
-      await changes(() => page.evaluate((name) => document.querySelector(`[data-overlay=${name}]`).click(), overlay), 0.0001, overlay);
-    for (const colour of ['Error', 'Flag', 'Flexion']) {
-      await changes(() => page.getByLabel('Colour limbs by').selectOption(colour), 0.002, colour);
-      assert.ok(await page.locator('.legend li').count() >= 5);
-    }
-    await changes(() => page.getByRole('button', { name: 'Light or dark' }).click(), 0.5, 'light or dark');
-    await changes(() => page.evaluate(() => swivelPage.drawFirst(4)), 0.005, 'drawn characters');
-    const colours = await page.evaluate(() => Object.values(swivelPage.picker.handles).map(({ material }) => material.color.getHexString()));
-    assert.equal(new Set(colours).size, 5, `balls of ${colours}`);
-  }, link);
+onDemo('overlays, colours, light and dark, drawn characters change the picture', async (page) => {
+  await page.evaluate(() => swivelPage.fields.SHOULDER_CONE.set([50]));
+  await pull(page, 'pole', -100, 0);  // at the elbow, its lines would lie on the limb
+  await page.getByText('Limits and weights').click();
+  await page.locator('[data-field=SHOULDER_CONE]').check();
+  await page.getByText('Overlays', { exact: true }).click();
+  const changes = async (act, least, name) => {
+    const { share } = await difference(page, act);
+    assert.ok(share > least, `${name}: ${share}`);
+  };
+  for (const overlay of ['spheres', 'circle', 'plane', 'middle', 'pole', 'cones'])
+    await changes(() => page.evaluate((name) => document.querySelector(`[data-overlay=${name}]`).click(), overlay), 0.0001, overlay);
+  for (const colour of ['Error', 'Flag', 'Flexion']) {
+    await changes(() => page.getByLabel('Colour limbs by').selectOption(colour), 0.002, colour);
+    assert.ok(await page.locator('.legend li').count() >= 5);
+  }
+  await changes(() => page.getByRole('button', { name: 'Light or dark' }).click(), 0.5, 'light or dark');
+  await changes(() => page.evaluate(() => swivelPage.drawFirst(4)), 0.005, 'drawn characters');
+  const colours = await page.evaluate(() => Object.values(swivelPage.picker.handles).map(({ material }) => material.color.getHexString()));
+  assert.equal(new Set(colours).size, 5, `balls of ${colours}`);
 });
 
-test('a limb has the legend\'s colour of its gravest flag', async () => {
-  await visit(demo, async (page) => {
-    await page.getByLabel('Colour limbs by').selectOption('Flag');
-    await page.evaluate(() => {  // a pole behind the shoulder, where a cone does not let the elbow go
-      const { stage, selection: { limb, character } } = swivelPage;
-      swivelPage.drag('pole', stage.shoulder(limb, character).map((x, axis) => x - (axis === 2 ? 5 : 0)));
-    });
-    /** The legend's name for the colour in the middle of character 3's left upper arm, whatever light falls on it, with a cone this wide. */
-    const seen = (opening) => page.evaluate((degrees) => {
-      const { stage, view } = swivelPage, pose = stage.pose(limbOf('left_arm'), 3), box = document.querySelector('[data-field=SHOULDER_CONE]');
-      swivelPage.fields.SHOULDER_CONE.set([degrees]);
-      if (!box.checked) box.click();
-      swivelPage.select(null);
-      window.isSeen = true;
-      swivelPage.draw();
-      const from = document.querySelector('canvas'), copy = document.createElement('canvas'), context = copy.getContext('2d');
-      [copy.width, copy.height] = [from.width, from.height];
-      context.drawImage(from, 0, 0);
-      window.isSeen = false;
-      const at = view.project(pose.shoulder.map((x, axis) => (x + stage.pose(limbOf('left_arm'), 3).elbow[axis]) / 2)), scale = from.width / from.clientWidth;
-      const light = context.getImageData(at.x * scale, at.y * scale, 1, 1).data.slice(0, 3);
-      const alike = (entry) => {
-        const colour = getComputedStyle(entry.firstChild).backgroundColor.match(/\d+/g).map(Number);
-        return colour.reduce((sum, c, n) => sum + c * light[n], 0) / Math.hypot(...colour);
-      };
-      return [...document.querySelectorAll('.legend li')].reduce((best, entry) => (alike(entry) > alike(best) ? entry : best)).textContent;
-    }, opening);
-    assert.deepEqual([await seen(170), await seen(5), await seen(80)], ['reached', 'infeasible', 'limited']);
-  }, link);
-});
-
-test('the lesson shows the library\'s entities, step by step, while the arm is dragged', async () => {
-  await visit(demo, async (page) => {
-    const heading = () => page.textContent('.lesson h3'), summary = page.getByText('The lecture, step by step');
-    await summary.focus();
-    await page.keyboard.press('ArrowRight');  // while it is closed, keys are not its own
-    const open = await difference(page, async () => {
-      await summary.click();
-      await page.locator('.labels span').first().waitFor();
-    });
-    assert.ok(open.share > 0.003, `${open.share}`);
-    const wanted = [['pw', 'πswivel', 'S1', 'S2', 'PP', 'pe'], ['lse', 'lew', 'c4', 'qe'], ['pze', 'πM', 'πe', 'lM'], ['q12'], ['c3', 'q3', 'qs']];
-    for (const [step, names] of wanted.entries()) {
-      assert.deepEqual(await page.locator('.entities dt').allTextContents(), names);
-      assert.ok((await heading()).startsWith(`${step + 1}. `));
-      assert.doesNotMatch(await page.textContent('.lesson'), /[a-z]_|\bpi|\^/, 'names are typeset');
-      assert.ok(await page.locator('.labels span:visible').count() > 0);
-      const text = await page.locator('.entities dd').last().textContent();
-      await pull(page, 'target', 6, -6);
-      assert.notEqual(await page.locator('.entities dd').last().textContent(), text);
-      await page.getByRole('button', { name: 'Next', exact: true }).click();
-    }
-    assert.ok((await heading()).startsWith('1. '));
-    await summary.focus();
-    await page.keyboard.press('ArrowRight');
-    assert.ok((await heading()).startsWith('2. '));
-    const off = await page.textContent('.lesson .hint');
-    assert.ok(Number(off.match(/[\d.]+e-\d\d/)[0]) < 1e-12, off);
-    await pull(page, 'target', -260, -100);
-    assert.match(await page.textContent('.lesson p'), /too far by/);
-  }, link);
-});
-
-test('the lesson says where the solver goes another way', async () => {
-  const limbs = [['left_arm', 'aim = { axis = [0, 1, 0], flexion_deg = 60 }', /This limb aims/],
-    ['right_arm', 'target.offset = [3, 0, 0]\npole.angle_deg = 40', /The elbow is 40\.0° from where the limb's own pole wishes it: limits, an angle, weights or a step turn it/],
-    ['left_leg', 'target.offset = [0, 3, 0]\nweights.position = 0.3', /The lecture knows no limits: .* hold the leg that you see 0\.\d+ leg lengths from this one/]];
-  const toml = file('lessons.toml', limbs.map(([name, lines]) => `[limb.${name}]\n${lines}\n`).join(''));
-  await visit(write('lessons.html', 'view', clip, '--limbs', 'all', '--frames', '5', '--crowd', toml), async (page) => {
-    await page.getByText('The lecture, step by step').click();
-    await page.locator('.lesson h3', { hasText: '1. ' }).waitFor();
-    for (const [name, , expected] of limbs) {
-      await choose(page, name, 0);
-      assert.match(await page.textContent('.lesson'), expected);
-    }
-    assert.doesNotMatch(await page.textContent('.lesson'), /\b(arms?|wrist|elbow|shoulder|forearm)\b/i, 'of a leg');
+onDemo('a limb has the legend\'s colour of its gravest flag', async (page) => {
+  await page.getByLabel('Colour limbs by').selectOption('Flag');
+  await page.evaluate(() => {  // a pole behind the shoulder, where a cone does not let the elbow go
+    const { stage, selection: { limb, character } } = swivelPage;
+    swivelPage.drag('pole', stage.shoulder(limb, character).map((x, axis) => x - (axis === 2 ? 5 : 0)));
   });
+  /** The legend's name for the colour in the middle of character 3's left upper arm, whatever light falls on it, with a cone this wide. */
+  const seen = (opening) => page.evaluate((degrees) => {
+    const { stage, view } = swivelPage, pose = stage.pose(limbOf('left_arm'), 3), box = document.querySelector('[data-field=SHOULDER_CONE]');
+    swivelPage.fields.SHOULDER_CONE.set([degrees]);
+    if (!box.checked) box.click();
+    swivelPage.select(null);
+    window.isSeen = true;
+    swivelPage.draw();
+    const from = document.querySelector('canvas'), copy = document.createElement('canvas'), context = copy.getContext('2d');
+    [copy.width, copy.height] = [from.width, from.height];
+    context.drawImage(from, 0, 0);
+    window.isSeen = false;
+    const at = view.project(pose.shoulder.map((x, axis) => (x + stage.pose(limbOf('left_arm'), 3).elbow[axis]) / 2)), scale = from.width / from.clientWidth;
+    const light = context.getImageData(at.x * scale, at.y * scale, 1, 1).data.slice(0, 3);
+    const alike = (entry) => {
+      const colour = getComputedStyle(entry.firstChild).backgroundColor.match(/\d+/g).map(Number);
+      return colour.reduce((sum, c, n) => sum + c * light[n], 0) / Math.hypot(...colour);
+    };
+    return [...document.querySelectorAll('.legend li')].reduce((best, entry) => (alike(entry) > alike(best) ? entry : best)).textContent;
+  }, opening);
+  assert.deepEqual([await seen(170), await seen(5), await seen(80)], ['reached', 'infeasible', 'limited']);
 });
 
 test('the page is light or dark as the system, and plays at once, unless the system asks for less motion or the link names a frame', async () => {
@@ -177,73 +119,69 @@ test('the page is light or dark as the system, and plays at once, unless the sys
   assert.deepEqual(await opened({ reducedMotion: 'reduce' }), [false, 'Play']);
 });
 
-test('links choose what there is, and say what there is not; the first characters and the chosen one are drawn, as they are solved', async () => {
-  await visit(demo, async (page) => {
-    const go = async (hash) => {
-      await page.evaluate((to) => new Promise((resolve) => {
-        addEventListener('hashchange', () => setTimeout(resolve), { once: true });
-        location.hash = to;
-      }), hash);
-      return page.textContent('.notice');
-    };
-    const drawn = () => page.evaluate(() => {
-      const { drawnCount, selection, view: { bodies } } = swivelPage, late = bodies.extra === null ? [] : [bodies.extra];
-      return [drawnCount, bodies.extra, selection?.character, worstDrawn([...Array(drawnCount).keys(), ...late]) < 1e-5];
-    });
-    assert.equal(await go('#drawn=4'), '');
-    assert.deepEqual((await drawn()).slice(0, 2), [4, null]);
-    assert.equal(await go('#character=9&limb=left_arm'), '');
-    assert.deepEqual(await drawn(), [4, 9, 9, true]);
-    await choose(page, null);
-    assert.deepEqual(await drawn(), [4, 9, undefined, true], 'who was chosen last stays');
-    assert.equal(await go('#frame=3&character=6'), '');
-    assert.deepEqual(await drawn(), [4, 6, 6, true]);
-    assert.equal(await go('#drawn=8'), '');
-    assert.deepEqual(await drawn(), [8, null, 6, true]);
-    assert.match(await go('#character=12&limb=left_arm'), /^No character 12 here \(0 to 11\)\.$/);
-    assert.match(await go('#character=2&limb=left_wing'), /^No limb left_wing here \(left_arm, right_arm\)\.$/);
-    assert.match(await go('#frame=240&character=-1&limb=tail&drawn=0'), /^0 characters cannot .*1 to 12.* No frame 240 here \(0 to 239\)\. No character -1 .* No limb tail /);
-    assert.equal(await page.evaluate(() => swivelPage.stage.frame), 3);
+onDemo('links choose what there is, and say what there is not; the first characters and the chosen one are drawn, as they are solved', async (page) => {
+  const go = async (hash) => {
+    await page.evaluate((to) => new Promise((resolve) => {
+      addEventListener('hashchange', () => setTimeout(resolve), { once: true });
+      location.hash = to;
+    }), hash);
+    return page.textContent('.notice');
+  };
+  const drawn = () => page.evaluate(() => {
+    const { drawnCount, selection, view: { bodies } } = swivelPage, late = bodies.extra === null ? [] : [bodies.extra];
+    return [drawnCount, bodies.extra, selection?.character, worstDrawn([...Array(drawnCount).keys(), ...late]) < 1e-5];
   });
-});
+  assert.equal(await go('#drawn=4'), '');
+  assert.deepEqual((await drawn()).slice(0, 2), [4, null]);
+  assert.equal(await go('#character=9&limb=left_arm'), '');
+  assert.deepEqual(await drawn(), [4, 9, 9, true]);
+  await choose(page, null);
+  assert.deepEqual(await drawn(), [4, 9, undefined, true], 'who was chosen last stays');
+  assert.equal(await go('#frame=3&character=6'), '');
+  assert.deepEqual(await drawn(), [4, 6, 6, true]);
+  assert.equal(await go('#drawn=8'), '');
+  assert.deepEqual(await drawn(), [8, null, 6, true]);
+  assert.match(await go('#character=12&limb=left_arm'), /^No character 12 here \(0 to 11\)\.$/);
+  assert.match(await go('#character=2&limb=left_wing'), /^No limb left_wing here \(left_arm, right_arm\)\.$/);
+  assert.match(await go('#frame=240&character=-1&limb=tail&drawn=0'), /^0 characters cannot .*1 to 12.* No frame 240 here \(0 to 239\)\. No character -1 .* No limb tail /);
+  assert.equal(await page.evaluate(() => swivelPage.stage.frame), 3);
+}, {});
 
-test('keyboard: play, steps, ends, choice, help, follow', async () => {
-  await visit(demo, async (page) => {
-    const frame = () => page.evaluate(() => swivelPage.stage.frame);
-    await page.locator('canvas').focus();
-    for (const [key, wanted] of [['End', 239], ['ArrowRight', 0], ['ArrowLeft', 239], ['Home', 0]]) {
-      await page.keyboard.press(key);
-      assert.equal(await frame(), wanted, key);
-    }
-    await page.keyboard.press('n');
-    assert.deepEqual(await chosen(page), ['right_arm', 3]);
-    await page.keyboard.press('f');
-    assert.equal(await page.evaluate(() => swivelPage.view.followed), 3);
-    await page.keyboard.press(' ');
-    await until(page, () => swivelPage.stage.frame, (now) => now > 0);
-    await page.keyboard.press(' ');
-    assert.equal(await page.evaluate(() => swivelPage.player.isPlaying), false);
-    await page.keyboard.press('h');
-    assert.ok(await page.getByText('play or pause').isVisible());
-    await page.keyboard.press('Escape');
-    await page.keyboard.press('Escape');
-    assert.equal(await chosen(page), null);
-    await page.locator('.scrub').fill('100');
-    assert.equal(await frame(), 100);
-    const ticks = await page.evaluate(async () => {  // play, pause and play within one picture play at one speed
-      const { player } = swivelPage, times = [], { tick } = player;
-      player.tick = (now) => {
-        times.push(now);
-        tick.call(player, now);
-      };
-      [0, 1, 2].forEach(() => player.toggle());
-      while (times.length < 6) await new Promise(requestAnimationFrame);
-      player.pause();
-      return times;
-    });
-    assert.equal(new Set(ticks).size, ticks.length, `${ticks}`);
-  }, { ...link, spoils: true });
-});
+onDemo('keyboard: play, steps, ends, choice, help, follow', async (page) => {
+  const frame = () => page.evaluate(() => swivelPage.stage.frame);
+  await page.locator('canvas').focus();
+  for (const [key, wanted] of [['End', 239], ['ArrowRight', 0], ['ArrowLeft', 239], ['Home', 0]]) {
+    await page.keyboard.press(key);
+    assert.equal(await frame(), wanted, key);
+  }
+  await page.keyboard.press('n');
+  assert.deepEqual(await chosen(page), ['right_arm', 3]);
+  await page.keyboard.press('f');
+  assert.equal(await page.evaluate(() => swivelPage.view.followed), 3);
+  await page.keyboard.press(' ');
+  await until(page, () => swivelPage.stage.frame, (now) => now > 0);
+  await page.keyboard.press(' ');
+  assert.equal(await page.evaluate(() => swivelPage.player.isPlaying), false);
+  await page.keyboard.press('h');
+  assert.ok(await page.getByText('play or pause').isVisible());
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('Escape');
+  assert.equal(await chosen(page), null);
+  await page.locator('.scrub').fill('100');
+  assert.equal(await frame(), 100);
+  const ticks = await page.evaluate(async () => {  // play, pause and play within one picture play at one speed
+    const { player } = swivelPage, times = [], { tick } = player;
+    player.tick = (now) => {
+      times.push(now);
+      tick.call(player, now);
+    };
+    [0, 1, 2].forEach(() => player.toggle());
+    while (times.length < 6) await new Promise(requestAnimationFrame);
+    player.pause();
+    return times;
+  });
+  assert.equal(new Set(ticks).size, ticks.length, `${ticks}`);
+}, { ...link, spoils: true });
 
 test('the camera follows a clip\'s only figure, wherever it walks, and goes to a limb that N chooses', async () => {
   await visit(write('walk.html', 'view', clip), async (page) => {
@@ -275,62 +213,57 @@ test('the camera follows a clip\'s only figure, wherever it walks, and goes to a
   });
 });
 
-test('a phone sees mostly the crowd, the panel below when asked, and a touch chooses', async () => {
-  await visit(demo, async (page) => {
-    const at = await pixel(page, 'wrist'), boxOf = (name) => page.locator(name).boundingBox();
-    await choose(page, null);
-    await page.touchscreen.tap(at.x, at.y);
-    assert.equal((await chosen(page))[1], 3);
-    const [above, under] = [await boxOf('header'), await boxOf('footer')];
-    assert.equal(await page.locator('aside').isVisible(), false);
-    assert.ok(under.y - above.y - above.height > 700 * 2 / 3, `${under.y - above.y - above.height} pixels`);
-    await page.getByRole('button', { name: 'Panel' }).tap();
-    const box = await boxOf('aside');
-    assert.ok(box.width < 400 && box.y > 300);
-    for (const part of [page.getByText('The same bits as the command'), ...await page.getByRole('navigation').getByRole('button').all()]) {
-      const { x, width } = await part.boundingBox();
-      assert.ok(x >= 0 && x + width <= 390, `${x} ${width}`);
-    }
-    assert.ok((await pixel(page, 'target')).y < box.y, 'the chosen limb is above the panel');
-  }, { ...link, viewport: { width: 390, height: 700 }, hasTouch: true, isMobile: true });
-});
+onDemo('a phone sees mostly the crowd, the panel below when asked, and a touch chooses', async (page) => {
+  const at = await pixel(page, 'wrist'), boxOf = (name) => page.locator(name).boundingBox();
+  await choose(page, null);
+  await page.touchscreen.tap(at.x, at.y);
+  assert.equal((await chosen(page))[1], 3);
+  const [above, under] = [await boxOf('header'), await boxOf('footer')];
+  assert.equal(await page.locator('aside').isVisible(), false);
+  assert.ok(under.y - above.y - above.height > 700 * 2 / 3, `${under.y - above.y - above.height} pixels`);
+  await page.getByRole('button', { name: 'Panel' }).tap();
+  const box = await boxOf('aside');
+  assert.ok(box.width < 400 && box.y > 300);
+  for (const part of [page.getByText('The same bits as the command'), ...await page.getByRole('navigation').getByRole('button').all()]) {
+    const { x, width } = await part.boundingBox();
+    assert.ok(x >= 0 && x + width <= 390, `${x} ${width}`);
+  }
+  assert.ok((await pixel(page, 'target')).y < box.y, 'the chosen limb is above the panel');
+}, { ...link, viewport: { width: 390, height: 700 }, hasTouch: true, isMobile: true });
 
-test('a trail shows where the chosen wrist has been, through frames in order', async () => {
-  await visit(demo, async (page) => {
-    const points = () => page.evaluate(() => {
-      const lines = [];
-      swivelPage.view.marks.traverse((node) => { if (node.isLine) lines.push([...node.geometry.attributes.position.array].map((c, n) => c + node.parent.parent.position.toArray()[n % 3])); });
-      return lines.flat();
-    });
-    await page.getByText('Overlays', { exact: true }).click();
-    await page.locator('[data-overlay=trail]').check();
-    const wrists = await page.evaluate(() => [10, 11, 12, 13].map((frame) => {
-      swivelPage.setFrame(frame);
-      return swivelPage.stage.pose(swivelPage.selection.limb, 3).wrist;
-    }));
-    const drawn = await points();
-    assert.equal(drawn.length, 12);
-    wrists.flat().forEach((part, n) => assert.ok(Math.abs(part - drawn[n]) < 1e-4, `${part} ${drawn[n]}`));
-    await page.evaluate(() => swivelPage.setFrame(40));
-    assert.equal((await points()).length, 3);
-  }, link);
-});
-
-test('a leg has a leg\'s words', async () => {
-  await visit(write('legs.html', 'view', clip, '--limbs', 'all', '--characters', '2', '--frames', '30'), async (page) => {
-    const words = async (name) => {
-      await choose(page, name, 1);
-      return page.evaluate(() => {
-        const [limb, , limits] = document.querySelectorAll('aside > details');
-        return [limb, limits].flatMap((part) => [part.textContent, ...Array.from(part.querySelectorAll('.field [title]'), ({ title }) => title)]).join(' ');
-      });
-    };
-    const arm = await words('right_arm'), leg = await words('left_leg');
-    for (const [ofArm, ofLeg] of [['Wrist', 'Ankle'], ['Elbow', 'Knee'], ['arm lengths', 'leg lengths'], ['Shoulder cone', 'Hip cone'], ['Humeral twist', 'Thigh twist'],
-      ['Hand cone', 'Foot cone'], ['Forearm twist', 'Shin twist'], ['Wrist box', 'Ankle box'], ['the upper arm', 'the thigh']])
-      assert.deepEqual([arm.includes(ofArm), leg.includes(ofLeg)], [true, true], `${ofArm}: ${arm} | ${leg}`);
-    assert.doesNotMatch(leg, /\b(arms?|wrist|elbow|shoulder|forearm|humeral)\b/i);
+onDemo('a trail shows where the chosen wrist has been, through frames in order', async (page) => {
+  const points = () => page.evaluate(() => {
+    const lines = [];
+    swivelPage.view.marks.traverse((node) => { if (node.isLine) lines.push([...node.geometry.attributes.position.array].map((c, n) => c + node.parent.parent.position.toArray()[n % 3])); });
+    return lines.flat();
   });
+  await page.getByText('Overlays', { exact: true }).click();
+  await page.locator('[data-overlay=trail]').check();
+  const wrists = await page.evaluate(() => [10, 11, 12, 13].map((frame) => {
+    swivelPage.setFrame(frame);
+    return swivelPage.stage.pose(swivelPage.selection.limb, 3).wrist;
+  }));
+  const drawn = await points();
+  assert.equal(drawn.length, 12);
+  wrists.flat().forEach((part, n) => assert.ok(Math.abs(part - drawn[n]) < 1e-4, `${part} ${drawn[n]}`));
+  await page.evaluate(() => swivelPage.setFrame(40));
+  assert.equal((await points()).length, 3);
+});
+
+onPage('a leg has a leg\'s words',
+  () => write('legs.html', 'view', clip, '--limbs', 'all', '--characters', '2', '--frames', '30'), async (page) => {
+  const words = async (name) => {
+    await choose(page, name, 1);
+    return page.evaluate(() => {
+      const [limb, , limits] = document.querySelectorAll('aside > details');
+      return [limb, limits].flatMap((part) => [part.textContent, ...Array.from(part.querySelectorAll('.field [title]'), ({ title }) => title)]).join(' ');
+    });
+  };
+  const arm = await words('right_arm'), leg = await words('left_leg');
+  for (const [ofArm, ofLeg] of [['Wrist', 'Ankle'], ['Elbow', 'Knee'], ['arm lengths', 'leg lengths'], ['Shoulder cone', 'Hip cone'], ['Humeral twist', 'Thigh twist'],
+    ['Hand cone', 'Foot cone'], ['Forearm twist', 'Shin twist'], ['Wrist box', 'Ankle box'], ['the upper arm', 'the thigh']])
+    assert.deepEqual([arm.includes(ofArm), leg.includes(ofLeg)], [true, true], `${ofArm}: ${arm} | ${leg}`);
+  assert.doesNotMatch(leg, /\b(arms?|wrist|elbow|shoulder|forearm|humeral)\b/i);
 });
 
 test('bad input is a dash, and its target is shown as it was given', async () => {

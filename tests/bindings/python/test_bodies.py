@@ -61,21 +61,6 @@ class Solved(unittest.TestCase):
             view[:] = self.bodies.rotations
         np.testing.assert_array_equal(memory, before)
 
-    def test_some_bodies(self):
-        """Others keep their bytes, though they are not even numbers. One group leaves the joints of the other."""
-        wanted, odd, lanes = self.bodies.rotations.copy(), np.arange(N) % 2 == 1, np.zeros(64, bool)
-        self.solved(rotations=wanted, **self.bodies.members())
-        lanes[:N] = odd
-        rotations = np.where(odd[:, None, None], self.bodies.rotations, np.float32(np.nan))
-        crowd = crowd_of(N, Feature.WITH_HAND)
-        solved = crowd.solve(frames=self.bodies.goals(), pose=Pose(rotations, **self.bodies.members()), mask=lanes)
-        self.assertEqual((solved, crowd.block_count, crowd.limbs(1)), (N // 2, 4, range(N)))
-        np.testing.assert_array_equal(rotations, np.where(odd[:, None, None], wanted, np.float32(np.nan)))
-        rotations = self.bodies.rotations.copy()
-        crowd.solve(groups=[1], frames=self.bodies.goals()[1], pose=Pose(rotations, **self.bodies.members()))
-        np.testing.assert_array_equal(rotations[:, list(LIMBS[1])], wanted[:, list(LIMBS[1])])
-        np.testing.assert_array_equal(rotations[:, list(LIMBS[0])], self.bodies.rotations[:, list(LIMBS[0])])
-
 
 class Compared(unittest.TestCase):
     def setUp(self):
