@@ -84,19 +84,20 @@ inline Float3 random_step(Random& random) { return floats(random.vector(0.2, 1))
 // Every joint gets another index.
 inline void shuffle(Random& random, RestSkeleton& skeleton)
 {
-    std::vector<std::uint32_t> to(skeleton.size());
-    std::iota(to.begin(), to.end(), 0u);
-    for (std::uint32_t n = skeleton.size(); n > 1; --n) std::swap(to[n - 1], to[random.below(n)]);
+    std::vector<std::uint32_t> place(skeleton.size());
+    std::iota(place.begin(), place.end(), 0u);
+    for (std::uint32_t n = skeleton.size(); n > 1; --n) std::swap(place[n - 1], place[random.below(n)]);
     RestSkeleton moved = skeleton;
     for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
         const std::int32_t parent = skeleton.parents[n];
-        moved.parents[to[n]] = parent < 0 ? -1 : static_cast<std::int32_t>(to[static_cast<std::uint32_t>(parent)]);
-        moved.rotations[to[n]] = skeleton.rotations[n];
-        moved.translations[to[n]] = skeleton.translations[n];
+        moved.parents[place[n]] =
+            parent < 0 ? -1 : static_cast<std::int32_t>(place[static_cast<std::uint32_t>(parent)]);
+        moved.rotations[place[n]] = skeleton.rotations[n];
+        moved.translations[place[n]] = skeleton.translations[n];
     }
-    for (std::uint32_t* const joint : {&moved.shoulder, &moved.elbow, &moved.wrist}) *joint = to[*joint];
-    for (std::uint32_t& joint : moved.twist_bones) joint = to[joint];
-    for (std::uint32_t& joint : moved.between) joint = to[joint];
+    for (std::uint32_t* const joint : {&moved.shoulder, &moved.elbow, &moved.wrist}) *joint = place[*joint];
+    for (std::uint32_t& joint : moved.twist_bones) joint = place[joint];
+    for (std::uint32_t& joint : moved.between) joint = place[joint];
     skeleton = moved;
 }
 

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "tests/body_crowd.h"
-#include "tests/region_oracle.h"
+#include "tests/limit_oracle.h"
 #include "tests/test_whole_limb.h"
 
 namespace {
