@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -71,6 +72,20 @@ void ApprovedTexts::compare() const
         CHECK((is_there && agree(said, approved)));
     }
     CHECK(!std::getline(file, approved));  // no line is left
+}
+
+void check_room(const std::string& whole, const std::function<swivel_status(char* room, std::size_t size)>& call)
+{
+    for (std::size_t size = 1; size < whole.size() + 3; ++size) {
+        std::string room(whole.size() + 8, 'x');
+        REQUIRE(call(room.data(), size) == SWIVEL_OK);
+        std::string expected = whole.substr(0, size - 1);
+        if (expected != whole)
+            for (std::size_t n = 1; n <= std::min<std::size_t>(expected.size(), 3); ++n)
+                expected[expected.size() - n] = '.';
+        REQUIRE(room.c_str() == expected);
+        REQUIRE(room.find_first_not_of('x', size) == std::string::npos);
+    }
 }
 
 double number_after(const std::string& text, const std::string& words)

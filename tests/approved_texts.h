@@ -5,8 +5,11 @@
 // judge them. With SWIVEL_RENEW=1 in the environment a test writes its file anew; then read what changed.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "swivel/swivel.h"
 
 namespace swivel::test {
 
@@ -24,6 +27,9 @@ private:
     std::string path_;
     std::vector<std::string> lines_;
 };
+
+// That call(room, size) gives a text as far as there is room for it, with dots where it is cut, and writes no further.
+void check_room(const std::string& whole, const std::function<swivel_status(char* room, std::size_t size)>& call);
 
 // The number after these words, which must be there.
 double number_after(const std::string& text, const std::string& words);

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// An arm in Eigen's terms, solved by the library's formulas over any number type, and where its elbow and wrist then
-// are.
+// An arm solved by the library's formulas over any number type, and where its elbow and wrist then are. Values of these
+// types in Eigen's terms.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-
 #include "core/any_arm.h"
-#include "tests/test_random.h"
+#include "tests/test_arm.h"
 
 namespace swivel::test {
-
-using Eigen::Quaterniond;
-using Eigen::Vector3d;
 
 template <class T>
 Vector<T> mv(const Vector3d& v)
@@ -38,27 +31,6 @@ Quaterniond eigen(const Rotor<T>& q)
 }
 inline Quaterniond eigen(const double (&q)[4]) { return {q[3], q[0], q[1], q[2]}; }
 
-inline double distance(const Quaterniond& a, const Quaterniond& b)  // q and -q are one
-{
-    return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
-}
-
-struct Arm {
-    Vector3d wrist = Vector3d::Zero(), pole = Vector3d::Zero();
-    double upper = 0, fore = 0;
-
-    double length() const { return upper + fore; }
-    Vector3d normal() const { return wrist.cross(pole).normalized(); }
-    // By the law of cosines: along the line by the elbow's foot, and away from it towards the pole.
-    Vector3d elbow() const
-    {
-        const double d = wrist.norm();
-        const double along = (d * d + upper * upper - fore * fore) / (2 * d);
-        const double away = std::sqrt(std::max(0.0, upper * upper - along * along));
-        return along / d * wrist + away * normal().cross(wrist).normalized();
-    }
-};
-
 template <class T>
 ArmPose<T> solve(const Arm& arm)
 {
@@ -81,14 +53,6 @@ Vector3d wrist_place(const ArmPose<T>& pose, const Arm& arm)
 {
     return elbow_place(pose, arm) +
            eigen(pose.shoulder).normalized() * (elbow_rotation(pose).normalized() * Vector3d(0, 0, arm.fore));
-}
-
-// To floats, so that both precisions see the same.
-inline double rounded(double x) { return static_cast<float>(x); }
-inline Vector3d rounded(const Vector3d& v) { return v.cast<float>().cast<double>(); }
-inline Arm rounded(const Arm& arm)
-{
-    return {rounded(arm.wrist), rounded(arm.pole), rounded(arm.upper), rounded(arm.fore)};
 }
 
 }  // namespace swivel::test

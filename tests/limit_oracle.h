@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Judges joint limits by angles, in double, with Eigen and the C library's arc functions. It says how far a rotation is
-// outside of a cone, a twist range or a box of Euler angles. It shares nothing with core/limits.h.
+// Judges of joint limits and of regions, in double, with Eigen and the C library's arc functions. They say how far a
+// rotation is outside of a cone, a twist range or a box of Euler angles, and how much room a direction has in a region.
+// A bridge is what a disc of its radius cannot cover without touching one of both cones: the closing of the pair by
+// that disc. They share nothing with core/limits.h, and with core/region.h no more than the definition of a cone.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "include/swivel/swivel.h"
+#include "tests/test_random.h"
 
 namespace swivel::test {
 
@@ -61,6 +67,155 @@ inline double box_violation(const AngleBox& box, const Eigen::Matrix3d& r)
             {middle_out, length * sine_of(box.range[0].outside(a)), length * sine_of(box.range[2].outside(c))});
     };
     return std::min(violation(first, middle, last), violation(first + kPi, kPi - middle, last + kPi));
+}
+
+// ---- regions
+
+struct DirectionCone {
+    Eigen::Vector3d axis;
+    double angle;
+
+    double room(const Eigen::Vector3d& d) const { return axis.dot(d) - std::cos(angle); }
+    swivel_region_cone given() const { return {{float(axis.x()), float(axis.y()), float(axis.z())}, float(angle)}; }
+};
+
+// The cosine of the least angle from a direction to what lies in both cones, which is not empty. The nearest point is
+// the direction, or that of one cone if it lies in the other, or one in which their circles meet.
+inline double cos_to_both(const DirectionCone& a, const DirectionCone& b, const Eigen::Vector3d& d)
+{
+    if (a.room(d) >= 0 && b.room(d) >= 0) return 1;
+    double most = -2;
+    const auto look = [&](const DirectionCone& on, const DirectionCone& other) {
+        const Eigen::Vector3d out = d - d.dot(on.axis) * on.axis;
+        if (out.norm() < 1e-12) return;
+        const Eigen::Vector3d nearest = std::cos(on.angle) * on.axis + std::sin(on.angle) * out.normalized();
+        if (other.room(nearest) >= 0) most = std::max(most, nearest.dot(d));
+    };
+    look(a, b);
+    look(b, a);
+    const Eigen::Vector3d pole = a.axis.cross(b.axis);
+    const double c = a.axis.dot(b.axis), x = std::cos(a.angle), y = std::cos(b.angle), s2 = pole.squaredNorm();
+    const Eigen::Vector3d in = ((x - c * y) * a.axis + (y - c * x) * b.axis) / s2;
+    if (in.squaredNorm() <= 1)
+        for (const double side : {1.0, -1.0})
+            most = std::max(most, d.dot(in + side * std::sqrt((1 - in.squaredNorm()) / s2) * pole));
+    return most;
+}
+
+struct Chain {
+    std::vector<DirectionCone> cones;
+    bool closed = false;
+
+    // A disc's centre is far enough from both cones where it is within their opposites, wider by the disc's radius.
+    static double bridge_room(const DirectionCone& one, const DirectionCone& two, const Eigen::Vector3d& d)
+    {
+        const double radius = (kPi - one.angle - two.angle) / 2;
+        if (radius <= 0 || std::acos(std::clamp(one.axis.dot(two.axis), -1.0, 1.0)) <= std::fabs(one.angle - two.angle))
+            return -4;
+        return std::cos(radius) -
+               cos_to_both({-one.axis, kPi - one.angle - radius}, {-two.axis, kPi - two.angle - radius}, d);
+    }
+    double room(const Eigen::Vector3d& d) const
+    {
+        double most = -4;
+        for (const DirectionCone& cone : cones) most = std::max(most, cone.room(d));
+        const std::size_t n = cones.size(), bridges = closed && n > 2 ? n : n - 1;
+        for (std::size_t i = 0; i < bridges; ++i) most = std::max(most, bridge_room(cones[i], cones[(i + 1) % n], d));
+        return most;
+    }
+};
+
+struct RegionOracle {
+    std::vector<Chain> chains;
+    std::vector<std::vector<Eigen::Vector3d>> polygons;
+    std::vector<DirectionCone> forbidden;
+
+    double room(const Eigen::Vector3d& d) const
+    {
+        double most = -4;
+        for (const Chain& chain : chains) most = std::max(most, chain.room(d));
+        for (const auto& corners : polygons) {
+            double least = 2;
+            for (std::size_t n = 0; n < corners.size(); ++n)
+                least = std::min(least, corners[n].cross(corners[(n + 1) % corners.size()]).normalized().dot(d));
+            most = std::max(most, least);
+        }
+        for (const DirectionCone& cone : forbidden) most = std::min(most, -cone.room(d));
+        return most;
+    }
+};
+
+// The room as the header of the interface says it, by the half-spaces themselves.
+inline double room_by_half_spaces(const swivel_region& region, const Eigen::Vector3d& d)
+{
+    const auto room_of = [&](std::uint32_t n) {
+        const swivel_half_space& half = region.half_space[n];
+        return Eigen::Vector3f(half.axis).cast<double>().dot(d) - double{half.cosine};
+    };
+    double most = -4;
+    for (std::uint32_t part = 0; part < region.part_count; ++part) {
+        double least = 2;
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) least = std::min(least, room_of(n));
+        most = std::max(most, least);
+    }
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) most = std::min(most, room_of(n));
+    return most;
+}
+
+struct RandomRegion {
+    RegionOracle oracle;
+    swivel_region region = swivel_default_region();
+    bool good = true;
+};
+// What floats make of it is what both are given.
+inline DirectionCone random_cone(Random& random, double least, double most)
+{
+    const Eigen::Vector3d axis = random.direction().cast<float>().cast<double>();
+    return {axis.normalized(), double{float(random.between(least, most))}};
+}
+inline RandomRegion random_region(Random& random)
+{
+    RandomRegion r;
+    Chain chain;
+    const std::uint32_t count = 1 + random.below(5);
+    const bool wide = random.below(4) == 0;
+    for (std::uint32_t n = 0; n < count; ++n)
+        chain.cones.push_back(random_cone(random, 0.02, wide ? 2.5 : n == 0 ? 0.8 : 0.5));
+    chain.closed = random.below(3) == 0;
+    std::vector<swivel_region_cone> given;
+    for (const DirectionCone& cone : chain.cones) given.push_back(cone.given());
+    if (random.below(2) == 0) r.oracle.forbidden.push_back(random_cone(random, 0.02, 0.7));
+    for (const DirectionCone& cone : r.oracle.forbidden) {
+        const swivel_region_cone out = cone.given();
+        r.good &= swivel_region_forbid(&r.region, &out) == SWIVEL_OK;
+    }
+    r.good &= swivel_region_add_cones(&r.region, given.data(), count, chain.closed) == SWIVEL_OK;
+    r.oracle.chains.push_back(chain);
+    if (random.below(3) == 0) {
+        const Eigen::Vector3d middle = random.direction(), side = random.across(middle);
+        const double angle = random.between(0.1, 1.2);
+        const std::uint32_t corner_count = 3 + random.below(5);
+        std::vector<Eigen::Vector3d> corners;
+        std::vector<float> flat;
+        for (std::uint32_t n = 0; n < corner_count; ++n) {
+            const double turn = 2 * kPi * (n + random.between(0, 0.7)) / corner_count;
+            const Eigen::Vector3d out = std::cos(turn) * side + std::sin(turn) * middle.cross(side);
+            const Eigen::Vector3f corner = (std::cos(angle) * middle + std::sin(angle) * out).cast<float>();
+            corners.push_back(corner.cast<double>().normalized());
+            flat.insert(flat.end(), {corner.x(), corner.y(), corner.z()});
+        }
+        if (swivel_region_add_polygon(&r.region, flat.data(), corner_count) == SWIVEL_OK)
+            r.oracle.polygons.push_back(corners);
+        // Corners that lie within half a circle leave its middle outside. Such a polygon may be refused, never others.
+        else if (corner_count > 4)
+            r.good = false;
+    }
+    if (random.below(3) == 0) {
+        r.oracle.forbidden.push_back(random_cone(random, 0.02, 0.4));
+        const swivel_region_cone out = r.oracle.forbidden.back().given();
+        r.good &= swivel_region_forbid(&r.region, &out) == SWIVEL_OK;
+    }
+    return r;
 }
 
 }  // namespace swivel::test

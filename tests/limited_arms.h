@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Crowds of random arms with joint limits, some with a region for their upper arms, and where their elbows may go: the
-// circle of the swivel. What limits say is judged in angles (limit_oracle.h), and what regions say by their half-spaces
-// (region_oracle.h).
+// circle of the swivel. What limits say is judged in angles, and what regions say by their half-spaces
+// (limit_oracle.h).
 #pragma once
 
 #include <array>
+#include <cstring>
 #include <vector>
 
-#include "tests/free_limb.h"
-#include "tests/region_oracle.h"
+#include "tests/test_whole_limb.h"
 
 namespace swivel::test {
 
@@ -18,38 +18,13 @@ inline constexpr swivel_features kBoxes = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH
 struct LimitedArm {
     Arm arm;
     Quaterniond hand;
-    Vector3d shoulder_axis, hand_axis, twist_axis;
-    double shoulder_cos, hand_cos;
-    AngleRange humeral, forearm, hand_twist;
-    AngleBox shoulder_box, wrist_box;
+    LimbLimits limits;
 };
-
-// cos and sin of the middle and of half the width, as floats hold them.
-inline Float4 numbers(const AngleRange& range)
-{
-    return {static_cast<float>(std::cos(range.middle)), static_cast<float>(std::sin(range.middle)),
-            static_cast<float>(std::cos(range.half)), std::fabs(static_cast<float>(std::sin(range.half)))};
-}
-inline AngleRange rounded(const AngleRange& range)
-{
-    const Float4 r = numbers(range);
-    return {std::atan2(double{r[1]}, double{r[0]}), std::atan2(double{r[3]}, double{r[2]})};
-}
-inline std::array<float, 12> numbers(const AngleBox& box)
-{
-    std::array<float, 12> all;
-    for (std::size_t n = 0; n < 3; ++n) std::ranges::copy(numbers(box.range[n]), all.begin() + 4 * n);
-    return all;
-}
-inline Float4 cone_of(const Vector3d& axis, double cosine)
-{
-    const auto [x, y, z] = floats(axis);
-    return {x, y, z, static_cast<float>(cosine)};
-}
 
 inline AngleRange random_range(Random& random, double least)
 {
-    return rounded(AngleRange{random.between(-kPi, kPi), random.spread(least, kPi)});
+    const double middle = random.between(-kPi, kPi);
+    return {middle, random.spread(least, kPi)};
 }
 inline AngleBox random_box(Random& random, swivel_euler_order order)
 {
@@ -58,27 +33,26 @@ inline AngleBox random_box(Random& random, swivel_euler_order order)
     std::ranges::copy(axes[order], box.axes);
     const double least = random.below(4) ? 0.1 : 0.004;
     for (AngleRange& range : box.range) range = random_range(random, least);
-    if (random.below(2)) box.range[1] = rounded(AngleRange{random.between(-0.5, 0.5), random.spread(least, 1)});
+    if (random.below(2)) box.range[1] = {random.between(-0.5, 0.5), random.spread(least, 1)};
     return box;
 }
 inline LimitedArm random_limited_arm(Random& random, swivel_euler_order shoulder_order, swivel_euler_order wrist_order)
 {
-    LimitedArm a;
     const double upper = random.between(0.2, 0.4), fore = upper * random.between(0.6, 1.6);
     const double near = std::fabs(upper - fore), far = upper + fore;
     const Vector3d line = random.direction();
     // One number a line: all compilers then draw them in the same order.
     const double distance = random.between(near + 0.02 * (far - near), far);
     const double along = random.between(-1, 1), aside = random.spread(0.05, 1);
-    a.arm = rounded(Arm{distance * line, along * line + aside * random.across(line), upper, fore});
-    a.hand = random.rotation();
-    a.hand.coeffs() = a.hand.coeffs().cast<float>().cast<double>();
-    a.hand.normalize();
-    for (Vector3d* const axis : {&a.shoulder_axis, &a.hand_axis, &a.twist_axis}) *axis = rounded(random.direction());
-    a.shoulder_cos = rounded(random.between(-0.99, 0.99)), a.hand_cos = rounded(random.between(-0.99, 0.95));
-    for (AngleRange* const range : {&a.humeral, &a.forearm, &a.hand_twist}) *range = random_range(random, 0.05);
-    a.shoulder_box = random_box(random, shoulder_order), a.wrist_box = random_box(random, wrist_order);
-    return a;
+    const Arm arm = rounded(Arm{distance * line, along * line + aside * random.across(line), upper, fore});
+    Quaterniond hand = random.rotation();
+    hand.coeffs() = hand.coeffs().cast<float>().cast<double>();
+    LimbLimits limits(random);
+    limits.shoulder = std::acos(random.between(-0.99, 0.99)), limits.hand = std::acos(random.between(-0.99, 0.95));
+    for (AngleRange* const range : {&limits.humeral, &limits.forearm, &limits.twist})
+        *range = random_range(random, 0.05);
+    limits.shoulder_box = random_box(random, shoulder_order), limits.wrist_box = random_box(random, wrist_order);
+    return {arm, hand.normalized(), limits};
 }
 
 // The arm at a swivel from the wish, in double, from its elbow's place.
@@ -150,26 +124,19 @@ struct LimitedArms {
     {
         swivel_group_def def = group(static_cast<std::uint32_t>(arms.size()), features | more);
         def.shoulder_order = orders[0], def.wrist_order = orders[1];
-        if (features & SWIVEL_WITH_REGION) def.region = &region.region;
+        swivel_region given = region.region;
+        if (features & SWIVEL_WITH_REGION) def.region = &given;
         Crowd made(def);
+        std::memset(&given, 0xff, sizeof given);  // the crowd has its own copy
         for (std::uint32_t n = 0; n < arms.size(); ++n) write(made, n);
         return made;
     }
-    void write(Crowd& to, std::uint32_t n) const
+    void write(Crowd& crowd, std::uint32_t n) const
     {
         const LimitedArm& arm = arms[n];
-        const auto put = [&](swivel_field field, const auto& value) {
-            if (swivel_field_row_count(to.get(), 0, field)) to.write(field, 0, std::span(&value, 1), n);
-        };
-        write_arm(to, n, arm.arm);
-        put(SWIVEL_HAND, floats(arm.hand));
-        put(SWIVEL_SHOULDER_CONE, cone_of(arm.shoulder_axis, arm.shoulder_cos));
-        put(SWIVEL_HAND_CONE, cone_of(arm.hand_axis, arm.hand_cos));
-        put(SWIVEL_HUMERAL_TWIST, numbers(arm.humeral)), put(SWIVEL_FOREARM_TWIST, numbers(arm.forearm));
-        const auto [x, y, z] = floats(arm.twist_axis);
-        const auto [a, b, c, d] = numbers(arm.hand_twist);
-        put(SWIVEL_HAND_TWIST, std::array{x, y, z, a, b, c, d});
-        put(SWIVEL_SHOULDER_BOX, numbers(arm.shoulder_box)), put(SWIVEL_WRIST_BOX, numbers(arm.wrist_box));
+        write_arm(crowd, n, arm.arm);
+        put(crowd, SWIVEL_HAND, n, floats(arm.hand));
+        each_limit(arm.limits, [&](swivel_field field, const auto& value) { put(crowd, field, n, value); });
     }
 
     // How much room limits and region leave, in units of a cosine; negative where one is violated.
@@ -182,21 +149,7 @@ struct LimitedArms {
     }
     double limit_room(std::uint32_t n, const ArmAt& at) const
     {
-        const LimitedArm& a = arms[n];
-        const Vector3d e3 = Vector3d::UnitZ();
-        double worst = -1;
-        const auto judge = [&](swivel_features limit, const auto& violation) {
-            if (features & limit) worst = std::max(worst, violation());
-        };
-        judge(SWIVEL_WITH_SHOULDER_CONE,
-              [&] { return cone_violation(a.shoulder_axis, a.shoulder_cos, at.shoulder * e3); });
-        judge(SWIVEL_WITH_HUMERAL_TWIST, [&] { return twist_violation(e3, a.humeral, at.shoulder); });
-        judge(SWIVEL_WITH_SHOULDER_BOX, [&] { return box_violation(a.shoulder_box, at.shoulder.toRotationMatrix()); });
-        judge(SWIVEL_WITH_HAND_CONE, [&] { return cone_violation(e3, a.hand_cos, at.wrist * a.hand_axis); });
-        judge(SWIVEL_WITH_FOREARM_TWIST, [&] { return twist_violation(e3, a.forearm, at.wrist); });
-        judge(SWIVEL_WITH_HAND_TWIST, [&] { return twist_violation(a.twist_axis, a.hand_twist, at.wrist); });
-        judge(SWIVEL_WITH_WRIST_BOX, [&] { return box_violation(a.wrist_box, at.wrist.toRotationMatrix()); });
-        return -worst;
+        return -violation_of(arms[n].limits, features, at.shoulder, at.wrist);
     }
 };
 

@@ -47,29 +47,6 @@ inline std::vector<std::string> cells_of(const std::string& line)
     return cells;
 }
 
-// more: what the header has after these columns.
-inline std::vector<PoseLine> pose_lines(const std::string& text, const std::string& more = "")
-{
-    std::istringstream in(text);
-    std::string line;
-    REQUIRE(std::getline(in, line));
-    REQUIRE(line == kPoseHeader + more);
-    const std::vector<std::string> names = cells_of(line);
-    std::vector<PoseLine> lines;
-    while (std::getline(in, line)) {
-        const std::vector<std::string> cells = cells_of(line);
-        REQUIRE(cells.size() == names.size());
-        PoseLine& to = lines.emplace_back();
-        for (std::size_t n = 0; n < names.size(); ++n) to.cell[names[n]] = cells[n];
-        to.frame = static_cast<std::size_t>(to.number("frame"));
-        to.character = static_cast<std::size_t>(to.number("character"));
-        to.limb = to.cell["limb"];
-        to.joint = {to.rotation("shoulder"), to.rotation("elbow"), to.rotation("wrist")};
-        to.flags = static_cast<unsigned>(to.number("flags"));
-    }
-    return lines;
-}
-
 // The largest angle between the two tables, of all joints in all rows.
 inline double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine>& b)
 {
@@ -118,6 +95,24 @@ struct TargetTable {
         });
     }
 };
+
+// more: what the header has after these columns.
+inline std::vector<PoseLine> pose_lines(const std::string& text, const std::string& more = "")
+{
+    const TargetTable table(text);
+    REQUIRE(text.starts_with(kPoseHeader + more + "\n"));
+    std::vector<PoseLine> lines;
+    for (const Cells& row : table.rows) {
+        PoseLine& line = lines.emplace_back();
+        line.cell = row;
+        line.frame = static_cast<std::size_t>(line.number("frame"));
+        line.character = static_cast<std::size_t>(line.number("character"));
+        line.limb = line.cell["limb"];
+        line.joint = {line.rotation("shoulder"), line.rotation("elbow"), line.rotation("wrist")};
+        line.flags = static_cast<unsigned>(line.number("flags"));
+    }
+    return lines;
+}
 
 inline double number(const Cells& row, const std::string& column)
 {

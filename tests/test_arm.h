@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// One arm or many through the public interface, and where their results put elbow, wrist and hand, worked out by Eigen
-// in double and independently of the library.
+// Values as arrays of floats and in Eigen's terms. Arms in their own frame, solved through the public interface, and
+// where their elbows, wrists and hands then are, by Eigen in double and independently of the library.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "swivel/swivel.hpp"
+#include "tests/test_random.h"
 
 namespace swivel::test {
 
@@ -39,11 +41,11 @@ inline Float4 floats(const Quaterniond& q)
 
 // From one direction to another that is not its opposite. Eigen's own instantiates a singular value decomposition, in 8
 // s.
-inline Quaterniond turn_between(const Vector3d& from, const Vector3d& to)
+inline Quaterniond turn_between(const Vector3d& from, const Vector3d& goal)
 {
     Quaterniond twice;
-    twice.w() = from.norm() * to.norm() + from.dot(to);
-    twice.vec() = from.cross(to);
+    twice.w() = from.norm() * goal.norm() + from.dot(goal);
+    twice.vec() = from.cross(goal);
     return twice.normalized();
 }
 
@@ -93,46 +95,111 @@ std::vector<Value> read(const Crowd& crowd, swivel_field field, std::uint32_t gr
     return values;
 }
 
-// Goal and pose of an arm in the arm frame, without any feature.
-struct Arm {
-    Float3 target, pole;
-    Float2 lengths;
-
-    double length() const { return double{lengths[0]} + lengths[1]; }
-};
-struct Pose {
-    Float4 shoulder;
-    Float2 elbow;
-    std::uint32_t flags;
-
-    Vector3d elbow_point(const Arm& arm) const { return quat(shoulder).normalized() * Vector3d(0, 0, arm.lengths[0]); }
-    Vector3d wrist_point(const Arm& arm) const
-    {
-        const Quaterniond q_e = Quaterniond(elbow[0], -double{elbow[1]}, 0, 0).normalized();
-        return elbow_point(arm) + quat(shoulder).normalized() * (q_e * Vector3d(0, 0, arm.lengths[1]));
-    }
-};
-
-inline std::vector<Pose> solve(const std::vector<Arm>& arms)
+// Writes a limb's value of a field, if its group has that.
+template <class Value>
+void put(Crowd& crowd, swivel_field field, std::uint32_t limb, const Value& value, std::uint32_t group = 0)
 {
-    Crowd crowd = crowd_of(0, static_cast<std::uint32_t>(arms.size()));
-    std::vector<Float3> targets, poles;
-    std::vector<Float2> lengths;
-    for (const Arm& arm : arms) {
-        targets.push_back(arm.target);
-        poles.push_back(arm.pole);
-        lengths.push_back(arm.lengths);
+    if (swivel_field_row_count(crowd.get(), group, field)) crowd.write(field, group, std::span(&value, 1), limb);
+}
+
+// An arm in its own frame, and where its wrist and its elbow are wanted.
+struct Arm {
+    Vector3d wrist = Vector3d::Zero(), pole = Vector3d::Zero();
+    double upper = 0, fore = 0;
+
+    double length() const { return upper + fore; }
+    Vector3d normal() const { return wrist.cross(pole).normalized(); }
+    // By the law of cosines: along the line by the elbow's foot, and away from it towards the pole.
+    Vector3d elbow() const
+    {
+        const double d = wrist.norm();
+        const double along = (d * d + upper * upper - fore * fore) / (2 * d);
+        const double away = std::sqrt(std::max(0.0, upper * upper - along * along));
+        return along / d * wrist + away * normal().cross(wrist).normalized();
     }
-    crowd.write(SWIVEL_TARGET, 0, targets);
-    crowd.write(SWIVEL_POLE, 0, poles);
-    crowd.write(SWIVEL_LENGTHS, 0, lengths);
+};
+
+// To floats, so that both precisions see the same.
+inline double rounded(double x) { return static_cast<float>(x); }
+inline Vector3d rounded(const Vector3d& v) { return v.cast<float>().cast<double>(); }
+inline Arm rounded(const Arm& arm)
+{
+    return {rounded(arm.wrist), rounded(arm.pole), rounded(arm.upper), rounded(arm.fore)};
+}
+
+// The turns of the joints, of unit length, bones as stretched, and what follows from them.
+struct LimbPose {
+    Quaterniond shoulder, elbow, wrist = Quaterniond::Identity();
+    double upper, fore, stretch = 1;
+    std::uint32_t flags;
+    Float4 shoulder_result;  // as the library gives them
+    Float2 elbow_result;
+
+    Vector3d elbow_place() const { return shoulder * Vector3d(0, 0, upper); }
+    Vector3d wrist_place() const { return elbow_place() + shoulder * (elbow * Vector3d(0, 0, fore)); }
+    Vector3d hinge() const { return shoulder * Vector3d::UnitX(); }  // the swivel plane's normal
+    Quaterniond hand() const { return shoulder * elbow * wrist; }
+};
+// From what a crowd gives for one limb of its first group, which has no skeleton.
+inline LimbPose pose_of(const Crowd& crowd, std::uint32_t n = 0)
+{
+    const auto get = [&](swivel_field field, auto value) {
+        if (swivel_field_row_count(crowd.get(), 0, field)) crowd.read(field, 0, std::span(&value, 1), n);
+        return value;
+    };
+    const auto unit = [](const Float4& q) { return quat(q).normalized(); };
+    const Float2 bones = get(SWIVEL_LENGTHS, Float2{});
+    LimbPose pose;
+    pose.shoulder_result = get(SWIVEL_SHOULDER, Float4{}), pose.elbow_result = get(SWIVEL_ELBOW, Float2{});
+    pose.shoulder = unit(pose.shoulder_result);
+    pose.elbow = unit({-pose.elbow_result[1], 0, 0, pose.elbow_result[0]});
+    pose.wrist = unit(get(SWIVEL_WRIST, Float4{0, 0, 0, 1}));
+    pose.stretch = get(SWIVEL_STRETCH, std::array{1.0f})[0];
+    pose.upper = pose.stretch * bones[0], pose.fore = pose.stretch * bones[1];
+    pose.flags = get(SWIVEL_FLAGS, std::array<std::uint32_t, 1>{})[0];
+    return pose;
+}
+
+inline void write_arm(Crowd& crowd, std::uint32_t n, const Arm& arm)
+{
+    put(crowd, SWIVEL_TARGET, n, floats(arm.wrist)), put(crowd, SWIVEL_POLE, n, floats(arm.pole));
+    put(crowd, SWIVEL_LENGTHS, n, Float2{static_cast<float>(arm.upper), static_cast<float>(arm.fore)});
+}
+// The poses of arms that nothing more is asked of, whatever features they have.
+inline std::vector<LimbPose> solve_all(const std::vector<Arm>& arms, swivel_features features = 0)
+{
+    Crowd crowd(group(static_cast<std::uint32_t>(arms.size()), features));
+    for (std::uint32_t n = 0; n < arms.size(); ++n) write_arm(crowd, n, arms[n]);
     crowd.solve();
-    const auto shoulders = read<Float4>(crowd, SWIVEL_SHOULDER);
-    const auto elbows = read<Float2>(crowd, SWIVEL_ELBOW);
-    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    std::vector<Pose> poses;
-    for (std::size_t n = 0; n < arms.size(); ++n) poses.push_back({shoulders[n], elbows[n], flags[n]});
+    std::vector<LimbPose> poses;
+    for (std::uint32_t n = 0; n < arms.size(); ++n) poses.push_back(pose_of(crowd, n));
     return poses;
+}
+
+// One limb. What is not written is as a crowd begins: it changes nothing.
+struct FreeLimb {
+    Crowd crowd;
+
+    FreeLimb(const Arm& arm, swivel_features features) : crowd(group(1, features)) { write_arm(crowd, 0, arm); }
+    template <class Value>
+    void write(swivel_field field, const Value& value)
+    {
+        crowd.write_all(field, 0, value);
+    }
+    LimbPose solve()
+    {
+        crowd.solve({.on_this_thread = true});
+        return pose_of(crowd);
+    }
+};
+
+inline Arm random_reachable(Random& random)
+{
+    const double upper = random.between(0.2, 0.5), fore = upper * random.between(0.6, 1.6);
+    const double near = std::fabs(upper - fore), far = upper + fore;
+    const Vector3d line = random.direction();
+    return rounded(Arm{(near + random.between(0.05, 0.95) * (far - near)) * line,
+                       random.between(-1, 1) * line + random.spread(0.1, 1) * random.across(line), upper, fore});
 }
 
 }  // namespace swivel::test

@@ -229,22 +229,22 @@ void start_threads()
 // What a case's process says. nothing_failed: there are fewer requests.
 enum Outcome { held, nothing_failed, bad_status, other_bits, other_bits_later };
 
-Outcome run(const Case& of)
+Outcome run(const Case& trial)
 {
-    const bool is_late = of.resource == Resource::allocation_elsewhere;
+    const bool is_late = trial.resource == Resource::allocation_elsewhere;
     const std::uint32_t limbs = is_late ? 120000 : 6000;  // some chunks
-    Stage expected(of.in_place, limbs), tried(of.in_place, limbs);
+    Stage expected(trial.in_place, limbs), tried(trial.in_place, limbs);
     expected.solve(true);
     if (is_late) hide_own_memory();
     std::uint32_t failed = 0;
     swivel_status status = SWIVEL_OK;
     const auto try_it = [&] {
         if (is_late) start_threads();
-        let_fail(of.resource, of.nth, of.later_too, swivel_result_rows(tried.crowd.get(), 0).base);
+        let_fail(trial.resource, trial.nth, trial.later_too, swivel_result_rows(tried.crowd.get(), 0).base);
         status = tried.solve(false);
         failed = stop_failing();
     };
-    if (of.in_arena) {
+    if (trial.in_arena) {
         using Control = oneapi::tbb::global_control;
         const Control control(Control::max_allowed_parallelism, kThreads);
         oneapi::tbb::task_arena arena(kThreads);
@@ -262,13 +262,13 @@ Outcome run(const Case& of)
 }
 
 // Runs a case in a process of its own. Returns its outcome, or a signal's number above 100.
-int run_apart(const Case& of)
+int run_apart(const Case& trial)
 {
     std::fflush(stdout);
     const pid_t child = ::fork();
     if (child == 0) {
         ::alarm(20);  // if it waits for ever
-        std::exit(run(of));
+        std::exit(run(trial));
     }
     int status = 0;
     ::waitpid(child, &status, 0);
@@ -278,14 +278,14 @@ int run_apart(const Case& of)
 int failures = 0;
 
 // Whether a request failed, and the promise held.
-bool holds(const Case& of)
+bool holds(const Case& trial)
 {
     static const char* const kResources[] = {"allocation", "mapping", "thread", "allocation elsewhere"};
-    const int outcome = run_apart(of);
+    const int outcome = run_apart(trial);
     if (outcome == held || outcome == nothing_failed) return outcome == held;
-    std::fprintf(stderr, "failed: %s%s, %s %u%s: outcome %d\n", of.in_place ? "pose in place" : "steps",
-                 of.in_arena ? " in an arena" : "", kResources[static_cast<int>(of.resource)], of.nth,
-                 of.later_too ? " and all later ones" : "", outcome);
+    std::fprintf(stderr, "failed: %s%s, %s %u%s: outcome %d\n", trial.in_place ? "pose in place" : "steps",
+                 trial.in_arena ? " in an arena" : "", kResources[static_cast<int>(trial.resource)], trial.nth,
+                 trial.later_too ? " and all later ones" : "", outcome);
     ++failures;
     return false;
 }

@@ -11,9 +11,6 @@
 #include <vector>
 
 #include "swivel/swivel.h"
-#include "tests/solve_jobs.h"
-
-using namespace swivel::test;
 
 namespace {
 
@@ -47,15 +44,17 @@ void check_refused(const std::string& forced)
     };
     check(swivel_isa_name() == nullptr, "swivel_isa_name() is null");
     check(says_so(), "swivel_isa_name() leaves a line with the name");
-    (void)solve_blocks(nullptr, 0, 0);
+    swivel_solve(nullptr, nullptr);  // another line
     bool built = false;
     for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n) built = built || forced == name;
-    check(swivel_solve(crowd, nullptr) == (built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA),
-          "swivel_solve says why");
-    check(says_so(), "swivel_solve leaves a line with the name");
-    (void)solve_blocks(nullptr, 0, 0);
-    check(solve_blocks(crowd, 0, 1) != SWIVEL_OK, "a job fails");
-    check(says_so(), "a job leaves a line with the name");
+    const swivel_blocks first{0, 1};
+    swivel_job job = swivel_default_job();
+    for (const bool on_this_thread : {false, true}) {
+        swivel_solve(nullptr, nullptr);
+        if (on_this_thread) job.blocks = &first, job.on_this_thread = 1;
+        check(swivel_solve(crowd, &job) == (built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA), "a job says why");
+        check(says_so(), "a job leaves a line with the name");
+    }
     check(std::memcmp(before.data(), rows.base, before.size() * sizeof(float)) == 0, "failed solves write nothing");
     check(swivel_use_isa("scalar") == SWIVEL_OK, "a name from the program helps");
     check(swivel_solve(crowd, nullptr) == SWIVEL_OK, "then solving works");

@@ -33,17 +33,19 @@ struct Limb {
     Parent parent() const { return {vec(position), quat(rotation).normalized(), scale[0]}; }
 };
 
-// A limb in reach, bent, its pole well off the line; parent and hand quaternions of any length.
+// A limb in reach, bent, its pole well off the line; parent and hand quaternions of any length that is allowed.
 inline Limb random_limb(Random& random, swivel_features features, const Float2& lengths)
 {
     Limb limb;
     limb.lengths = lengths;
     const bool world = features & SWIVEL_WORLD;
     limb.position = world ? floats(random.vector(0, 5)) : Float3{0, 0, 0};
-    limb.rotation =
-        world ? floats(Quaterniond(random.spread(0.01, 100) * random.rotation().coeffs())) : Float4{0, 0, 0, 1};
+    const auto any_length = [&] {
+        return floats(Quaterniond(random.spread(1.001e-9, 0.999e9) * random.rotation().coeffs()));
+    };
+    limb.rotation = world ? any_length() : Float4{0, 0, 0, 1};
     limb.scale = {world ? static_cast<float>(random.spread(0.1, 10)) : 1.0f};
-    limb.hand = floats(Quaterniond(random.spread(0.01, 100) * random.rotation().coeffs()));
+    limb.hand = any_length();
     const Parent parent = limb.parent();
     const double far = parent.scale * (double{lengths[0]} + lengths[1]),
                  near = parent.scale * std::fabs(double{lengths[0]} - lengths[1]);
@@ -61,16 +63,13 @@ inline Vector3d pole_direction(const Limb& limb, swivel_features features)
 
 inline void write_limb(Crowd& crowd, std::uint32_t group, std::uint32_t n, const Limb& limb)
 {
-    const auto put = [&](swivel_field field, const auto& value) {
-        if (swivel_field_row_count(crowd.get(), group, field)) crowd.write(field, group, std::span(&value, 1), n);
-    };
-    put(SWIVEL_TARGET, limb.target);
-    put(SWIVEL_POLE, limb.pole);
-    put(SWIVEL_LENGTHS, limb.lengths);
-    put(SWIVEL_SHOULDER_POSITION, limb.position);
-    put(SWIVEL_PARENT_ROTATION, limb.rotation);
-    put(SWIVEL_PARENT_SCALE, limb.scale);
-    put(SWIVEL_HAND, limb.hand);
+    put(crowd, SWIVEL_TARGET, n, limb.target, group);
+    put(crowd, SWIVEL_POLE, n, limb.pole, group);
+    put(crowd, SWIVEL_LENGTHS, n, limb.lengths, group);
+    put(crowd, SWIVEL_SHOULDER_POSITION, n, limb.position, group);
+    put(crowd, SWIVEL_PARENT_ROTATION, n, limb.rotation, group);
+    put(crowd, SWIVEL_PARENT_SCALE, n, limb.scale, group);
+    put(crowd, SWIVEL_HAND, n, limb.hand, group);
 }
 
 struct Places {
@@ -192,19 +191,14 @@ inline LocalPose added_to_rest(const LocalPose& pose, const swivel_binding& b)
             (fore.conjugate() * pose.wrist * hand_rest.conjugate()).normalized()};
 }
 
-template <class Value>
-void put(Crowd& crowd, swivel_field field, std::uint32_t n, const Value& value)
-{
-    crowd.write(field, 0, std::span(&value, 1), n);
-}
-
 using Float7 = std::array<float, 7>;
 using Float12 = std::array<float, 12>;
 
-inline Float4 range_of(const AngleRange& range)
+inline Float4 range_of(const AngleRange& each) { return range(each.middle - each.half, each.middle + each.half); }
+inline Float12 box_of(const AngleBox& box)
 {
-    Float4 value;
-    CHECK(swivel_range(range.middle - range.half, range.middle + range.half, value.data()) == SWIVEL_OK);
+    Float12 value;
+    for (std::size_t n = 0; n < 3; ++n) std::ranges::copy(range_of(box.range[n]), value.begin() + 4 * n);
     return value;
 }
 
@@ -233,13 +227,27 @@ void each_limit(const LimbLimits& limits, const Put& put)
     std::ranges::copy(floats(limits.twist_axis), twist.begin());
     std::ranges::copy(range_of(limits.twist), twist.begin() + 3);
     put(SWIVEL_HAND_TWIST, twist);
-    for (const bool of_wrist : {false, true}) {
-        Float12 box;
-        for (std::size_t n = 0; n < 3; ++n)
-            std::ranges::copy(range_of((of_wrist ? limits.wrist_box : limits.shoulder_box).range[n]),
-                              box.begin() + 4 * n);
-        put(of_wrist ? SWIVEL_WRIST_BOX : SWIVEL_SHOULDER_BOX, box);
-    }
+    put(SWIVEL_SHOULDER_BOX, box_of(limits.shoulder_box)), put(SWIVEL_WRIST_BOX, box_of(limits.wrist_box));
+}
+// How far joints as they are in the arm frame are outside of the worst of some limits, in units of a cosine; negative
+// inside.
+inline double violation_of(const LimbLimits& limits, swivel_features some, const Quaterniond& shoulder,
+                           const Quaterniond& wrist)
+{
+    const Vector3d bone = Vector3d::UnitZ();
+    double worst = -1;
+    const auto judge = [&](swivel_features limit, const auto& violation) {
+        if (some & limit) worst = std::max(worst, violation());
+    };
+    judge(SWIVEL_WITH_SHOULDER_CONE,
+          [&] { return cone_violation(limits.shoulder_axis, std::cos(limits.shoulder), shoulder * bone); });
+    judge(SWIVEL_WITH_HUMERAL_TWIST, [&] { return twist_violation(bone, limits.humeral, shoulder); });
+    judge(SWIVEL_WITH_SHOULDER_BOX, [&] { return box_violation(limits.shoulder_box, shoulder.toRotationMatrix()); });
+    judge(SWIVEL_WITH_HAND_CONE, [&] { return cone_violation(bone, std::cos(limits.hand), wrist * limits.hand_axis); });
+    judge(SWIVEL_WITH_FOREARM_TWIST, [&] { return twist_violation(bone, limits.forearm, wrist); });
+    judge(SWIVEL_WITH_HAND_TWIST, [&] { return twist_violation(limits.twist_axis, limits.twist, wrist); });
+    judge(SWIVEL_WITH_WRIST_BOX, [&] { return box_violation(limits.wrist_box, wrist.toRotationMatrix()); });
+    return worst;
 }
 
 }  // namespace swivel::test

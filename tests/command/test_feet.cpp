@@ -338,6 +338,21 @@ TEST_CASE("feet: a swing clears what lies below it, and lifts the foot by no mor
     }
 }
 
+TEST_CASE("feet: beyond the edges of a grid its outermost samples go on")
+{
+    // 3 columns a metre apart and 2 rows. From half a step beyond the last sample on, no other one counts.
+    const tools::Ground ground{{{2, 8, 1}, {5, 1, -3}, 3, 2}, {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f}};
+    for (const double off : {0.5, 1.5, 100.0})
+        for (const std::size_t column : {0, 2})
+            for (const std::size_t row : {0, 1}) {
+                const double x = 5 + (column == 0 ? -1 - off : 1 + off), z = -3 + (row == 0 ? -0.5 - off : 0.5 + off);
+                const tools::GroundPoint point = tools::ground_at(ground.grid, ground.heights.data(), x, z);
+                INFO("at " << x << ", " << z);
+                CHECK(point.height == Approx(1 + 8 * double{ground.heights[3 * row + column]}).epsilon(1e-12));
+                CHECK((std::abs(point.slope_x) < 1e-12 && std::abs(point.slope_z) < 1e-12));
+            }
+}
+
 TEST_CASE("feet: ground that legs cannot follow is told, with frames and place")
 {
     const TempFolder folder;

@@ -219,27 +219,6 @@ TEST_CASE("large crowds have the same bits on threads, ours and the caller's, fr
             large(*recipe), 4);
 }
 
-#ifdef SWIVEL_WITH_TBB
-TEST_CASE("every number of threads gives the bits of this one")
-{
-    for (const Recipe* recipe : few_crowds()) {
-        const auto solve_here = [](Crowd& crowd, Job job) {
-            job.on_this_thread = true;
-            crowd.solve(job);
-        };
-        const std::uint64_t expected = digest_of(*recipe, solve_here, large(*recipe));
-        for (const int threads : {1, 2}) {
-            INFO(full_name(*recipe) << ", " << threads << " threads");
-            using oneapi::tbb::global_control;
-            const global_control control(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-            oneapi::tbb::task_arena arena(threads);
-            const auto solve_there = [&](Crowd& crowd, const Job& job) { arena.execute([&] { crowd.solve(job); }); };
-            CHECK(digest_of(*recipe, solve_there, large(*recipe)) == expected);
-        }
-    }
-}
-#endif
-
 TEST_CASE("blocks of which no limb is chosen are not even read, whatever chooses")
 {
     // Rows of 512 and 448 bytes a block: 64 blocks of either are whole pages, and all but the middle 64 are locked
@@ -282,22 +261,31 @@ TEST_CASE("blocks of which no limb is chosen are not even read, whatever chooses
 }
 
 #ifdef SWIVEL_WITH_TBB
-TEST_CASE("worker threads that took over the caller's environment give the same bits")
+TEST_CASE("every number of threads gives the bits of this one, also threads that took over the caller's environment")
 {
-    oneapi::tbb::task_arena arena(2);
-    {
-        const OtherEnvironment other;
-        arena.initialize();
-    }
+    using oneapi::tbb::global_control;
+    const auto solve_here = [](Crowd& crowd, Job job) {
+        job.on_this_thread = true;
+        crowd.solve(job);
+    };
     for (const Recipe* recipe : few_crowds()) {
-        INFO(full_name(*recipe));
-        const auto solve_there = [&](Crowd& crowd, const Job& job) {
-            arena.execute([&] {
-                const OtherEnvironment other;
-                crowd.solve(job);
-            });
-        };
-        CHECK(digest_of(*recipe, solve_there, large(*recipe)) == digest_of(*recipe, solve_whole, large(*recipe)));
+        const std::uint64_t expected = digest_of(*recipe, solve_here, large(*recipe));
+        for (const bool is_other : {false, true})
+            for (const int threads : {1, 2}) {
+                INFO(full_name(*recipe) << ", " << threads << " threads, other environment " << is_other);
+                const global_control control(global_control::max_allowed_parallelism, std::size_t(threads));
+                oneapi::tbb::task_arena arena(threads);
+                const auto in_environment = [&](const auto& call) {
+                    if (!is_other) return call();
+                    const OtherEnvironment other;
+                    call();
+                };
+                in_environment([&] { arena.initialize(); });
+                const auto solve_there = [&](Crowd& crowd, const Job& job) {
+                    arena.execute([&] { in_environment([&] { crowd.solve(job); }); });
+                };
+                CHECK(digest_of(*recipe, solve_there, large(*recipe)) == expected);
+            }
     }
 }
 #endif

@@ -11,8 +11,8 @@
 
 #include <map>
 
+#include "tests/limit_oracle.h"
 #include "tests/posed_bodies.h"
-#include "tests/region_oracle.h"
 #include "tests/test_whole_limb.h"
 
 namespace {

@@ -34,8 +34,9 @@ struct Told {
     ApprovedTexts& texts;
     Crowd crowd;
 
-    Told(ApprovedTexts& to, const std::string& scene, swivel_features features, const swivel_binding& binding = {})
-        : texts(to), crowd(crowd_of(features, 1, binding))
+    Told(ApprovedTexts& approved, const std::string& scene, swivel_features features,
+         const swivel_binding& binding = {})
+        : texts(approved), crowd(crowd_of(features, 1, binding))
     {
         texts.scene(scene);
         write(SWIVEL_TARGET, Float3{0, 0.8f, 1});
@@ -80,11 +81,11 @@ private:
                                                tip = place + scale * (Quaterniond(hand[0].data()) * effector);
         const double missed = (tip - vec(value(SWIVEL_TARGET, Float3{}))).norm(),
                      length = scale * double{value(SWIVEL_LENGTHS, Float2{})[0] + value(SWIVEL_LENGTHS, Float2{})[1]};
-        const auto is_told = [&](const std::string& words, double is, double share = 1e-3) {
+        const auto is_told = [&](const std::string& words, double wanted, double share = 1e-3) {
             const std::size_t at = text.find(words);
             if (at == std::string::npos || !std::isdigit(text[at + words.size()])) return;
             INFO(text);
-            CHECK(number_after(text, words) == Approx(is).epsilon(share).margin(1e-6));
+            CHECK(number_after(text, words) == Approx(wanted).epsilon(share).margin(1e-6));
         };
         is_told("The target is ", missed);
         if (!swivel_field_row_count(crowd.get(), 0, SWIVEL_CLAVICLE)) is_told(": the wrist is ", place.norm());
@@ -94,6 +95,11 @@ private:
         is_told(", the effector is ", missed);
         is_told("passes it by ", length * residual[0]);
         is_told(", to within ", residual[0], 0.06);
+        std::array<std::array<double, 3>, 1> elbow;
+        crowd.elbows(0, elbow);
+        const Float4 cone = value(SWIVEL_SHOULDER_CONE, Float4{0, 0, 1, 1});
+        const double from_axis = angle_between(Vector3d(elbow[0].data()), Vector3d(cone[0], cone[1], cone[2]));
+        is_told("Its pose violates shoulder_cone by ", (from_axis - std::acos(double{cone[3]})) / degrees(1));
     }
 };
 
@@ -214,6 +220,34 @@ void tell_of_limits(ApprovedTexts& texts)
     step.says("a cone about the elbow");
     step.solved("where the step ends");
     step.with("a cone out of reach", SWIVEL_SHOULDER_CONE, cone({-1, 0, -1}, 0.1));
+
+    for (const double opening : {1.0, 0.2}) {  // the upper arm is asin(sqrt(5) / 3) from the line to the target
+        Told way(texts, opening == 1 ? "an elbow on its way" : "an elbow on its way to where no limit is kept",
+                 SWIVEL_WITH_MOST_SWIVEL | SWIVEL_STEP_WINS | SWIVEL_WITH_SHOULDER_CONE);
+        way.write(SWIVEL_LENGTHS, Float2{0.3f, 0.3f});
+        way.write(SWIVEL_TARGET, Float3{0, 0, 0.4f});
+        way.write(SWIVEL_MOST_SWIVEL, turn(0.1));
+        way.with("at first", SWIVEL_POLE, Float3{1, 0, 0});
+        way.with("a step later", SWIVEL_SHOULDER_CONE, cone({-1, 0, 0}, opening));
+        for (int n = 0; n < 40; ++n) way.crowd.solve();
+        way.solved("40 steps later");
+        way.write(SWIVEL_SHOULDER_CONE, cone({0, 0, 1}, 2));  // which the wish keeps
+        way.with("another pole", SWIVEL_POLE, Float3{1, 0.1f, 0});
+    }
+
+    swivel_region about_z = swivel_default_region();
+    const swivel_region_cone half{{0, 0, 1}, 0.5f};
+    REQUIRE(swivel_region_add_cones(&about_z, &half, 1, 0) == SWIVEL_OK);
+    swivel_group_def group = swivel::group(1, SWIVEL_WITH_REGION);
+    group.region = &about_z;
+    Told region(texts, "a region", 0);
+    region.crowd = Crowd(group);
+    region.write(SWIVEL_LENGTHS, Float2{1, 1});
+    region.write(SWIVEL_POLE, Float3{0, 5, 0});
+    // The upper arm is 60 degrees from the line to the target, and that 40.1 degrees from +z. So the wish is 60 + 40.1
+    // degrees off, and some swivel is within the cone's 28.65.
+    region.with("a target beside it", SWIVEL_TARGET, Float3{0, 0.644f, 0.765f});
+    region.with("a target in its middle, 60 - 28.65 degrees off", SWIVEL_TARGET, Float3{0, 0, 1});
 }
 
 }  // namespace
@@ -341,6 +375,7 @@ TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every
             CHECK(whole.ends_with(" The limb has its rest pose."));
             CHECK(whole.find('?') == std::string::npos);
             CHECK(whole.size() < SWIVEL_EXPLANATION_BYTES);
+            CHECK(crowd.explain(0, 0) == whole);  // however long
         }
     }
 }

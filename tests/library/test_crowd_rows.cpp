@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: groups and fields lie in rows as swivel.h's table says. The test `interface` has streams into and out of
-// them.
+// The promise: a crowd's memory is taken once, from whom it was told to, and nothing allocates afterwards. Groups and
+// fields lie in its rows as swivel.h's table and swivel_describe_field() say. The test `interface` has streams into and
+// out of them.
 #include <bit>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
 
+#include "tests/allocation_count.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"
+#include "tools/corpus/corpus.h"
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/task_arena.h>
+#endif
 
 using namespace swivel;
 using namespace swivel::test;
@@ -113,4 +123,220 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         }
     }
     CHECK(swivel_digest(nullptr) == 0);
+}
+
+namespace {
+
+bool is_of(const swivel_field_info& field, swivel_features features)
+{
+    if (features & SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES)
+        features |= SWIVEL_WITH_TWIST_BONES;  // any number
+    return (features & field.needs) == field.needs && !(features & field.excludes);
+}
+
+}  // namespace
+
+TEST_CASE("the library describes the fields, features and flags that the header has")
+{
+    std::ifstream file(SWIVEL_SOURCE_DIR "/include/swivel/swivel.h");
+    const std::string header{std::istreambuf_iterator<char>(file), {}};
+    const auto lower = [](std::string name) {
+        for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return name;
+    };
+    const auto names_in = [&](const std::string& text, const std::regex& pattern) {
+        std::vector<std::string> names;
+        for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
+            names.push_back((*at)[1]);
+        return names;
+    };
+    const std::string fields =
+        header.substr(header.find("typedef enum swivel_field {"),
+                      header.find("} swivel_field;") - header.find("typedef enum swivel_field {"));
+    std::vector<std::string> wanted;
+    for (const std::string& name : names_in(fields, std::regex(R"(\n    SWIVEL_(\w+)(?: = \d+)?,)")))
+        wanted.push_back(lower(name));
+    std::erase(wanted, "input_end");
+    std::vector<std::string> got;
+    swivel_field_info field;
+    for (std::uint32_t n = 0; swivel_describe_field(n, &field); ++n) {
+        got.push_back(field.name);
+        const bool is_input = field.field < SWIVEL_INPUT_END;
+        CHECK((field.kind == SWIVEL_FIELD_INPUT) == is_input);
+        constexpr std::array carried = {SWIVEL_NORMAL, SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION,
+                                        SWIVEL_SHIFT,  SWIVEL_LIFT,  SWIVEL_LOOK_TURNS};
+        CHECK((field.kind == SWIVEL_FIELD_CARRIED) == (std::ranges::find(carried, field.field) != carried.end()));
+        CHECK((*field.range != 0) == is_input);
+    }
+    CHECK(got == wanted);
+    // A group has a field just if it has what the field needs and lacks what it excludes.
+    for (const corpus::Part part : corpus::kParts)
+        for (const corpus::Recipe& recipe : corpus::recipes_of(part)) {
+            const Crowd crowd = make_crowd(recipe, 1);
+            for (std::uint32_t g = 0; g < swivel_group_count(crowd.get()); ++g)
+                for (std::uint32_t n = 0; swivel_describe_field(n, &field); ++n) {
+                    INFO(full_name(recipe) << ", " << field.name);
+                    const swivel_features features = swivel_group_features(crowd.get(), g);
+                    CHECK((swivel_field_row_count(crowd.get(), g, field.field) > 0) == is_of(field, features));
+                    CHECK((swivel_component_count(field.field, features) > 0) == is_of(field, features));
+                }
+        }
+    got.clear();
+    swivel_feature_info feature;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &feature); ++n) got.push_back(feature.name);
+    CHECK(got == names_in(header, std::regex(R"(\n#define SWIVEL_(\w+)[ \\\n]+\(UINT64_C\()")));
+    std::vector<std::string> flags;
+    for (std::uint32_t bit = 0; bit < 32; ++bit)
+        if (const char* const name = swivel_flag_name(1u << bit)) flags.push_back(name);
+    CHECK(flags == names_in(header, std::regex(R"(\n    SWIVEL_(\w+) = 1u << \d+,)")));
+    CHECK(!swivel_flag_name(0));
+    CHECK(std::string(swivel_flag_name(SWIVEL_BAD_INPUT | SWIVEL_REACHED)) == "REACHED");
+    CHECK(!swivel_describe_field(0, nullptr));
+    CHECK(!swivel_describe_feature(1000, &feature));
+    CHECK(swivel_component_count(SWIVEL_INPUT_END, 0) == 0);
+}
+
+namespace {
+
+struct Ledger {
+    std::size_t taken = 0, given_back = 0, bytes = 0, alignment = 0;
+    void* memory = nullptr;
+    bool empty = false;
+};
+
+}  // namespace
+
+TEST_CASE("a crowd takes swivel_crowd_bytes() once, from whom it was told to")
+{
+    swivel_group_def groups[] = {group_of(100), group_of(3), group_of(50)};
+    for (swivel_features features = 0; features < 16; ++features) {
+        if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
+        INFO("features " << features);
+        swivel_crowd_def def = def_of(groups[0]);
+        def.groups = groups;
+        def.group_count = 3;
+        for (swivel_group_def& group : groups) group.features = features;
+        const std::size_t bytes = swivel_crowd_bytes(&def);
+        REQUIRE(bytes % 64 == 0);
+
+        Ledger ledger;
+        def.user = &ledger;
+        def.allocate = [](std::size_t size, std::size_t alignment, void* user) {
+            Ledger& l = *static_cast<Ledger*>(user);
+            ++l.taken;
+            l.bytes = size;
+            l.alignment = alignment;
+            return l.memory = l.empty ? nullptr : std::aligned_alloc(alignment, size);
+        };
+        def.release = [](void* memory, std::size_t size, void* user) {
+            Ledger& l = *static_cast<Ledger*>(user);
+            l.given_back += memory == l.memory && size == l.bytes;
+            std::free(memory);
+        };
+        {
+            Crowd crowd(def);
+            crowd.solve();
+            CHECK(ledger.given_back == 0);
+        }
+        CHECK(ledger.taken == 1);
+        CHECK(ledger.bytes == bytes);
+        CHECK(ledger.alignment == 64);
+        CHECK(ledger.given_back == 1);
+
+        ledger.empty = true;
+        swivel_crowd* crowd = reinterpret_cast<swivel_crowd*>(8);
+        CHECK_REFUSED(swivel_crowd_create(&def, &crowd), SWIVEL_OUT_OF_MEMORY);
+        CHECK(crowd == nullptr);
+
+        // The caller's memory comes before the callbacks, and not a byte outside it is touched.
+        std::vector<unsigned char> room(bytes + 192, 0xa5);
+        const std::size_t start = 128 - reinterpret_cast<std::uintptr_t>(room.data()) % 64;
+        def.memory = room.data() + start;
+        def.memory_bytes = bytes;
+        {
+            Crowd in_place(def);
+            CHECK(reinterpret_cast<void*>(in_place.get()) == def.memory);
+            CHECK(ledger.taken == 2);
+            for (std::uint32_t group = 0; group < 3; ++group) in_place.write_all(SWIVEL_TARGET, group, Float3{0, 1, 1});
+            in_place.solve();
+            const swivel_rows out = swivel_result_rows(in_place.get(), 2);
+            const auto* end =
+                reinterpret_cast<unsigned char*>(out.base + std::size_t{out.block_count} * out.row_count * 16);
+            CHECK(end == room.data() + start + bytes);
+        }
+        CHECK(ledger.given_back == 1);
+        for (std::size_t n = 0; n < room.size(); ++n)
+            if (n < start || n >= start + bytes) REQUIRE(room[n] == 0xa5);
+
+        def.memory_bytes = bytes - 1;
+        CHECK_REFUSED(swivel_crowd_create(&def, &crowd), SWIVEL_OUT_OF_MEMORY);
+        def.memory_bytes = bytes;
+        def.memory = room.data() + start + 32;
+        CHECK_REFUSED(swivel_crowd_create(&def, &crowd), SWIVEL_INVALID_ARGUMENT);
+    }
+}
+
+TEST_CASE("nothing allocates after creation")
+{
+    // Every call once before counting: oneTBB starts its threads, the instruction set is chosen.
+    const auto use = [](Crowd& crowd) {
+        static std::vector<Float3> targets(5000, Float3{0, 1, 1});
+        static std::vector<Float4> shoulders(5000);
+        static std::vector<std::array<double, 3>> wrists(5000);
+        static std::vector<double> residuals(5000);
+        static const std::vector<std::uint32_t> mask(157, 0x80018001u);
+        static const Frame own = Frame()
+                                     .in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]})
+                                     .out(SWIVEL_SHOULDER, {shoulders.data(), sizeof shoulders[0]});
+        static const swivel_frame frame = own;
+        const std::span frames(&frame, 1);
+        crowd.write(SWIVEL_TARGET, 0, targets);
+        crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
+        crowd.solve({.blocks = swivel_blocks{0, 200}, .on_this_thread = true});
+        crowd.solve({.blocks = swivel_blocks{3, 200}, .mask = mask, .frames = frames, .on_this_thread = true});
+        crowd.read(SWIVEL_SHOULDER, 0, shoulders);
+        crowd.wrists(0, wrists);
+        crowd.residuals(0, residuals);
+        (void)swivel_solve(nullptr, nullptr);
+    };
+    for (const swivel_features features : {swivel_features{0}, swivel_features{SWIVEL_WORLD | SWIVEL_WITH_HAND}}) {
+        Crowd crowd = crowd_of(features, 5000);
+        if (features & SWIVEL_WORLD) crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
+        use(crowd);
+        const std::size_t before = allocation_count();
+        for (int n = 0; n < 20; ++n) use(crowd);
+        CHECK(allocation_count() == before);
+
+        const std::vector<std::uint32_t> mask(157, 0x80018001u), list{3, 4999, 17, 16, 800};
+        const auto solve_in_every_way = [&] {
+            crowd.solve();
+            crowd.solve({.mask = mask});
+            crowd.solve({.limbs = list});
+        };
+        const auto solve_alone = [&] {
+#ifdef SWIVEL_WITH_TBB
+            static oneapi::tbb::task_arena arena(1);
+            arena.execute(solve_in_every_way);
+#else
+            solve_in_every_way();
+#endif
+        };
+        for (int n = 0; n < 5; ++n) solve_alone();
+        const std::size_t before_solve = allocation_count();
+        for (int n = 0; n < 20; ++n) solve_alone();
+        CHECK(allocation_count() == before_solve);
+    }
+    const std::size_t before = allocation_count();
+    void* volatile by_new = ::operator new(1);  // a new expression may be left out
+    void* volatile by_malloc = std::malloc(1);
+    ::operator delete(by_new);
+    std::free(by_malloc);
+    CHECK(allocation_count() == before + 2);  // the counter counts
+    const swivel_group_def group = group_of(100);
+    swivel_crowd_def def = def_of(group);
+    swivel_crowd* crowd = nullptr;
+    const std::size_t before_create = allocation_count();
+    swivel_crowd_create(&def, &crowd);
+    CHECK(allocation_count() == before_create + 1);
+    swivel_crowd_destroy(crowd);
 }

@@ -31,17 +31,17 @@ struct LectureArm {
 
 // All entities by name, each name once; none of an arm that is refused.
 struct LectureEntities {
-    std::map<std::string, swivel_entity> of;
+    std::map<std::string, swivel_entity> named;
     double closing_error;
 
     explicit LectureEntities(const LectureArm& arm) : closing_error(0)
     {
         swivel_entity entities[SWIVEL_ENTITY_COUNT];
         if (swivel_steps(arm.target.data(), arm.pole.data(), arm.upper, arm.fore, entities, &closing_error)) return;
-        for (const swivel_entity& entity : entities) of[entity.name] = entity;
-        REQUIRE(of.size() == SWIVEL_ENTITY_COUNT);
+        for (const swivel_entity& entity : entities) named[entity.name] = entity;
+        REQUIRE(named.size() == SWIVEL_ENTITY_COUNT);
     }
-    double at(const std::string& name, std::uint32_t blade) const { return of.at(name).coefficients[blade]; }
+    double at(const std::string& name, std::uint32_t blade) const { return named.at(name).coefficients[blade]; }
     double scalar(const std::string& name) const { return at(name, 0); }
     Vector3d vector(const std::string& name) const { return {at(name, kBlade1), at(name, kBlade2), at(name, kBlade3)}; }
     Quaterniond rotor(const std::string& name) const
@@ -112,7 +112,7 @@ void check_entities(const LectureArm& arm, const LectureEntities& got)
     RC_ASSERT((q_s * rest - elbow).norm() < 1e-9 * size);
     RC_ASSERT((wrist - target).norm() < 1e-9 * size);
     RC_ASSERT(std::fabs(got.closing_error - (wrist - target).norm() / size) < 1e-12);
-    for (const auto& [name, entity] : got.of)
+    for (const auto& [name, entity] : got.named)
         RC_ASSERT((entity.step >= 1 && entity.step <= 5 && std::string(entity.meaning).size() > 10));
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("the lecture's entities are where plain geometry puts them")
             const LectureArm arm = random_lecture_arm(random);
             // Where the upper arm is nearly along e3 or -e3 the middle line loses digits, as the header says.
             const LectureEntities got(arm);
-            if (got.of.empty() || got.vector("p_e").head<2>().norm() < 0.05 * arm.upper) continue;
+            if (got.named.empty() || got.vector("p_e").head<2>().norm() < 0.05 * arm.upper) continue;
             check_entities(arm, got);
         }
     });
@@ -172,10 +172,10 @@ TEST_CASE("arms in the plane of e2 and e3 close to half of the digits: c3 is 1 o
         arm.pole = (n % 2 == 0 ? 1 : -1) * Vector3d(0, std::cos(angle), -std::sin(angle));
         const LectureEntities got(arm);
         // The upper arm is nearly along e3 or -e3.
-        if (got.of.empty() || std::fabs(got.vector("p_e").y()) < 0.05 * arm.upper) continue;
+        if (got.named.empty() || std::fabs(got.vector("p_e").y()) < 0.05 * arm.upper) continue;
         REQUIRE(got.closing_error < 1e-7);
         REQUIRE(std::fabs(got.scalar("c3")) <= 1);
-        for (const auto& [name, entity] : got.of)
+        for (const auto& [name, entity] : got.named)
             for (const double c : entity.coefficients) REQUIRE(std::isfinite(c));
     }
 }

@@ -8,8 +8,8 @@
 
 #include <rapidcheck/catch.h>
 
-#include "tests/free_limb.h"
 #include "tests/limit_oracle.h"
+#include "tests/test_arm.h"
 
 namespace {
 
@@ -76,32 +76,32 @@ TEST_CASE("effectors and hands")
         RC_ASSERT(distance(got.hand(), hand) <= 1e-6);
     });
     // Elsewhere the least turn brings the effector onto the line from the wrist to its target.
-    for_arms("a hand yields where its wrist does not get to its place, and there alone", [](Random& random,
-                                                                                            const Arm& arm) {
-        const swivel_features hand = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_REACH;
-        FreeLimb stiff(arm, hand), yielding(arm, hand | SWIVEL_HAND_YIELDS);
-        const Vector3d target = arm.length() * random.vector(0.05, 2),
-                       effector = arm.length() * random.vector(0.05, 0.3);
-        const Quaterniond wanted = random.rotation();
-        const Float4 reach{0.1f, 0.1f, static_cast<float>(random.between(1, 1.3)), 0.2f};
-        for (FreeLimb* const limb : {&stiff, &yielding}) {
-            limb->write(SWIVEL_TARGET, floats(target)), limb->write(SWIVEL_EFFECTOR, floats(effector));
-            limb->write(SWIVEL_HAND, floats(wanted)), limb->write(SWIVEL_REACH, reach);
-        }
-        const LimbPose was = stiff.solve(), is = yielding.solve();
-        RC_ASSERT(is.flags == was.flags);
-        RC_ASSERT(is.shoulder.coeffs() == was.shoulder.coeffs());
-        RC_ASSERT(is.elbow.coeffs() == was.elbow.coeffs());
-        if (is.flags & SWIVEL_REACHED) {
-            RC_ASSERT(is.wrist.coeffs() == was.wrist.coeffs());
-            return;
-        }
-        const auto angle = [](const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); };
-        const Vector3d before = was.hand() * effector, to = target - is.wrist_place();
-        if (to.norm() < 0.03 || angle(before, to) > 3.1) return;  // floats do not know the line, or the turn
-        RC_ASSERT(angle(is.hand() * effector, to) < 1e-4);
-        RC_ASSERT(std::fabs(is.hand().angularDistance(was.hand()) - angle(before, to)) < 1e-4);
-    });
+    for_arms("a hand yields where its wrist does not get to its place, and there alone",
+             [](Random& random, const Arm& arm) {
+                 const swivel_features hand = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_REACH;
+                 FreeLimb stiff(arm, hand), yielding(arm, hand | SWIVEL_HAND_YIELDS);
+                 const Vector3d target = arm.length() * random.vector(0.05, 2),
+                                effector = arm.length() * random.vector(0.05, 0.3);
+                 const Quaterniond wanted = random.rotation();
+                 const Float4 reach{0.1f, 0.1f, static_cast<float>(random.between(1, 1.3)), 0.2f};
+                 for (FreeLimb* const limb : {&stiff, &yielding}) {
+                     limb->write(SWIVEL_TARGET, floats(target)), limb->write(SWIVEL_EFFECTOR, floats(effector));
+                     limb->write(SWIVEL_HAND, floats(wanted)), limb->write(SWIVEL_REACH, reach);
+                 }
+                 const LimbPose want = stiff.solve(), got = yielding.solve();
+                 RC_ASSERT(got.flags == want.flags);
+                 RC_ASSERT(got.shoulder.coeffs() == want.shoulder.coeffs());
+                 RC_ASSERT(got.elbow.coeffs() == want.elbow.coeffs());
+                 if (got.flags & SWIVEL_REACHED) {
+                     RC_ASSERT(got.wrist.coeffs() == want.wrist.coeffs());
+                     return;
+                 }
+                 const Vector3d stiff_way = want.hand() * effector, line = target - got.wrist_place();
+                 const double turn = angle_between(stiff_way, line);
+                 if (line.norm() < 0.03 || turn > 3.1) return;  // floats do not know the line, or the turn
+                 RC_ASSERT(angle_between(got.hand() * effector, line) < 1e-4);
+                 RC_ASSERT(std::fabs(got.hand().angularDistance(want.hand()) - turn) < 1e-4);
+             });
 }
 
 TEST_CASE("where the elbow goes")
@@ -203,7 +203,7 @@ TEST_CASE("weights blend with the incoming pose")
                  const Float3 weights{weight(), weight(), 1};
                  limb.write(SWIVEL_HAND, floats(hand)), limb.write(SWIVEL_WEIGHTS, weights);
                  const LimbPose got = limb.solve();
-                 const Vector3d was = pose.wrist_place(arm), place = was + double{weights[0]} * (arm.wrist - was);
+                 const Vector3d own = pose.wrist_place(arm), place = own + double{weights[0]} * (arm.wrist - own);
                  if (got.flags & SWIVEL_REACHED) RC_ASSERT((got.wrist_place() - place).norm() <= 3e-6 * arm.length());
                  const double whole = pose.hand().angularDistance(hand), part = pose.hand().angularDistance(got.hand());
                  if (whole > 3) return;
@@ -217,9 +217,9 @@ TEST_CASE("weights blend with the incoming pose")
         const Incoming pose(random);
         pose.write(limb);
         limb.write(SWIVEL_WEIGHTS, Float3{1, 1, 0.5f});
-        const auto was = across(arm.wrist.normalized(), pose.hinge());
-        if (!was || (*was + arm.normal()).norm() < 0.1) return;
-        RC_ASSERT((limb.solve().hinge() - (*was + arm.normal()).normalized()).norm() <= 1e-4);
+        const auto own = across(arm.wrist.normalized(), pose.hinge());
+        if (!own || (*own + arm.normal()).norm() < 0.1) return;
+        RC_ASSERT((limb.solve().hinge() - (*own + arm.normal()).normalized()).norm() <= 1e-4);
     });
 }
 

@@ -309,19 +309,14 @@ TEST_CASE("wrists of random arms stay within the stated distance of the results'
     for (const auto& [name, bound] : cases) {
         Crowd crowd = make_crowd(hard(name), limbs);
         Random random{++seed};
-        std::vector<Float3> targets(limbs), poles(limbs);
-        std::vector<Float2> lengths(limbs);
-        for (std::size_t n = 0; n < limbs; ++n) {
+        std::vector<double> lengths(limbs);
+        for (std::uint32_t n = 0; n < limbs; ++n) {
             const double upper = n % 2 ? 1 : random.spread(1e-3, 1), fore = n % 2 ? random.spread(1e-3, 1) : 1;
             const double reach = random.between(0.9 * std::fabs(upper - fore), 1.1 * (upper + fore));
-            const Vector3d to = random.direction();
-            targets[n] = floats(Vector3d(reach * to));
-            poles[n] = floats(Vector3d(to + random.across(to)));
-            lengths[n] = {static_cast<float>(upper), static_cast<float>(fore)};
+            const Vector3d line = random.direction();
+            write_arm(crowd, n, {reach * line, line + random.across(line), upper, fore});
+            lengths[n] = upper + fore;
         }
-        crowd.write(SWIVEL_TARGET, 0, targets);
-        crowd.write(SWIVEL_POLE, 0, poles);
-        crowd.write(SWIVEL_LENGTHS, 0, lengths);
         crowd.solve();
         std::vector<std::array<double, 3>> wrists(limbs), packed(limbs);
         crowd.wrists(0, wrists);
@@ -347,7 +342,7 @@ TEST_CASE("wrists of random arms stay within the stated distance of the results'
         double worst = 0;
         for (std::size_t n = 0; n < wrists.size(); ++n) {
             const Vector3d a(wrists[n].data()), b(packed[n].data());
-            worst = std::max(worst, (a - b).norm() / (double{lengths[n][0]} + lengths[n][1]));
+            worst = std::max(worst, (a - b).norm() / lengths[n]);
         }
         INFO(name);
         CHECK(worst <= bound);

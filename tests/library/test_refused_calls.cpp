@@ -85,10 +85,10 @@ struct Called : Outputs {
     {
         return swivel_choose(crowd.get(), priorities, urgency, 1, mask, word_count, &count);
     }
-    swivel_status compare(const swivel_crowd* of, std::uint32_t group, std::uint32_t body, const swivel_pose* with,
-                          const double* elbow, char* to, std::size_t size)
+    swivel_status compare(const swivel_crowd* asked, std::uint32_t group, std::uint32_t body, const swivel_pose* with,
+                          const double* elbow, char* room, std::size_t size)
     {
-        return swivel_compare(of, group, body, with, up, elbow, up, to, size, &agrees);
+        return swivel_compare(asked, group, body, with, up, elbow, up, room, size, &agrees);
     }
 };
 
@@ -233,6 +233,48 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
         refused(c.choose(good, nullptr, 2), "the mask is null");
         for (const std::uint32_t count : {0u, 1u, 3u})
             refused(c.choose(good, c.words, count), "words; this crowd of 3 blocks has 2, a bit for each lane");
+
+        const auto refused_job = [&](const char* words, const auto& change) {
+            swivel_job job = swivel_default_job();
+            change(job);
+            refused(swivel_solve(c.crowd.get(), &job), words);
+        };
+        const std::uint32_t mask[] = {~0u, ~0u};
+        const swivel_blocks all{0, 3}, beyond{3, 1}, wrapped{1, ~0u};
+        std::uint32_t limbs[] = {3, 16, 36, 0};
+        const swivel_limbs list{limbs, 4};
+        const auto give_mask = [&](swivel_job& job) { job.mask = mask, job.mask_word_count = 2; };
+        const auto give_list = [&](swivel_job& job) { job.limbs = &list; };
+        const auto give_priorities = [&](swivel_job& job) { job.priorities = good, job.most_blocks = 1; };
+        refused_job("give one of them", [&](auto& job) { give_mask(job), give_list(job); });
+        refused_job("give one of them", [&](auto& job) { give_list(job), give_priorities(job); });
+        refused_job("give one of them", [&](auto& job) { give_mask(job), give_priorities(job); });
+        refused_job("a job with a list of limbs is for the whole crowd",
+                    [&](auto& job) { give_list(job), job.blocks = &all; });
+        refused_job("leave on_this_thread out", [&](auto& job) { give_list(job), job.on_this_thread = 1; });
+        refused_job("leave blocks out", [&](auto& job) { give_priorities(job), job.blocks = &all; });
+        refused_job("a job with priorities is for the whole",
+                    [&](auto& job) { give_priorities(job), job.on_this_thread = 1; });
+        refused_job("the mask is null", [](auto& job) { job.mask_word_count = 2; });
+        refused_job("a mask of 1 words; this crowd of 3 blocks has 2, a bit for each lane",
+                    [&](auto& job) { job.mask = mask, job.mask_word_count = 1; });
+        refused_job("most_blocks goes with priorities", [](auto& job) { job.most_blocks = 2; });
+        refused_job("most_blocks goes with priorities", [&](auto& job) { give_mask(job), job.most_blocks = 2; });
+        refused_job("job has size 0", [](auto& job) { job.size = 0; });
+        refused_job("build with the header", [](auto& job) { job.size += 8; });
+        refused_job("start from its default", [](auto& job) { job.size -= 4; });  // half a member
+        for (const swivel_blocks* const blocks : {&beyond, &wrapped})
+            refused_job("blocks ", [&](auto& job) { job.blocks = blocks; });
+        for (const std::uint32_t wrong : {20u, 31u, 37u, 47u}) {
+            limbs[3] = wrong;
+            refused_job(
+                ("entry 3 of the list: " + std::to_string(wrong) + " is no limb of this crowd, but padding").c_str(),
+                give_list);
+        }
+        for (const std::uint32_t wrong : {48u, 1u << 31, ~0u}) {
+            limbs[3] = wrong;
+            refused_job(" is no limb of this crowd, but past its end", give_list);
+        }
         refused(c.solve_groups({H::follower}), "the job names group 5, but not group 4; they are linked, name both");
         refused(c.solve_groups({H::third}), "the job names group 3, but not group 1; they are linked, name both");
         refused(c.solve_groups({H::left, H::right}), "they are linked, name both");
@@ -240,11 +282,70 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
         refused(c.solve_groups({H::prop, H::left}), "they are linked, name both");
         refused(c.solve_groups({H::handle}), "they are linked, name both");
     }
+    CHECK(c.crowd.solve({.limbs = std::vector<std::uint32_t>{19, 36, 19}}) == 2);  // nothing is left of the lists
     CHECK(c.solve_groups({H::free}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::free, H::follower}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::prop, H::left, H::right}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::prop, H::left, H::right, H::third}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::handle, H::on_handle}) == SWIVEL_OK);
+}
+
+TEST_CASE("frames that cannot be are refused")
+{
+    Called c;
+    const swivel_in origin{c.doubles, 0}, narrow_origin{c.doubles, 23};
+    const struct {
+        const char* words;
+        std::vector<swivel_frame_field> fields;  // of group 1
+        std::uint32_t positions = SWIVEL_NUMBERS_UNSAID;
+        swivel_in origin = {};
+    } rows[] = {
+        {"group 1, target: stride 11 is smaller than a value, 12 bytes", {{SWIVEL_TARGET, c.floats, 11}}},
+        {"group 1, elbow: stride 7 is smaller than a value", {{SWIVEL_POLE, c.floats, 0}, {SWIVEL_ELBOW, c.floats, 7}}},
+        {"group 1, flags: ", {{SWIVEL_FLAGS, c.floats, 0}}},  // one place for all: results cannot
+        {"group 1, hand: not part of this group; create it with SWIVEL_WITH_HAND", {{SWIVEL_HAND, c.floats, 16}}},
+        {"group 1, incoming_wrist: not part of this group; create it with ", {{SWIVEL_INCOMING_WRIST, c.floats, 16}}},
+        {"create it with SWIVEL_WITH_CLAVICLE", {{SWIVEL_CLAVICLE_TURN, c.floats, 16}}},
+        {"frame of group 1 lists pole twice; list it once", {{SWIVEL_POLE, c.floats, 0}, {SWIVEL_POLE, c.floats, 0}}},
+        {"there is no field ", {{SWIVEL_INPUT_END, c.floats, 0}}},
+        {"target is in doubles, but floats are read without an origin; give floats, or an",
+         {{SWIVEL_TARGET, c.doubles, 24}},
+         SWIVEL_DOUBLES},
+        {"target is in floats, but the frame has an origin; give doubles",
+         {{SWIVEL_TARGET, c.floats, 24}},
+         SWIVEL_FLOATS,
+         origin},
+        {"positions is 3; it is a swivel_numbers, 0 to 2", {{SWIVEL_TARGET, c.floats, 24}}, 3},
+        {"origin: stride 23 is smaller than a value, 24 bytes", {}, SWIVEL_NUMBERS_UNSAID, narrow_origin},
+        {"target: stride 12 is smaller than a value, 24 bytes",  // which is enough for floats
+         {{SWIVEL_TARGET, c.doubles, 12}},
+         SWIVEL_NUMBERS_UNSAID,
+         origin},
+    };
+    const swivel_blocks whole{0, 3}, of_second{2, 1}, of_first{0, 2};
+    swivel_frame frames[2] = {swivel_default_frame(), swivel_default_frame()};
+    swivel_job job = swivel_default_job();
+    job.frames = frames;
+    {
+        const Unchanged refused{c};
+        for (const auto& [words, fields, positions, from] : rows) {
+            frames[1].fields = fields.data(), frames[1].field_count = static_cast<std::uint32_t>(fields.size());
+            frames[1].positions = positions, frames[1].origin = from;
+            for (const swivel_blocks* const blocks : {&whole, &of_second}) {
+                job.blocks = blocks, job.on_this_thread = blocks == &of_second;
+                refused(swivel_solve(c.crowd.get(), &job), words);
+            }
+        }
+        frames[1] = swivel_default_frame(), frames[1].field_count = 1;
+        refused(swivel_solve(c.crowd.get(), &job), "null");
+        for (const std::uint32_t size : {0u, static_cast<std::uint32_t>(sizeof frames[0]) + 8}) {
+            frames[0].size = size;
+            refused(swivel_solve(c.crowd.get(), &job), "size ");
+        }
+    }
+    frames[0] = swivel_default_frame();
+    job.blocks = &of_first;  // the second frame is not looked at
+    CHECK(swivel_solve(c.crowd.get(), &job) == SWIVEL_OK);
 }
 
 TEST_CASE("poses that cannot be are refused")

@@ -45,17 +45,24 @@ void check_refusals(const Refusal<Good> (&refusals)[count])
     }
 }
 
-// Two groups of free limbs.
+// Two groups of free limbs, the first of which keep to a region.
 struct FreeLimbs {
     std::array<swivel_group_def, 2> groups = {group_of(3), group_of(4)};
     swivel_crowd_def def = swivel_default_crowd_def();
+    swivel_region region = swivel_default_region();
 
-    FreeLimbs() { def.groups = groups.data(), def.group_count = 2; }
+    FreeLimbs()
+    {
+        const swivel_region_cone cone{{0, 0, 1}, 0.5f};
+        REQUIRE(swivel_region_add_cones(&region, &cone, 1, 0) == SWIVEL_OK);
+        groups[0].region = &region, groups[0].features = SWIVEL_WITH_REGION;
+        def.groups = groups.data(), def.group_count = 2;
+    }
     const swivel_crowd_def* definition() const { return &def; }
     template <class Enum>
-    static void set(Enum& value, std::uint32_t to)
+    static void set(Enum& value, std::uint32_t number)
     {
-        std::memcpy(&value, &to, sizeof to);  // any number, as C allows
+        std::memcpy(&value, &number, sizeof number);  // any number, as C allows
     }
 };
 
@@ -99,10 +106,10 @@ struct ArmDef {
 
 // A spine, a neck and a head that look; a second group looks, too, if a row says so.
 struct LookDef {
-    Upright of;
-    std::array<swivel_group_def, 2> groups = {of.look, of.look};
+    Upright figure;
+    std::array<swivel_group_def, 2> groups = {figure.look, figure.look};
     swivel_look& look = groups[0].look;
-    swivel_skeleton skeleton = of.skeleton.view();
+    swivel_skeleton skeleton = figure.skeleton.view();
     swivel_crowd_def def = swivel_default_crowd_def();
 
     LookDef() { def.skeleton = &skeleton, def.body_count = 1, def.groups = groups.data(), def.group_count = 1; }
@@ -141,6 +148,14 @@ TEST_CASE("a crowd of free limbs that cannot be is refused")
         {"group 0: on_bad_input is 2", [](auto& d) { d.set(d.groups[0].on_bad_input, 2); }},
         {"group 1 is of bodies, but the crowd def has no skeleton",
          [](auto& d) { d.groups[1].features = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING; }},
+        {"group 0: SWIVEL_WITH_REGION needs a region; give it", [](auto& d) { d.groups[0].region = nullptr; }},
+        {"group 1: SWIVEL_WITH_REGION needs a region; give it",
+         [](auto& d) { d.groups[1].features = SWIVEL_WITH_REGION; }},
+        {"group 0 has a region, but not SWIVEL_WITH_REGION; add it", [](auto& d) { d.groups[0].features = 0; }},
+        {"group 0: the region allows nothing", [](auto& d) { d.region = swivel_default_region(); }},
+        {"group 0: half-space 0 of the region needs a unit axis",
+         [](auto& d) { d.region.half_space[0].axis[2] = 1.1f; }},
+        {"group 0: the region's size is 8", [](auto& d) { d.region.size = 8; }},
     });
 }
 
@@ -333,14 +348,14 @@ struct Figure {
         joints.twist_bone_count = 2;
         joints.bend[2] = 1;
     }
-    swivel_status bind(swivel_binding* to) const { return swivel_bind_joints(&skeleton, &joints, to); }
+    swivel_status bind(swivel_binding* binding) const { return swivel_bind_joints(&skeleton, &joints, binding); }
 };
 // A limb with nothing aligned.
 struct Chain {
     Random random{9};
     swivel_chain chain = skewed_chain(random);
 
-    swivel_status bind(swivel_binding* to) const { return swivel_bind(&chain, to); }
+    swivel_status bind(swivel_binding* binding) const { return swivel_bind(&chain, binding); }
 };
 
 // Binds, and then once more as it was changed.

@@ -10,9 +10,8 @@
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
 
-#include "tests/free_limb.h"
-#include "tests/limit_oracle.h"
 #include "tests/limited_arms.h"
+#include "tests/test_arm.h"
 
 using namespace swivel;
 using namespace swivel::test;
@@ -23,7 +22,7 @@ namespace {
 double step(const Vector3d& before, const Vector3d& now, const Vector3d& line)
 {
     const Vector3d carried = before - before.dot(line) * line;
-    return std::atan2(carried.cross(now).norm(), carried.dot(now));
+    return angle_between(carried, now);
 }
 
 using Path = std::vector<Arm>;
@@ -139,18 +138,6 @@ TEST_CASE("random walks of target and pole stay under the limit, and follow the 
     });
 }
 
-TEST_CASE("joint limits win over the largest swivel, and say so")
-{
-    FreeLimb limb({{0, 0, 0.4}, {1, 0, 0}, 0.3, 0.3}, SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE);
-    limb.write(SWIVEL_MOST_SWIVEL, turn(0.1));
-    CHECK((limb.solve().flags & SWIVEL_JUMPED) == 0);
-    limb.write(SWIVEL_SHOULDER_CONE, Float4{-1, 0, 0, 0.5f});  // the elbow has to go to the other side
-    const LimbPose got = limb.solve();
-    CHECK((got.flags & SWIVEL_JUMPED) != 0);
-    CHECK((got.flags & SWIVEL_LIMITED_SHOULDER_CONE) != 0);
-    CHECK(got.elbow_place().normalized().x() <= -0.5 + 1e-6);
-}
-
 TEST_CASE("an angle is not turned on while the pole does not say where the elbow goes")
 {
     const Arm arm{{0, 0, 1.2}, {0, -1, 0}, 1, 1};
@@ -236,6 +223,7 @@ struct Seen {
     double largest = 0;  // turn of a frame
     int longest = 0;     // frames outside, while some place is allowed
     int outside = 0, jumped = 0, unflagged = 0;
+    int wrongly_said = 0;  // that the elbow jumped, or not
 
     Seen(Random random, const Kind& kind, swivel_features more)
     {
@@ -251,15 +239,16 @@ struct Seen {
             for (std::uint32_t n = 0; n < kCharacters; ++n) {
                 const LimbPose pose = pose_of(crowd, n);
                 const Vector3d now = pose.hinge(), line = walk.arms.arms[n].arm.wrist.normalized();
-                const Vector3d carried = before[n] - before[n].dot(line) * line;
-                if (frame > 0) largest = std::max(largest, std::atan2(carried.cross(now).norm(), carried.dot(now)));
+                const double turned = frame > 0 ? step(before[n], now, line) : 0;
+                const bool is_jump = (pose.flags & SWIVEL_JUMPED) != 0;
+                largest = std::max(largest, turned), jumped += is_jump;
+                if (std::fabs(turned - kStep) > 1e-4) wrongly_said += is_jump != (turned > kStep);
                 before[n] = now;
                 const bool is_out = !(pose.flags & SWIVEL_INFEASIBLE) && !walk.is_within(n, pose);
                 lasts[n] = is_out ? lasts[n] + 1 : 0;
                 longest = std::max(longest, lasts[n]);
                 outside += is_out;
                 unflagged += is_out && !(pose.flags & SWIVEL_LIMITED_STEP);
-                jumped += (pose.flags & SWIVEL_JUMPED) != 0;
             }
         }
     }
@@ -277,8 +266,10 @@ TEST_CASE("where the step wins no elbow pops, whatever the limit, and each is wi
         CHECK(seen.unflagged == 0);
         CHECK(seen.jumped == 0);
         CHECK(seen.outside > 0);
+        CHECK(popping.outside == 0);  // limits win over the largest swivel, and the elbow pops
         CHECK(popping.largest > kStep + 0.05);
         CHECK(popping.jumped > 0);
+        CHECK(popping.wrongly_said == 0);
     }
 }
 
@@ -305,65 +296,6 @@ TEST_CASE("where the step wins an elbow ends where it would be without a step")
     }
     CHECK(on_their_way > 100);
     CHECK(limited > 100);
-}
-
-// An arm whose elbow goes 0.1 a frame, from where it is wished towards where a cone allows it.
-struct Explained {
-    FreeLimb limb{{{0, 0, 0.4}, {1, 0, 0}, 0.3, 0.3},
-                  SWIVEL_WITH_MOST_SWIVEL | SWIVEL_STEP_WINS | SWIVEL_WITH_SHOULDER_CONE};
-    LimbPose pose;
-
-    Explained()
-    {
-        limb.write(SWIVEL_MOST_SWIVEL, turn(0.1));
-        solve();
-    }
-    void solve(int times = 1)
-    {
-        for (int n = 0; n < times; ++n) pose = limb.solve();
-    }
-    // That explain says these words, and this angle after others.
-    void check(const std::string& words, double angle = -1, const std::string& after = "") const
-    {
-        const std::string text = limb.crowd.explain(0, 0);
-        INFO(text);
-        const std::size_t at = text.find(words);
-        REQUIRE(at != std::string::npos);
-        if (angle < 0) return;
-        const std::size_t number = text.find(after, at);
-        REQUIRE(number != std::string::npos);
-        CHECK(std::stod(text.substr(number + after.size())) == Approx(angle * 180 / kPi).margin(0.06));
-    }
-    // Of the upper arm from the axis -x.
-    double to_side() const { return std::acos(-pose.elbow_place().normalized().x()); }
-};
-
-TEST_CASE("explain says that an elbow is on its way, and how far outside it is; then how far its wish was")
-{
-    const std::string violates = "Its pose violates shoulder_cone by ";
-    Explained arm;
-    arm.limb.write(SWIVEL_SHOULDER_CONE, cone({-1, 0, 0}, 1)), arm.solve();
-    arm.check("breaks shoulder_cone: it is on its way to the nearest place that keeps all limits.", arm.to_side() - 1,
-              violates);
-    arm.check("The next solve goes one step further.");
-    arm.solve(40);
-    // The upper arm is asin(sqrt(5) / 3) from the line, about which the elbow turns.
-    arm.check("Where the elbow was wished it breaks shoulder_cone", std::acos(-std::cos(1) / (std::sqrt(5.0) / 3)),
-              "keeps all limits is ");
-    CHECK(arm.limb.crowd.explain(0, 0).find("on its way") == std::string::npos);
-
-    Explained none;  // no place keeps the cone
-    none.limb.write(SWIVEL_SHOULDER_CONE, cone({-1, 0, 0}, 0.2)), none.solve();
-    none.check("No place of the elbow keeps shoulder_cone: it is on its way to the one that violates them least.",
-               none.to_side() - 0.2, violates);
-    none.solve(40);
-    none.check("No place of the elbow keeps shoulder_cone: the one that violates them least is taken.",
-               none.to_side() - 0.2, violates);
-
-    Explained free;  // the wish itself keeps it
-    free.limb.write(SWIVEL_SHOULDER_CONE, cone({0, 0, 1}, 2)), free.solve();
-    free.limb.write(SWIVEL_POLE, Float3{-1, 0.1f, 0}), free.solve();
-    free.check("The elbow is on its way to where it is wished. The next solve goes one step further.");
 }
 
 }  // namespace

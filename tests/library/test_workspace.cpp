@@ -13,7 +13,6 @@
 
 #include <rapidcheck/catch.h>
 
-#include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"

@@ -141,21 +141,7 @@ static_assert(dot(e0, einf).c[0] == -1 && dot(einf, e0).c[0] == -1);
 
 // ---- beside products
 
-TEST_CASE("a rotor has Eigen's x, y, z, w, and turns as Eigen's does; one of another length lengthens, too")
-{
-    Random random{4};
-    for (int n = 0; n < kRounds; ++n) {
-        const Quaterniond a = random.rotation();
-        const Vector3d v = any_vector(random);
-        const Rotor<double> q = mv(a);
-        CHECK(distance(sandwich(q, mv(v)), mv(Vector3d(a * v))) < kTolerance);
-        CHECK(distance(sandwich(3.0 * q, mv(v)), 9.0 * mv(Vector3d(a * v))) < 1e-11);
-        CHECK(distance(normalise(3.0 * q), q) < kTolerance);
-        CHECK((q.at<kI>() == a.x() && q.at<kJ>() == a.y() && q.at<kK>() == a.z() && q.at<kScalar>() == a.w()));
-    }
-}
-
-TEST_CASE("points, spheres and lines are the dense algebra's; cross, dot, len2 and normalise are Eigen's")
+TEST_CASE("points, spheres, lines and rotors are the dense algebra's; what has no such counterpart is Eigen's")
 {
     Random random{8};
     for (int n = 0; n < kRounds; ++n) {
@@ -169,6 +155,13 @@ TEST_CASE("points, spheres and lines are the dense algebra's; cross, dot, len2 a
         CHECK(std::fabs(scalar_product(mv(a), mv(b)) - a.dot(b)) < 1e-11);
         CHECK(std::fabs(len2(mv(a)) - a.squaredNorm()) < 1e-11);
         CHECK(distance(normalise(mv(a)), mv(Vector3d(a.normalized()))) < kTolerance);
+        // A rotor of another length lengthens, too.
+        const Quaterniond turn = random.rotation();
+        const Rotor<double> q = mv(turn);
+        CHECK(distance(sandwich(3.0 * q, mv(a)), 9.0 * mv(Vector3d(turn * a))) < 1e-11);
+        CHECK(distance(normalise(3.0 * q), q) < kTolerance);
+        CHECK((q.at<kI>() == turn.x() && q.at<kJ>() == turn.y() && q.at<kK>() == turn.z()));
+        CHECK(q.at<kScalar>() == turn.w());
     }
 }
 

@@ -136,7 +136,7 @@ TEST_CASE("a limb asks for its share of a shift, and allows more")
             const ShiftSpan<double> whole = figure.span();
             const double share = random.unit();
             const ShiftSpan<double> part = counted(whole, share);
-            const auto shift = [](const ShiftSpan<double>& of) { return fitted_shift(of, 0.0, 10.0, 10.0).shift; };
+            const auto shift = [](const ShiftSpan<double>& limb) { return fitted_shift(limb, 0.0, 10.0, 10.0).shift; };
             RC_ASSERT(std::fabs(shift(part) - share * shift(whole)) <= 1e-12);
             RC_ASSERT(part.low <= whole.low + 1e-12 || whole.low > 0);
             RC_ASSERT(part.high >= whole.high - 1e-12 || whole.high < 0);
@@ -151,19 +151,19 @@ TEST_CASE("a shift is eased as a critically damped spring")
 {
     for (const double per_second : {30.0, 60.0, 144.0, 600.0}) {
         Random random{3};
-        Spring<double> want{0, 0}, is{0, 0};
+        Spring<double> want{0, 0}, eased{0, 0};
         Spring<float> rounded{0, 0};
         double error = 0, float_error = 0, last = 0;
         for (double t = 0; t < 2;) {
             const double time = static_cast<float>(random.between(0.7, 1) / per_second);
             t += time;
             want = exact(want, 1, time, 0.1);
-            is = sprung(is, 1.0, time, spring_rule(0.1f));
+            eased = sprung(eased, 1.0, time, spring_rule(0.1f));
             rounded = sprung(rounded, 1.0f, static_cast<float>(time), spring_rule(0.1f));
-            error = std::max(error, std::fabs(is.at - want.at));
+            error = std::max(error, std::fabs(eased.at - want.at));
             float_error = std::max(float_error, std::fabs(double{rounded.at} - want.at));
-            REQUIRE((is.at >= last && is.at <= 1 + 1e-15 && is.rate >= -1e-15));
-            last = is.at;
+            REQUIRE((eased.at >= last && eased.at <= 1 + 1e-15 && eased.rate >= -1e-15));
+            last = eased.at;
         }
         INFO(per_second << " a second: " << error << ", in float " << float_error);
         CHECK(error <= 5e-6);
@@ -178,10 +178,11 @@ TEST_CASE("no step is so long that the spring overshoots")
     for (const float half : {0.0f, 1e-3f, 0.1f, 1000.0f})
         for (const float goal : {1.0f, 2e15f})
             for (double time = 1e-6; time <= 1e15; time *= 1.7) {
-                const Spring<float> is = sprung(Spring<float>{0, 0}, goal, static_cast<float>(time), spring_rule(half));
+                const Spring<float> eased =
+                    sprung(Spring<float>{0, 0}, goal, static_cast<float>(time), spring_rule(half));
                 INFO("half " << half << ", time " << time);
-                REQUIRE((is.at >= -5e-7f * goal && is.at <= goal && is.rate >= 0));
-                REQUIRE((time < 100 * std::max(double{half}, kShortestHalf) || is.at == goal));
+                REQUIRE((eased.at >= -5e-7f * goal && eased.at <= goal && eased.rate >= 0));
+                REQUIRE((time < 100 * std::max(double{half}, kShortestHalf) || eased.at == goal));
             }
 }
 

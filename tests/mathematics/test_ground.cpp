@@ -48,20 +48,21 @@ float as_float(double x) { return static_cast<float>(x); }
 // slope: the steepest, as an angle.
 FootCase random_case(Random& random, double slope = 1.4)
 {
-    FootCase of;
-    of.up = random.direction();
-    const Vector3d across = random.across(of.up);
-    of.normal = random.spread(0.1, 10) * (Eigen::AngleAxisd(random.between(0, slope), across) * of.up);
-    of.place = Vector3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
-    of.toe = of.place + random.between(-0.2, 0.3) * of.unit() + random.between(0, 0.5) * random.across(of.normal);
-    of.foot = random.rotation();
-    of.heel = random.vector(0.02, 0.3);
-    of.scale = random.spread(0.5, 2);
-    of.share = random.below(4) ? random.unit() : random.below(2);
-    of.most = random.below(8) ? random.spread(1e-4, 1.5) : 0;
-    of.toe_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
-    of.heel_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
-    return of;
+    FootCase given;
+    given.up = random.direction();
+    const Vector3d across = random.across(given.up);
+    given.normal = random.spread(0.1, 10) * (Eigen::AngleAxisd(random.between(0, slope), across) * given.up);
+    given.place = Vector3d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+    given.toe =
+        given.place + random.between(-0.2, 0.3) * given.unit() + random.between(0, 0.5) * random.across(given.normal);
+    given.foot = random.rotation();
+    given.heel = random.vector(0.02, 0.3);
+    given.scale = random.spread(0.5, 2);
+    given.share = random.below(4) ? random.unit() : random.below(2);
+    given.most = random.below(8) ? random.spread(1e-4, 1.5) : 0;
+    given.toe_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
+    given.heel_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
+    return given;
 }
 
 struct Stood {
@@ -69,45 +70,39 @@ struct Stood {
     Quaterniond foot;
 };
 template <class T>
-Foot<T> by_formula(const FootCase& of, const Foot<T>& foot)
+Foot<T> by_formula(const FootCase& given, const Foot<T>& foot)
 {
-    const Vector<T> up = mv<T>(of.up);
-    const GroundPlane<T> ground = ground_plane(mv<T>(of.place), mv<T>(of.normal), up);
-    return foot_on_ground(ground, leaning(ground, ground.slope(up), up), up, foot, mv<T>(of.heel),
-                          static_cast<T>(of.scale), static_cast<T>(of.share), of.rules());
+    const Vector<T> up = mv<T>(given.up);
+    const GroundPlane<T> ground = ground_plane(mv<T>(given.place), mv<T>(given.normal), up);
+    return foot_on_ground(ground, leaning(ground, ground.slope(up), up), up, foot, mv<T>(given.heel),
+                          static_cast<T>(given.scale), static_cast<T>(given.share), given.rules());
 }
 template <class T>
-Foot<T> animated(const FootCase& of)
+Foot<T> animated(const FootCase& given)
 {
-    return {mv<T>(of.toe), mv<T>(of.foot)};
+    return {mv<T>(given.toe), mv<T>(given.foot)};
 }
 template <class T>
-Stood stood(const FootCase& of)
+Stood stood(const FootCase& given)
 {
-    const Foot<T> is = by_formula(of, animated<T>(of));
-    return {eigen(is.toe), eigen(is.rotation)};
+    const Foot<T> got = by_formula(given, animated<T>(given));
+    return {eigen(got.toe), eigen(got.rotation)};
 }
 template <class T>
-bool has_same_bits(const FootCase& of)
+bool has_same_bits(const FootCase& given)
 {
-    const Foot<T> was = animated<T>(of), is = by_formula(of, was);
-    return std::memcmp(&is.toe, &was.toe, sizeof is.toe) == 0 &&
-           std::memcmp(&is.rotation, &was.rotation, sizeof is.rotation) == 0;
+    const Foot<T> before = animated<T>(given), got = by_formula(given, before);
+    return std::memcmp(&got.toe, &before.toe, sizeof got.toe) == 0 &&
+           std::memcmp(&got.rotation, &before.rotation, sizeof got.rotation) == 0;
 }
 
 // How far a slope turns a foot, about cross(up, normal): by its share, up to the angle.
-double lean_of(const FootCase& of)
+double lean_of(const FootCase& given)
 {
-    const double slope = std::atan2(of.up.cross(of.unit()).norm(), of.up.dot(of.unit()));
+    const double slope = std::atan2(given.up.cross(given.unit()).norm(), given.up.dot(given.unit()));
     const double turn =
-        2 * std::atan2(of.share * std::sin(slope), 2 * (1 - of.share) + of.share * (1 + std::cos(slope)));
-    return std::min(turn, of.most);
-}
-Quaterniond turn_between(const Vector3d& from, const Vector3d& to)
-{
-    const Vector3d axis = from.cross(to);
-    if (axis.norm() < 1e-15) return Quaterniond::Identity();
-    return Quaterniond(Eigen::AngleAxisd(std::atan2(axis.norm(), from.dot(to)), axis.normalized()));
+        2 * std::atan2(given.share * std::sin(slope), 2 * (1 - given.share) + given.share * (1 + std::cos(slope)));
+    return std::min(turn, given.most);
 }
 // What must come out: a toe that is too low goes straight up, the foot leans with the slope, and a heel that is then
 // too low goes up a circle about the toe, in the plane that it and the normal span, so that no turn is less.
@@ -115,15 +110,15 @@ struct Wanted : Stood {
     double room;    // the cosine of the heel's rise over the toe: near 0, where it is straight above, it turns much
     bool is_clear;  // whether it is known which way the heel goes: not of one straight below
 
-    explicit Wanted(const FootCase& of)
+    explicit Wanted(const FootCase& given)
     {
-        const Vector3d normal = of.unit(), axis = of.up.cross(normal);
-        const double low = std::max(of.scale * of.toe_clearance - of.over(of.toe), 0.0);
-        toe = of.toe + low / normal.dot(of.up) * of.up;
-        foot = of.foot;
-        if (axis.norm() > 1e-12) foot = Eigen::AngleAxisd(lean_of(of), axis.normalized()) * foot;
-        const Vector3d heel = foot * of.heel, flat = heel - heel.dot(normal) * normal;
-        const double length = heel.norm(), rise = of.scale * of.heel_clearance - of.over(toe),
+        const Vector3d normal = given.unit(), axis = given.up.cross(normal);
+        const double low = std::max(given.scale * given.toe_clearance - given.over(given.toe), 0.0);
+        toe = given.toe + low / normal.dot(given.up) * given.up;
+        foot = given.foot;
+        if (axis.norm() > 1e-12) foot = Eigen::AngleAxisd(lean_of(given), axis.normalized()) * foot;
+        const Vector3d heel = foot * given.heel, flat = heel - heel.dot(normal) * normal;
+        const double length = heel.norm(), rise = given.scale * given.heel_clearance - given.over(toe),
                      sine = std::min(rise / length, 1.0);
         room = std::sqrt(std::max(1 - sine * sine, 0.0));
         is_clear = flat.norm() > 0.1 * length;
@@ -140,18 +135,18 @@ void require_wanted(double error)
         Random random{seed};
         int lifted = 0, leaning = 0, raised = 0;
         for (int n = 0; n < kSeedFeet; ++n) {
-            const FootCase of = random_case(random);
-            const Wanted want(of);
-            const Stood is = stood<T>(of);
-            RC_ASSERT((is.toe - want.toe).norm() <= error);
-            RC_ASSERT(std::fabs(is.foot.norm() - 1) <= error);
+            const FootCase given = random_case(random);
+            const Wanted want(given);
+            const Stood got = stood<T>(given);
+            RC_ASSERT((got.toe - want.toe).norm() <= error);
+            RC_ASSERT(std::fabs(got.foot.norm() - 1) <= error);
             // Whichever way a heel goes up, it is high enough, or as high as it gets.
-            const double rise = std::min(of.scale * of.heel_clearance, of.over(is.toe) + of.heel.norm());
-            RC_ASSERT(of.over(is.toe + is.foot * of.heel) >= rise - error);
-            const double angle = 2 * kAngle + 2 * error / of.heel.norm();
-            if (want.is_clear) RC_ASSERT(is.foot.angularDistance(want.foot) <= angle / std::max(want.room, 0.01));
-            raised += (want.toe - of.toe).norm() > 0.01, leaning += lean_of(of) > 0.01;
-            lifted += want.is_clear && want.foot.angularDistance(of.foot) > lean_of(of) + 0.01;
+            const double rise = std::min(given.scale * given.heel_clearance, given.over(got.toe) + given.heel.norm());
+            RC_ASSERT(given.over(got.toe + got.foot * given.heel) >= rise - error);
+            const double angle = 2 * kAngle + 2 * error / given.heel.norm();
+            if (want.is_clear) RC_ASSERT(got.foot.angularDistance(want.foot) <= angle / std::max(want.room, 0.01));
+            raised += (want.toe - given.toe).norm() > 0.01, leaning += lean_of(given) > 0.01;
+            lifted += want.is_clear && want.foot.angularDistance(given.foot) > lean_of(given) + 0.01;
         }
         RC_ASSERT(raised > kSeedFeet / 5);
         RC_ASSERT(leaning > kSeedFeet / 5);
@@ -172,17 +167,17 @@ TEST_CASE("a foot turns with the whole of its ground, by no share not at all, an
     rc::prop("about the line across the slope", [](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < kSeedFeet; ++n) {
-            FootCase of = random_case(random);
+            FootCase given = random_case(random);
             // High enough for any heel.
-            of.toe = of.place + random.between(0.5, 1) * of.unit();
-            of.toe_clearance = of.heel_clearance = 0;
-            RC_ASSERT(stood<double>(of).foot.angularDistance(of.foot) <= of.most + kAngle);
-            of.share = 1, of.most = 1.57;
-            RC_ASSERT((stood<double>(of).foot * of.foot.conjugate() * of.up - of.unit()).norm() <= 1e-12);
-            of.share = 0;
-            RC_ASSERT(stood<double>(of).foot.angularDistance(of.foot) <= 1e-12);
-            of.share = random.unit(), of.most = 0;
-            RC_ASSERT(stood<float>(of).foot.angularDistance(of.foot) <= kAngle);
+            given.toe = given.place + random.between(0.5, 1) * given.unit();
+            given.toe_clearance = given.heel_clearance = 0;
+            RC_ASSERT(stood<double>(given).foot.angularDistance(given.foot) <= given.most + kAngle);
+            given.share = 1, given.most = 1.57;
+            RC_ASSERT((stood<double>(given).foot * given.foot.conjugate() * given.up - given.unit()).norm() <= 1e-12);
+            given.share = 0;
+            RC_ASSERT(stood<double>(given).foot.angularDistance(given.foot) <= 1e-12);
+            given.share = random.unit(), given.most = 0;
+            RC_ASSERT(stood<float>(given).foot.angularDistance(given.foot) <= kAngle);
         }
     });
 }
@@ -192,19 +187,19 @@ TEST_CASE("without ground, and on ground that is too steep, a foot stays to the 
     rc::prop("where none is known", [](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < kSeedFeet; ++n) {
-            FootCase of = random_case(random);
+            FootCase given = random_case(random);
             for (const double hole : {kNone, 2e15, std::numeric_limits<double>::infinity()}) {
-                const Vector3d place = of.place;
-                of.place[random.below(3)] = hole;
-                RC_ASSERT(has_same_bits<double>(of));
-                RC_ASSERT(has_same_bits<float>(of));
-                of.place = place;
+                const Vector3d place = given.place;
+                given.place[random.below(3)] = hole;
+                RC_ASSERT(has_same_bits<double>(given));
+                RC_ASSERT(has_same_bits<float>(given));
+                given.place = place;
             }
             // 87 degrees and 8 minutes and more, also from below.
             const double angle = random.between(1.5209, 3.14);
-            of.normal = random.spread(0.1, 10) * (Eigen::AngleAxisd(angle, random.across(of.up)) * of.up);
-            RC_ASSERT(has_same_bits<double>(of));
-            RC_ASSERT(has_same_bits<float>(of));
+            given.normal = random.spread(0.1, 10) * (Eigen::AngleAxisd(angle, random.across(given.up)) * given.up);
+            RC_ASSERT(has_same_bits<double>(given));
+            RC_ASSERT(has_same_bits<float>(given));
         }
     });
 }
@@ -214,22 +209,23 @@ TEST_CASE("a point that locks does so at its clearance, and its target stays")
     rc::prop("where it locks alone", [](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < kSeedFeet; ++n) {
-            const FootCase of = random_case(random);
+            const FootCase given = random_case(random);
             const auto any = [&] { return mv<double>(random.vector(0, 0.3)); };
             PlantState<double> state{};
-            state.mark = mv<double>(of.toe), state.offset = any(), state.velocity = any();
-            const PlantState<double> was = state;
-            const Vector<double> up = mv<double>(of.up);
-            const GroundPlane<double> ground = ground_plane(mv<double>(of.place), mv<double>(of.normal), up);
-            const double way = ground.way_up(state.mark, of.toe_clearance);
+            state.mark = mv<double>(given.toe), state.offset = any(), state.velocity = any();
+            const PlantState<double> before = state;
+            const Vector<double> up = mv<double>(given.up);
+            const GroundPlane<double> ground = ground_plane(mv<double>(given.place), mv<double>(given.normal), up);
+            const double way = ground.way_up(state.mark, given.toe_clearance);
             lock_on_ground(state, false, up, way);
-            RC_ASSERT(std::memcmp(&state.mark, &was.mark, sizeof was.mark) == 0);
-            RC_ASSERT(std::memcmp(&state.offset, &was.offset, sizeof was.offset) == 0);
+            RC_ASSERT(std::memcmp(&state.mark, &before.mark, sizeof before.mark) == 0);
+            RC_ASSERT(std::memcmp(&state.offset, &before.offset, sizeof before.offset) == 0);
             lock_on_ground(state, true, up, way);
-            RC_ASSERT(std::fabs(of.over(eigen(state.mark)) - of.toe_clearance) <= 1e-13);
-            RC_ASSERT((eigen(state.mark) - of.toe).cross(of.up).norm() <= 1e-13);
-            RC_ASSERT((eigen(state.mark) + eigen(state.offset) - eigen(was.mark) - eigen(was.offset)).norm() <= 1e-13);
-            RC_ASSERT(std::memcmp(&state.velocity, &was.velocity, sizeof was.velocity) == 0);
+            RC_ASSERT(std::fabs(given.over(eigen(state.mark)) - given.toe_clearance) <= 1e-13);
+            RC_ASSERT((eigen(state.mark) - given.toe).cross(given.up).norm() <= 1e-13);
+            RC_ASSERT((eigen(state.mark) + eigen(state.offset) - eigen(before.mark) - eigen(before.offset)).norm() <=
+                      1e-13);
+            RC_ASSERT(std::memcmp(&state.velocity, &before.velocity, sizeof before.velocity) == 0);
         }
     });
 }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: joint limits and regions hold. Where a swivel is allowed, the result violates none by more than 1e-6,
-// and it is as near to the wish as a scan of the whole circle finds. Where no swivel is allowed, a flag says so.
+// and it is as near to the wish as a scan of the whole circle finds. Where no swivel is allowed, a flag says so, and
+// rounding does not choose: among least violations within 1e-6 the one nearest to the wish is taken, then that of the
+// lower line.
 // The judges work in angles and half-spaces (limited_arms.h).
 #include <catch2/catch.hpp>
 
+#include <rapidcheck/catch.h>
+
+#include "core/choose_swivel.h"
 #include "core/limits.h"
 #include "tests/limited_arms.h"
 
@@ -21,9 +26,9 @@ struct Scan {
     static constexpr int kSteps = 10'000;
     double nearest = 10, most = -4;
 
-    Scan(const LimitedArms& of, std::uint32_t n, const SwivelCircle& circle)
+    Scan(const LimitedArms& arms, std::uint32_t n, const SwivelCircle& circle)
     {
-        const auto room_at = [&](double turn) { return of.room(n, circle.at(turn)); };
+        const auto room_at = [&](double turn) { return arms.room(n, circle.at(turn)); };
         for (int k = 0; k <= kSteps / 2; ++k)
             for (const double sign : {1.0, -1.0}) {
                 const double turn = 2 * kPi * k / kSteps, here = room_at(sign * turn);
@@ -47,18 +52,18 @@ struct Tally {
 
 // Every arm against some places of the circle, and against the whole scan where one of them is nearer to the wish, and
 // for one arm in 500.
-void judge(Random& random, const LimitedArms& of, Tally& tally)
+void judge(Random& random, const LimitedArms& arms, Tally& tally)
 {
-    Crowd crowd = of.crowd();
+    Crowd crowd = arms.crowd();
     crowd.solve();
-    for (std::uint32_t n = 0; n < of.arms.size(); ++n, ++tally.arms) {
+    for (std::uint32_t n = 0; n < arms.arms.size(); ++n, ++tally.arms) {
         const LimbPose pose = pose_of(crowd, n);
-        const SwivelCircle circle(of.arms[n], pose);
+        const SwivelCircle circle(arms.arms[n], pose);
         const bool allowed = !(pose.flags & SWIVEL_INFEASIBLE);
-        const double swivel = swivel_of(of.arms[n], pose), room = of.room(n, pose);
+        const double swivel = swivel_of(arms.arms[n], pose), room = arms.room(n, pose);
         tally.none += !allowed, tally.moved += allowed && std::fabs(swivel) > 1e-4;
         if (allowed) tally.worst = std::min(tally.worst, room), tally.violating += room < -1e-6;
-        const double region = of.region_room(circle.at(0));
+        const double region = arms.region_room(circle.at(0));
         const bool is_limited = pose.flags & SWIVEL_LIMITED_REGION;
         tally.limited_by_region += is_limited;
         if (std::fabs(region) > kClear) tally.wrong_flag += is_limited != (region < 0);
@@ -68,16 +73,16 @@ void judge(Random& random, const LimitedArms& of, Tally& tally)
         for (int k = 0; k < 32 && !look; ++k) {
             const double place = std::remainder(turn + k * 2 * kPi / 32, 2 * kPi);
             if (allowed && std::fabs(place) >= std::fabs(swivel) - 1e-5) continue;
-            look = of.room(n, circle.at(place)) >= kClear;
+            look = arms.room(n, circle.at(place)) >= kClear;
         }
         if (!look) continue;
         ++tally.scanned;
-        const Scan scan(of, n, circle);
+        const Scan scan(arms, n, circle);
         const bool is_clear = scan.nearest <= kPi;
         tally.missed += is_clear && !allowed;
         tally.too_far += is_clear && std::fabs(swivel) > scan.nearest + 1e-5;
         // Outside of a box there is no one way to measure how far.
-        if (!allowed && !(of.features & kBoxes)) tally.not_least += room < scan.most - 1e-6;
+        if (!allowed && !(arms.features & kBoxes)) tally.not_least += room < scan.most - 1e-6;
     }
 }
 
@@ -110,11 +115,11 @@ TEST_CASE("limits hold, too, where the wished normal is close to the target's li
     Random random{3};
     int moved = 0;
     for (int crowd_count = 0; crowd_count < 200; ++crowd_count) {
-        const LimitedArms of(random, kCrowd, false);
-        Crowd crowd = of.crowd(SWIVEL_POLE_NORMAL);
+        const LimitedArms arms(random, kCrowd, false);
+        Crowd crowd = arms.crowd(SWIVEL_POLE_NORMAL);
         for (std::uint32_t n = 0; n < kCrowd; ++n) {
             const double along = random.spread(1, 900) * (random.below(2) ? 1 : -1);
-            const Arm& arm = of.arms[n].arm;
+            const Arm& arm = arms.arms[n].arm;
             const Float3 normal = floats(Vector3d(arm.normal() + along * arm.wrist.normalized()));
             crowd.write(SWIVEL_POLE, 0, std::span(&normal, 1), n);
         }
@@ -122,8 +127,8 @@ TEST_CASE("limits hold, too, where the wished normal is close to the target's li
         for (std::uint32_t n = 0; n < kCrowd; ++n) {
             const LimbPose pose = pose_of(crowd, n);
             if (pose.flags & SWIVEL_INFEASIBLE) continue;
-            moved += std::fabs(swivel_of(of.arms[n], pose)) > 1e-2;
-            REQUIRE(of.room(n, pose) >= -1e-6);
+            moved += std::fabs(swivel_of(arms.arms[n], pose)) > 1e-2;
+            REQUIRE(arms.room(n, pose) >= -1e-6);
         }
     }
     CHECK(moved > 10'000);
@@ -144,7 +149,7 @@ TEST_CASE("where no middle angle is allowed, the one nearest its range is taken"
     // About -80 degrees, and the target keeps it at +69 and more.
     const Arm arm{Vector3d(1.9, 0, 0.1), Vector3d(0, -1, 0.3), 1, 1};
     FreeLimb limb(arm, SWIVEL_WITH_SHOULDER_BOX);
-    limb.write(SWIVEL_SHOULDER_BOX, numbers(AngleBox{{0, 1, 2}, {{}, {-1.3963, 0.0873}, {}}}));
+    limb.write(SWIVEL_SHOULDER_BOX, box_of({{0, 1, 2}, {{}, {-1.3963, 0.0873}, {}}}));
     const LimbPose pose = limb.solve();
     REQUIRE((pose.flags & SWIVEL_INFEASIBLE) != 0);
     const auto sine_at = [&](double angle) {  // of the middle angle, the swivel turned on by an angle
@@ -153,4 +158,74 @@ TEST_CASE("where no middle angle is allowed, the one nearest its range is taken"
     double least = 1;
     for (int n = 0; n < 3600; ++n) least = std::min(least, sine_at(n * kPi / 1800));
     CHECK(sine_at(0) <= least + 1e-5);
+}
+
+namespace {
+
+OnCircle<float> line(double a, double b, double c)
+{
+    return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
+}
+Limits<float> both(const OnCircle<float>& one, const OnCircle<float>& other)
+{
+    Limits<float> limits;
+    limits.line[0] = one, limits.line[1] = other, limits.line_count = 2;
+    return limits;
+}
+// Two lines whose room is least - |sin(phi - peak)| + tilt cos(phi - peak). It peaks at `peak`, and opposite of it.
+Limits<float> two_peaks(double peak, double least, double tilt)
+{
+    const double s = std::sin(peak), c = std::cos(peak);
+    return both(line(tilt * c - s, tilt * s + c, least), line(tilt * c + s, tilt * s - c, least));
+}
+double angle(const Turned<float>& turn) { return std::atan2(double{turn.sin}, double{turn.cos}); }
+bool is_at(const FoundSwivel<float>& chosen, double phi)
+{
+    return std::fabs(std::remainder(angle(chosen.swivel) - phi, 2 * kPi)) < 1e-5;
+}
+
+}  // namespace
+
+TEST_CASE("of two least violations within 1e-6, the one nearer to the wish is taken")
+{
+    rc::prop("whichever rounding prefers", [](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < 100; ++n) {
+            const double far = random.between(1.7, 4.5), near = far + kPi;  // by their distance from 0
+            const double room = random.between(-0.9, -0.01);
+            RC_ASSERT(is_at(choose_swivel(two_peaks(far, room, random.between(-3e-7, 3e-7)), true), near));
+            RC_ASSERT(is_at(choose_swivel(two_peaks(far, room, 3e-6), true), far));  // 6e-6 more room
+        }
+    });
+}
+
+TEST_CASE("of two as near, the lower line's is taken")
+{
+    // The first line falls towards the wish. The others fall away from it, on either side. `less`: the third line falls
+    // a little sooner, so its peak is nearer by as much. With turns up
+    // to 0.91, the first line can meet one of the others just where the other one peaks. So turns start at 0.95.
+    rc::prop("whichever rounding prefers", [](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < 100; ++n) {
+            const double slope = random.between(0.05, 0.2), turn = random.between(0.95, 1.2);
+            const double less = random.between(-2e-7, 2e-7), c = 0.5 * std::cos(turn), s = 0.5 * std::sin(turn);
+            Limits<float> limits = both(line(-slope, 0, -0.5), line(c, -s, -0.5));
+            limits.line[2] = line(c, s, -0.5 - less), limits.line_count = 3;
+            RC_ASSERT(choose_swivel(limits, true).swivel.sin > 0.1f);
+            std::swap(limits.line[1], limits.line[2]);
+            RC_ASSERT(choose_swivel(limits, true).swivel.sin < -0.1f);
+        }
+    });
+}
+
+TEST_CASE("an allowed swivel ties with no other")
+{
+    // The arc at the farther peak is too short for its ends to be found. The nearer one violates the limits by 1.15e-6.
+    for (const double far : {2.0, 2.5, 3.0, 4.0}) {
+        const Limits<float> limits = two_peaks(far, -7.5e-7, 4e-7);
+        CHECK_FALSE(nearest_end(limits).allowed);
+        const FoundSwivel<float> chosen = choose_swivel(limits, true);
+        CHECK(chosen.allowed);
+        CHECK(is_at(chosen, far));
+    }
 }

@@ -20,8 +20,6 @@ using namespace swivel::test;
 // 2,000 of a seed make 200,000.
 constexpr int kTurns = 2000;
 
-double angle_from_to(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-double turn_angle(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
 // Any angle between them is as likely as any other, and some are nearly half a turn.
 Vector3d beside(Random& random, const Vector3d& direction)
 {
@@ -38,13 +36,13 @@ TEST_CASE("the shortest turn carries a direction to another, whatever the two ar
     rc::prop("any two", [](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < kTurns; ++n) {
-            const Vector3d from = random.direction(), to = beside(random, from);
+            const Vector3d from = random.direction(), goal = beside(random, from);
             const Vector<float> a = mv<float>(Vector3d(random.spread(1e-7, 1e7) * from)),
-                                b = mv<float>(Vector3d(random.spread(1e-7, 1e7) * to));
+                                b = mv<float>(Vector3d(random.spread(1e-7, 1e7) * goal));
             const Quaterniond turn = eigen(shortest_turn(a, b));
             RC_ASSERT(std::fabs(turn.norm() - 1) <= 1e-6);
-            RC_ASSERT(angle_from_to(turn.normalized() * eigen(a), eigen(b)) <= 2e-6);
-            RC_ASSERT(std::fabs(turn_angle(turn) - angle_from_to(eigen(a), eigen(b))) <= 2e-6);
+            RC_ASSERT(angle_between(turn.normalized() * eigen(a), eigen(b)) <= 2e-6);
+            RC_ASSERT(std::fabs(angle_of(turn) - angle_between(eigen(a), eigen(b))) <= 2e-6);
         }
     });
     const Vector<float> none = vector(0.0f, 0.0f, 0.0f), some = vector(1.0f, 2.0f, 3.0f);
@@ -58,12 +56,12 @@ TEST_CASE("a share of a turn is that share of its angle, within 0.06 degrees, an
     rc::prop("any turn, share and cone", [&](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < kTurns; ++n) {
-            const Vector3d from = random.direction(), to = beside(random, from);
+            const Vector3d from = random.direction(), goal = beside(random, from);
             const double share = random.below(4) == 0 ? 0.5 * random.below(3) : random.unit(),
                          most = random.below(2) == 0 ? random.spread(1e-3, 3) : random.between(0, 3);
-            const LookTurn<float> turn = look_turn(mv<float>(from), mv<float>(to), float(share), joint_of(1, most));
+            const LookTurn<float> turn = look_turn(mv<float>(from), mv<float>(goal), float(share), joint_of(1, most));
             const Quaterniond got = eigen(turn.turn);
-            const double whole = angle_from_to(from, to), angle = turn_angle(got), wanted = share * whole;
+            const double whole = angle_between(from, goal), angle = angle_of(got), wanted = share * whole;
             RC_ASSERT(std::fabs(got.norm() - 1) <= 1e-6);
             RC_ASSERT(angle <= most + 2e-6);
             if (std::fabs(wanted - most) > 2e-3) RC_ASSERT(turn.held == (wanted > most));
@@ -76,7 +74,7 @@ TEST_CASE("a share of a turn is that share of its angle, within 0.06 degrees, an
             }
             // It turns about the axis of the whole.
             if (whole > 0.01 && whole < kPi - 0.01 && angle > 0.01)
-                RC_ASSERT(angle_from_to(got.vec(), from.cross(to)) <= 1e-4);
+                RC_ASSERT(angle_between(got.vec(), from.cross(goal)) <= 1e-4);
         }
     });
     CAPTURE(worst * 180 / kPi);
@@ -94,10 +92,9 @@ TEST_CASE("the last joint brings the line of sight to its target")
             const LookTurn<float> turn = rest_of_look(LineOfSight<float>{mv<float>(eye), mv<float>(axis)},
                                                       mv<float>(place), mv<float>(target), 1.0f, joint_of(1, kPi));
             const Quaterniond q = eigen(turn.turn).normalized();
-            const auto rounded = [](const Vector3d& v) { return Vector3d(v.cast<float>().cast<double>()); };
-            const Vector3d at = rounded(place), is = at + q * (rounded(eye) - at), to = rounded(target) - is;
+            const Vector3d at = rounded(place), sight = rounded(target) - at - q * (rounded(eye) - at);
             RC_ASSERT(!turn.held);
-            RC_ASSERT(angle_from_to(q * rounded(axis), to) <= 2e-6 + 2e-7 * place.norm() / to.norm());
+            RC_ASSERT(angle_between(q * rounded(axis), sight) <= 2e-6 + 2e-7 * place.norm() / sight.norm());
         }
     });
 }
@@ -111,17 +108,17 @@ TEST_CASE("a carried turn is the turn again, and a part of a way turns by less t
             const auto any_turn = [&] {
                 return Quaterniond(Eigen::AngleAxisd(cone * (random.below(4) ? random.unit() : 1), random.direction()));
             };
-            const Quaterniond was = any_turn(), goal = any_turn();
-            const Rotor<float> from = from_quarter_tangent(quarter_tangent(mv<float>(was))), to = mv<float>(goal);
-            RC_ASSERT(eigen(from).angularDistance(was) <= 2e-6);
-            const LookWay<float> way = look_way(from, to);
+            const Quaterniond start = any_turn(), goal = any_turn();
+            const Rotor<float> from = from_quarter_tangent(quarter_tangent(mv<float>(start)));
+            RC_ASSERT(eigen(from).angularDistance(start) <= 2e-6);
+            const LookWay<float> way = look_way(from, mv<float>(goal));
             const double part = random.below(4) ? random.unit() : 1;
-            const Quaterniond is = eigen(on_way(from, way, float(part)));
-            RC_ASSERT(std::fabs(is.norm() - 1) <= 1e-6);
-            RC_ASSERT(is.angularDistance(was) <= 2 * part * double{way.tangent} + 2e-6);
-            RC_ASSERT(turn_angle(is) <= cone + 4e-6);
+            const Quaterniond got = eigen(on_way(from, way, float(part)));
+            RC_ASSERT(std::fabs(got.norm() - 1) <= 1e-6);
+            RC_ASSERT(got.angularDistance(start) <= 2 * part * double{way.tangent} + 2e-6);
+            RC_ASSERT(angle_of(got) <= cone + 4e-6);
             // A way of half a turn or more, on which no step is the last, ends before half a turn.
-            if (part == 1 && was.dot(goal) > 2e-3) RC_ASSERT(is.angularDistance(goal) <= 4e-6);
+            if (part == 1 && start.dot(goal) > 2e-3) RC_ASSERT(got.angularDistance(goal) <= 4e-6);
         }
     });
 }
@@ -132,16 +129,16 @@ TEST_CASE("a look counts from none behind to all ahead, and less very near")
     rc::prop("any target", [&](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < kTurns; ++n) {
-            const Vector3d axis = random.direction(), to = random.spread(1e-3, 1e3) * beside(random, axis);
+            const Vector3d axis = random.direction(), goal = random.spread(1e-3, 1e3) * beside(random, axis);
             const double unit = random.spread(0.1, 10);
             const auto smooth = [](double x) {
                 x = std::clamp(x, 0.0, 1.0);
                 return x * x * (3 - 2 * x);
             };
-            const double cosine = axis.dot(to.normalized());
-            const float got = look_weight(LineOfSight<float>{vector(0.0f, 0.0f, 0.0f), mv<float>(axis)}, mv<float>(to),
-                                          fade, float(unit));
-            RC_ASSERT(std::fabs(double{got} - smooth((cosine + 0.9) / 0.8) * smooth(to.norm() / (0.05 * unit))) <=
+            const double cosine = axis.dot(goal.normalized());
+            const float got = look_weight(LineOfSight<float>{vector(0.0f, 0.0f, 0.0f), mv<float>(axis)},
+                                          mv<float>(goal), fade, float(unit));
+            RC_ASSERT(std::fabs(double{got} - smooth((cosine + 0.9) / 0.8) * smooth(goal.norm() / (0.05 * unit))) <=
                       2e-6);
         }
     });

@@ -11,7 +11,7 @@
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
 
-#include "tests/free_limb.h"
+#include "tests/formula_arm.h"
 
 using namespace swivel;
 using namespace swivel::test;
@@ -152,9 +152,9 @@ struct CorrectedLimb {
         const BoneLines<float> bones = posed_bones<float>(in);
         FreeLimb limb({target, eigen(normal), bones.upper_length, bones.fore_length}, SWIVEL_POLE_NORMAL);
         const LimbPose pose = limb.solve();
-        const BoneFrames<float> was = bone_frames(bones, normal);
-        shoulder = (pose.shoulder * eigen(was.upper).conjugate() * in.shoulder).normalized();
-        elbow = (pose.shoulder * pose.elbow * eigen(was.fore).conjugate() * in.elbow).normalized();
+        const BoneFrames<float> incoming = bone_frames(bones, normal);
+        shoulder = (pose.shoulder * eigen(incoming.upper).conjugate() * in.shoulder).normalized();
+        elbow = (pose.shoulder * pose.elbow * eigen(incoming.fore).conjugate() * in.elbow).normalized();
         wrist = shoulder * (in.shoulder.inverse() * in.upper) + elbow * (in.elbow.inverse() * in.fore);
     }
 };

@@ -129,14 +129,14 @@ void for_each_turn(std::uint64_t seed, const Look& look)
         t += time;
         const bool label = labels.next(random, time);
         const Vector3d x = eigen(mv<T>(way.place(t)));
-        const PlantMachine::Stands was = machine.stands;
+        const PlantMachine::Stands stood = machine.stands;
         machine.step(x, label, time, 1);
         point.step(x, label, time);
-        const Rotor<T> is = unit_rotation(mv<T>(way.rotation(t)));
-        const Quaterniond want = turns.step(eigen(is).normalized(), time, was, machine);
+        const Rotor<T> animated = unit_rotation(mv<T>(way.rotation(t)));
+        const Quaterniond want = turns.step(eigen(animated).normalized(), time, stood, machine);
         if (machine.clearance < 1e-4 || turns.clearance < 1e-2) return;
         const TurnState<T> before = state;
-        const Rotor<T> got = plant_turn(state, point.last.step, point.state.locked, is, rules);
+        const Rotor<T> got = plant_turn(state, point.last.step, point.state.locked, animated, rules);
         look(point, before, state, got, want);
     }
 }
@@ -159,12 +159,12 @@ void add_jumps(std::uint64_t seed, double per_second, Jumps& most)
     double time[3] = {}, t = 0;
     bool was_cut = false;
     for (int n = 0; t < 10; ++n) {
-        for (auto* of : {x, y}) of[0] = of[1], of[1] = of[2];
+        for (auto* places : {x, y}) places[0] = places[1], places[1] = places[2];
         time[1] = time[2], time[2] = jittered(random, per_second), t += time[2];
         x[2] = way.place(t);
         y[2] = point.step(x[2], labels.next(random, time[2]), time[2], kLeg);
-        const auto jump = [&](const Vector3d(&of)[3]) {
-            return ((of[2] - of[1]) / time[2] - (of[1] - of[0]) / time[1]).norm();
+        const auto jump = [&](const Vector3d(&places)[3]) {
+            return ((places[2] - places[1]) / time[2] - (places[1] - places[0]) / time[1]).norm();
         };
         if (n >= 2) most.input = std::max(most.input, jump(x));
         if (n >= 2 && !was_cut && !point.last.cut) most.target = std::max(most.target, jump(y));
@@ -243,17 +243,18 @@ TEST_CASE("a locked point moves by no bit, and stands on its mark once it has st
         double locked_for = 0;
         for_each_step<float>(seed, [&](const PlantState<float>& before, const PlantedPoint<float>& point,
                                        const Vector3d&, bool, double time, double) {
-            const Planted<float>& is = point.last;
-            const bool stood = before.locked && !is.step.fresh;
+            const Planted<float>& planted = point.last;
+            const bool stood = before.locked && !planted.step.fresh;
             locked_for = stood ? locked_for + time : 0;
             if (stood && point.state.locked) RC_ASSERT(is_same(point.state.mark, before.mark));
             if (stood && locked_for > point.rules.stop + 1e-5) {
-                RC_ASSERT(is_equal(is.target, before.mark));
+                RC_ASSERT(is_equal(planted.target, before.mark));
                 RC_ASSERT(point.state.left == 0);
                 ++stood_count;
             }
-            RC_ASSERT(!(is.step.locks && is.step.releases));
-            RC_ASSERT(point.state.locked == ((before.locked && !is.step.fresh && !is.step.releases) || is.step.locks));
+            RC_ASSERT(!(planted.step.locks && planted.step.releases));
+            RC_ASSERT(point.state.locked ==
+                      ((before.locked && !planted.step.fresh && !planted.step.releases) || planted.step.locks));
         });
     });
     CHECK(stood_count > 0);
@@ -410,9 +411,10 @@ TEST_CASE("no finite input makes a planted point or rotation less than a number"
                 vector(random_float(random, 5e14f), random_float(random, 5e14f), random_float(random, 5e14f));
             const float time = random_size(random, 1e15f);
             forget_old(state, time, rules);
-            const Planted<float> is = plant(state, {x, random.below(2) == 1, time, length}, rules);
-            const Rotor<float> rotation = plant_turn(turn, is.step, state.locked, mv<float>(random.rotation()), rules);
-            RC_ASSERT(is_finite(is.target) && is_finite(state.mark) && is_finite(state.offset));
+            const Planted<float> planted = plant(state, {x, random.below(2) == 1, time, length}, rules);
+            const Rotor<float> rotation =
+                plant_turn(turn, planted.step, state.locked, mv<float>(random.rotation()), rules);
+            RC_ASSERT(is_finite(planted.target) && is_finite(state.mark) && is_finite(state.offset));
             RC_ASSERT(!is_nan(state.velocity) && std::isfinite(state.left));
             RC_ASSERT(std::fabs(len2(rotation) - 1) <= 1e-5f);
             RC_ASSERT(std::fabs(len2(turn.mark) - 1) <= 1e-5f);

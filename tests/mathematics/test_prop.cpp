@@ -26,9 +26,9 @@ struct Reaches {
     // Whether the slack that a reach is given decides nothing.
     bool is_clear() const
     {
-        const auto beside = [&](const Ball& of, const Ball& other) {
-            const double far = std::max(0.0, of.middle.norm() - of.radius);
-            return std::fabs(other.beyond(far * of.middle.normalized())) > 2 * kReachSlack * size();
+        const auto beside = [&](const Ball& one, const Ball& other) {
+            const double far = std::max(0.0, one.middle.norm() - one.radius);
+            return std::fabs(other.beyond(far * one.middle.normalized())) > 2 * kReachSlack * size();
         };
         return beside(a, b) && beside(b, a);
     }
@@ -84,10 +84,10 @@ Reaches random_reaches(Random& random, Kind kind)
 template <class T>
 Reaches rounded(const Reaches& r)
 {
-    const auto of = [](const Ball& ball) {
+    const auto rounded_ball = [](const Ball& ball) {
         return Ball{ball.middle.cast<T>().template cast<double>(), double{static_cast<T>(ball.radius)}};
     };
-    return {of(r.a), of(r.b)};
+    return {rounded_ball(r.a), rounded_ball(r.b)};
 }
 template <class T>
 Vector3d least_move_of(const Reaches& r)
@@ -204,8 +204,8 @@ TEMPLATE_TEST_CASE("a thing is where the hand and its grip say, and the hand whe
         RC_ASSERT(off_between(held_by(gripped(frame, grip, T(1)), grip), frame) <= 10 * unit);
         RC_ASSERT(off_between(gripped(held_by(frame, grip), grip, T(1)), frame) <= 10 * unit);
         const Eigen::Isometry3d scaled = isometry(double{scale} * eigen(grip.place), eigen(grip.rotation));
-        const Eigen::Isometry3d is = isometry(gripped(frame, grip, scale)), wanted = isometry(frame) * scaled;
-        RC_ASSERT((is.matrix() - wanted.matrix()).norm() <= 100 * unit);
+        const Eigen::Isometry3d got = isometry(gripped(frame, grip, scale)), wanted = isometry(frame) * scaled;
+        RC_ASSERT((got.matrix() - wanted.matrix()).norm() <= 100 * unit);
         RC_ASSERT(
             (isometry(held_by(frame, grip)).matrix() - (isometry(frame) * isometry(grip).inverse()).matrix()).norm() <=
             20 * unit);
@@ -223,11 +223,11 @@ TEMPLATE_TEST_CASE("between two hands a thing is one's to the bit, or on the way
         RC_ASSERT(is_same(between(a, b, T(0)), a));
         RC_ASSERT(is_same(between(a, b, T(1)), b));
         const T share = static_cast<T>(random.unit());
-        const HeldFrame<T> is = between(a, b, share), middle = between(a, b, T(0.5));
+        const HeldFrame<T> got = between(a, b, share), middle = between(a, b, T(0.5));
         const Quaterniond q_a = eigen(a.rotation).normalized(), q_b = eigen(b.rotation).normalized(),
-                          q = eigen(is.rotation);
+                          q = eigen(got.rotation);
         const double s = double{share};
-        RC_ASSERT((eigen(is.place) - (1 - s) * eigen(a.place) - s * eigen(b.place)).norm() <= 5 * unit);
+        RC_ASSERT((eigen(got.place) - (1 - s) * eigen(a.place) - s * eigen(b.place)).norm() <= 5 * unit);
         RC_ASSERT(std::fabs(q.norm() - 1) <= unit);
         const double angle = q_a.angularDistance(q_b);
         RC_ASSERT(std::fabs(q_a.angularDistance(q) + q.angularDistance(q_b) - angle) <= std::sqrt(unit));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: a region of cones in order, bridges, polygons and forbidden cones allows what its definition says. On
-// the swivel's circle no allowed swivel is missed, and none that is nearer. Float decides as double but near a
-// boundary. The other side's region is the mirror image to the bit.
+// The promise: a region of cones in order, bridges, polygons and forbidden cones allows what its definition says. Float
+// decides as double but near a boundary. The other side's region is the mirror image to the bit. test_limits.cpp has
+// the swivels that a region allows.
 #include "core/region.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <rapidcheck/catch.h>
 
 #include "tests/formula_arm.h"
-#include "tests/region_oracle.h"
+#include "tests/limit_oracle.h"
 
 namespace {
 
@@ -83,118 +83,6 @@ TEST_CASE("a bridge has no gap from one cone's axis to the other's, and is not e
             RC_ASSERT(swivel_region_add_cones(&apart_cones, &cone, 1, 0) == SWIVEL_OK);
         RC_ASSERT(room(apart_cones, mv<double>(d)) < 0);
     });
-}
-
-// The upper arm goes about an axis.
-struct Swing {
-    Vector3d axis, side;
-    double angle;
-
-    Vector3d at(double cos, double sin) const
-    {
-        return std::cos(angle) * axis + std::sin(angle) * (cos * side + sin * axis.cross(side));
-    }
-    template <class T>
-    LimitsInRegion<T, 0> in(const swivel_region& region, const std::vector<DirectionCone>& cones) const
-    {
-        Limits<T, 0> limits;
-        for (const DirectionCone& cone : cones) {
-            const Vector3d across = axis.cross(side);
-            limits.line[limits.line_count++] = {T(std::sin(angle) * cone.axis.dot(side)),
-                                                T(std::sin(angle) * cone.axis.dot(across)),
-                                                T(std::cos(angle) * cone.axis.dot(axis) - std::cos(cone.angle))};
-        }
-        const Vector3d a = std::sin(angle) * side, b = std::sin(angle) * axis.cross(side), c = std::cos(angle) * axis;
-        const auto on = [&](int n) { return OnCircle<T>{T(a[n]), T(b[n]), T(c[n])}; };
-        return {limits, {&region, on(0), on(1), on(2)}};
-    }
-};
-Swing random_swing(Random& random)
-{
-    const Vector3d axis = random.direction();
-    return {axis, random.across(axis), random.between(0.02, 1.5)};
-}
-// Further limits that an arm may have: 0 to 2 wide cones.
-std::vector<DirectionCone> random_limits(Random& random)
-{
-    std::vector<DirectionCone> cones;
-    for (std::uint32_t n = random.below(3); n > 0; --n) cones.push_back(random_cone(random, 1.0, 2.8));
-    return cones;
-}
-double room_of(const std::vector<DirectionCone>& cones, const Vector3d& d)
-{
-    double least = 2;
-    for (const DirectionCone& cone : cones) least = std::min(least, cone.room(d));
-    return least;
-}
-constexpr int kSteps = 100'000;
-
-TEST_CASE("the nearest allowed swivel is found, and none is missed")
-{
-    int found_some = 0, found_none = 0;
-    rc::prop("against a scan of the circle by the definition", [&](std::uint64_t seed) {
-        Random random{seed};
-        const RandomRegion r = random_region(random);
-        const Swing swing = random_swing(random);
-        const std::vector<DirectionCone> limits = random_limits(random);
-        const auto by_definition = [&](double cos, double sin) {
-            const Vector3d d = swing.at(cos, sin);
-            return std::min(r.oracle.room(d), room_of(limits, d));
-        };
-        if (by_definition(1, 0) > -kNearEdge) return;  // the wish is granted
-        const FoundSwivel<double> found = nearest_end(swing.in<double>(r.region, limits));
-        const FoundSwivel<float> in_float = nearest_end(swing.in<float>(r.region, limits));
-        double nearest = -2;
-        for (int n = 0; n <= kSteps / 2 && nearest < -1.5; ++n)
-            for (const double sign : {1.0, -1.0}) {
-                const double turn = 2 * kPi * n / kSteps;
-                if (by_definition(std::cos(turn), sign * std::sin(turn)) > 2 * kNearEdge) nearest = std::cos(turn);
-            }
-        if (nearest > -1.5) {
-            ++found_some;
-            RC_ASSERT(found.allowed);
-            RC_ASSERT(in_float.allowed);
-            RC_ASSERT(found.swivel.cos >= nearest - 1e-12);
-            RC_ASSERT(double{in_float.swivel.cos} >= nearest - 2e-6);
-        } else {
-            ++found_none;
-        }
-        if (found.allowed) RC_ASSERT(by_definition(found.swivel.cos, found.swivel.sin) >= -kNearEdge);
-        if (in_float.allowed)
-            RC_ASSERT(by_definition(double{in_float.swivel.cos}, double{in_float.swivel.sin}) >= -2 * kNearEdge);
-    });
-    CHECK(found_some > 0);
-    CHECK(found_none > 0);
-}
-
-TEST_CASE("where no swivel is allowed, the one with the most room is found")
-{
-    int forbidden = 0;
-    rc::prop("against a scan of the circle", [&](std::uint64_t seed) {
-        Random random{seed};
-        for (int n = 0; n < 20; ++n) {
-            const RandomRegion r = random_region(random);
-            const Swing swing = random_swing(random);
-            const std::vector<DirectionCone> limits = random_limits(random);
-            const auto by_lines = [&](double cos, double sin) {
-                const Vector3d d = swing.at(cos, sin);
-                return std::min(room_by_half_spaces(r.region, d), room_of(limits, d));
-            };
-            const FoundSwivel<double> found = least_violation(swing.in<double>(r.region, limits));
-            if (found.allowed) continue;
-            ++forbidden;
-            const double got = by_lines(found.swivel.cos, found.swivel.sin);
-            double most = -4;
-            for (int step = 0; step < 2000; ++step) {
-                const double turn = kPi * step / 1000;
-                most = std::max(most, by_lines(std::cos(turn), std::sin(turn)));
-            }
-            RC_ASSERT(got >= most - 1.01e-6);  // kTie of core/choose_swivel.h
-            const FoundSwivel<float> in_float = least_violation(swing.in<float>(r.region, limits));
-            RC_ASSERT(by_lines(double{in_float.swivel.cos}, double{in_float.swivel.sin}) >= most - 2e-6);
-        }
-    });
-    CHECK(forbidden > 0);
 }
 
 // A path of a few arcs, and directions about it.

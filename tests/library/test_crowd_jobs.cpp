@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: within a budget the most urgent blocks are solved, as a plain list sorted by urgency says. No block
-// waits for ever. The choice depends on priorities and history alone.
+// The promise: a job names groups of a crowd, and its frames are for those alone. A frame reads a limb before it writes
+// it, so a limb with bad input keeps its pose in place. Within a budget the most urgent blocks are solved, as a plain
+// list sorted by urgency says. No block waits for ever. The choice depends on priorities and history alone.
+//
+// What is refused is in test_refused_calls.cpp. That each limb of a job has the bits that it has alone and no other
+// limb changes, for every field, stride and alignment, is the test `interface`'s; ways and threads are test_bits.cpp's.
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_whole_limb.h"
@@ -215,4 +219,88 @@ TEST_CASE("C++: budgets that cannot be are refused and change nothing")
                     Error);
     CHECK(urgency == no_urgency(crowd));
     CHECK(crowd.solve({.priorities = {good}, .most_blocks = 100}) == 100);
+}
+
+// ---- groups and frames
+
+TEST_CASE("jobs name groups; frames are given for those alone")
+{
+    Crowd crowd({group(20), group(5), group(40)});
+    const Float3 target{0.3f, 0.2f, 1};
+    for (std::uint32_t g = 0; g < 3; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
+    Frame frame;
+    frame.in(SWIVEL_TARGET, {&target, 0});
+    CHECK(crowd.solve({.groups = {0u, 2u}, .frames = {frame, frame}}) == 60);
+    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 0)[19] == SWIVEL_REACHED);
+    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 1)[4] == 0);  // never solved
+    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 2)[39] == SWIVEL_REACHED);
+    CHECK(crowd.solve({.groups = {1u}, .limbs = {3u, 32u}}) == 1);
+    CHECK(crowd.solve({.groups = std::vector<std::uint32_t>()}) == 0);
+    CHECK_THROWS_WITH(crowd.solve({.groups = {1u}, .frames = {frame, frame}}),
+                      "2 frames for 1 groups; give one for each");
+    CHECK_THROWS_WITH(crowd.solve({.groups = {3u}}), "group 3 does not exist; this crowd has 3");
+}
+
+TEST_CASE("a job whose groups lie outside its blocks solves nothing, on threads, too")
+{
+    Crowd crowd({group(16 * 2000), group(16)});
+    const Float3 target{0.3f, 0.2f, 1};
+    for (std::uint32_t g = 0; g < 2; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
+    const Frame frame = Frame().in(SWIVEL_TARGET, {&target, 0});
+    CHECK(crowd.solve({.blocks = swivel_blocks{0, 2000}, .groups = {1u}, .frames = {frame}}) == 0);
+    CHECK(crowd.solve({.groups = {1u}, .frames = {frame}}) == 16);
+    CHECK(crowd.solve({.groups = {0u}, .frames = {frame}}) == 32000);
+    CHECK_THROWS_WITH(Frame().in(SWIVEL_FLAGS, {&target, 4}), "a frame takes in no result; give it by out()");
+}
+
+TEST_CASE("bad input keeps the pose in a frame that is read and written in place")
+{
+    struct Pose {
+        Float4 shoulder, elbow;
+        Float3 target;
+        std::uint32_t flags;
+    };
+    for (const bool on_this_thread : {false, true})
+        for (const bool masked : {false, true}) {
+            const std::uint32_t count = 100;
+            swivel_group_def def = group_of(count);
+            def.features = SWIVEL_JOINTS | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
+            def.on_bad_input = SWIVEL_KEEP_POSE;
+            Crowd crowd({def});
+            crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 1, 1});
+            Random random{3};
+            std::vector<Pose> poses(count);
+            for (Pose& pose : poses) {
+                pose = {floats(random.rotation()), floats(random.rotation()), floats(random.direction()), 7};
+                if (random.below(2)) pose.target[1] = kNan;
+            }
+            const std::vector<Pose> before = poses;
+            crowd.write_all(SWIVEL_TARGET, 0, Float3{1, 1, 1});
+            crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+            crowd.solve();
+            const auto had = read<Float4>(crowd, SWIVEL_SHOULDER);
+            const Frame frame = Frame()
+                                    .in(SWIVEL_TARGET, stream(poses, &Pose::target))
+                                    .in(SWIVEL_INCOMING_SHOULDER, stream(poses, &Pose::shoulder))
+                                    .in(SWIVEL_INCOMING_ELBOW, stream(poses, &Pose::elbow))
+                                    .out(SWIVEL_SHOULDER, stream(poses, &Pose::shoulder))
+                                    .out(SWIVEL_ELBOW, stream(poses, &Pose::elbow))
+                                    .out(SWIVEL_FLAGS, stream(poses, &Pose::flags));
+            Job job{.frames = frame, .on_this_thread = on_this_thread};
+            if (masked) job.mask = std::vector<std::uint32_t>(4, 0xffffbfffu);
+            if (on_this_thread) job.blocks = swivel_blocks{0, swivel_block_count(crowd.get())};
+            crowd.solve(job);
+            for (std::uint32_t n = 0; n < count; ++n) {
+                const bool is_bad = std::isnan(before[n].target[1]), is_chosen = !masked || n % 32 != 14;
+                INFO("limb " << n);
+                CHECK((poses[n].flags == SWIVEL_BAD_INPUT) == (is_bad && is_chosen));
+                CHECK((poses[n].flags == 7) == !is_chosen);
+                CHECK((poses[n].shoulder == before[n].shoulder) == (is_bad || !is_chosen));
+                CHECK((poses[n].elbow == before[n].elbow) == (is_bad || !is_chosen));
+                CHECK((read<Float4>(crowd, SWIVEL_SHOULDER)[n] == had[n]) == (is_bad || !is_chosen));
+            }
+            const std::string says = crowd.explain(0, 0);
+            CHECK(says.find(std::isnan(before[0].target[1]) ? "keeps the pose it had" : "reached") !=
+                  std::string::npos);
+        }
 }
