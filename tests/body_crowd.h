@@ -5,6 +5,7 @@
 // all joints. It knows nothing of arm frames.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "tests/test_arm.h"
@@ -109,13 +110,19 @@ private:
     std::size_t element(int row, int column) const;
 };
 
-// A group for each limb, with the same features.
-inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count)
+// A group for each limb, with the same features, as edit(group) leaves it; and more groups after them.
+inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count,
+                        const std::function<void(swivel_group_def&)>& edit = {},
+                        const std::vector<swivel_group_def>& more = {})
 {
     std::vector<swivel_limb_joints> joints;
     for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
     std::vector<swivel_group_def> groups;
-    for (const swivel_limb_joints& each : joints) groups.push_back(body_group(each, features));
+    for (const swivel_limb_joints& each : joints) {
+        groups.push_back(body_group(each, features));
+        if (edit) edit(groups.back());
+    }
+    groups.insert(groups.end(), more.begin(), more.end());
     return Crowd(skeleton.view(), body_count, groups);
 }
 

@@ -22,21 +22,14 @@ double PlainLegs::leg_length(std::size_t side) const
 
 PlainLegs legs_path(const PlainMotion& motion, double frame_time)
 {
+    constexpr const char* kJoints[] = {"UpLeg", "Leg", "Foot", "ToeBase"};
     PlainLegs path{frame_time, {}, {}};
     for (std::size_t frame = 0; frame < motion.lines.size(); ++frame) {
         const std::vector<PlainPose> pose = pose_of(motion, frame);
-        path.body.push_back(pose[0].position);
-        for (std::size_t side = 0; side < 2; ++side) {
-            const auto place = [&](const std::string& joint) {
-                return pose[static_cast<std::size_t>(joint_named(motion, (side == 0 ? "Left" : "Right") + joint))]
-                    .position;
-            };
-            PlainLegPath& leg = path.legs[side];
-            leg.hip.push_back(place("UpLeg"));
-            leg.knee.push_back(place("Leg"));
-            leg.ankle.push_back(place("Foot"));
-            leg.toe.push_back(place("ToeBase"));
-        }
+        path.add(pose[0].position, [&](std::size_t joint, std::size_t side) {
+            const std::string name = (side == 0 ? "Left" : "Right") + std::string(kJoints[joint]);
+            return pose[static_cast<std::size_t>(joint_named(motion, name))].position;
+        });
     }
     return path;
 }
@@ -50,14 +43,8 @@ PlainLegs legs_path(const PlainGltf& gltf, const std::array<std::string, 5>& nam
             if (name.find('*') != name.npos) name.replace(name.find('*'), 1, sides[side]);
             return Vector3d(plain_world(gltf, 0, gltf.node_named(name), time).translation());
         };
-        path.body.push_back(place(names[0], 0));
-        for (std::size_t side = 0; side < 2; ++side) {
-            PlainLegPath& leg = path.legs[side];
-            leg.hip.push_back(place(names[1], side));
-            leg.knee.push_back(place(names[2], side));
-            leg.ankle.push_back(place(names[3], side));
-            leg.toe.push_back(place(names[4], side));
-        }
+        path.add(place(names[0], 0),
+                 [&](std::size_t joint, std::size_t side) { return place(names[1 + joint], side); });
     }
     return path;
 }

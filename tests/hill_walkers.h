@@ -141,19 +141,12 @@ struct HillWalkers {
     PoseBuffer poses() const { return PoseBuffer({.roots = true}, bodies); }
     Crowd crowd(swivel_features features = kFeatures, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE) const
     {
-        const std::array<swivel_limb_joints, 2> joints = {skeleton.joints(0), skeleton.joints(1)};
-        std::vector<swivel_group_def> groups;
-        for (const swivel_limb_joints& each : joints) {
-            groups.push_back(body_group(each, features));
-            groups.back().plant = plant;
-            groups.back().ground = ground;
-            groups.back().on_bad_input = on_bad_input;
-        }
-        if (features & SWIVEL_WITH_FIT) {
-            groups.push_back(swivel_default_fit_group_def());
-            groups.back().fit = fit;
-        }
-        Crowd made(skeleton.view(), count(), groups);
+        std::vector<swivel_group_def> shift(features & SWIVEL_WITH_FIT ? 1 : 0, swivel_default_fit_group_def());
+        for (swivel_group_def& group : shift) group.fit = fit;
+        const auto edit = [&](swivel_group_def& group) {
+            group.plant = plant, group.ground = ground, group.on_bad_input = on_bad_input;
+        };
+        Crowd made = body_crowd(skeleton, features, count(), edit, shift);
         for (std::uint32_t leg = 0; leg < 2; ++leg) {
             made.write_all(SWIVEL_EFFECTOR, leg, kToe);
             // Straighter than it starts: where ground is low, legs that swing stretch further than they are animated.
@@ -229,10 +222,7 @@ struct HillWalkers {
     {
         write_labels(crowd);
         const swivel_pose pose = view(buffer);
-        swivel_job job = swivel_default_job();
-        job.pose = &pose;
-        job.probes_only = 1;
-        check(swivel_solve(crowd.get(), &job));
+        crowd.solve({.pose = &pose, .probes_only = true});
     }
     void probe_and_solve(Crowd& crowd, PoseBuffer& buffer) const
     {
@@ -241,14 +231,14 @@ struct HillWalkers {
         solve(crowd, buffer);
     }
     // One call that asks.
-    void ask_and_solve(Crowd& crowd, PoseBuffer& buffer, swivel_sample* ask = answer, void* user = nullptr) const
+    void ask_and_solve(Crowd& crowd, PoseBuffer& buffer) const
     {
         write_labels(crowd);
         const swivel_pose pose = view(buffer);
         swivel_job job = swivel_default_job();
         job.pose = &pose;
-        job.sample = ask;
-        job.sample_user = user ? user : const_cast<HillWalkers*>(this);
+        job.sample = answer;
+        job.sample_user = const_cast<HillWalkers*>(this);
         check(swivel_solve(crowd.get(), &job));
     }
 

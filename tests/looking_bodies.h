@@ -80,8 +80,11 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
                  axis = floats(Vector3d(random.spread(0.1, 10) * random.direction()));
     std::copy(eye.begin(), eye.end(), look.eye);
     std::copy(axis.begin(), axis.end(), look.axis);
-    look.cos_none = static_cast<float>(random.between(-1, 0)), look.cos_full = look.cos_none + 0.5f;
-    look.fade_distance = static_cast<float>(random.spread(0.02, 2));
+    look.fade_distance = 0.02f;
+    if (random.below(2)) {
+        look.cos_none = static_cast<float>(random.between(-1, -0.3)), look.cos_full = look.cos_none + 0.5f;
+        look.fade_distance = static_cast<float>(random.spread(0.02, 1));
+    }
     look.rate = 0;
     return def;
 }
@@ -188,18 +191,12 @@ struct UprightCrowd {
         }
         return {place + turn * vec(of.look.look.eye), turn * vec(of.look.look.axis)};
     }
-    Vector3d line(std::size_t n)
+    Vector3d line(std::size_t n) const
     {
-        Float6 sight;
-        check(swivel_read(crowd.get(), SWIVEL_SIGHT, 0, static_cast<std::uint32_t>(n), 1, {&sight, sizeof sight}));
+        const auto sight = value_of<Float6>(crowd, SWIVEL_SIGHT, 0, static_cast<std::uint32_t>(n));
         return {sight[3], sight[4], sight[5]};
     }
-    std::uint32_t flags(std::uint32_t n)
-    {
-        std::uint32_t flags;
-        check(swivel_read(crowd.get(), SWIVEL_FLAGS, 0, n, 1, {&flags, sizeof flags}));
-        return flags;
-    }
+    std::uint32_t flags(std::uint32_t n) const { return flags_of(crowd, 0, n); }
 };
 
 }  // namespace swivel::test

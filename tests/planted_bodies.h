@@ -77,15 +77,8 @@ struct PlantedBodies {
     Crowd crowd(swivel_features features, const swivel_plant& plant = swivel_default_plant(),
                 swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE) const
     {
-        std::vector<swivel_limb_joints> joints;
-        for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
-        std::vector<swivel_group_def> groups;
-        for (const swivel_limb_joints& each : joints) {
-            groups.push_back(body_group(each, features));
-            groups.back().plant = plant;
-            groups.back().on_bad_input = on_bad_input;
-        }
-        return Crowd(skeleton.view(), body_count, groups);
+        return body_crowd(skeleton, features, body_count,
+                          [&](swivel_group_def& group) { group.plant = plant, group.on_bad_input = on_bad_input; });
     }
     swivel_pose view()
     {

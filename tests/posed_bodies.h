@@ -113,14 +113,15 @@ struct PosedBodies {
             std::memcpy(input.at(n), &value, sizeof value);
         }
     }
-    // The same of a goal, as far as the group has inputs for it.
+    // Gives a limb the goals that goal_of(body) makes, as far as its group has inputs for them.
     template <class GoalOf>
     void give_goals(std::uint32_t group, const GoalOf& goal_of)
     {
         std::vector<BodyGoal> goals;
         for (std::size_t n = 0; n < bodies.size(); ++n) goals.push_back(goal_of(n));
         give(group, SWIVEL_TARGET, [&](std::size_t n) { return goals[n].target; });
-        if (!has(group, SWIVEL_POLE_INCOMING)) give(group, SWIVEL_POLE, [&](std::size_t n) { return goals[n].pole; });
+        if (!has(group, SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND))
+            give(group, SWIVEL_POLE, [&](std::size_t n) { return goals[n].pole; });
         if (has(group, SWIVEL_WITH_HAND)) give(group, SWIVEL_HAND, [&](std::size_t n) { return goals[n].hand; });
     }
     // A goal in reach.
@@ -132,6 +133,29 @@ struct PosedBodies {
     {
         for (std::uint32_t g = 0; g < groups.size(); ++g)
             if (limb_of[g] != kNoLimbHere) give_goals(g, [&](std::size_t n) { return goal(random, g, n); });
+    }
+    // Gives inputs that a limb's features need beside goals and weights.
+    void give_limits(Random& random, std::uint32_t g)
+    {
+        const auto number = [&](double a, double b) { return static_cast<float>(random.between(a, b)); };
+        const auto give_if = [&](swivel_features feature, swivel_field field, const auto& make) {
+            if (has(g, feature)) give(g, field, [&](std::size_t) { return make(); });
+        };
+        const auto any_cone = [&] {
+            const Vector3d axis = random.direction();
+            return cone({axis.x(), axis.y(), axis.z()}, random.between(0.3, 2));
+        };
+        give_if(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, [&] { return floats(random.vector(0, 0.1)); });
+        give_if(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, [&] { return turn(random.between(0.3, 3)); });
+        give_if(SWIVEL_WITH_FLEXION_LIMIT, SWIVEL_FLEXION_LIMIT,
+                [&] { return flexion(random.between(0, 0.5), random.between(2, 3.1)); });
+        give_if(SWIVEL_WITH_CAP, SWIVEL_CAP, [&] { return Float3{number(0, 0.1), number(0.5, 1), 0}; });
+        give_if(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, [&] { return turn(random.between(0.1, 3)); });
+        give_if(SWIVEL_WITH_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, any_cone);
+        give_if(SWIVEL_WITH_HAND_CONE, SWIVEL_HAND_CONE, any_cone);
+        give_if(SWIVEL_WITH_REACH, SWIVEL_REACH, [&] {
+            return Float4{number(0, 0.1), number(0, 0.05), number(1, 1.3), number(0, 0.1)};
+        });
     }
     const BodyInput* find(std::uint32_t group, swivel_field field) const
     {
@@ -199,7 +223,7 @@ struct SolvedBodies {
     {
         solve();
     }
-    // The poses that are there, in another frame those that come.
+    // Solves the poses that are there.
     void solve()
     {
         swivel_pose pose = of.view(poses);
@@ -210,13 +234,12 @@ struct SolvedBodies {
         if (!groups.empty()) job.groups = groups;
         crowd.solve(job);
     }
+    // Another frame, from the poses that come.
     void solve_next() { poses = of.incoming(), solve(); }
     template <class Value>
     Value result(swivel_field field, std::uint32_t group, std::size_t body) const
     {
-        Value value;
-        check(swivel_read(crowd.get(), field, group, static_cast<std::uint32_t>(body), 1, {&value, sizeof value}));
-        return value;
+        return value_of<Value>(crowd, field, group, static_cast<std::uint32_t>(body));
     }
     std::uint32_t flags(std::uint32_t group, std::size_t body) const
     {
@@ -293,11 +316,6 @@ struct SolvedBody {
                (way_to(of.skeleton, was, joints(group).wrist) + grip_scale * grip(group).place.norm());
     }
     double bound(std::uint32_t group) const { return 2e-6 * length(group) + rounding(group); }
-    std::array<Float4, 3> local(std::uint32_t group, const Body& body) const
-    {
-        const BodyLimbJoints& limb = joints(group);
-        return {body.rotations[limb.shoulder], body.rotations[limb.elbow], body.rotations[limb.wrist]};
-    }
 };
 
 // Bodies in which all that holds comes together: two hands on a prop, a hand on one of these, a hand on a free limb's,
@@ -337,6 +355,12 @@ struct HoldingBodies : PosedBodies {
         give(prop, SWIVEL_PROP_SHARE, [&](std::size_t n) { return Float1{static_cast<float>(n % 4) / 3}; });
         give(prop, SWIVEL_PROP_PLACE, [&](std::size_t n) { return n % 5 ? kNoPlace : goal(random, right, n).target; });
         give(prop, SWIVEL_PROP_TURN, [&](std::size_t n) { return n % 7 ? kNoTurn : goal(random, right, n).hand; });
+    }
+    // Nothing is written of a body's prop, which is as its left hand has it.
+    void leave_in_hand(std::size_t n)
+    {
+        find(left, SWIVEL_TARGET)->write(n, kNoPlace), find(prop, SWIVEL_PROP_PLACE)->write(n, kNoPlace);
+        find(prop, SWIVEL_PROP_SHARE)->write(n, Float1{0});
     }
 };
 

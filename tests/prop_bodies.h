@@ -121,18 +121,7 @@ private:
     }
     void give_arm(Random& random, std::uint32_t arm)
     {
-        if (has(arm, SWIVEL_WITH_EFFECTOR))
-            give(arm, SWIVEL_EFFECTOR, [&](std::size_t) { return floats(random.vector(0, 0.1)); });
-        if (has(arm, SWIVEL_WITH_ANGLE))
-            give(arm, SWIVEL_ANGLE, [&](std::size_t) { return turn(random.between(0.3, 3)); });
-        if (has(arm, SWIVEL_WITH_FLEXION_LIMIT))
-            give(arm, SWIVEL_FLEXION_LIMIT,
-                 [&](std::size_t) { return flexion(random.between(0, 0.5), random.between(2, 3.1)); });
-        if (has(arm, SWIVEL_WITH_CAP))
-            give(arm, SWIVEL_CAP, [&](std::size_t) {
-                return Float3{static_cast<float>(random.between(0, 0.1)), static_cast<float>(random.between(0.5, 1)),
-                              0};
-            });
+        give_limits(random, arm);
         const bool is_ever_written = random.below(2);
         std::vector<BodyGoal> goals;
         for (const Body& body : bodies) goals.push_back(random_goal(random, skeleton, body, limb_of[arm]));
@@ -152,8 +141,7 @@ private:
                 const BodyLimbJoints& limb = skeleton.limbs[limb_of[arms[a]]];
                 const JointAt &wrist = joints_are[limb.wrist], &shoulder = joints_are[limb.shoulder];
                 Held hand{wrist.rotation, wrist.place};
-                const double length = (joints_are[limb.elbow].place - shoulder.place).norm() +
-                                      (wrist.place - joints_are[limb.elbow].place).norm();
+                const double length = LimbAt(skeleton, bodies[n], joints_are, limb).length();
                 if (a == 0)
                     at.push_back(hand * Held{random.rotation(), 0.5 * length * random.unit() * random.direction()});
                 else if (random.below(3))
@@ -209,29 +197,28 @@ private:
         q.coeffs() = (1 - share) * a.rotation.coeffs() + side * share * b.rotation.coeffs();
         return {q.normalized(), (1 - share) * a.place + share * b.place};
     }
+    // How far a wrist is from its shoulder where the elbow is bent by twice the angle of this cosine.
+    static double reach(const LimbAt& limb, float cos_half)
+    {
+        const double bend = 2 * std::acos(double{cos_half});
+        return std::sqrt(std::max(
+            0.0, limb.upper * limb.upper + limb.fore * limb.fore + 2 * limb.upper * limb.fore * std::cos(bend)));
+    }
     double nearest(const SolvedBody& body, std::uint32_t arm) const
     {
-        const BodyLimbJoints& limb = body.joints(arm);
-        const double upper = (body.was[limb.elbow].place - body.was[limb.shoulder].place).norm(),
-                     fore = (body.was[limb.wrist].place - body.was[limb.elbow].place).norm();
-        double bend = std::numbers::pi;
-        if (const BodyInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT))
-            bend = 2 * std::acos(double{limit->of<Float2>(body.n)[1]});  // the largest flexion
-        return std::sqrt(std::max(0.0, upper * upper + fore * fore + 2 * upper * fore * std::cos(bend)));
+        const BodyInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT);
+        return reach(body.limb(arm), limit ? limit->of<Float2>(body.n)[1] : 0);  // the largest flexion
     }
     Ball moves(const SolvedBody& body, std::uint32_t arm, const Held& frame) const
     {
-        const BodyLimbJoints& limb = body.joints(arm);
-        const Vector3d shoulder = body.was[limb.shoulder].place, elbow = body.was[limb.elbow].place,
-                       wrist = body.was[limb.wrist].place;
-        const double upper = (elbow - shoulder).norm(), fore = (wrist - elbow).norm(), bones = upper + fore;
-        double far = bones;
-        if (const BodyInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT)) {
-            const double half = std::acos(double{limit->of<Float2>(body.n)[0]});  // of the least flexion
-            far = std::sqrt(upper * upper + fore * fore + 2 * upper * fore * std::cos(2 * half));
-        }
+        const LimbAt limb = body.limb(arm);
+        const Vector3d shoulder = body.was[body.joints(arm).shoulder].place,
+                       wrist = body.was[body.joints(arm).wrist].place;
+        const BodyInput* const limit = find(arm, SWIVEL_FLEXION_LIMIT);
+        double far = limit ? reach(limb, limit->of<Float2>(body.n)[0]) : limb.length();  // of the least flexion
         if (const BodyInput* const cap = find(arm, SWIVEL_CAP))  // which eases from where the incoming limb is
-            far = std::min(far, std::max((wrist - shoulder).norm(), double{cap->of<Float3>(body.n)[1]} * bones));
+            far =
+                std::min(far, std::max((wrist - shoulder).norm(), double{cap->of<Float3>(body.n)[1]} * limb.length()));
         const Held hand = frame * body.grip(arm);
         const Float3 effector = value(arm, SWIVEL_EFFECTOR, body.n, Float3{});
         return {shoulder - (hand.place - body.scale(arm) * (hand.rotation * vec(effector))), far};

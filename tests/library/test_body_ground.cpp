@@ -384,3 +384,29 @@ TEST_CASE("jobs that sample no ground are refused in one line")
     plain.sample = [](const swivel_probes*, void*) { FAIL("no limb of this crowd stands on ground"); };
     CHECK(swivel_solve(free.get(), &plain) == SWIVEL_OK);
 }
+
+TEST_CASE("a job for probes alone gives them to a frame, also where the last solve kept the pose")
+{
+    PlantedBodies stage(8, Ground::still);
+    Crowd crowd = stage.crowd(kPlanted | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_GROUND);
+    constexpr std::uint32_t kBad = 11;
+    const float wrong = 2;
+    check(swivel_write(crowd.get(), SWIVEL_GROUND_WEIGHT, 0, kBad, 1, {&wrong, 0}));
+    stage.solve(crowd);
+    REQUIRE(flags_of(crowd, 0, kBad) == SWIVEL_BAD_INPUT);
+    stage.go_to(1);
+    stage.write_labels(crowd);
+    std::vector<Float3> probes(stage.body_count, {kNan, kNan, kNan});
+    const swivel_frame_field field = {SWIVEL_PROBE, probes.data(), sizeof probes[0]};
+    swivel_frame frames[3] = {swivel_default_frame(), swivel_default_frame(), swivel_default_frame()};
+    frames[0].fields = &field, frames[0].field_count = 1;
+    const swivel_pose pose = stage.view();
+    swivel_job job = swivel_default_job();
+    job.pose = &pose, job.frames = frames, job.probes_only = 1;
+    check(swivel_solve(crowd.get(), &job));
+    for (std::uint32_t body = 0; body < stage.body_count; ++body) {
+        INFO("body " << body);
+        CHECK(std::isfinite(probes[body][0]));
+        CHECK(probes[body] == value_of<Float3>(crowd, SWIVEL_PROBE, 0, body));
+    }
+}

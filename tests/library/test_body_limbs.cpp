@@ -76,6 +76,8 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     values[SWIVEL_HAND] = list(goal.hand);
     values[SWIVEL_EFFECTOR] = list(floats(Vector3d(length * random.vector(0, 0.3))));
     values[SWIVEL_ANGLE] = list(turn(random.between(-3, 3)));
+    values[SWIVEL_LENGTHS] = {kNan, kNan};  // as the pose has them
+    if (random.below(6) == 0) values[SWIVEL_LENGTHS] = {number(0.05, 0.3), number(0.05, 0.3)};
     values[SWIVEL_WEIGHTS] = {number(0, 1), number(0, 1), random.below(2) ? number(0.1, 1) : 0};
     values[SWIVEL_REACH] = {number(0, 0.2), number(0, 0.2), number(1, 1.3), number(0, 0.2)};
     values[SWIVEL_MOST_SWIVEL] = list(turn(random.below(6) ? random.between(0, 1) : kPi));
@@ -159,8 +161,9 @@ struct LimbInBody {
         free[SWIVEL_SHOULDER_POSITION] = list(floats(Vector3d(vec(root) + shoulder.place)));
         free[SWIVEL_PARENT_ROTATION] = list(floats(arm));
         free[SWIVEL_PARENT_SCALE] = {static_cast<float>(parent.scale)};
-        free[SWIVEL_LENGTHS] = {static_cast<float>(upper.norm() / parent.scale),
-                                static_cast<float>(fore.norm() / parent.scale)};
+        if (std::isnan(values.at(SWIVEL_LENGTHS)[0]))
+            free[SWIVEL_LENGTHS] = {static_cast<float>(upper.norm() / parent.scale),
+                                    static_cast<float>(fore.norm() / parent.scale)};
         free[SWIVEL_INCOMING_SHOULDER] = list(floats(Quaterniond(arm.conjugate() * upper_frame)));
         free[SWIVEL_INCOMING_ELBOW] = list(floats(Quaterniond(upper_frame.conjugate() * fore_frame)));
         free[SWIVEL_INCOMING_WRIST] =
@@ -267,12 +270,7 @@ struct Twins : PosedBodies {
         free.solve();
     }
     // Where no swivel keeps the limits, many violate them about as little, and rounding chooses.
-    bool is_infeasible(std::uint32_t g, std::uint32_t n) const
-    {
-        std::uint32_t flags = 0;
-        check(swivel_read(posed.get(), SWIVEL_FLAGS, g, n, 1, {&flags, sizeof flags}));
-        return flags & SWIVEL_INFEASIBLE;
-    }
+    bool is_infeasible(std::uint32_t g, std::uint32_t n) const { return flags_of(posed, g, n) & SWIVEL_INFEASIBLE; }
     void forget(std::uint32_t g, std::uint32_t n)
     {
         check(swivel_reset(posed.get(), g, n, 1));

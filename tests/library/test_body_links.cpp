@@ -80,27 +80,11 @@ private:
             give(g, SWIVEL_HAND, [&](std::size_t n) { return goals[n].hand; });
         }
         if (!has(g, SWIVEL_POLE_INCOMING)) give(g, SWIVEL_POLE, [&](std::size_t n) { return goals[n].pole; });
-        give_if(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, [&](std::size_t) { return floats(random.vector(0, 0.1)); });
         give_if(SWIVEL_WITH_AIM, SWIVEL_AIM, [&](std::size_t) {
             const Vector3d axis = random.direction();
             return aim({axis.x(), axis.y(), axis.z()}, random.between(0.2, 2));
         });
-        give_if(SWIVEL_WITH_FLEXION_LIMIT, SWIVEL_FLEXION_LIMIT,
-                [&](std::size_t) { return flexion(random.between(0, 0.5), random.between(1.5, 3)); });
-        give_if(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, [&](std::size_t) { return turn(random.between(-3, 3)); });
-        give_if(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, [&](std::size_t) { return turn(random.between(0.1, 3)); });
-        const auto random_cone = [&](std::size_t) {
-            const Vector3d axis = random.direction();
-            return cone({axis.x(), axis.y(), axis.z()}, random.between(0.3, 2));
-        };
-        give_if(SWIVEL_WITH_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, random_cone);
-        give_if(SWIVEL_WITH_HAND_CONE, SWIVEL_HAND_CONE, random_cone);
-        give_if(SWIVEL_WITH_REACH, SWIVEL_REACH, [&](std::size_t) {
-            return Float4{number(0, 0.1), number(0, 0.05), number(1, 1.3), number(0, 0.1)};
-        });
-        give_if(SWIVEL_WITH_CAP, SWIVEL_CAP, [&](std::size_t) {
-            return Float3{number(0, 0.1), number(0.5, 1), number(0, 0.05)};
-        });
+        give_limits(random, g);
         give_if(SWIVEL_WITH_WEIGHTS, SWIVEL_WEIGHTS, [&](std::size_t) {
             return random.below(4) ? Float3{number(0, 1), number(0, 1), number(0, 1)} : Float3{};
         });

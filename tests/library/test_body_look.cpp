@@ -393,15 +393,14 @@ TEST_CASE("where time stands still a line of sight stays, and a reset lets it be
     bodies.solve({{2, 1.6f, 3}}, 0);
     CHECK(angle_between(before, bodies.line(0)) <= 1e-6);
     CHECK((bodies.flags(0) & SWIVEL_LIMITED_STEP));
-    std::array<float, 25> line{}, kept{};
-    check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_TURNS, 0, 0, 1, {&line, sizeof line}));
+    using Turns = std::array<float, 25>;
+    const auto line = value_of<Turns>(bodies.crowd, SWIVEL_LOOK_TURNS, 0, 0);
     const Vector3d from = upright.eye() - Vector3d(0, 0, 1) * (upright.eye().z() + 5),
                    behind = 2 * upright.eye() - Vector3d(0, 1.6, 3);
     for (const Float3& target : {floats(from), floats(behind), Float3{0, 1.6f, 3}, Float3{1e-7f, 1.6f, 3}, kNoPlace}) {
         bodies.reset();
         bodies.solve({target}, 0);
-        check(swivel_read(bodies.crowd.get(), SWIVEL_LOOK_TURNS, 0, 0, 1, {&kept, sizeof kept}));
-        CHECK((kept == line));
+        CHECK((value_of<Turns>(bodies.crowd, SWIVEL_LOOK_TURNS, 0, 0) == line));
     }
     bodies.crowd.reset(0);
     bodies.reset();

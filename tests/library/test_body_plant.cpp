@@ -16,18 +16,6 @@ using namespace swivel::test;
 
 constexpr int kFrames = 150;
 
-// The seconds for which limbs have been locked.
-struct LockedFor {
-    std::vector<std::vector<double>> seconds;
-
-    LockedFor(std::size_t limbs, std::size_t bodies) : seconds(limbs, std::vector<double>(bodies)) {}
-    double after(std::size_t limb, std::uint32_t body, std::uint32_t flags, double time)
-    {
-        double& of = seconds[limb][body];
-        return of = flags & SWIVEL_PLANTED ? of + time : -time;
-    }
-};
-
 }  // namespace
 
 TEST_CASE("a planted limb is where it is sent, and stands still on its support; without contact the pose stays")
@@ -57,7 +45,7 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support; 
         }
         if (has_effector) crowd.write(SWIVEL_EFFECTOR, g, effectors[g]);
     }
-    LockedFor locked(3, stage.body_count);
+    std::vector<std::vector<double>> locked_for(3, std::vector<double>(stage.body_count));  // seconds
     using TurnBits = std::array<std::uint32_t, 10>;  // its first four are the mark's
     std::vector<std::vector<PlantBits>> last(3, std::vector<PlantBits>(stage.body_count));
     std::vector<std::vector<TurnBits>> last_turn(3, std::vector<TurnBits>(stage.body_count));
@@ -82,8 +70,9 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support; 
                     continue;
                 }
                 const PlantBits bits = plant_bits(crowd, g, n);
-                const bool stays = frame > 0 && (flags & SWIVEL_PLANTED) && locked.seconds[g][n] > 0;
-                const double locked_for = locked.after(g, n, flags, stage.times[n]);
+                double& locked = locked_for[g][n];
+                const bool is_locked = flags & SWIVEL_PLANTED, stays = frame > 0 && is_locked && locked > 0;
+                locked = is_locked ? locked + double{stage.times[n]} : -double{stage.times[n]};
                 if (stays) REQUIRE(is_same_mark(bits, last[g][n]));
                 last[g][n] = bits;
                 if (turns) {
@@ -108,7 +97,7 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support; 
                     is[joints.wrist].place + scale * (is[joints.wrist].rotation * vec(effectors[g][n]));
                 REQUIRE((point + from - sent).norm() <= bound);
                 REQUIRE(is[joints.wrist].rotation.angularDistance(hand) <= 5e-6);
-                if (!(stays && locked_for > double{plant.stop} + 0.03)) continue;
+                if (!(stays && locked > double{plant.stop} + 0.03)) continue;
                 ++stood_count;
                 // The root comes from its support in floats, rounded once.
                 const Vector3d stands = stage.on_support(n, mark_of(crowd, g, n));
@@ -179,13 +168,12 @@ TEST_CASE("contact by motion is a hysteresis of speed and height")
 TEST_CASE("a job that names groups steps those alone, and needs no time where none is planted")
 {
     PlantedBodies stage(5, Ground::still);
-    std::vector<swivel_limb_joints> joints;
-    for (std::size_t n = 0; n < 3; ++n) joints.push_back(stage.skeleton.joints(n));
-    std::vector<swivel_group_def> groups;
-    for (const swivel_limb_joints& each : joints) groups.push_back(body_group(each, kPlanted));
-    groups[2].features = body_group(joints[2], SWIVEL_POLE_INCOMING).features;
-    Crowd crowd(stage.skeleton.view(), stage.body_count, groups),
-        other(stage.skeleton.view(), stage.body_count, groups);
+    int count = 0;
+    const auto free_last = [&](swivel_group_def& group) {
+        if (count++ % 3 == 2) group.features &= ~SWIVEL_WITH_PLANT;
+    };
+    Crowd crowd = body_crowd(stage.skeleton, kPlanted, stage.body_count, free_last),
+          other = body_crowd(stage.skeleton, kPlanted, stage.body_count, free_last);
     const auto write = [&](Crowd& to) {
         for (std::uint32_t g = 0; g < 2; ++g) to.write(SWIVEL_CONTACT, g, stage.labels[g]);
     };
@@ -339,12 +327,22 @@ const Fault kFaults[] = {
     {"time below 0", {}, {}, [](HillWalkers& of) { of.times[kBad] = -0.01f; }},
     {"time without end", {}, {}, [](HillWalkers& of) { of.times[kBad] = kInf; }},
     {"support nowhere", {}, {}, [](HillWalkers& of) { of.supports[kBad][1] = kNan; }},
+    {"root and support too far",
+     {},
+     {},
+     [](HillWalkers& of) {
+         of.bodies[kBad].root_position = of.supports[kBad] = {3e37f, 0, 0};
+     }},
     {"support's rotation NaN", {}, {}, [](HillWalkers& of) { of.support_turns[kBad][3] = kNan; }},
     {"support's rotation 0", {}, {}, [](HillWalkers& of) { of.support_turns[kBad] = {}; }},
 };
 void make(const Fault& fault, Stage& stage)
 {
-    if (fault.spoil) return fault.spoil(stage.walkers);
+    if (fault.spoil) {
+        fault.spoil(stage.walkers);
+        stage.poses = stage.walkers.poses();
+        return;
+    }
     if (fault.field == SWIVEL_CONTACT)
         stage.walkers.labels[1][kBad] = fault.value[0];  // written by each solve
     else

@@ -201,23 +201,21 @@ TEST_CASE("skeletons by joints: the binding is the chain's where nothing is in b
         std::ranges::copy(s.translations[limb.elbow], chain.elbow_offset);
         std::ranges::copy(s.translations[limb.wrist], chain.wrist_offset);
         std::ranges::copy(limb.bend, chain.bend);
-        const swivel_binding by_joints = bind(s.view(), s.joints(0)), by_chain = bind(chain);
         struct Joint {
-            float place[3];
+            Float3 place;
             std::int32_t parent;
-            float rotation[4], more;
+            Float4 rotation;
+            float more;
         };
-        std::vector<Joint> joints(s.size());
-        for (std::uint32_t n = 0; n < s.size(); ++n) {
-            joints[n].parent = s.parents[n];
-            std::ranges::copy(s.translations[n], joints[n].place);
-            std::ranges::copy(s.rotations[n], joints[n].rotation);
-        }
+        std::vector<Joint> joints;
+        for (std::uint32_t n = 0; n < s.size(); ++n)
+            joints.push_back({s.translations[n], s.parents[n], s.rotations[n], 0});
         swivel_skeleton apart = s.view();
         apart.parents = stream(joints, &Joint::parent);
         apart.translations = stream(joints, &Joint::place);
         apart.rotations = stream(joints, &Joint::rotation);
-        const swivel_binding by_apart = bind(apart, s.joints(0));
+        const swivel_binding by_joints = bind(s.view(), s.joints(0)), by_chain = bind(chain),
+                             by_apart = bind(apart, s.joints(0));
         CHECK(std::memcmp(&by_joints, &by_apart, sizeof by_apart) == 0);
         CHECK(std::memcmp(&by_joints, &by_chain, sizeof by_chain) == 0);
         CHECK(std::memcmp(by_chain.elbow_parent_from_arm, by_chain.upper_from_arm, 16) == 0);

@@ -33,9 +33,7 @@ HoldingBodies holding(std::uint64_t seed)
     PoseLayout layout;
     layout.roots = true;
     HoldingBodies bodies(random, 40, layout);
-    bodies.find(HoldingBodies::left, SWIVEL_TARGET)->at(kBody)[0] = kNan;
-    bodies.find(HoldingBodies::prop, SWIVEL_PROP_PLACE)->at(kBody)[0] = kNan;
-    bodies.find(HoldingBodies::prop, SWIVEL_PROP_SHARE)->at(kBody)[0] = 0;
+    bodies.leave_in_hand(kBody);
     return bodies;
 }
 std::string text_of(const PosedBodies& bodies, std::uint32_t group, std::uint32_t body = kBody)

@@ -127,14 +127,19 @@ void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Mo
     }
 }
 
-// Calls that judge a crowd's results, of limbs of each group.
-void run_questions(const Crowd& crowd, const std::string& name, Most& most)
+// Calls that judge a crowd's results, of limbs of each group. pose: of bodies, of which the first limb is compared with
+// one that is nowhere, so that every mistake is tried.
+void run_questions(const Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& most)
 {
+    constexpr double shoulder[3] = {0.3, 1.2, 0.1}, elbow[3] = {0.5, 1, 0.3}, wrist[3] = {0.7, 1.1, 0.5};
     char text[4096];
     swivel_arc arcs[200];
     std::uint32_t count;
     double three[3], seven[7];
     const swivel_crowd* const c = crowd.get();
+    if (pose)
+        most.take(name + ", compare",
+                  [&] { swivel_compare(c, 0, 0, pose, shoulder, elbow, wrist, text, sizeof text, nullptr); });
     for (std::uint32_t g = 0; g < swivel_group_count(c); ++g)
         for (std::uint32_t limb = 0; limb < swivel_group_limb_count(c, g); limb += 7) {
             most.take(name + ", explain", [&] { swivel_explain(c, g, limb, text, sizeof text); });
@@ -149,16 +154,6 @@ void run_questions(const Crowd& crowd, const std::string& name, Most& most)
         }
 }
 
-// A limb that is nowhere, so that every mistake is tried.
-void run_comparisons(const Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& most)
-{
-    if (!pose) return;
-    const double shoulder[3] = {0.3, 1.2, 0.1}, elbow[3] = {0.5, 1, 0.3}, wrist[3] = {0.7, 1.1, 0.5};
-    char text[4096];
-    most.take(name + ", compare",
-              [&] { swivel_compare(crowd.get(), 0, 0, pose, shoulder, elbow, wrist, text, sizeof text, nullptr); });
-}
-
 }  // namespace
 
 TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of stack")
@@ -171,10 +166,10 @@ TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of st
             for (const Recipe& recipe : corpus::recipes_of(part)) {
                 Crowd crowd = corpus::make_crowd(recipe, 100);
                 corpus::Poses poses = corpus::poses_of(crowd, recipe, 0);
-                corpus::with_job(poses, [&](const Job& job) { run_jobs(crowd, job.pose, full_name(recipe), jobs); });
-                run_questions(crowd, full_name(recipe), questions);
-                corpus::with_job(
-                    poses, [&](const Job& job) { run_comparisons(crowd, job.pose, full_name(recipe), questions); });
+                corpus::with_job(poses, [&](const Job& job) {
+                    run_jobs(crowd, job.pose, full_name(recipe), jobs);
+                    run_questions(crowd, job.pose, full_name(recipe), questions);
+                });
             }
         INFO(isa << ": " << jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
         CHECK(jobs.bytes <= kPromised);
