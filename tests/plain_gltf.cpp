@@ -153,7 +153,7 @@ Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, doub
     return world;
 }
 
-void Closure::keep(const LimbPose& before, const LimbPose& after)
+void Closure::keep(const LimbJointsAt& before, const LimbJointsAt& after)
 {
     const auto most = [](double& worst, double error) { worst = error <= worst ? worst : error; };  // NaN stays
     const Eigen::Vector3d upper = before.place[1] - before.place[0], lower = before.place[2] - before.place[1];
@@ -176,7 +176,7 @@ Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const
 {
     const int written = std::max(animation, 0);
     const auto limb_pose = [](const PlainGltf& gltf, int of, const LimbNodes& limb, double time) {
-        LimbPose pose;
+        LimbJointsAt pose;
         for (std::size_t n = 0; n < 3; ++n) {
             pose.place[n] = plain_world(gltf, of, limb[n], time).translation();
             pose.turn[n] = plain_axes(plain_local(gltf, of, limb[n], time));

@@ -66,7 +66,7 @@ using LimbNodes = std::array<int, 3>;
 inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.linear().colwise().normalized(); }
 
 // A limb in one frame: where its three joints are, how they are turned against their parents, and its end's axes.
-struct LimbPose {
+struct LimbJointsAt {
     std::array<Eigen::Vector3d, 3> place;
     std::array<Eigen::Matrix3d, 3> turn;
     Eigen::Matrix3d end_axes;
@@ -78,7 +78,7 @@ struct Closure {
     double turn = 0, lower_bent = 0;  // as shares of what is allowed
     std::size_t frames = 0;
 
-    void keep(const LimbPose& before, const LimbPose& after);
+    void keep(const LimbJointsAt& before, const LimbJointsAt& after);
 };
 
 // Of glTF files. animation: index in `from`, or -1 (rest) for a file that had none: `to` has one then. Nodes that are

@@ -118,11 +118,11 @@ TEST_CASE("rigs: every animation of the shared figures comes back, and bends the
 namespace {
 
 // Where a motion has a limb.
-LimbPose limb_pose(const PlainMotion& motion, const std::vector<PlainPose>& pose, const PlainArm& limb)
+LimbJointsAt limb_pose(const PlainMotion& motion, const std::vector<PlainPose>& pose, const PlainArm& limb)
 {
     const std::array joints{limb.shoulder, limb.elbow, limb.wrist};
     const auto at = [&](int joint) { return pose[static_cast<std::size_t>(joint)]; };
-    LimbPose is;
+    LimbJointsAt is;
     for (std::size_t n = 0; n < 3; ++n) {
         is.place[n] = at(joints[n]).position;
         is.turn[n] = at(motion.joint(joints[n]).parent).rotation.transpose() * at(joints[n]).rotation;
