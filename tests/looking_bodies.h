@@ -73,7 +73,7 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
     std::copy(joints.begin(), joints.end(), look.joints);
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         look.share[n] = static_cast<float>(random.below(4) ? random.between(0.1, 3) : 0);
-        look.cos_most[n] = static_cast<float>(random.below(3) ? -1 : std::cos(random.between(0.05, 2)));
+        look.cos_most[n] = static_cast<float>(random.below(2) ? -1 : std::cos(random.between(0.05, 2)));
     }
     look.share[look.joint_count - 1] = static_cast<float>(random.between(0.1, 3));
     const Float3 eye = random.below(3) ? floats(random.vector(0, 0.1)) : Float3{},
