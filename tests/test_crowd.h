@@ -82,15 +82,6 @@ inline swivel_crowd_def def_of(const swivel_group_def& group)
     return def;
 }
 
-// Calls use(rows) for each group's input rows, and then its result rows.
-template <class Use>
-void for_all_rows(const Crowd& crowd, const Use& use)
-{
-    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
-        use(swivel_input_rows(crowd.get(), group));
-        use(swivel_result_rows(crowd.get(), group));
-    }
-}
 inline std::size_t float_count(const swivel_rows& rows)
 {
     return std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES;
@@ -99,11 +90,12 @@ inline std::size_t float_count(const swivel_rows& rows)
 inline std::vector<std::uint32_t> all_words(const Crowd& crowd)
 {
     std::vector<std::uint32_t> words;
-    for_all_rows(crowd, [&](const swivel_rows& rows) {
-        const std::size_t at = words.size();
-        words.resize(at + float_count(rows));
-        std::memcpy(words.data() + at, rows.base, float_count(rows) * sizeof(float));
-    });
+    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group)
+        for (const swivel_rows rows : {swivel_input_rows(crowd.get(), group), swivel_result_rows(crowd.get(), group)}) {
+            const std::size_t at = words.size();
+            words.resize(at + float_count(rows));
+            std::memcpy(words.data() + at, rows.base, float_count(rows) * sizeof(float));
+        }
     return words;
 }
 

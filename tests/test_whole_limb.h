@@ -223,10 +223,9 @@ void each_limit(const LimbLimits& limits, const Put& put)
     put(SWIVEL_HAND_CONE, cone(array_of(limits.hand_axis), limits.hand));
     put(SWIVEL_HUMERAL_TWIST, range_of(limits.humeral));
     put(SWIVEL_FOREARM_TWIST, range_of(limits.forearm));
-    Float7 twist;
-    std::ranges::copy(floats(limits.twist_axis), twist.begin());
-    std::ranges::copy(range_of(limits.twist), twist.begin() + 3);
-    put(SWIVEL_HAND_TWIST, twist);
+    const auto [x, y, z, cosine] = cone(array_of(limits.twist_axis), kPi);
+    const auto [a, b, c, d] = range_of(limits.twist);
+    put(SWIVEL_HAND_TWIST, Float7{x, y, z, a, b, c, d});
     put(SWIVEL_SHOULDER_BOX, box_of(limits.shoulder_box)), put(SWIVEL_WRIST_BOX, box_of(limits.wrist_box));
 }
 // How far joints as they are in the arm frame are outside of the worst of some limits, in units of a cosine; negative

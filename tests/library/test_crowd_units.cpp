@@ -51,38 +51,24 @@ double any_angle(Random& random, double most)
     const double angle = random.below(2) ? random.between(0, most) : kPi / 2 * random.below(3);
     return std::clamp(angle + random.spread(1e-12, 1e-2) * random.between(-1, 1), 0.0, most);
 }
-void make_range(Random& random, float* range)
-{
-    const double middle = 4 * any_angle(random, kPi) - 2 * kPi, half = any_angle(random, kPi);
-    REQUIRE(swivel_range(middle - half, middle + half, range) == SWIVEL_OK);
-}
 // A value from the library's own functions.
 Float12 made_value(Random& random, swivel_field field)
 {
-    Float12 value = {};
     const Vector3d axis = any_axis(random);
-    switch (field) {
-        case SWIVEL_SHOULDER_CONE:
-        case SWIVEL_HAND_CONE:
-            REQUIRE(swivel_cone(axis.data(), any_angle(random, kPi), value.data()) == SWIVEL_OK);
-            break;
-        case SWIVEL_HAND_TWIST:
-            REQUIRE(swivel_cone(axis.data(), 1, value.data()) == SWIVEL_OK);
-            make_range(random, value.data() + 3);
-            break;
-        case SWIVEL_AIM:
-            REQUIRE(swivel_aim(axis.data(), any_angle(random, kPi), value.data()) == SWIVEL_OK);
-            break;
-        case SWIVEL_MOST_SWIVEL:
-            swivel_turn(any_angle(random, 3.14159), value.data());
-            break;
-        case SWIVEL_HUMERAL_TWIST:
-        case SWIVEL_FOREARM_TWIST:
-            make_range(random, value.data());
-            break;
-        default:  // boxes
-            for (std::size_t n = 0; n < 12; n += 4) make_range(random, value.data() + n);
-    }
+    const auto any_range = [&] { return AngleRange{4 * any_angle(random, kPi) - 2 * kPi, any_angle(random, kPi)}; };
+    LimbLimits limits(random);
+    limits.shoulder_axis = limits.hand_axis = limits.twist_axis = axis;
+    limits.shoulder = limits.hand = any_angle(random, kPi);
+    limits.humeral = limits.forearm = limits.twist = any_range();
+    for (AngleBox* const box : {&limits.shoulder_box, &limits.wrist_box})
+        for (AngleRange& range : box->range) range = any_range();
+    Float12 value = {};
+    const auto take = [&](swivel_field made, const auto& numbers) {
+        if (made == field) std::ranges::copy(numbers, value.begin());
+    };
+    each_limit(limits, take);
+    take(SWIVEL_AIM, aim({axis.x(), axis.y(), axis.z()}, any_angle(random, kPi)));
+    take(SWIVEL_MOST_SWIVEL, turn(any_angle(random, 3.14159)));
     return value;
 }
 
