@@ -23,19 +23,20 @@ constexpr Shape kShapes[] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 0, 1}, {3, 2, 
 // Every joint gets another index.
 BodySkeleton shuffled(Random& random, const BodySkeleton& skeleton)
 {
-    std::vector<std::uint32_t> to(skeleton.size());
-    std::iota(to.begin(), to.end(), 0u);
-    for (std::uint32_t n = skeleton.size(); n > 1; --n) std::swap(to[n - 1], to[random.below(n)]);
+    std::vector<std::uint32_t> place(skeleton.size());
+    std::iota(place.begin(), place.end(), 0u);
+    for (std::uint32_t n = skeleton.size(); n > 1; --n) std::swap(place[n - 1], place[random.below(n)]);
     BodySkeleton moved = skeleton;
     for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
         const std::int32_t parent = skeleton.parents[n];
-        moved.parents[to[n]] = parent < 0 ? -1 : static_cast<std::int32_t>(to[static_cast<std::uint32_t>(parent)]);
-        moved.rotations[to[n]] = skeleton.rotations[n];
-        moved.translations[to[n]] = skeleton.translations[n];
+        moved.parents[place[n]] =
+            parent < 0 ? -1 : static_cast<std::int32_t>(place[static_cast<std::uint32_t>(parent)]);
+        moved.rotations[place[n]] = skeleton.rotations[n];
+        moved.translations[place[n]] = skeleton.translations[n];
     }
     BodyLimbJoints& limb = moved.limbs[0];
-    for (std::uint32_t* const joint : {&limb.shoulder, &limb.elbow, &limb.wrist}) *joint = to[*joint];
-    for (std::uint32_t& joint : limb.twist_bones) joint = to[joint];
+    for (std::uint32_t* const joint : {&limb.shoulder, &limb.elbow, &limb.wrist}) *joint = place[*joint];
+    for (std::uint32_t& joint : limb.twist_bones) joint = place[joint];
     return moved;
 }
 
