@@ -12,7 +12,7 @@ inline swivel_group_def body_look()
 {
     swivel_group_def def = swivel::look_group(kLookChain);
     std::ranges::copy(kLookShares, def.look.share);
-    std::ranges::copy(kLookMost, def.look.cos_most);
+    std::ranges::copy(kLookMax, def.look.cos_max);
     std::ranges::copy(kEye, def.look.eye);
     return def;
 }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kCharacters = 512;
 constexpr swivel_features kEvery = SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING,
-                          kLeg = kEvery | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT |
-                                 SWIVEL_WITH_GROUND,
+                          kLeg = kEvery | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP |
+                                 SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_GROUND,
                           kRifle = kEvery | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REGION;
 
 struct Parts {
@@ -78,7 +78,7 @@ private:
         write(SWIVEL_TARGET, group, rifle.target);
         write(SWIVEL_HAND, group, rifle.hand);
         write(SWIVEL_WEIGHTS, group, given[0].weights);
-        crowd_.write_all(SWIVEL_FLEXION_LIMIT, group, swivel::flexion(double{kLeastFlexion}, double{kMostFlexion}));
+        crowd_.write_all(SWIVEL_FLEXION_LIMIT, group, swivel::flexion(double{kMinFlexion}, double{kMaxFlexion}));
         crowd_.write_all(SWIVEL_GRIP, group + 1, std::array{kGrip[0], kGrip[1], kGrip[2], 0.0f, 0.0f, 0.0f, 1.0f});
     }
     void write_leg(std::size_t leg, std::uint32_t group)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBodies = 512;
 constexpr swivel_features kEvery = SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING,
-                          kFitted = SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT,
+                          kFitted = SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT,
                           kGrounded = kFitted | SWIVEL_WITH_GROUND;
 enum class Hold { nothing, hand, prop };
 struct Cast {
@@ -74,7 +74,7 @@ private:
             groups[0].link = groups[1].link = static_cast<std::uint32_t>(groups.size());
             groups.push_back(swivel_default_prop_group_def());
         }
-        if (cast.legs & SWIVEL_WITH_FIT) groups.push_back(swivel::fit_group());
+        if (cast.legs & SWIVEL_WITH_PELVIS_FIT) groups.push_back(swivel::fit_group());
         return swivel::Crowd(body_skeleton(), kBodies, groups);
     }
     void write_goals(std::size_t limb)

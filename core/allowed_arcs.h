@@ -15,11 +15,11 @@ struct Arc {
     Turned<T> from, to;  // by the right hand about the line; equal for the whole circle
 };
 // Each edge of a limit crosses zero twice, and there are two lines where the room is just enough.
-inline constexpr int kMostArcEnds = 4 * (kMostEdges<kMostBoxes> + SWIVEL_MOST_HALF_SPACES);
-inline constexpr int kMostAllowedArcs = kMostArcEnds / 2 + 1;  // those that touch are joined, but the last and first
+inline constexpr int kMaxArcEnds = 4 * (kMaxEdges<kMaxBoxes> + SWIVEL_MAX_HALF_SPACES);
+inline constexpr int kMaxAllowedArcs = kMaxArcEnds / 2 + 1;  // those that touch are joined, but the last and first
 template <class T>
 struct AllowedArcs {
-    Arc<T> arc[kMostAllowedArcs];
+    Arc<T> arc[kMaxAllowedArcs];
     int count = 0;
 };
 
@@ -54,13 +54,13 @@ Turned<T> between(const Turned<T>& a, const Turned<T>& b)
 template <class T, class Take>
 void for_each_edge(const Limits<T>& limits, const Take& take)
 {
-    Edge<T> edge[kMostEdges<kMostBoxes>];
+    Edge<T> edge[kMaxEdges<kMaxBoxes>];
     const int count = edges(limits, false, edge);
     for (int n = 0; n < count; ++n)
         if (edge[n].live()) take(edge[n].line());
 }
 template <class T, class Take>
-void for_each_edge(const LimitsInRegion<T, kMostBoxes>& both, const Take& take)
+void for_each_edge(const LimitsInRegion<T, kMaxBoxes>& both, const Take& take)
 {
     for_each_edge(both.limits, take);
     const swivel_region& region = *both.region.region;
@@ -70,9 +70,9 @@ void for_each_edge(const LimitsInRegion<T, kMostBoxes>& both, const Take& take)
 
 // Of a group's limits, with its region or without one.
 template <class T, template <class, int> class Bounds>
-AllowedArcs<T> allowed_arcs(const Bounds<T, kMostBoxes>& limits)
+AllowedArcs<T> allowed_arcs(const Bounds<T, kMaxBoxes>& limits)
 {
-    Turned<T> end[kMostArcEnds];
+    Turned<T> end[kMaxArcEnds];
     int count = 0;
     for_each_edge(limits, [&](const OnCircle<T>& line) {
         for (const T slack : {T(kNoRoom), T(-kNoRoom)})  // where the room is just enough, on either side of an edge

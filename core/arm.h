@@ -13,12 +13,12 @@ inline namespace SWIVEL_ISA {
 
 // Vectors are no longer than kHuge; a shorter one than kTiny counts as zero.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
-// For plain arms, poles, squared wrists and twice the shorter bones lie between kPlainLeast and kPlainMost. The longer
-// bones lie below kPlainMost. Then half2 in solve_arm.h, the product of all squared lengths, stays a normal float. With
+// For plain arms, poles, squared wrists and twice the shorter bones lie between kPlainMin and kPlainMax. The longer
+// bones lie below kPlainMax. Then half2 in solve_arm.h, the product of all squared lengths, stays a normal float. With
 // wrists w, poles p and distances d, half2 is a quarter to one times (d/L2)^2 w^2 (p sin)^2. It is at least 0.25 1e-13
-// (1e-9 1e-3)^2, because kLeastLift bounds (d/L2)^2 w^2. It is at most 5e15 kPlainMost^3, because the digits of bones
+// (1e-9 1e-3)^2, because kMinLift bounds (d/L2)^2 w^2. It is at most 5e15 kPlainMax^3, because the digits of bones
 // allow d/L2 up to 3.4e7. docs/proof.md proves that no operation of a plain arm overflows.
-inline constexpr double kPlainLeast = 1e-9, kPlainMost = 3.5e7, kLeastLift = 1e-13;
+inline constexpr double kPlainMin = 1e-9, kPlainMax = 3.5e7, kMinLift = 1e-13;
 // The least sine of a pole's angle to the target's line. A closer pole does not say where the elbow goes, because its
 // digits are noise.
 inline constexpr double kPoleOff = 1e-3;
@@ -56,9 +56,9 @@ SWIVEL_INLINE constexpr Mask<T> is_length(const T& x)
 }
 
 template <class T>
-SWIVEL_INLINE constexpr Mask<T> is_within(const T& x, double least, double most)
+SWIVEL_INLINE constexpr Mask<T> is_within(const T& x, double min, double max)
 {
-    return (x >= T(least)) & (x <= T(most));
+    return (x >= T(min)) & (x <= T(max));
 }
 // A rotor may have any length in 1e-9..1e9. Its square times a scale is then a normal float.
 template <class T>

@@ -34,7 +34,7 @@ SWIVEL_INLINE constexpr void for_both(const Each& first, const Each& second, con
 template <class T, int Boxes, class Take>
 SWIVEL_INLINE constexpr void for_each_end(const Limits<T, Boxes>& limits, const Take& take)
 {
-    Edge<T> edge[kMostEdges<Boxes>];
+    Edge<T> edge[kMaxEdges<Boxes>];
     const int count = edges(limits, false, edge);
     for (int n = 0; n < count; ++n) {
         const Crossings<T> ends = crossings(edge[n].line());
@@ -71,19 +71,19 @@ inline constexpr double kTie = 1e-6;
 // Of candidates, the swivel with the most room. Of equal ones it is the one nearest to the wish, then the first. Each
 // is compared with the best so far: of three, where each is equal to the next one only, the order decides.
 template <class T>
-struct MostRoom {
+struct MaxRoom {
     Turned<T> best;
-    T best_room, most;
+    T best_room, max_room;
 
-    SWIVEL_INLINE constexpr MostRoom(const Turned<T>& first, const T& its_room)
-        : best(first), best_room(its_room), most(its_room)
+    SWIVEL_INLINE constexpr MaxRoom(const Turned<T>& first, const T& its_room)
+        : best(first), best_room(its_room), max_room(its_room)
     {
     }
     SWIVEL_INLINE constexpr void consider(const Turned<T>& swivel, const Mask<T>& exists, const T& left)
     {
-        most = select(exists, hi(left, most), most);
+        max_room = select(exists, hi(left, max_room), max_room);
         // An allowed one never ties with a forbidden one.
-        const T enough = select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));
+        const T enough = select(max_room < T(kNoRoom), max_room - T(kTie), T(kNoRoom));
         const Mask<T> preferred = (best_room < enough) | (swivel.cos > best.cos + T(kTie));
         const Mask<T> better = exists & (left >= enough) & preferred;
         best = select(better, swivel, best);
@@ -101,7 +101,7 @@ struct MostRoom {
 template <class T, int Boxes, class Take>
 SWIVEL_INLINE constexpr void for_each_peak(const Limits<T, Boxes>& limits, const Take& take)
 {
-    Edge<T> edge[kMostEdges<Boxes>];
+    Edge<T> edge[kMaxEdges<Boxes>];
     const int count = edges(limits, true, edge);
     struct Candidate {
         Turned<T> swivel;
@@ -131,13 +131,13 @@ SWIVEL_INLINE constexpr void for_each_peak(const Limits<T, Boxes>& limits, const
 }
 // The swivel at which the limits have the most room, though this is less than none.
 template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& limits)
+SWIVEL_INLINE constexpr FoundSwivel<T> min_violation(const Limits<T, Boxes>& limits)
 {
     const Turned<T> wish{T(1), T(0)};
-    MostRoom<T> found(wish, room(limits, wish));
+    MaxRoom<T> found(wish, room(limits, wish));
     for_each_peak(limits, [&](const Turned<T>& swivel, const Mask<T>& exists)
                               SWIVEL_INLINE_LAMBDA { found.consider(swivel, exists, room(limits, swivel)); });
-    return {found.best, found.most >= T(kNoRoom)};  // an arc too short to have two ends
+    return {found.best, found.max_room >= T(kNoRoom)};  // an arc too short to have two ends
 }
 // valid: false where the input is bad, so that nothing is searched for.
 template <class T, template <class, int> class Bounds, int Boxes>
@@ -150,9 +150,9 @@ SWIVEL_INLINE constexpr FoundSwivel<T> choose_swivel(const Bounds<T, Boxes>& lim
     const Mask<T> allowed = granted | end.allowed;
     const Turned<T> near = select(granted, wish, end.swivel);
     if (all(allowed)) return {near, allowed};
-    const FoundSwivel<T> least = least_violation(limits);
-    const Mask<T> any_allowed = allowed | least.allowed;
-    return {select(allowed, near, least.swivel), any_allowed};
+    const FoundSwivel<T> min = min_violation(limits);
+    const Mask<T> any_allowed = allowed | min.allowed;
+    return {select(allowed, near, min.swivel), any_allowed};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -15,7 +15,7 @@ namespace swivel::inline SWIVEL_ISA {
 // neither way round is shorter. Both vectors start at the clavicle's joint. If one is shorter than kTiny, it has no
 // direction, and nothing turns.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> clavicle_turn(const Vector<T>& bone, const Vector<T>& target, const T& share)
+SWIVEL_INLINE constexpr Rotor<T> clavicle_rotation(const Vector<T>& bone, const Vector<T>& target, const T& share)
 {
     const Vector<T> a = scaled(bone), b = scaled(target), axis = share * cross(a, b);
     const T lengths = sqrt(len2(a) * len2(b)), cos = scalar_product(a, b);

@@ -92,7 +92,7 @@ SWIVEL_INLINE constexpr Rotor<T> lifting_turn(const Mask<T>& counts, const Vecto
     if (!any(lifts)) return one<T>();
     const Vector<T> flat = end - height * normal;
     const T flat2 = len2(flat), across = sqrt(hi(length2 - wanted * wanted, T(0)) / hi(flat2, T(kTiny2)));
-    return select(lifts, clavicle_turn(end, wanted * normal + across * flat, T(1)), one<T>());
+    return select(lifts, clavicle_rotation(end, wanted * normal + across * flat, T(1)), one<T>());
 }
 
 // The foot, turned with the ground by a share of 0 to 1, with toe and heel no nearer to it than their clearances.
@@ -105,7 +105,7 @@ SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, con
 {
     const Vector<T> toe = foot.toe + hi(ground.way_up(foot.toe, T(rules.toe_clearance) * scale), T(0)) * up;
     const Rotor<T> with_ground =
-        no_further(clavicle_turn(up, slope.normal, share), T(rules.cos_half_most), T(rules.sin_half_most)) *
+        no_further(clavicle_rotation(up, slope.normal, share), T(rules.cos_half_max), T(rules.sin_half_max)) *
         foot.rotation;
     const Rotor<T> on_slope = unit_rotation(with_ground);
 

@@ -27,7 +27,7 @@ struct LimitUse {
 
 template <class T>
 struct FlexionLimit {
-    T cos_half_least, cos_half_most;
+    T cos_half_min, cos_half_max;
 };
 template <class T>
 struct Cone {
@@ -196,7 +196,7 @@ SWIVEL_INLINE constexpr EulerCurves<T> wrist_box_curves(const SwivellingArm<T, L
 template <class T>
 struct SwivelLimits {
     Limits<T> limits;
-    std::uint32_t line_flag[kMostLines] = {}, box_flag[kMostBoxes] = {};
+    std::uint32_t line_flag[kMaxLines] = {}, box_flag[kMaxBoxes] = {};
 };
 
 template <class T, class Lift>

@@ -27,8 +27,8 @@ SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const FlexionLimit<T>& limit
     const auto distance = [&](const T& cos_half) SWIVEL_INLINE_LAMBDA {
         return lo(hi(sqrt(near2 + product4 * (cos_half * cos_half)), near), far);
     };
-    return {select(limit.cos_half_most > T(0), distance(limit.cos_half_most), near),
-            select(limit.cos_half_least < T(1), distance(limit.cos_half_least), far), T(0), T(0), T(1)};
+    return {select(limit.cos_half_max > T(0), distance(limit.cos_half_max), near),
+            select(limit.cos_half_min < T(1), distance(limit.cos_half_min), far), T(0), T(0), T(1)};
 }
 
 // How far the wrist is from the shoulder in an incoming pose. elbow: of unit length.
@@ -47,9 +47,9 @@ struct CappedReach {
     T far, zone;
 };
 template <class T>
-SWIVEL_INLINE constexpr CappedReach<T> capped_reach(const Cap<T>& cap, const T& most, const T& length)
+SWIVEL_INLINE constexpr CappedReach<T> capped_reach(const Cap<T>& cap, const T& max, const T& length)
 {
-    const T from = lo(hi(cap.incoming, cap.least * length), most), far = lo(from + cap.margin * length, most);
+    const T from = lo(hi(cap.incoming, cap.min * length), max), far = lo(from + cap.margin * length, max);
     return {far, hi(far - from, cap.zone * length)};
 }
 
@@ -66,10 +66,10 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
     ReachRange<T> range{near, far, T(0), T(0), T(1)};
     if (use.limits.flexion) range = flexion_range(goal.limits.flexion, upper, fore, near, far);
     if (use.reach) {
-        range.near = lo(hi(goal.reach.least_distance * far, range.near), range.far);
+        range.near = lo(hi(goal.reach.min_distance * far, range.near), range.far);
         range.soft_far = goal.reach.soft_far * far;
         range.soft_near = goal.reach.soft_near * far;
-        range.most_stretch = goal.reach.most_stretch;
+        range.max_stretch = goal.reach.max_stretch;
     }
     const T uncapped = range.far;
     if (use.cap) {

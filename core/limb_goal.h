@@ -32,20 +32,20 @@ struct Weights {
 // Fractions of the arm's length, except the stretch, which is a factor of 1 or more.
 template <class T>
 struct ReachGoal {
-    T soft_far, soft_near, most_stretch, least_distance;
+    T soft_far, soft_near, max_stretch, min_distance;
 };
 
 // How far beyond the incoming pose a limb may reach. Fractions of the arm's length, but `incoming`, the distance from
 // shoulder to wrist in the incoming pose.
 template <class T>
 struct Cap {
-    T margin, least, zone, incoming;
+    T margin, min, zone, incoming;
 };
 
 template <class T>
 struct Continuity {
     Vector<T> previous_normal;  // zero: none
-    Turned<T> most;             // swivel in a frame, 0 to pi
+    Turned<T> max;              // swivel in a frame, 0 to pi
 };
 
 // The line of the hand that goes through the target, from the effector on, and half the flexion that the elbow then
@@ -99,8 +99,8 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const Cone<T>& cone)
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const FlexionLimit<T>& flexion)
 {
-    return is_share(flexion.cos_half_least) & is_share(flexion.cos_half_most) &
-           (flexion.cos_half_least >= flexion.cos_half_most);
+    return is_share(flexion.cos_half_min) & is_share(flexion.cos_half_max) &
+           (flexion.cos_half_min >= flexion.cos_half_max);
 }
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Twist<T>& twist)
@@ -126,7 +126,7 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const Turned<T>& turned)
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Cap<T>& cap)
 {
-    return is_share(cap.margin) & is_share(cap.least) & is_share(cap.zone);
+    return is_share(cap.margin) & is_share(cap.min) & is_share(cap.zone);
 }
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const IncomingPose<T>& incoming)
@@ -147,15 +147,15 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const Weights<T>& weights)
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const ReachGoal<T>& reach)
 {
-    return is_share(reach.soft_far) & is_share(reach.soft_near) & is_share(reach.least_distance) &
-           (reach.most_stretch >= T(1)) & (reach.most_stretch <= T(1e3));
+    return is_share(reach.soft_far) & is_share(reach.soft_near) & is_share(reach.min_distance) &
+           (reach.max_stretch >= T(1)) & (reach.max_stretch <= T(1e3));
 }
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Continuity<T>& continuity)
 {
-    const Turned<T>& most = continuity.most;
-    return (len2(continuity.previous_normal) <= T(1.01)) & (most.sin >= T(-1e-6)) &
-           is_unit2(most.cos * most.cos + most.sin * most.sin);
+    const Turned<T>& max = continuity.max;
+    return (len2(continuity.previous_normal) <= T(1.01)) & (max.sin >= T(-1e-6)) &
+           is_unit2(max.cos * max.cos + max.sin * max.sin);
 }
 // A product of two rotors as is_orientation() allows them.
 template <class T>

@@ -168,13 +168,13 @@ SWIVEL_INLINE constexpr EulerCurves<T> euler_curves(const EulerOrder& order, con
             -sign * entry(order.first, order.middle)};
 }
 
-// All limits of an arm whose swivel is free: at most kMostLines single lines, and one box for each joint.
-inline constexpr int kMostLines = 5, kMostBoxes = 2;
+// All limits of an arm whose swivel is free: at most kMaxLines single lines, and one box for each joint.
+inline constexpr int kMaxLines = 5, kMaxBoxes = 2;
 template <int Boxes>
-inline constexpr int kMostEdges = kMostLines + 10 * Boxes;
-template <class T, int Boxes = kMostBoxes>
+inline constexpr int kMaxEdges = kMaxLines + 10 * Boxes;
+template <class T, int Boxes = kMaxBoxes>
 struct Limits {
-    OnCircle<T> line[kMostLines];
+    OnCircle<T> line[kMaxLines];
     int line_count = 0;
     EulerBox<T> box[Boxes];
     int box_count = 0;
@@ -182,7 +182,7 @@ struct Limits {
 // Without boxes, which are nearly all of its size.
 template <class T>
 struct Limits<T, 0> {
-    OnCircle<T> line[kMostLines];
+    OnCircle<T> line[kMaxLines];
     int line_count = 0;
     static constexpr EulerBox<T>* box = nullptr;
     static constexpr int box_count = 0;
@@ -191,11 +191,11 @@ struct Limits<T, 0> {
 template <class T, int Boxes>
 SWIVEL_INLINE constexpr T inlined_room(const Limits<T, Boxes>& limits, const Turned<T>& swivel)
 {
-    T least = T(2);
-    for (int n = 0; n < limits.line_count; ++n) least = lo(limits.line[n].at(swivel), least);
+    T min = T(2);
+    for (int n = 0; n < limits.line_count; ++n) min = lo(limits.line[n].at(swivel), min);
     SWIVEL_KEEP_LOOP
-    for (int n = 0; n < limits.box_count; ++n) least = lo(room(limits.box[n], swivel), least);
-    return least;
+    for (int n = 0; n < limits.box_count; ++n) min = lo(room(limits.box[n], swivel), min);
+    return min;
 }
 // With boxes it is long, and a function of its own.
 template <class T>
@@ -204,7 +204,7 @@ SWIVEL_INLINE constexpr T room(const Limits<T, 0>& limits, const Turned<T>& swiv
     return inlined_room(limits, swivel);
 }
 template <class T>
-SWIVEL_FLATTEN [[gnu::noinline]] constexpr T room(const Limits<T, kMostBoxes>& limits, const Turned<T>& swivel)
+SWIVEL_FLATTEN [[gnu::noinline]] constexpr T room(const Limits<T, kMaxBoxes>& limits, const Turned<T>& swivel)
 {
     return inlined_room(limits, swivel);
 }
@@ -234,7 +234,7 @@ struct Edge {
 // The edges of all limits, which must outlive them. middles: also gives those that matter only where nothing is
 // allowed. Edges that are live in no lane are left out.
 template <class T, int Boxes>
-SWIVEL_INLINE constexpr int edges(const Limits<T, Boxes>& limits, bool middles, Edge<T> (&edge)[kMostEdges<Boxes>])
+SWIVEL_INLINE constexpr int edges(const Limits<T, Boxes>& limits, bool middles, Edge<T> (&edge)[kMaxEdges<Boxes>])
 {
     using E = Edge<T>;
     int count = 0;

@@ -78,11 +78,11 @@ SWIVEL_INLINE constexpr LookTurn<T> look_turn(const Vector<T>& from, const Vecto
     const Vector<T> sine = part * vector(whole.template at<kI>(), whole.template at<kJ>(), whole.template at<kK>());
     const T cosine = T(1) - part + part * cos_half, sine2 = len2(sine), cosine2 = cosine * cosine;
     // By the tangent: a cosine does not tell small angles apart.
-    const T most = T(joint.cos_half_most), most_sine = T(joint.sin_half_most);
-    const Mask<T> held = sine2 * (most * most) > cosine2 * (most_sine * most_sine);
-    const T scale = select(held, most_sine, T(1)) / sqrt(select(held, sine2, sine2 + cosine2));
+    const T max = T(joint.cos_half_max), max_sine = T(joint.sin_half_max);
+    const Mask<T> held = sine2 * (max * max) > cosine2 * (max_sine * max_sine);
+    const T scale = select(held, max_sine, T(1)) / sqrt(select(held, sine2, sine2 + cosine2));
     const Vector<T> v = scale * sine;
-    return {rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), select(held, most, scale * cosine)),
+    return {rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), select(held, max, scale * cosine)),
             held};
 }
 

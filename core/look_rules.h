@@ -9,17 +9,17 @@ namespace swivel {
 
 // Of a joint. The turn is held by halves of angles.
 struct LookJoint {
-    float share;                         // of what is left of the turn
-    float cos_half_most, sin_half_most;  // of the cone
+    float share;                       // of what is left of the turn
+    float cos_half_max, sin_half_max;  // of the cone
 };
 // Where a look fades: by the cosine between the line of sight as it comes and the line to the target; and by distance.
 struct LookFade {
     float cos_none, per_cos;  // per_cos: 1 / (cos_full - cos_none)
     float distance;
 };
-inline constexpr std::uint32_t kMostLookJoints = 8;
+inline constexpr std::uint32_t kMaxLookJoints = 8;
 struct LookRules {
-    LookJoint joint[kMostLookJoints];
+    LookJoint joint[kMaxLookJoints];
     LookFade fade;
     float eye[3], axis[3];  // in the last joint's frame; axis: unit
     float rate;             // radians a second; 0: not eased

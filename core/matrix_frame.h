@@ -12,7 +12,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 // The most that a matrix may be off from a rotation times a scale: of lengths of its axes, as a part of their mean, and
 // of cosines between them.
-inline constexpr double kMostShear = 1e-3;
+inline constexpr double kMaxShear = 1e-3;
 
 // The mean of three sizes, exact if they are equal. How far they lie apart.
 template <class T>
@@ -30,7 +30,7 @@ template <class T>
 SWIVEL_INLINE constexpr T uniform_scale(const T& x, const T& y, const T& z)
 {
     const T mean = mean_of(x, y, z);
-    return select(spread_of(x, y, z) <= T(kMostShear) * mean, mean, T(__builtin_nan("")));
+    return select(spread_of(x, y, z) <= T(kMaxShear) * mean, mean, T(__builtin_nan("")));
 }
 
 template <class T>
@@ -47,10 +47,10 @@ SWIVEL_INLINE constexpr MatrixFrame<T> matrix_frame(const Vector<T>& x_axis, con
     const T shrink = per_power_of_two(lo(hi(length1(x_axis), T(kTiny)), T(2 * kHuge)));  // to about 1
     const Vector<T> x = shrink * x_axis, y = shrink * y_axis, z = shrink * z_axis;
     const T x_length = sqrt(len2(x)), y_length = sqrt(len2(y)), z_length = sqrt(len2(z));
-    const T scale = mean_of(x_length, y_length, z_length), most = T(kMostShear) * scale,
+    const T scale = mean_of(x_length, y_length, z_length), max = T(kMaxShear) * scale,
             uneven = spread_of(x_length, y_length, z_length);
     const T slanted = hi(hi(abs(scalar_product(x, y)), abs(scalar_product(y, z))), abs(scalar_product(z, x)));
-    const Mask<T> valid = is_within(scale, 0.1, 10) & (uneven <= most) & (slanted <= most * scale) &
+    const Mask<T> valid = is_within(scale, 0.1, 10) & (uneven <= max) & (slanted <= max * scale) &
                           (scalar_product(cross(x, y), z) > T(0)) & is_within(length1(x_axis), kTiny, 2 * kHuge);
 
     // Four times the product of the largest component with each one, times the scale.

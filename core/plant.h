@@ -29,7 +29,7 @@ struct PlantInput {
     T time;           // since the last step, 0 or more
     T length;         // of the limb: the unit of the rules' lengths
 };
-// What happened in a step. A rotation that locks with the point takes part in it (plant_turn.h).
+// What happened in a step. A rotation that locks with the point takes part in it (plant_rotation.h).
 template <class T>
 struct PlantStep {
     Mask<T> fresh, moves, fades, locks, releases;  // fades: a release of the last step begins to
@@ -45,13 +45,13 @@ struct Planted {
 
 // No longer than `most`, 0 or more. longer: where it was.
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> at_most(const Vector<T>& v, const T& most, const Mask<T>& counts, Mask<T>& longer)
+SWIVEL_INLINE constexpr Vector<T> at_most(const Vector<T>& v, const T& max, const Mask<T>& counts, Mask<T>& longer)
 {
     const T length2 = len2(v);
-    const Mask<T> is_longer = counts & (length2 > most * most);
+    const Mask<T> is_longer = counts & (length2 > max * max);
     longer = longer | is_longer;
     if (!any(is_longer)) return v;
-    return select(is_longer, (most / sqrt(select(is_longer, length2, T(1)))) * v, v);
+    return select(is_longer, (max / sqrt(select(is_longer, length2, T(1)))) * v, v);
 }
 
 // A step of the cubic that brings both to zero in the time that is left. Where time stands still no bit changes.
@@ -69,7 +69,7 @@ SWIVEL_INLINE constexpr void fade(Vector<T>& offset, Vector<T>& velocity, const 
 template <class T>
 SWIVEL_INLINE constexpr void forget_old(PlantState<T>& s, const T& time, const PlantRules& rules)
 {
-    if (rules.longest > 0) s.fresh = s.fresh | (time > T(rules.longest));
+    if (rules.reset_time > 0) s.fresh = s.fresh | (time > T(rules.reset_time));
 }
 
 // One step. State and input must be finite, the input within kHuge.
@@ -77,7 +77,8 @@ template <class T>
 SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& in, const PlantRules& rules)
 {
     const Vector<T> none = vector(T(0), T(0), T(0)), x = in.point;
-    const T lock = T(rules.lock) * in.length, unlock = T(rules.unlock) * in.length, again = T(rules.again) * in.length;
+    const T lock = T(rules.lock_radius) * in.length, unlock = T(rules.unlock_radius) * in.length,
+            again = T(rules.relock_speed) * in.length;
     Planted<T> out;
     out.cut = no_lanes<T>();
     const Mask<T> fresh = s.fresh;
@@ -96,7 +97,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     const Vector<T> speed = select(was_locked, none, per_time * (x - mark));
     const Mask<T> fades = waiting & moves;
     velocity = select(fades, at_most(velocity - speed, T(rules.fastest_out) * in.length, fades, out.cut), velocity);
-    left = select(fades, T(rules.blend), left);
+    left = select(fades, T(rules.release_time), left);
     waiting = waiting & !moves;
 
     const Mask<T> is_left = left > T(kShortestTime);
@@ -118,7 +119,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     s.mark = select(locks, anchor, select(acts & (releases | !was_locked), x, mark));
     s.offset = select(locks, out.target - anchor, select(releases, out.target - x, offset));
     s.velocity = select(locks, entry, velocity);
-    s.left = select(locks, T(rules.stop), left);
+    s.left = select(locks, T(rules.stop_time), left);
     s.fresh = no_lanes<T>();
     s.locked = (was_locked & !releases) | locks;
     s.armed = armed & !locks;

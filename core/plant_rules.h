@@ -5,10 +5,10 @@
 
 namespace swivel {
 
-// Lengths are in limb lengths, speeds in limb lengths a second. The bounds of speeds let none add more than `lock` to
-// the way of a point.
+// Lengths are in limb lengths, speeds in limb lengths a second. The bounds of speeds let none add more than
+// `lock_radius` to the way of a point.
 struct PlantRules {
-    float lock, unlock, again, longest, stop, blend;
+    float lock_radius, unlock_radius, relock_speed, reset_time, stop_time, release_time;
     float ahead;                    // s: how long a point that locks goes on at its speed to its anchor
     float fastest_in, fastest_out;  // at a lock, and at a release
     float turn_in, turn_out;        // the same of half-tangents, 1/s
@@ -33,7 +33,7 @@ constexpr SpringRule spring_rule(float half)
 struct GroundRules {
     float heel[3];  // in the wrist joint's frame
     float toe_clearance, heel_clearance;
-    float cos_half_most, sin_half_most;  // of the angle that a foot turns at most
+    float cos_half_max, sin_half_max;  // of the angle that a foot turns at most
     SpringRule lift;
 };
 

@@ -54,7 +54,7 @@ struct ReachingMoves {
         return len2(move - middle) <= far * far;
     }
     // The shortest of them.
-    SWIVEL_INLINE constexpr Vector<T> least() const
+    SWIVEL_INLINE constexpr Vector<T> shortest() const
     {
         const T length2 = len2(middle);
         const Mask<T> is_far = length2 > reach * reach;
@@ -67,13 +67,13 @@ struct ReachingMoves {
 // It is one arm's shortest if that is the other's, too. Else it is the point nearest to 0 on the circle in which their
 // spheres meet. Of spheres about one middle, the slack lets one have the other's.
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> least_move(const ReachingMoves<T>& a, const ReachingMoves<T>& b)
+SWIVEL_INLINE constexpr Vector<T> min_move(const ReachingMoves<T>& a, const ReachingMoves<T>& b)
 {
-    const Vector<T> least_a = a.least(), least_b = b.least();
+    const Vector<T> min_a = a.shortest(), min_b = b.shortest();
     const Vector<T> between = b.middle - a.middle;
     const T both = a.reach + b.reach;
-    const Mask<T> is_a = b.has(least_a), is_b = a.has(least_b), meets = !(is_a | is_b);
-    const Vector<T> one = select(is_a, least_a, least_b);
+    const Mask<T> is_a = b.has(min_a), is_b = a.has(min_b), meets = !(is_a | is_b);
+    const Vector<T> one = select(is_a, min_a, min_b);
     if (!any(meets)) return one;
     const T distance = sqrt(hi(len2(between), T(kTiny2)));
     const Vector<T> line = (T(1) / distance) * between;

@@ -25,14 +25,14 @@ SWIVEL_INLINE constexpr T axis_of(const swivel_half_space& half, int n)
 template <class T, class RoomOf>
 SWIVEL_INLINE constexpr T room_of_parts(const swivel_region& region, const RoomOf& room_of)
 {
-    T most = T(-4);  // less than any room
+    T max = T(-4);  // less than any room
     for (std::uint32_t part = 0; part < region.part_count; ++part) {
-        T least = T(2);
-        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) least = lo(room_of(n), least);
-        most = hi(least, most);
+        T min = T(2);
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) min = lo(room_of(n), min);
+        max = hi(min, max);
     }
-    for (std::uint32_t n = 0; n < region.cut_count; ++n) most = lo(room_of(n), most);
-    return most;
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) max = lo(room_of(n), max);
+    return max;
 }
 // Of a unit direction.
 template <class T>
@@ -147,16 +147,16 @@ SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const LimitsInRegion<T, Boxes
 // The swivel at which there is the most room, though this is less than none. The room can also peak where a line of the
 // region equals one of another limit.
 template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const LimitsInRegion<T, Boxes>& both)
+SWIVEL_INLINE constexpr FoundSwivel<T> min_violation(const LimitsInRegion<T, Boxes>& both)
 {
     const Turned<T> wish{T(1), T(0)};
-    MostRoom<T> found(wish, room(both, wish));
+    MaxRoom<T> found(wish, room(both, wish));
     const auto take = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_OUT_OF_LINE_LAMBDA {
         if (any(exists)) found.consider(swivel, exists, room(both, swivel));
     };
     for_each_peak(both.limits, take);
     for_each_peak(both.region, take);
-    Edge<T> edge[kMostEdges<Boxes>];
+    Edge<T> edge[kMaxEdges<Boxes>];
     const int edge_count = edges(both.limits, true, edge);
     const std::uint32_t count = both.region.region->first[both.region.region->part_count];
     for (std::uint32_t n = 0; n < count; ++n) {
@@ -170,7 +170,7 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const LimitsInRegion<T, B
             if (edge[m].front < 0 || edge[m].back < 0) for_equal(line, T(-1) * other, take_live);
         }
     }
-    return {found.best, found.most >= T(kNoRoom)};
+    return {found.best, found.max_room >= T(kNoRoom)};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

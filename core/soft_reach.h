@@ -13,7 +13,7 @@ template <class T>
 struct ReachRange {
     T near, far;            // the distances that elbow and least distance allow, 0 <= near <= far
     T soft_near, soft_far;  // widths of the eased zones about them, 0: none
-    T most_stretch;         // of the bones, 1: none
+    T max_stretch;          // of the bones, 1: none
 };
 
 template <class T>
@@ -44,8 +44,8 @@ SWIVEL_INLINE constexpr SoftReach<T> soft_reach(const T& wanted, const ReachRang
     const T give_near = select(near_width > T(0), before * before / (T(4) * near_width), T(0));
     const T eased = lo(hi(wanted - give_far + give_near, range.near), range.far);
     const T stretch =
-        select(eased > T(0), lo(hi(wanted / select(eased > T(0), eased, T(1)), T(1)), range.most_stretch), T(1));
-    const Mask<T> made_up = (stretch < range.most_stretch) & (eased > T(0));
+        select(eased > T(0), lo(hi(wanted / select(eased > T(0), eased, T(1)), T(1)), range.max_stretch), T(1));
+    const Mask<T> made_up = (stretch < range.max_stretch) & (eased > T(0));
     const Mask<T> too_far = (wanted > range.far + far_width) & !made_up;
     const Mask<T> too_near = wanted < range.near - near_width;
     const Mask<T> eased_far = (beyond > T(0)) & !made_up, eased_near = before > T(0);

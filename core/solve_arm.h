@@ -38,8 +38,8 @@ SWIVEL_INLINE constexpr SwivelPlane<T> swivel_plane(const ArmGoal<T>& goal)
 
     // The numbers must be such that their squares and products stay normal floats, and the pole off the line.
     const T pole1 = length1(goal.pole);
-    const Mask<T> holds = (lo(wrist2, pole1) >= T(kPlainLeast)) &
-                          ((wrist2 + pole1) + (goal.upper + goal.fore) <= T(kPlainMost)) &
+    const Mask<T> holds = (lo(wrist2, pole1) >= T(kPlainMin)) &
+                          ((wrist2 + pole1) + (goal.upper + goal.fore) <= T(kPlainMax)) &
                           (normal_length > T(kPoleOff) * (length * pole1));
     return {start, per_power_of_two(wrist2), normal, normal_length, holds};
 }
@@ -68,7 +68,7 @@ SWIVEL_INLINE constexpr BentElbow<T> bend_elbow(const FrameStart<T>& start, cons
     // Neither bone may be lost in the other's digits.
     const T shortest2 = far - near;
     const Mask<T> holds =
-        lo(shortest2, T(kPlainLeast / kLeastLift) * (start.middle_half2() * triangle.lift2)) >= T(kPlainLeast);
+        lo(shortest2, T(kPlainMin / kMinLift) * (start.middle_half2() * triangle.lift2)) >= T(kPlainMin);
     return {triangle.cos_half,
             triangle.sin_half,
             hinge(flip_sign(first, start.side), second),

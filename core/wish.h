@@ -108,12 +108,12 @@ struct SteppedNormal {
 // Whether a turn about the line from one unit normal to another is larger than the most, by more than slack.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_beyond(const Vector<T>& from, const Vector<T>& to, const Vector<T>& line,
-                                          const Turned<T>& most, double slack)
+                                          const Turned<T>& max, double slack)
 {
     // This is the sine of the excess over the most. Near an excess of half a turn the sine is small, and the cosines
     // tell.
     const T cos_turn = scalar_product(from, to), sin_turn = abs(scalar_product(cross(from, to), line));
-    return (sin_turn * most.cos - cos_turn * abs(most.sin) > T(slack)) | (cos_turn < most.cos - T(1e-3));
+    return (sin_turn * max.cos - cos_turn * abs(max.sin) > T(slack)) | (cos_turn < max.cos - T(1e-3));
 }
 
 // A step that is meant for a 60th of a second, in another time. The tangent of half of its angle goes with the time: so
@@ -148,9 +148,9 @@ SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& sta
                                                         const Vector<T>& line)
 {
     const auto [previous, has_previous] = carried_normal(state, line, wish);
-    const Mask<T> limited = has_previous & is_beyond(previous, wish, line, state.most, 1e-7);
+    const Mask<T> limited = has_previous & is_beyond(previous, wish, line, state.max, 1e-7);
     const T side = scalar_product(cross(previous, wish), line);
-    const Vector<T> stepped = state.most.cos * previous + copysign(state.most.sin, side) * cross(line, previous);
+    const Vector<T> stepped = state.max.cos * previous + copysign(state.max.sin, side) * cross(line, previous);
     return {select(limited, stepped, wish), limited};
 }
 // Where the step wins: the normal that the limits leave, no further from the previous one than the frame's most swivel.
@@ -167,7 +167,7 @@ template <class T>
 SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line)
 {
     const auto [previous, has_previous] = carried_normal(state, line, normal);
-    return has_previous & is_beyond(previous, normal, line, state.most, 1e-6);
+    return has_previous & is_beyond(previous, normal, line, state.max, 1e-6);
 }
 
 // The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows.

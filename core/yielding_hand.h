@@ -25,8 +25,8 @@ inline constexpr double kAtItsPlace = 1e-6;
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> misses_its_place(const Vector<T>& missing, const T& length)
 {
-    const T least = T(kAtItsPlace) * length;
-    return len2(missing) > least * least;
+    const T min = T(kAtItsPlace) * length;
+    return len2(missing) > min * min;
 }
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> yielding_hand(const Rotor<T>& hand, const Vector<T>& effector,
@@ -35,7 +35,7 @@ SWIVEL_INLINE constexpr Rotor<T> yielding_hand(const Rotor<T>& hand, const Vecto
     const Mask<T> misses = misses_its_place(missing, length);
     if (!any(misses)) return hand;
     const Vector<T> from_wrist = sandwich(hand, effector);
-    return select(misses, clavicle_turn(from_wrist, from_wrist + missing, T(1)) * hand, hand);
+    return select(misses, clavicle_rotation(from_wrist, from_wrist + missing, T(1)) * hand, hand);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

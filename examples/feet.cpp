@@ -112,8 +112,8 @@ swivel::Crowd make_crowd(std::size_t count)
     std::vector<swivel_group_def> groups;
     for (const swivel_limb_joints& leg : std::span(limbs).first(2)) {
         groups.push_back(swivel::body_group(leg, all | SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_GROUND |
-                                                     SWIVEL_WITH_CAP | SWIVEL_WITH_FIT | SWIVEL_HAND_YIELDS |
-                                                     SWIVEL_WITH_HAND_FRAME));
+                                                     SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS |
+                                                     SWIVEL_WITH_HAND_TRANSFORM));
         groups.back().ground.heel[1] = kToe[1];
         groups.back().ground.heel[2] = -0.06f;
     }
@@ -159,10 +159,10 @@ void solve(swivel::Crowd& crowd, std::vector<Character>& crew, const float& seco
     std::array<swivel::Frame, 6> frames;
     for (std::size_t side = 0; side < 2; ++side) {
         frames[RIGHT_LEG + side].in(SWIVEL_CONTACT, {&first.contact[side], step});
-        frames[RIGHT_LEG + side].out(SWIVEL_HAND_FRAME, {&first.foot[side], step});
+        frames[RIGHT_LEG + side].out(SWIVEL_HAND_TRANSFORM, {&first.foot[side], step});
         frames[RIGHT_LEG + side].out(SWIVEL_FLAGS, {&first.flags[side], step});
     }
-    frames[RIFLE].out(SWIVEL_PROP_FRAME, {&first.rifle, step}).out(SWIVEL_FLAGS, {&first.flags[3], step});
+    frames[RIFLE].out(SWIVEL_PROP_TRANSFORM, {&first.rifle, step}).out(SWIVEL_FLAGS, {&first.flags[3], step});
     frames[LEFT].out(SWIVEL_FLAGS, {&first.flags[4], step});
     crowd.solve({.frames = frames, .pose = &pose, .sample = sample});
 }

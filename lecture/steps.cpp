@@ -13,7 +13,7 @@ using namespace swivel;
 
 namespace {
 
-constexpr double kLeast = 1e-9;  // below this share a length or a sine is rounding: dividing by it says nothing
+constexpr double kMin = 1e-9;  // below this share a length or a sine is rounding: dividing by it says nothing
 constexpr double kShortest = 1e-15, kLongest = 1e15;  // valid input, as swivel.h has it: eighth powers stay finite
 
 // Blades in the order of their numbers; a coefficient's blade is in the multivector's type.
@@ -82,13 +82,13 @@ const char* refuse(const Vector<double>& target, const Vector<double>& pole, dou
     if (!is_valid(target) || !is_valid(pole))
         return "target or pole is not finite or too large; components are at most 1e15";
     if (!is_valid(upper) || !is_valid(fore)) return "upper or fore is no length; give 1e-15 to 1e15";
-    if (distance < kLeast * sum) return "pi_swivel is undefined: the target is on the shoulder";
-    if (length(pole) < kShortest || length(cross(target, pole)) < kLeast * distance * length(pole))
+    if (distance < kMin * sum) return "pi_swivel is undefined: the target is on the shoulder";
+    if (length(pole) < kShortest || length(cross(target, pole)) < kMin * distance * length(pole))
         return "pi_swivel is undefined: the pole is on the line from shoulder to target";
-    if (distance > sum * (1 + kLeast)) return no_circle("the target is too far", distance - sum);
-    if (distance < difference - kLeast * sum) return no_circle("the target is too near", difference - distance);
-    if (distance > sum * (1 - kLeast)) return "PP is one point: the arm is straight";
-    if (distance < difference + kLeast * sum) return "PP is one point: the arm is folded";
+    if (distance > sum * (1 + kMin)) return no_circle("the target is too far", distance - sum);
+    if (distance < difference - kMin * sum) return no_circle("the target is too near", difference - distance);
+    if (distance > sum * (1 - kMin)) return "PP is one point: the arm is straight";
+    if (distance < difference + kMin * sum) return "PP is one point: the arm is folded";
     return nullptr;
 }
 
@@ -109,7 +109,7 @@ const char* swivel_steps(const double target[3], const double pole[3], double up
     const Vector<double> to = vector(target[0], target[1], target[2]), side = vector(pole[0], pole[1], pole[2]);
     if (const char* const why = refuse(to, side, upper, fore)) return why;
     const PipelineSteps<double> steps = solve_pipeline(to, normalise(cross(to, side)), upper, fore);
-    if (!(length(steps.pi_e) >= kLeast * upper * upper))
+    if (!(length(steps.pi_e) >= kMin * upper * upper))
         return "l_M is undefined: the upper arm is along e3 or -e3, so pi_e or pi_M is no plane";
     add_all(steps, {entities});
     *closing_error = closing_error_of(steps, to, upper, fore);

@@ -91,12 +91,12 @@ Rotor<double> to_double(const Rotor<float>& q)
     return rotor<double>(q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>());
 }
 
-// A random arm. The ratio of its bones is up to most_ratio to 1, either way round. Its wrist is in the band. Its pole
+// A random arm. The ratio of its bones is up to max_ratio to 1, either way round. Its wrist is in the band. Its pole
 // is at least 1e-3 off the line, half of the poles closer than 0.1. The numbers are floats, so they are exact in both
 // precisions.
-ArmGoal<float> random_arm(Random& random, const Band& band, double most_ratio)
+ArmGoal<float> random_arm(Random& random, const Band& band, double max_ratio)
 {
-    const double shorter = 1 / random.between(1, most_ratio);
+    const double shorter = 1 / random.between(1, max_ratio);
     const bool swap = random.unit() < 0.5;
     const float upper = static_cast<float>(swap ? shorter : 1.0), fore = static_cast<float>(swap ? 1.0 : shorter);
     const double near = std::fabs(double{upper} - fore), far = double{upper} + fore;

@@ -64,7 +64,7 @@ enum HeldRow : std::uint32_t {
 };
 // Behind a prop's frame: which holder alone says where it is, -1 for none; and of each holder where it has the prop,
 // and how far its arm gets.
-inline constexpr std::uint32_t kMostHolders = 2;
+inline constexpr std::uint32_t kMaxHolders = 2;
 enum HolderRow : std::uint32_t {
     kHolderTurnRow,
     kHolderPlaceRow = kHolderTurnRow + 4,
@@ -75,7 +75,7 @@ enum HolderRow : std::uint32_t {
     kHolderRows = kHolderNearRow + 1
 };
 inline constexpr std::uint32_t kSayerRow = kHeldRows, kHoldersRow = kSayerRow + 1,
-                               kPropRows = kHoldersRow + kMostHolders * kHolderRows;
+                               kPropRows = kHoldersRow + kMaxHolders * kHolderRows;
 // A block has the rows of the group that is being solved, then those of all joints: first the root's.
 inline constexpr std::uint32_t kRootJoint = kPosedRows;
 constexpr std::uint32_t joint_row_count(bool is_turned) { return is_turned ? kJointRows : std::uint32_t{kLocalRow}; }
@@ -107,15 +107,15 @@ struct FollowingJoint {
 struct TurnedJoint {
     std::uint32_t skeleton_joint, row, parent, above;
 };
-inline constexpr std::uint32_t kMostTurned = 4 + SWIVEL_MOST_TWIST_BONES;
-static_assert(kMostLookJoints == SWIVEL_MOST_LOOK_JOINTS && kMostLookJoints <= kMostTurned);
+inline constexpr std::uint32_t kMaxTurned = 4 + SWIVEL_MAX_TWIST_BONES;
+static_assert(kMaxLookJoints == SWIVEL_MAX_LOOK_JOINTS && kMaxLookJoints <= kMaxTurned);
 // The joints of a group's limb or look, by their first rows.
 struct BodyLimb {
     std::uint32_t parent, shoulder, elbow_parent, elbow, wrist_parent, wrist;
-    std::uint32_t twist_bones[SWIVEL_MOST_TWIST_BONES], twist_parents[SWIVEL_MOST_TWIST_BONES];
-    float hinge[3];                                                  // in the shoulder joint's frame
-    float clavicle_rest[4], twist_rest[SWIVEL_MOST_TWIST_BONES][4];  // local rotations at rest
-    TurnedJoint turned[kMostTurned];                                 // an upper one first
+    std::uint32_t twist_bones[SWIVEL_MAX_TWIST_BONES], twist_parents[SWIVEL_MAX_TWIST_BONES];
+    float hinge[3];                                                 // in the shoulder joint's frame
+    float clavicle_rest[4], twist_rest[SWIVEL_MAX_TWIST_BONES][4];  // local rotations at rest
+    TurnedJoint turned[kMaxTurned];                                 // an upper one first
     std::uint32_t turned_count;
     const MovedJoint* moved;  // these joints and all below them, but those that move with another group's
     std::uint32_t moved_count;
@@ -134,7 +134,7 @@ struct BodyLimb {
     std::uint32_t holder_number;  // its place among the prop's holders
     std::uint32_t holder_count;   // of a prop
     std::uint32_t joint;          // of a prop: the first row of its joint; 0: none
-    float most_move;              // of a prop: in limb lengths of its first holder
+    float max_move;               // of a prop: in limb lengths of its first holder
     GroundRules ground;           // where it stands on ground
     float up[3];                  // the crowd's, of unit length
     float rest_length;  // of both bones at rest, where rules have shares of it; of no limb that of the first it serves

@@ -14,7 +14,7 @@ namespace swivel {
 inline constexpr std::uint32_t kLanes = SWIVEL_LANES;  // limbs in a block
 
 // ---- features: which others each needs, and which it excludes
-inline constexpr swivel_features kTwistBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES,
+inline constexpr swivel_features kTwistBones = SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES,
                                  kHandLimits = SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                                SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 // What every group of bodies has, and what makes one no limb.
@@ -40,7 +40,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_POLE_INCOMING, "POLE_INCOMING", SWIVEL_WITH_INCOMING, kPoles & ~SWIVEL_POLE_INCOMING},
     {SWIVEL_WITH_WEIGHTS, "WITH_WEIGHTS", SWIVEL_WITH_INCOMING},
     {SWIVEL_WITH_REACH, "WITH_REACH"},
-    {SWIVEL_WITH_MOST_SWIVEL, "WITH_MOST_SWIVEL"},
+    {SWIVEL_WITH_MAX_SWIVEL, "WITH_MAX_SWIVEL"},
     {SWIVEL_WITH_FLEXION_LIMIT, "WITH_FLEXION_LIMIT"},
     {SWIVEL_WITH_SHOULDER_CONE, "WITH_SHOULDER_CONE"},
     {SWIVEL_WITH_HUMERAL_TWIST, "WITH_HUMERAL_TWIST"},
@@ -54,22 +54,22 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_BODY, "BODY", SWIVEL_WORLD | SWIVEL_WITH_INCOMING, SWIVEL_JOINTS},
     {SWIVEL_WITH_RECORD, "WITH_RECORD", SWIVEL_BODY},
     {SWIVEL_WITH_PLANT, "WITH_PLANT", SWIVEL_BODY, SWIVEL_WITH_AIM},
-    {SWIVEL_WITH_PLANT_TURN, "WITH_PLANT_TURN", SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_PLANT_ROTATION, "WITH_PLANT_ROTATION", SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND},
     {SWIVEL_PLANT_BY_MOTION, "PLANT_BY_MOTION", SWIVEL_WITH_PLANT},
     {SWIVEL_WITH_CAP, "WITH_CAP", SWIVEL_WITH_INCOMING, SWIVEL_WITH_AIM | SWIVEL_WITH_REACH},
-    {SWIVEL_WITH_FIT, "WITH_FIT", SWIVEL_BODY, SWIVEL_WITH_AIM},
-    {SWIVEL_WITH_COMING, "WITH_COMING", SWIVEL_WITH_FIT},
+    {SWIVEL_WITH_PELVIS_FIT, "WITH_PELVIS_FIT", SWIVEL_BODY, SWIVEL_WITH_AIM},
+    {SWIVEL_WITH_NEXT_TARGET, "WITH_NEXT_TARGET", SWIVEL_WITH_PELVIS_FIT},
     {SWIVEL_FIT, "FIT", kOfBodies, ~(kOfBodies | SWIVEL_FIT)},
     {SWIVEL_HAND_YIELDS, "HAND_YIELDS", SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_AIM},
-    {SWIVEL_WITH_HAND_FRAME, "WITH_HAND_FRAME", SWIVEL_BODY | SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_HAND_TRANSFORM, "WITH_HAND_TRANSFORM", SWIVEL_BODY | SWIVEL_WITH_HAND},
     {SWIVEL_WITH_LINK, "WITH_LINK", SWIVEL_BODY | SWIVEL_WITH_HAND,
-     SWIVEL_WITH_AIM | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT},
+     SWIVEL_WITH_AIM | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT},
     {SWIVEL_PROP, "PROP", kOfBodies, ~(kOfBodies | SWIVEL_PROP)},
     {SWIVEL_WITH_GROUND, "WITH_GROUND", SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR},
     {SWIVEL_SENT, "SENT", SWIVEL_BODY},
     {SWIVEL_LOOK, "LOOK", kOfBodies, ~(kOfBodies | SWIVEL_LOOK)},
     {SWIVEL_WITH_REGION, "WITH_REGION"},
-    {SWIVEL_STEP_WINS, "STEP_WINS", SWIVEL_WITH_MOST_SWIVEL},
+    {SWIVEL_STEP_WINS, "STEP_WINS", SWIVEL_WITH_MAX_SWIVEL},
     {SWIVEL_POLE_HAND, "POLE_HAND", SWIVEL_WITH_HAND, (kPoles & ~SWIVEL_POLE_HAND) | SWIVEL_WITH_AIM},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
@@ -103,7 +103,7 @@ constexpr const char* feature_name(swivel_features features)
 struct UnitParts {  // the numbers of a value that are a unit axis, and pairs of cosine and sine that follow
     std::uint32_t axis_size = 0, pair_count = 0;
 };
-inline constexpr std::uint32_t kMostComponents = 25;  // of an input, and of what is carried
+inline constexpr std::uint32_t kMaxComponents = 25;  // of an input, and of what is carried
 // The numbers of SWIVEL_RECORD, by the first of each value.
 enum RecordNumber : int {
     kRecordShoulder,
@@ -113,7 +113,7 @@ enum RecordNumber : int {
     kRecordIncoming = kRecordLengths + 2,
     kRecordSize = kRecordIncoming + 12
 };
-static_assert(std::uint32_t{kRecordSize} <= kMostComponents);
+static_assert(std::uint32_t{kRecordSize} <= kMaxComponents);
 // Those of SWIVEL_LIFT behind the three of the height: the normal that the foot turns with, and its rate.
 enum LiftNumber : int { kSlope = 3, kSlopeRate = kSlope + 3 };
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
@@ -124,9 +124,8 @@ struct FieldRow {
     std::uint32_t component_count;  // see field_row_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
-    const char* range = "";  // what a value must be to be in its range
-    float start[kMostComponents] =
-        {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
+    const char* range = "";            // what a value must be to be in its range
+    float start[kMaxComponents] = {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
     Start starts = Start::neutral;
     Place place = Place::no;
     UnitParts unit = {};
@@ -172,15 +171,16 @@ constexpr FieldRow kFields[] = {
     unless_posed(input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, "1e-15 to 1e15", {1})),
     input(SWIVEL_HAND, "hand", SWIVEL_WITH_HAND, kQuaternion, kIdentity),
     input(SWIVEL_EFFECTOR, "effector", SWIVEL_WITH_EFFECTOR, kPlace, {0, 0, 0}),
-    input(SWIVEL_ANGLE, "angle", SWIVEL_WITH_ANGLE, "cos and sin, 1e-9 to 1e9 long; swivel_turn() makes them", {1, 0}),
+    input(SWIVEL_ANGLE, "angle", SWIVEL_WITH_ANGLE, "cos and sin, 1e-9 to 1e9 long; swivel_cos_sin() makes them",
+          {1, 0}),
     unless_posed(input(SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
     unless_posed(input(SWIVEL_INCOMING_ELBOW, "incoming_elbow", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
     unless_posed(input(SWIVEL_INCOMING_WRIST, "incoming_wrist", SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND, kQuaternion,
                        kIdentity)),
     input(SWIVEL_WEIGHTS, "weights", SWIVEL_WITH_WEIGHTS, "0 to 1 each", {1, 1, 1}),
     input(SWIVEL_REACH, "reach", SWIVEL_WITH_REACH, "0 to 1 each, the stretch 1 to 1000", {0, 0, 1, 0}),
-    input(SWIVEL_MOST_SWIVEL, "most_swivel", SWIVEL_WITH_MOST_SWIVEL,
-          "cos and sin of 0 to pi; swivel_turn() makes them", {-1, 0}, {0, 1}),
+    input(SWIVEL_MAX_SWIVEL, "max_swivel", SWIVEL_WITH_MAX_SWIVEL,
+          "cos and sin of 0 to pi; swivel_cos_sin() makes them", {-1, 0}, {0, 1}),
     input(SWIVEL_FLEXION_LIMIT, "flexion_limit", SWIVEL_WITH_FLEXION_LIMIT,
           "cosines of half angles; swivel_flexion() makes them", {1, 0}),
     input(SWIVEL_SHOULDER_CONE, "shoulder_cone", SWIVEL_WITH_SHOULDER_CONE, kCone, kAnyCone, {3, 0}),
@@ -197,18 +197,18 @@ constexpr FieldRow kFields[] = {
           {0, 0, 0, 0}),
     but_not(SWIVEL_PLANT_BY_MOTION, input(SWIVEL_CONTACT, "contact", SWIVEL_WITH_PLANT, "0 to 1", {0})),
     input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, "0 to 1 each", {0.01f, 0.9f, 0}),
-    input(SWIVEL_FIT_WEIGHT, "fit_weight", SWIVEL_WITH_FIT, "0 to 1", {1}),
-    place(SWIVEL_COMING, "coming", SWIVEL_WITH_COMING, 0, {0, 0, 0}, Start::neutral),
-    input(SWIVEL_COMING_TIME, "coming_time", SWIVEL_WITH_COMING, "0 to 1e15", {1e15f}),
+    input(SWIVEL_PELVIS_FIT_WEIGHT, "pelvis_fit_weight", SWIVEL_WITH_PELVIS_FIT, "0 to 1", {1}),
+    place(SWIVEL_NEXT_TARGET, "next_target", SWIVEL_WITH_NEXT_TARGET, 0, {0, 0, 0}, Start::neutral),
+    input(SWIVEL_NEXT_TIME, "next_time", SWIVEL_WITH_NEXT_TARGET, "0 to 1e15", {1e15f}),
     input(SWIVEL_SHIFT_WISH, "shift_wish", SWIVEL_FIT, "no further than 1e15 from 0", {0}),
     place(SWIVEL_GROUND, "ground", SWIVEL_WITH_GROUND, 0, {0, 0, 0}, Start::unknown),
     input(SWIVEL_GROUND_NORMAL, "ground_normal", SWIVEL_WITH_GROUND, "of length 1e-9 to 1e9", {0, 1, 0}),
     input(SWIVEL_GROUND_WEIGHT, "ground_weight", SWIVEL_WITH_GROUND, "0 to 1", {1}),
     input(SWIVEL_GRIP, "grip", SWIVEL_WITH_LINK, "a place no further than 1e15 and a quaternion of length 1e-9 to 1e9",
           {0, 0, 0, 0, 0, 0, 1}),
-    place(SWIVEL_PROP_PLACE, "prop_place", SWIVEL_PROP, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_PROP_TURN, "prop_turn", SWIVEL_PROP, kQuaternion, kIdentity, {}, Start::unknown),
-    input(SWIVEL_PROP_SHARE, "prop_share", SWIVEL_PROP, "0 to 1", {0}),
+    place(SWIVEL_PROP_POSITION, "prop_position", SWIVEL_PROP, 0, {0, 0, 0}, Start::unknown),
+    input(SWIVEL_PROP_ROTATION, "prop_rotation", SWIVEL_PROP, kQuaternion, kIdentity, {}, Start::unknown),
+    input(SWIVEL_HAND_BLEND, "hand_blend", SWIVEL_PROP, "0 to 1", {0}),
     input(SWIVEL_PROP_WEIGHT, "prop_weight", SWIVEL_PROP, "0 to 1", {1}),
     place(SWIVEL_LOOK_TARGET, "look_target", SWIVEL_LOOK, 0, {0, 0, 0}, Start::unknown),
     input(SWIVEL_LOOK_WEIGHT, "look_weight", SWIVEL_LOOK, "0 to 1", {1}),
@@ -217,22 +217,22 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, "", {0, 0, 0, 1}},
     {SWIVEL_FLAGS, "flags", 1, kResult},
     {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH, 0, "", {1}},
-    {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MOST_SWIVEL},
+    {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MAX_SWIVEL},
     {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES, 0, "", {0, 0, 0, 1}},
-    {SWIVEL_CLAVICLE_TURN, "clavicle_turn", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, "", {0, 0, 0, 1}},
+    {SWIVEL_CLAVICLE_ROTATION, "clavicle_rotation", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, "", {0, 0, 0, 1}},
     {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0,
                                                                                 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}},
     {SWIVEL_PLANT, "plant", 11, kCarried, SWIVEL_WITH_PLANT},
-    {SWIVEL_PLANT_TURN, "plant_turn", 10, kCarried, SWIVEL_WITH_PLANT_TURN},
-    {SWIVEL_MOTION, "motion", 4, kCarried, SWIVEL_PLANT_BY_MOTION},
-    {SWIVEL_GOAL, "goal", 7, kResult, SWIVEL_SENT | SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_PLANT_ROTATION, "plant_rotation", 10, kCarried, SWIVEL_WITH_PLANT_ROTATION},
+    {SWIVEL_CONTACT_STATE, "contact_state", 4, kCarried, SWIVEL_PLANT_BY_MOTION},
+    {SWIVEL_SOLVED_GOAL, "solved_goal", 7, kResult, SWIVEL_SENT | SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_SHIFT, "shift", 3, kCarried, SWIVEL_FIT},
     {SWIVEL_PROBE, "probe", 3, kResult, SWIVEL_WITH_GROUND},
     {SWIVEL_LIFT, "lift", 9, kCarried, SWIVEL_WITH_GROUND},
-    {SWIVEL_HAND_FRAME, "hand_frame", 7, kResult, SWIVEL_WITH_HAND_FRAME, 0, "", {0, 0, 0, 0, 0, 0, 1}},
-    {SWIVEL_PROP_FRAME, "prop_frame", 7, kResult, SWIVEL_PROP, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_HAND_TRANSFORM, "hand_transform", 7, kResult, SWIVEL_WITH_HAND_TRANSFORM, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_PROP_TRANSFORM, "prop_transform", 7, kResult, SWIVEL_PROP, 0, "", {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_SIGHT, "sight", 6, kResult, SWIVEL_LOOK, 0, "", {0, 0, 0, 0, 0, 1}},
-    {SWIVEL_LOOK_TURNS, "look_turns", 1 + 3 * SWIVEL_MOST_LOOK_JOINTS, kCarried, SWIVEL_LOOK},
+    {SWIVEL_LOOK_TURNS, "look_turns", 1 + 3 * SWIVEL_MAX_LOOK_JOINTS, kCarried, SWIVEL_LOOK},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 
@@ -256,7 +256,7 @@ static_assert([] {
 }());
 static_assert([] {
     for (const FieldRow& row : kFields)
-        if ((row.kind != kResult && row.component_count > kMostComponents) ||
+        if ((row.kind != kResult && row.component_count > kMaxComponents) ||
             (row.place == Place::yes && row.component_count != 3) ||
             row.unit.axis_size + 2 * row.unit.pair_count > row.component_count)
             return false;

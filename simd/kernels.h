@@ -80,7 +80,7 @@ struct ArmKernels {
 };
 
 // How many arcs of swivels limits can leave: core/allowed_arcs.h has as many.
-inline constexpr std::size_t kMostArcs = 179;
+inline constexpr std::size_t kMaxArcs = 179;
 // An arc of swivels: cos and sin of its ends.
 struct ArcEnds {
     float from[2], to[2];
@@ -91,7 +91,7 @@ struct LimbKernels {
     void (*solve)(const SolveRun& run);
     // For one limb of a run: stores its arcs and returns how many there are. Null but in the build for single limbs
     // (dispatch.h).
-    std::uint32_t (*allowed_arcs)(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs]);
+    std::uint32_t (*allowed_arcs)(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMaxArcs]);
 };
 
 // Of bodies: simd/kernels/body_kernels.cpp.

@@ -20,12 +20,12 @@ namespace swivel::inline SWIVEL_ISA {
 // How many lanes a number has. lane_bits() has a bit for each of the most.
 template <class T>
 inline constexpr std::size_t lane_count = 1;
-inline constexpr std::size_t kMostLanes = 32;
+inline constexpr std::size_t kMaxLanes = 32;
 
 // Lanes lie in memory side by side, aligned to a register. Those of more blocks than one lie in pieces of `lanes`, each
 // `step` floats after the last one.
 struct LaneBlocks {
-    std::size_t lanes = kMostLanes, step = 0;  // all in one piece
+    std::size_t lanes = kMaxLanes, step = 0;  // all in one piece
     SWIVEL_ALWAYS_INLINE constexpr std::size_t offset(std::size_t lane) const
     {
         return lane / lanes * step + lane % lanes;
@@ -355,7 +355,7 @@ SWIVEL_ALWAYS_INLINE Lanes<A, N...> hi(const Lanes<A, N...>& a, const Lanes<A, N
 template <class A, std::size_t... N>
 SWIVEL_ALWAYS_INLINE std::uint32_t lane_bits(const LanesMask<A, N...>& mask)
 {
-    static_assert(Lanes<A, N...>::count <= kMostLanes);
+    static_assert(Lanes<A, N...>::count <= kMaxLanes);
     return ((Registers<A>::bits(mask.r[N]) << N * Registers<A>::width) | ...);
 }
 template <class A, std::size_t... N>

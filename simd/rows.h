@@ -13,7 +13,7 @@ namespace swivel {
 
 constexpr std::uint32_t twist_bone_count(swivel_features features)
 {
-    return static_cast<std::uint32_t>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
+    return static_cast<std::uint32_t>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1));
 }
 
 // Rows of a field, one for each float or uint32_t of a value. 0 if groups with these features do not have it.
@@ -56,8 +56,8 @@ constexpr std::uint32_t result_row_count(swivel_features features)
 // Whether a field's numbers are places and rotations in one.
 constexpr bool is_frame(swivel_field field)
 {
-    return field == SWIVEL_RECORD || field == SWIVEL_GOAL || field == SWIVEL_PROBE || field == SWIVEL_HAND_FRAME ||
-           field == SWIVEL_PROP_FRAME || field == SWIVEL_SIGHT;
+    return field == SWIVEL_RECORD || field == SWIVEL_SOLVED_GOAL || field == SWIVEL_PROBE ||
+           field == SWIVEL_HAND_TRANSFORM || field == SWIVEL_PROP_TRANSFORM || field == SWIVEL_SIGHT;
 }
 // Rows of words that a field is packed into (swivel_pack). Values of four floats are rotations.
 constexpr std::uint32_t packed_row_count(swivel_features features, swivel_field field)

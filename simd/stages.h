@@ -51,9 +51,9 @@ enum class Stage : std::uint8_t {
     store,  // lifts the arm, and stores the results
     wrist,  // the hand's rotation from the forearm
     twist_bones,
-    correct,     // a body's joints
-    hand_frame,  // where the hand is then
-    stand,       // how a planted limb stands, and where a limb was sent
+    correct,         // a body's joints
+    hand_transform,  // where the hand is then
+    stand,           // how a planted limb stands, and where a limb was sent
     count
 };
 
@@ -67,7 +67,7 @@ inline constexpr swivel_features kSwivelLimits = kLineFeatures | kBoxFeatures | 
 
 // What moves a limb even where its weights ask for nothing.
 inline constexpr swivel_features kBoundingFeatures =
-    kSwivelLimits | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MOST_SWIVEL;
+    kSwivelLimits | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MAX_SWIVEL;
 
 // All groups of a body go through a pass before the first goes through the next one.
 enum class Pass : std::uint8_t {
@@ -90,13 +90,13 @@ struct StageRow {
     Pass pass = Pass::solve;
 };
 inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_AIM,
-                                 kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_POLE_HAND,
+                                 kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_POLE_HAND,
                                  kSpecial = kSpecialBones | kSpecialWish;
 inline constexpr StageRow kStages[] = {
     {Stage::probe, 0, SWIVEL_WITH_GROUND, 0, Pass::probe},
     {Stage::plant, 0, SWIVEL_WITH_PLANT, 0, Pass::ask},
     {Stage::ground, 0, SWIVEL_WITH_GROUND, 0, Pass::ask},
-    {Stage::span, 0, SWIVEL_WITH_FIT, 0, Pass::ask},
+    {Stage::span, 0, SWIVEL_WITH_PELVIS_FIT, 0, Pass::ask},
     {Stage::fit, 0, SWIVEL_FIT, 0, Pass::shift},
     {Stage::look, 0, SWIVEL_LOOK, 0, Pass::look},
     {Stage::grasp, 0, SWIVEL_WITH_LINK, 0, Pass::grasp},
@@ -112,7 +112,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM | SWIVEL_WITH_CAP},
     {Stage::capped, 0, SWIVEL_WITH_CAP, 0},
     {Stage::aim, 0, SWIVEL_WITH_AIM, 0},
-    {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL, kSpecial, 0},
+    {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL, kSpecial, 0},
     {Stage::yield, 0, SWIVEL_HAND_YIELDS, 0},
     {Stage::shoulder_cone, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_CONE, 0},
     {Stage::humeral_twist, SWIVEL_WITH_AIM, SWIVEL_WITH_HUMERAL_TWIST, 0},
@@ -129,7 +129,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::wrist, SWIVEL_JOINTS, SWIVEL_WITH_HAND, 0},
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, 0, SWIVEL_BODY, 0},
-    {Stage::hand_frame, 0, SWIVEL_WITH_HAND_FRAME, 0},
+    {Stage::hand_transform, 0, SWIVEL_WITH_HAND_TRANSFORM, 0},
     {Stage::stand, 0, SWIVEL_SENT, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }

@@ -12,7 +12,7 @@ namespace swivel {
 
 // The most blocks that a strip has. Half of them fit a small stack.
 inline constexpr std::uint32_t kStripBlocks = 8, kStackBlocks = 4;
-inline constexpr std::uint32_t kMostLimitLines = 5, kMostLimitBoxes = 2;
+inline constexpr std::uint32_t kMaxLimitLines = 5, kMaxLimitBoxes = 2;
 
 // The rows of a strip's block, by the first of each value. Within a block they lie as a group's rows do.
 enum StripRow : std::uint32_t {
@@ -29,10 +29,10 @@ enum StripRow : std::uint32_t {
     kSwivelRow = kStretchRow + 1,  // the chosen one's cos and sin
     kTwistRow = kSwivelRow + 2,    // the wrist's rotation, for twist bones
     kClavicleRow = kTwistRow + 4,  // its turn
-    kIncomingRow = kClavicleRow + 4,            // shoulder, elbow, wrist
-    kLimitRow = kIncomingRow,                   // a line of three rows for each limit, once the wish is known
-    kBoxRow = kLimitRow + 3 * kMostLimitLines,  // five curves of three rows for each box
-    kStripRows = kBoxRow + 15 * kMostLimitBoxes
+    kIncomingRow = kClavicleRow + 4,           // shoulder, elbow, wrist
+    kLimitRow = kIncomingRow,                  // a line of three rows for each limit, once the wish is known
+    kBoxRow = kLimitRow + 3 * kMaxLimitLines,  // five curves of three rows for each box
+    kStripRows = kBoxRow + 15 * kMaxLimitBoxes
 };
 // Where the upper arm points, a line of three rows for each component, once the hand yields no more: in rows that then
 // have no use.

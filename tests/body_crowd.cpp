@@ -101,7 +101,7 @@ Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& w
         const Vector3d upper = at[limb.elbow].place - at[limb.shoulder].place,
                        fore = at[limb.wrist].place - at[limb.elbow].place, axis = random.across(upper);
         // The rotation that takes the forearm to where it is bent by just that angle.
-        const Vector3d wanted = Eigen::AngleAxisd(random.spread(1e-2, wish.most_bend), axis) * upper;
+        const Vector3d wanted = Eigen::AngleAxisd(random.spread(1e-2, wish.max_bend), axis) * upper;
         const Quaterniond turn = turn_between(fore, wanted);
         const auto parent = skeleton.parents[limb.elbow];
         const Quaterniond above = at[static_cast<std::size_t>(parent)].rotation;

@@ -52,7 +52,7 @@ struct Body {
 };
 struct BodyWish {
     bool translates = false, scales = false, roots = false;  // its own; one joint in four is scaled
-    double most_bend = 3.1;                                  // of elbows, radians
+    double max_bend = 3.1;                                   // of elbows, radians
 };
 // Each limb's elbow is bent by 1e-2 to the most bend, to any side.
 Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& wish);

@@ -151,7 +151,7 @@ PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts)
             if (contacts[side][n] && !contacts[side][n - 1]) ++steps;
             if (!contacts[side][n] || !contacts[side][n - 1]) continue;
             const double slide = std::hypot(step.x(), step.z());
-            skating.most = std::max(skating.most, slide / legs.frame_time);
+            skating.max = std::max(skating.max, slide / legs.frame_time);
             skating.sink = std::max(skating.sink, std::abs(step.y()));
             way += slide;
             ++frames;

@@ -66,7 +66,7 @@ PlainContacts contacts_in_table(const std::string& csv, std::size_t frame_count)
 
 // In lengths of the file a second, in lengths, in degrees: between two frames of contact.
 struct PlainSkating {
-    double mean = 0, most = 0, step = 0, knee = 0, jump = 0, body_jump = 0;
+    double mean = 0, max = 0, step = 0, knee = 0, jump = 0, body_jump = 0;
     double sink = 0;  // the most that a toe in contact goes up or down in a frame
 };
 PlainSkating plain_skating(const PlainLegs& legs, const PlainContacts& contacts);
@@ -75,7 +75,7 @@ inline constexpr double kMetre = 0.0254 / 0.45;  // a unit of the CMU library's 
 
 // m/s, mean and most; mm a step; the most that a knee turns in a frame, degrees.
 struct Skates {
-    double mean, most, step, knee;
+    double mean, max, step, knee;
 };
 // Recorded clips that skate because legs or way are another's.
 struct SkatingClip {
@@ -90,7 +90,7 @@ inline constexpr SkatingClip kSkatingClips[] = {
 };
 inline Skates in_metres(const PlainSkating& is)
 {
-    return {kMetre * is.mean, kMetre * is.most, 1e3 * kMetre * is.step, is.knee};
+    return {kMetre * is.mean, kMetre * is.max, 1e3 * kMetre * is.step, is.knee};
 }
 
 // Height and slopes of hills at a place, by the recursion of de Boor and Cox for splines of degree 2. size: x, y, z.

@@ -81,7 +81,7 @@ struct HillWalkers {
     static constexpr double kStance = 0.56;  // of a stride, in which the toe is in contact
     static constexpr Float3 kToe{0, -0.07f, 0.13f}, kHeel{0, -0.07f, -0.05f};  // in the foot's frame
     static constexpr swivel_features kFeatures = SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_HAND |
-                                                 SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT |
+                                                 SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT |
                                                  SWIVEL_HAND_YIELDS | SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD;
 
     Terrain terrain;
@@ -141,7 +141,7 @@ struct HillWalkers {
     PoseBuffer poses() const { return PoseBuffer({.roots = true}, bodies); }
     Crowd crowd(swivel_features features = kFeatures, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE) const
     {
-        std::vector<swivel_group_def> shift(features & SWIVEL_WITH_FIT ? 1 : 0, swivel_default_fit_group_def());
+        std::vector<swivel_group_def> shift(features & SWIVEL_WITH_PELVIS_FIT ? 1 : 0, swivel_default_fit_group_def());
         for (swivel_group_def& group : shift) group.fit = fit;
         const auto edit = [&](swivel_group_def& group) {
             group.plant = plant, group.ground = ground, group.on_bad_input = on_bad_input;

@@ -84,12 +84,12 @@ struct DirectionCone {
 inline double cos_to_both(const DirectionCone& a, const DirectionCone& b, const Eigen::Vector3d& d)
 {
     if (a.room(d) >= 0 && b.room(d) >= 0) return 1;
-    double most = -2;
+    double max = -2;
     const auto look = [&](const DirectionCone& on, const DirectionCone& other) {
         const Eigen::Vector3d out = d - d.dot(on.axis) * on.axis;
         if (out.norm() < 1e-12) return;
         const Eigen::Vector3d nearest = std::cos(on.angle) * on.axis + std::sin(on.angle) * out.normalized();
-        if (other.room(nearest) >= 0) most = std::max(most, nearest.dot(d));
+        if (other.room(nearest) >= 0) max = std::max(max, nearest.dot(d));
     };
     look(a, b);
     look(b, a);
@@ -98,8 +98,8 @@ inline double cos_to_both(const DirectionCone& a, const DirectionCone& b, const 
     const Eigen::Vector3d in = ((x - c * y) * a.axis + (y - c * x) * b.axis) / s2;
     if (in.squaredNorm() <= 1)
         for (const double side : {1.0, -1.0})
-            most = std::max(most, d.dot(in + side * std::sqrt((1 - in.squaredNorm()) / s2) * pole));
-    return most;
+            max = std::max(max, d.dot(in + side * std::sqrt((1 - in.squaredNorm()) / s2) * pole));
+    return max;
 }
 
 struct Chain {
@@ -117,11 +117,11 @@ struct Chain {
     }
     double room(const Eigen::Vector3d& d) const
     {
-        double most = -4;
-        for (const DirectionCone& cone : cones) most = std::max(most, cone.room(d));
+        double max = -4;
+        for (const DirectionCone& cone : cones) max = std::max(max, cone.room(d));
         const std::size_t n = cones.size(), bridges = closed && n > 2 ? n : n - 1;
-        for (std::size_t i = 0; i < bridges; ++i) most = std::max(most, bridge_room(cones[i], cones[(i + 1) % n], d));
-        return most;
+        for (std::size_t i = 0; i < bridges; ++i) max = std::max(max, bridge_room(cones[i], cones[(i + 1) % n], d));
+        return max;
     }
 };
 
@@ -132,16 +132,16 @@ struct RegionOracle {
 
     double room(const Eigen::Vector3d& d) const
     {
-        double most = -4;
-        for (const Chain& chain : chains) most = std::max(most, chain.room(d));
+        double max = -4;
+        for (const Chain& chain : chains) max = std::max(max, chain.room(d));
         for (const auto& corners : polygons) {
-            double least = 2;
+            double min = 2;
             for (std::size_t n = 0; n < corners.size(); ++n)
-                least = std::min(least, corners[n].cross(corners[(n + 1) % corners.size()]).normalized().dot(d));
-            most = std::max(most, least);
+                min = std::min(min, corners[n].cross(corners[(n + 1) % corners.size()]).normalized().dot(d));
+            max = std::max(max, min);
         }
-        for (const DirectionCone& cone : forbidden) most = std::min(most, -cone.room(d));
-        return most;
+        for (const DirectionCone& cone : forbidden) max = std::min(max, -cone.room(d));
+        return max;
     }
 };
 
@@ -152,14 +152,14 @@ inline double room_by_half_spaces(const swivel_region& region, const Eigen::Vect
         const swivel_half_space& half = region.half_space[n];
         return Eigen::Vector3f(half.axis).cast<double>().dot(d) - double{half.cosine};
     };
-    double most = -4;
+    double max = -4;
     for (std::uint32_t part = 0; part < region.part_count; ++part) {
-        double least = 2;
-        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) least = std::min(least, room_of(n));
-        most = std::max(most, least);
+        double min = 2;
+        for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) min = std::min(min, room_of(n));
+        max = std::max(max, min);
     }
-    for (std::uint32_t n = 0; n < region.cut_count; ++n) most = std::min(most, room_of(n));
-    return most;
+    for (std::uint32_t n = 0; n < region.cut_count; ++n) max = std::min(max, room_of(n));
+    return max;
 }
 
 struct RandomRegion {
@@ -168,10 +168,10 @@ struct RandomRegion {
     bool good = true;
 };
 // What floats make of it is what both are given.
-inline DirectionCone random_cone(Random& random, double least, double most)
+inline DirectionCone random_cone(Random& random, double min, double max)
 {
     const Eigen::Vector3d axis = random.direction().cast<float>().cast<double>();
-    return {axis.normalized(), double{float(random.between(least, most))}};
+    return {axis.normalized(), double{float(random.between(min, max))}};
 }
 inline RandomRegion random_region(Random& random)
 {

@@ -21,19 +21,19 @@ struct LimitedArm {
     LimbLimits limits;
 };
 
-inline AngleRange random_range(Random& random, double least)
+inline AngleRange random_range(Random& random, double min)
 {
     const double middle = random.between(-kPi, kPi);
-    return {middle, random.spread(least, kPi)};
+    return {middle, random.spread(min, kPi)};
 }
 inline AngleBox random_box(Random& random, swivel_euler_order order)
 {
     constexpr int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
     AngleBox box;
     std::ranges::copy(axes[order], box.axes);
-    const double least = random.below(4) ? 0.1 : 0.004;
-    for (AngleRange& range : box.range) range = random_range(random, least);
-    if (random.below(2)) box.range[1] = {random.between(-0.5, 0.5), random.spread(least, 1)};
+    const double min = random.below(4) ? 0.1 : 0.004;
+    for (AngleRange& range : box.range) range = random_range(random, min);
+    if (random.below(2)) box.range[1] = {random.between(-0.5, 0.5), random.spread(min, 1)};
     return box;
 }
 inline LimitedArm random_limited_arm(Random& random, swivel_euler_order shoulder_order, swivel_euler_order wrist_order)

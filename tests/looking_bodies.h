@@ -73,7 +73,7 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
     std::copy(joints.begin(), joints.end(), look.joints);
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         look.share[n] = static_cast<float>(random.below(4) ? random.between(0.1, 3) : 0);
-        look.cos_most[n] = static_cast<float>(random.below(2) ? -1 : std::cos(random.between(0.05, 2)));
+        look.cos_max[n] = static_cast<float>(random.below(2) ? -1 : std::cos(random.between(0.05, 2)));
     }
     look.share[look.joint_count - 1] = static_cast<float>(random.between(0.1, 3));
     const Float3 eye = random.below(3) ? floats(random.vector(0, 0.1)) : Float3{},
@@ -141,8 +141,8 @@ struct Upright {
     {
         look.look.joint_count = 4;
         for (std::uint32_t n = 0; n < 4; ++n) look.look.joints[n] = n;
-        const float most[] = {0.97f, 0.94f, 0.8f, 0.5f}, share[] = {1, 1, 2, 4};  // 14, 20, 37 and 60 degrees
-        std::copy_n(most, 4, look.look.cos_most), std::copy_n(share, 4, look.look.share);
+        const float max[] = {0.97f, 0.94f, 0.8f, 0.5f}, share[] = {1, 1, 2, 4};  // 14, 20, 37 and 60 degrees
+        std::copy_n(max, 4, look.look.cos_max), std::copy_n(share, 4, look.look.share);
         look.look.eye[1] = 0.08f, look.look.eye[2] = 0.1f;
         look.look.rate = 0;
     }

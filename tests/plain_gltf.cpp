@@ -155,21 +155,21 @@ Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, doub
 
 void Closure::keep(const LimbJointsAt& before, const LimbJointsAt& after)
 {
-    const auto most = [](double& worst, double error) { worst = error <= worst ? worst : error; };  // NaN stays
+    const auto max = [](double& worst, double error) { worst = error <= worst ? worst : error; };  // NaN stays
     const Eigen::Vector3d upper = before.place[1] - before.place[0], lower = before.place[2] - before.place[1];
     const double length = upper.norm() + lower.norm(), sine = upper.normalized().cross(lower.normalized()).norm(),
                  allowed = 2e-6 + 4e-7 * length * length / (upper.norm() * lower.norm() * sine);
     const auto off = [&](std::size_t joint) { return (after.place[joint] - before.place[joint]).norm() / length; };
     if (sine > 0.02)
-        most(lower_bent, off(1) / allowed);
+        max(lower_bent, off(1) / allowed);
     else if (upper.dot(lower) < 0)  // folded
-        most(lower_bent, off(1) / (1e-5 + 4e-7 / sine));
+        max(lower_bent, off(1) / (1e-5 + 4e-7 / sine));
     else
-        most(lower_straight, off(1));
-    most(end, off(2));
-    most(orientation, (after.end_axes - before.end_axes).norm());
-    most(others, off(0));
-    for (std::size_t n = 0; n < 3; ++n) most(turn, turn_between(before.turn[n], after.turn[n]) / allowed);
+        max(lower_straight, off(1));
+    max(end, off(2));
+    max(orientation, (after.end_axes - before.end_axes).norm());
+    max(others, off(0));
+    for (std::size_t n = 0; n < 3; ++n) max(turn, turn_between(before.turn[n], after.turn[n]) / allowed);
 }
 
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs)

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/plant_turn.h"
+#include "core/plant_rotation.h"
 #include "swivel/swivel.h"
 #include "tests/formula_arm.h"
 
@@ -17,15 +17,15 @@ namespace swivel::test {
 // swivel.h's words: no speed may add more than `lock` to a point's way.
 inline PlantRules rules_of(const swivel_plant& plant)
 {
-    const double lock = plant.lock, stop = std::max<double>(plant.stop, kShortestTime),
-                 blend = std::max<double>(plant.blend, kShortestTime);
-    return {plant.lock,
-            plant.unlock,
-            plant.again,
-            plant.longest,
-            plant.stop,
-            plant.blend,
-            static_cast<float>(double{plant.run} * plant.stop / 3),
+    const double lock = plant.lock_radius, stop = std::max<double>(plant.stop_time, kShortestTime),
+                 blend = std::max<double>(plant.release_time, kShortestTime);
+    return {plant.lock_radius,
+            plant.unlock_radius,
+            plant.relock_speed,
+            plant.reset_time,
+            plant.stop_time,
+            plant.release_time,
+            static_cast<float>(double{plant.anchor_lead} * plant.stop_time / 3),
             static_cast<float>(3 * lock / stop),
             static_cast<float>(6.75 * lock / blend),
             static_cast<float>(1 / stop),
@@ -39,14 +39,14 @@ inline PlantRules rules_of(const swivel_plant& plant)
 // A smooth way of a point that turns, with speeds to 1.5 m/s and accelerations to 15 m/s^2.
 class Way {
 public:
-    explicit Way(Random& random, double most_speed = 1.5)
+    explicit Way(Random& random, double max_speed = 1.5)
     {
         double speed = 0;
         for (Wave& wave : waves_) {
             wave = {random.direction(), random.between(4, 10), random.between(0, 6.28)};
             speed += 1;
         }
-        for (Wave& wave : waves_) wave.size *= most_speed / (speed * wave.pace);
+        for (Wave& wave : waves_) wave.size *= max_speed / (speed * wave.pace);
         axis_ = random.direction();
     }
     Vector3d place(double t) const
@@ -105,13 +105,13 @@ public:
     Vector3d step(const Vector3d& x, bool label, double time, double length)
     {
         is_cut = is_fresh = false;
-        if (rules_.longest > 0 && time > rules_.longest) stands = Stands::starts;
+        if (rules_.reset_time > 0 && time > rules_.reset_time) stands = Stands::starts;
         if (stands == Stands::starts) {
             is_fresh = true;
             transition = {};
             last_ = anchor = x;
             stands = label ? Stands::locked : Stands::follows;
-            transition.lasts = label ? rules_.stop : 0;
+            transition.lasts = label ? rules_.stop_time : 0;
             is_armed_ = !label;
             return x;
         }
@@ -119,14 +119,15 @@ public:
         const bool was_locked = stands == Stands::locked;
         const Vector3d speed = was_locked ? Vector3d(Vector3d::Zero()) : Vector3d((x - last_) / time);
         if (stands == Stands::releases) {
-            begin(transition.place(), shortened(transition.speed() - speed, rules_.fastest_out * length), rules_.blend);
+            begin(transition.place(), shortened(transition.speed() - speed, rules_.fastest_out * length),
+                  rules_.release_time);
             stands = Stands::follows;
         }
         transition.since += time;
         const Vector3d to = base(x) + transition.place();
         is_armed_ |= !label;
         if (was_locked) {
-            const bool is_far = is_over((x - anchor).norm(), rules_.unlock * length);
+            const bool is_far = is_over((x - anchor).norm(), rules_.unlock_radius * length);
             if (label && !is_far) return to;
             stands = Stands::releases;
             begin(to - x, transition.speed(), 1);  // stands still until the speed is known
@@ -134,11 +135,11 @@ public:
             return to;
         }
         last_ = x;
-        if (!label || is_over(transition.place().norm(), rules_.lock * length)) return to;
-        if (!is_armed_ && (rules_.again == 0 || is_over(speed.norm(), rules_.again * length))) return to;
+        if (!label || is_over(transition.place().norm(), rules_.lock_radius * length)) return to;
+        if (!is_armed_ && (rules_.relock_speed == 0 || is_over(speed.norm(), rules_.relock_speed * length))) return to;
         const Vector3d entry = shortened(speed + transition.speed(), rules_.fastest_in * length);
         anchor = to + rules_.ahead * entry;
-        begin(to - anchor, entry, rules_.stop);
+        begin(to - anchor, entry, rules_.stop_time);
         stands = Stands::locked;
         is_armed_ = false;
         return to;
@@ -159,15 +160,15 @@ private:
         clearance = std::min(clearance, std::fabs(value - threshold) / std::max(threshold, 1e-9));
         return value > threshold;
     }
-    Vector3d shortened(const Vector3d& v, double most)
+    Vector3d shortened(const Vector3d& v, double max)
     {
-        if (v.norm() <= most) return v;
+        if (v.norm() <= max) return v;
         is_cut = true;
-        return most / v.norm() * v;
+        return max / v.norm() * v;
     }
 };
 
-inline constexpr double kMostHalf = 75 * 3.14159265358979323846 / 180;
+inline constexpr double kMaxHalf = 75 * 3.14159265358979323846 / 180;
 
 // A rotation that goes with a point's machine. An offset is the axis times the tangent of half the angle.
 class TurnMachine {
@@ -190,13 +191,14 @@ public:
         const Vector3d speed =
             was_locked ? Vector3d(Vector3d::Zero()) : Vector3d(offset(now * mark_.conjugate()) / time);
         if (stood == Stands::releases)
-            transition_ = {transition_.place(), shortened(transition_.speed() - speed, rules_.turn_out), rules_.blend};
+            transition_ = {transition_.place(), shortened(transition_.speed() - speed, rules_.turn_out),
+                           rules_.release_time};
         transition_.since += time;
         const Quaterniond to = turn(transition_.place()) * (was_locked ? mark_ : now);
         if (is_locked && !was_locked) {
             const Vector3d entry = shortened(speed + transition_.speed(), rules_.turn_in), ahead = rules_.ahead * entry;
             mark_ = turn(ahead) * to;
-            transition_ = {-ahead, entry, rules_.stop};
+            transition_ = {-ahead, entry, rules_.stop_time};
         } else if (was_locked && !is_locked) {
             transition_ = {offset(to * now.conjugate()), transition_.speed(), 1};
         }
@@ -219,10 +221,10 @@ private:
     {
         clearance = std::min(clearance, std::fabs(q.w()));
         if (q.w() < 0) q.coeffs() = -q.coeffs();
-        const double half = std::min(std::atan2(q.vec().norm(), q.w()), kMostHalf);
+        const double half = std::min(std::atan2(q.vec().norm(), q.w()), kMaxHalf);
         return half == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(std::tan(half) * q.vec().normalized());
     }
-    static Vector3d shortened(const Vector3d& v, double most) { return v.norm() > most ? most / v.norm() * v : v; }
+    static Vector3d shortened(const Vector3d& v, double max) { return v.norm() > max ? max / v.norm() * v : v; }
 };
 
 // A point planted by the library's formula, over any number type.

@@ -42,7 +42,7 @@ struct PlantedBodies {
         Random random{seed};
         skeleton = random_body_skeleton(random, {3, limbs, 1, false});
         for (std::uint32_t n = 0; n < count; ++n) {
-            start.push_back(random_body(random, skeleton, {.roots = true, .most_bend = 2}));
+            start.push_back(random_body(random, skeleton, {.roots = true, .max_bend = 2}));
             start.back().root_scale = static_cast<float>(random.spread(0.5, 2));
             axes.emplace_back();
             for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) axes.back().push_back(random.direction());

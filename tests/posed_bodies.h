@@ -67,13 +67,13 @@ struct PosedBodies {
     float time = 0.02f;
 
     PosedBodies(Random& random, const SkeletonWish& wish, std::size_t body_count, const PoseLayout& of,
-                double most_bend = 3.1)
+                double max_bend = 3.1)
         : layout(of)
     {
         skeleton = random_body_skeleton(random, wish);
         for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
         for (std::size_t n = 0; n < body_count; ++n)
-            bodies.push_back(random_body(random, skeleton, {of.translates, of.scales, of.roots, most_bend}));
+            bodies.push_back(random_body(random, skeleton, {of.translates, of.scales, of.roots, max_bend}));
     }
     PosedBodies(BodySkeleton of, std::vector<Body> all, const PoseLayout& with)
         : skeleton(std::move(of)), bodies(std::move(all)), layout(with)
@@ -146,11 +146,11 @@ struct PosedBodies {
             return cone({axis.x(), axis.y(), axis.z()}, random.between(0.3, 2));
         };
         give_if(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, [&] { return floats(random.vector(0, 0.1)); });
-        give_if(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, [&] { return turn(random.between(0.3, 3)); });
+        give_if(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, [&] { return cos_sin(random.between(0.3, 3)); });
         give_if(SWIVEL_WITH_FLEXION_LIMIT, SWIVEL_FLEXION_LIMIT,
                 [&] { return flexion(random.between(0, 0.5), random.between(2, 3.1)); });
         give_if(SWIVEL_WITH_CAP, SWIVEL_CAP, [&] { return Float3{number(0, 0.1), number(0.5, 1), 0}; });
-        give_if(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, [&] { return turn(random.between(0.1, 3)); });
+        give_if(SWIVEL_WITH_MAX_SWIVEL, SWIVEL_MAX_SWIVEL, [&] { return cos_sin(random.between(0.1, 3)); });
         give_if(SWIVEL_WITH_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, any_cone);
         give_if(SWIVEL_WITH_HAND_CONE, SWIVEL_HAND_CONE, any_cone);
         give_if(SWIVEL_WITH_REACH, SWIVEL_REACH, [&] {
@@ -207,7 +207,7 @@ struct SolvedBodies {
     Crowd crowd;
     PoseBuffer poses;
     std::vector<Float4> joint_rotations;  // body after body
-    std::vector<Float3> joint_places;
+    std::vector<Float3> joint_positions;
 
     explicit SolvedBodies(const PosedBodies& bodies, std::vector<std::uint32_t> some = {})
         : SolvedBodies(bodies, bodies.incoming(), std::move(some))
@@ -219,7 +219,7 @@ struct SolvedBodies {
           crowd(bodies.crowd()),
           poses(std::move(come)),
           joint_rotations(bodies.bodies.size() * bodies.skeleton.size()),
-          joint_places(joint_rotations.size())
+          joint_positions(joint_rotations.size())
     {
         solve();
     }
@@ -229,7 +229,7 @@ struct SolvedBodies {
         swivel_pose pose = of.view(poses);
         const std::size_t count = of.skeleton.size();
         pose.joint_rotations = {joint_rotations.data(), count * sizeof(Float4), sizeof(Float4), nullptr};
-        pose.joint_places = {joint_places.data(), count * sizeof(Float3), sizeof(Float3), nullptr};
+        pose.joint_positions = {joint_positions.data(), count * sizeof(Float3), sizeof(Float3), nullptr};
         Job job{.pose = &pose};
         if (!groups.empty()) job.groups = groups;
         crowd.solve(job);
@@ -334,7 +334,7 @@ struct HoldingBodies : PosedBodies {
         add_limb(2, kLinked | SWIVEL_HAND_YIELDS | SWIVEL_WITH_EFFECTOR, left);
         add_limb(3, kHand | SWIVEL_WITH_REACH);
         add_limb(4, kLinked | SWIVEL_WITH_CAP | SWIVEL_POLE_INCOMING, free);
-        add_limb(5, kHand | SWIVEL_WITH_FIT | SWIVEL_POLE_INCOMING);
+        add_limb(5, kHand | SWIVEL_WITH_PELVIS_FIT | SWIVEL_POLE_INCOMING);
         add(swivel_default_fit_group_def());
         add(swivel_default_prop_group_def());
         groups.back().prop.joint = 1;
@@ -352,15 +352,16 @@ struct HoldingBodies : PosedBodies {
         for (const std::uint32_t g : {left, right, third, follower, on_handle})
             give(g, SWIVEL_GRIP, [&](std::size_t) { return floats(Held{random.rotation(), random.vector(0, 0.3)}); });
         give(on_handle, SWIVEL_WEIGHTS, [&](std::size_t n) { return Float3{n % 2 ? 1.0f : 0.5f, 1, 0.5f}; });
-        give(prop, SWIVEL_PROP_SHARE, [&](std::size_t n) { return Float1{static_cast<float>(n % 4) / 3}; });
-        give(prop, SWIVEL_PROP_PLACE, [&](std::size_t n) { return n % 5 ? kNoPlace : goal(random, right, n).target; });
-        give(prop, SWIVEL_PROP_TURN, [&](std::size_t n) { return n % 7 ? kNoTurn : goal(random, right, n).hand; });
+        give(prop, SWIVEL_HAND_BLEND, [&](std::size_t n) { return Float1{static_cast<float>(n % 4) / 3}; });
+        give(prop, SWIVEL_PROP_POSITION,
+             [&](std::size_t n) { return n % 5 ? kNoPlace : goal(random, right, n).target; });
+        give(prop, SWIVEL_PROP_ROTATION, [&](std::size_t n) { return n % 7 ? kNoTurn : goal(random, right, n).hand; });
     }
     // Nothing is written of a body's prop, which is as its left hand has it.
     void leave_in_hand(std::size_t n)
     {
-        find(left, SWIVEL_TARGET)->write(n, kNoPlace), find(prop, SWIVEL_PROP_PLACE)->write(n, kNoPlace);
-        find(prop, SWIVEL_PROP_SHARE)->write(n, Float1{0});
+        find(left, SWIVEL_TARGET)->write(n, kNoPlace), find(prop, SWIVEL_PROP_POSITION)->write(n, kNoPlace);
+        find(prop, SWIVEL_HAND_BLEND)->write(n, Float1{0});
     }
 };
 

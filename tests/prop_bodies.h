@@ -15,7 +15,7 @@ struct UnmovedProp {
     std::vector<Ball> moves;                 // by which each arm reaches
     std::vector<double> nearest;             // how near to its shoulder each gets
     std::vector<bool> is_posed, is_written;  // each arm's goal: nothing of it was written, all of it
-    double most, off;                        // off: what floats may be off
+    double max, off;                         // off: what floats may be off
 };
 
 struct PropBodies : PosedBodies {
@@ -61,11 +61,11 @@ struct PropBodies : PosedBodies {
             is.hands.push_back(is.points.back() * body.grip(arm).inverse());
             size += body.length(arm) + body.rounding(arm) / 3e-7 + is.hands.back().place.norm();
         }
-        const double share = arms.size() == 1 ? 0 : double{value(prop, SWIVEL_PROP_SHARE, body.n, Float1{})[0]};
+        const double share = arms.size() == 1 ? 0 : double{value(prop, SWIVEL_HAND_BLEND, body.n, Float1{})[0]};
         const Held hands = between(is.hands.front(), is.hands.back(), share);
         is.frame = hands;
-        const Float3 place = value(prop, SWIVEL_PROP_PLACE, body.n, kNoPlace);
-        const Float4 turn = value(prop, SWIVEL_PROP_TURN, body.n, kNoTurn);
+        const Float3 place = value(prop, SWIVEL_PROP_POSITION, body.n, kNoPlace);
+        const Float4 turn = value(prop, SWIVEL_PROP_ROTATION, body.n, kNoTurn);
         const bool has_place = !std::isnan(place[0]), has_turn = !std::isnan(turn[0]);
         const Quaterniond rotation = has_turn ? quat(turn).normalized() : Quaterniond::Identity();
         if (const std::int32_t joint = groups[prop].prop.joint; joint >= 0) {
@@ -84,7 +84,7 @@ struct PropBodies : PosedBodies {
             is.moves.push_back(moves(body, arms[n], is.frame));
             is.nearest.push_back(nearest(body, arms[n]));
         }
-        is.most = double{groups[prop].prop.most_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
+        is.max = double{groups[prop].prop.max_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
         return is;
     }
     // The same limbs with the same goals, that hold nothing.
@@ -102,9 +102,9 @@ struct PropBodies : PosedBodies {
 private:
     swivel_group_def prop_def(Random& random) const
     {
-        constexpr float most[] = {0, 0.1f, 1, 5};
+        constexpr float max[] = {0, 0.1f, 1, 5};
         swivel_group_def made = swivel_default_prop_group_def();
-        made.prop.most_move = most[random.below(4)];
+        made.prop.max_move = max[random.below(4)];
         if (random.below(4) == 0) made.prop.joint = static_cast<std::int32_t>(random.below(3));  // of the trunk
         return made;
     }
@@ -113,7 +113,7 @@ private:
         swivel_group_def fit = swivel_default_fit_group_def();
         fit.fit.drop = fit.fit.rise = 0.5f;
         shift = add(fit);
-        const std::uint32_t leg = add_limb(2, SWIVEL_WITH_FIT | SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND);
+        const std::uint32_t leg = add_limb(2, SWIVEL_WITH_PELVIS_FIT | SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND);
         give(leg, SWIVEL_TARGET, [&](std::size_t n) {
             const Float3 target = random_goal(random, skeleton, bodies[n], 2).target;
             return floats(Vector3d(vec(target) + Vector3d(0, -0.2 * double{bodies[n].root_scale}, 0)));
@@ -151,7 +151,7 @@ private:
         }
         for (std::size_t a = 0; a < arms.size(); ++a)
             give(arms[a], SWIVEL_GRIP, [&](std::size_t n) { return grips[a][n]; });
-        give(prop, SWIVEL_PROP_SHARE, [&](std::size_t) {
+        give(prop, SWIVEL_HAND_BLEND, [&](std::size_t) {
             const std::uint32_t kind = random.below(3);
             return Float1{kind < 2 ? static_cast<float>(kind) : static_cast<float>(random.unit())};
         });
@@ -173,9 +173,9 @@ private:
             }
             written.push_back(wanted);
         }
-        give(prop, SWIVEL_PROP_PLACE,
+        give(prop, SWIVEL_PROP_POSITION,
              [&](std::size_t n) { return is_ever_written && random.below(2) ? floats(written[n].place) : kNoPlace; });
-        give(prop, SWIVEL_PROP_TURN,
+        give(prop, SWIVEL_PROP_ROTATION,
              [&](std::size_t n) { return is_ever_written && random.below(2) ? floats(written[n].rotation) : kNoTurn; });
     }
     void add_animated(const SolvedBody& body, std::uint32_t arm, const Vector3d& root, UnmovedProp& is) const

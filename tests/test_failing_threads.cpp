@@ -166,7 +166,7 @@ struct Stage {
     Stage(bool in_place, std::uint32_t count)
         : is_in_place(in_place),
           crowd(crowd_of(in_place ? SWIVEL_JOINTS | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS
-                                  : swivel_features{SWIVEL_WITH_MOST_SWIVEL},
+                                  : swivel_features{SWIVEL_WITH_MAX_SWIVEL},
                          count, group_of(1).binding)),
           poses(count)
     {
@@ -181,7 +181,7 @@ struct Stage {
         write_poles();
         if (in_place) crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 0.5f, 0.5f});
         if (in_place) return;
-        crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.1));
+        crowd.write_all(SWIVEL_MAX_SWIVEL, 0, cos_sin(0.1));
         solve(true);
         write_poles();  // now steps away
     }

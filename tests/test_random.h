@@ -35,9 +35,9 @@ struct Random {
             if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
         }
     }
-    Eigen::Vector3d vector(double least, double most)  // with a length between the two
+    Eigen::Vector3d vector(double min, double max)  // with a length between the two
     {
-        const double length = between(least, most);
+        const double length = between(min, max);
         return length * direction();
     }
     Eigen::Vector3d across(const Eigen::Vector3d& axis)  // unit, orthogonal to axis

@@ -107,7 +107,7 @@ inline std::vector<JointArray> joint_arrays(const swivel_pose& pose)
                                    {&swivel_pose::results, turn, true},
                                    {&swivel_pose::translation_results, 12, true},
                                    {&swivel_pose::joint_rotations, 16, true},
-                                   {&swivel_pose::joint_places, 12, true}};
+                                   {&swivel_pose::joint_positions, 12, true}};
     std::erase_if(all, [&](const JointArray& each) { return !(pose.*each.values).data; });
     return all;
 }

@@ -326,8 +326,8 @@ std::vector<LimbLists> parts_of(const Crowd& crowd, bool is_shuffled)
 // Says where something is, in the space of the target.
 bool is_place(swivel_field field)
 {
-    constexpr swivel_field places[] = {SWIVEL_RECORD,     SWIVEL_GOAL,       SWIVEL_PROBE,
-                                       SWIVEL_HAND_FRAME, SWIVEL_PROP_FRAME, SWIVEL_SIGHT};
+    constexpr swivel_field places[] = {SWIVEL_RECORD,         SWIVEL_SOLVED_GOAL,    SWIVEL_PROBE,
+                                       SWIVEL_HAND_TRANSFORM, SWIVEL_PROP_TRANSFORM, SWIVEL_SIGHT};
     return std::ranges::find(places, field) != std::end(places);
 }
 
@@ -383,7 +383,7 @@ void shorten_positions(Crowd& crowd, const Job& job)
     };
     for (std::uint32_t g = 0; g < group_count(crowd); ++g)
         for (const swivel_field_info& field : fields_of(crowd, g)) {
-            const bool shifts = field.field == SWIVEL_FIT_WEIGHT || field.field == SWIVEL_SHIFT_WISH;
+            const bool shifts = field.field == SWIVEL_PELVIS_FIT_WEIGHT || field.field == SWIVEL_SHIFT_WISH;
             if (!field.is_position && !shifts) continue;
             std::vector<std::uint32_t> words = read_words(crowd, g, field.field);
             for (std::uint32_t& word : words) {

@@ -215,7 +215,7 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     if (!is_position(field))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u, %s: not a position; doubles are for target, pole, shoulder_position, coming, "
-                    "ground and prop_place",
+                    "ground and prop_position",
                     group, name_of(field));
     if (origins.data && !has_origin(target_group, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is %s here, which has no origin; give null", group,

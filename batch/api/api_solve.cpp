@@ -126,7 +126,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     status = workspace.status;
     if (status == SWIVEL_OK && job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
     if (status != SWIVEL_OK) return status;
-    if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
+    if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.max_blocks, crowd->chosen);
 
     const Work work{.crowd = *crowd,
                     .kernels = isa->kernels,
@@ -156,7 +156,7 @@ size_t swivel_workspace_bytes(const swivel_crowd* crowd)
     return crowd ? workspace_floats(crowd->strip_blocks, crowd->body_row_count) * sizeof(float) : 0;
 }
 
-swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,
+swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t max_blocks,
                             uint32_t* mask, uint32_t word_count, uint32_t* chosen_count)
 {
     const Use use(crowd, Sharing::alone);
@@ -164,7 +164,7 @@ swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, fl
     if (status == SWIVEL_OK) status = check_priorities(*crowd, priorities);
     if (status == SWIVEL_OK) status = check_mask(*crowd, mask, word_count);
     if (status != SWIVEL_OK) return status;
-    const uint32_t picked = choose(*crowd, priorities, urgency, most_blocks, mask);
+    const uint32_t picked = choose(*crowd, priorities, urgency, max_blocks, mask);
     if (chosen_count) *chosen_count = picked;
     return SWIVEL_OK;
 }

@@ -86,7 +86,8 @@ swivel_status check_positions(std::uint32_t g, const swivel_frame& frame, const 
         return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: positions is %u; it is a swivel_numbers, 0 to 2", g,
                     frame.positions);
     const bool is_double = frame.origin.data != nullptr;
-    if (frame.positions == SWIVEL_NUMBERS_UNSAID || is_double == (frame.positions == SWIVEL_DOUBLES)) return SWIVEL_OK;
+    if (frame.positions == SWIVEL_NUMBERS_UNSPECIFIED || is_double == (frame.positions == SWIVEL_DOUBLES))
+        return SWIVEL_OK;
     for (const swivel_frame_field& each : fields_of(frame))
         if (each.data && is_input(each.field) && is_position(each.field))
             return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: %s is in %s, but %s; %s", g, name_of(each.field),
@@ -145,9 +146,9 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_job& job, swi
 
 swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
 {
-    if ((job.most_blocks > 0 || job.urgency) && !job.priorities)
+    if ((job.max_blocks > 0 || job.urgency) && !job.priorities)
         return fail(SWIVEL_INVALID_ARGUMENT, "%s priorities; give one for each of this crowd's %u groups",
-                    job.urgency ? "urgency goes with" : "most_blocks goes with", lane_group_count(crowd));
+                    job.urgency ? "urgency goes with" : "max_blocks goes with", lane_group_count(crowd));
     if ((job.mask != nullptr) + (job.limbs != nullptr) + (job.priorities != nullptr) > 1)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "a job chooses limbs by a mask, by a list or by priorities; give one of them");

@@ -27,13 +27,13 @@ bool overlaps(const FrameValue& out, const FrameValue& in)
 {
     if (in.stride != 0 && in.stride != out.stride) return false;
     const std::int64_t apart = in.at - out.at, step = out.stride;
-    const std::int64_t least = 1 - out.limb_count, most = in.stride == 0 ? 0 : in.limb_count - 1;
+    const std::int64_t min = 1 - out.limb_count, max = in.stride == 0 ? 0 : in.limb_count - 1;
     // Limb i + k of `in` overlaps limb i of `out` if -in.bytes < apart + k step < out.bytes.
     std::int64_t k = (-in.bytes - apart) / step - 1;
     while (apart + k * step <= -in.bytes) ++k;
     for (; apart + k * step < out.bytes; ++k) {
         const bool is_own = k == 0 && in.group == out.group && (in.stride != 0 || in.limb_count == 1);
-        if (k >= least && k <= most && !is_own) return true;
+        if (k >= min && k <= max && !is_own) return true;
     }
     return false;
 }

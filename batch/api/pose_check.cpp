@@ -72,7 +72,7 @@ swivel_status check_outputs(const swivel_crowd& crowd, const swivel_pose& pose)
     constexpr std::size_t float3 = 3 * sizeof(float), float4 = 4 * sizeof(float);
     swivel_status status = check_values(crowd, "translation_results", pose.translation_results, float3, true);
     if (status == SWIVEL_OK) status = check_values(crowd, "joint_rotations", pose.joint_rotations, float4, true);
-    if (status == SWIVEL_OK) status = check_values(crowd, "joint_places", pose.joint_places, float3, true);
+    if (status == SWIVEL_OK) status = check_values(crowd, "joint_positions", pose.joint_positions, float3, true);
     if (status != SWIVEL_OK || !moves) return status;
     return check_values(crowd, "translations", pose.translations, float3, !pose.translation_results.data);
 }

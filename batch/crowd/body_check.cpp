@@ -41,45 +41,47 @@ swivel_status check_turned(const swivel_skeleton& skeleton, const swivel_group_d
 struct Constant {
     const char* name;
     float value;
-    double most;
+    double max;
 };
 swivel_status check_constants(std::uint32_t g, const char* structure, std::initializer_list<Constant> constants)
 {
     for (const Constant& each : constants)
-        if (!(each.value >= 0 && each.value <= each.most))
+        if (!(each.value >= 0 && each.value <= each.max))
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s is %g; it is 0 to %g", g, structure, each.name,
-                        double(each.value), each.most);
+                        double(each.value), each.max);
     return SWIVEL_OK;
 }
 swivel_status check_plant(std::uint32_t g, const swivel_plant& plant)
 {
-    constexpr double kMost = 1000;
+    constexpr double kMax = 1000;
     const swivel_status status = check_constants(g, "plant",
-                                                 {{"lock", plant.lock, kMost},
-                                                  {"unlock", plant.unlock, kMost},
-                                                  {"stop", plant.stop, kMost},
-                                                  {"blend", plant.blend, kMost},
-                                                  {"again", plant.again, kMost},
-                                                  {"run", plant.run, 1},
-                                                  {"longest", plant.longest, kHuge},
-                                                  {"speed[0]", plant.speed[0], kMost},
-                                                  {"speed[1]", plant.speed[1], kMost}});
+                                                 {{"lock_radius", plant.lock_radius, kMax},
+                                                  {"unlock_radius", plant.unlock_radius, kMax},
+                                                  {"stop_time", plant.stop_time, kMax},
+                                                  {"release_time", plant.release_time, kMax},
+                                                  {"relock_speed", plant.relock_speed, kMax},
+                                                  {"anchor_lead", plant.anchor_lead, 1},
+                                                  {"reset_time", plant.reset_time, kHuge},
+                                                  {"speed[0]", plant.speed[0], kMax},
+                                                  {"speed[1]", plant.speed[1], kMax}});
     if (status != SWIVEL_OK) return status;
-    if (plant.unlock < plant.lock)
+    if (plant.unlock_radius < plant.lock_radius)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, plant.unlock is %g, less than plant.lock, %g; let it be no less", g,
-                    double(plant.unlock), double(plant.lock));
+                    "group %u, plant.unlock_radius is %g, less than plant.lock_radius, %g; let it be no less", g,
+                    double(plant.unlock_radius), double(plant.lock_radius));
     for (const float height : plant.height)
-        if (!(std::fabs(height) <= kMost))
+        if (!(std::fabs(height) <= kMax))
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u, plant.height is %g; it is -%g to %g", g, double(height),
-                        kMost, kMost);
+                        kMax, kMax);
     return SWIVEL_OK;
 }
 swivel_status check_fit(std::uint32_t g, const swivel_fit& fit)
 {
-    return check_constants(
-        g, "fit",
-        {{"drop", fit.drop, 1000}, {"rise", fit.rise, 1000}, {"half", fit.half, 1000}, {"ahead", fit.ahead, 1000}});
+    return check_constants(g, "fit",
+                           {{"drop", fit.drop, 1000},
+                            {"rise", fit.rise, 1000},
+                            {"half_life", fit.half_life, 1000},
+                            {"lookahead", fit.lookahead, 1000}});
 }
 
 // Limbs that are to fit and what shifts the body for them go together.
@@ -92,13 +94,14 @@ swivel_status check_fits(const swivel_crowd_def& def)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, and group %u too; a body has one shift", g,
                         shift);
         if (features & SWIVEL_FIT) shift = g;
-        if (features & SWIVEL_WITH_FIT) limb = g, ++limbs;
+        if (features & SWIVEL_WITH_PELVIS_FIT) limb = g, ++limbs;
     }
     if (shifts == 1 && limbs == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, but no limb is SWIVEL_WITH_FIT; add it to one",
-                    shift);
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is SWIVEL_FIT, but no limb is SWIVEL_WITH_PELVIS_FIT; add it to one", shift);
     if (shifts == 0 && limbs > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_WITH_FIT, but no group is SWIVEL_FIT; add one", limb);
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_WITH_PELVIS_FIT, but no group is SWIVEL_FIT; add one",
+                    limb);
     const double length2 =
         double(def.up[0]) * def.up[0] + double(def.up[1]) * def.up[1] + double(def.up[2]) * def.up[2];
     if (!(length2 >= kTiny2 && length2 <= kHuge2))
@@ -117,8 +120,8 @@ swivel_status check_ground(std::uint32_t g, const swivel_ground& ground)
     return check_constants(g, "ground",
                            {{"toe_clearance", ground.toe_clearance, kHuge},
                             {"heel_clearance", ground.heel_clearance, kHuge},
-                            {"cos_most", ground.cos_most, 1},
-                            {"half", ground.half, 1000}});
+                            {"cos_max", ground.cos_max, 1},
+                            {"half_life", ground.half_life, 1000}});
 }
 
 // What a limb is linked to, and how many hold each prop.
@@ -161,10 +164,10 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
                             "group %u, prop.joint is %d, which group %u moves; link the limbs to that group instead", g,
                             prop.joint, other);
     }
-    if (holders == 0 || holders > kMostHolders)
+    if (holders == 0 || holders > kMaxHolders)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_PROP, and %u limbs are linked to it; link one or %u",
-                    g, holders, kMostHolders);
-    return check_constants(g, "prop", {{"most_move", prop.most_move, 1000}});
+                    g, holders, kMaxHolders);
+    return check_constants(g, "prop", {{"max_move", prop.max_move, 1000}});
 }
 swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
 {
@@ -184,9 +187,9 @@ swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
         std::snprintf(name, sizeof name, "share[%u]", n);
         if (const swivel_status status = check_constants(g, "look", {{name, look.share[n], 1000}}); status != SWIVEL_OK)
             return status;
-        if (!(std::fabs(look.cos_most[n]) <= 1))
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.cos_most[%u] is %g; it is -1 to 1", g, n,
-                        double(look.cos_most[n]));
+        if (!(std::fabs(look.cos_max[n]) <= 1))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.cos_max[%u] is %g; it is -1 to 1", g, n,
+                        double(look.cos_max[n]));
     }
     const auto length2 = [](const float(&v)[3]) {
         return double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2];
@@ -207,9 +210,9 @@ swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
 }
 swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const swivel_look& look)
 {
-    if (look.joint_count == 0 || look.joint_count > SWIVEL_MOST_LOOK_JOINTS)
+    if (look.joint_count == 0 || look.joint_count > SWIVEL_MAX_LOOK_JOINTS)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
-                    int{SWIVEL_MOST_LOOK_JOINTS});
+                    int{SWIVEL_MAX_LOOK_JOINTS});
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         const std::uint32_t joint = look.joints[n];
         if (joint >= skeleton.joint_count)

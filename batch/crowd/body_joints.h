@@ -24,7 +24,7 @@ inline swivel_limb_joints joints_of(const swivel_group_def& group)
 
 // The joints that a group's limb or look turns, an upper one first.
 struct TurnedJoints {
-    std::uint32_t joint[kMostTurned];
+    std::uint32_t joint[kMaxTurned];
     std::uint32_t count = 0;
 
     TurnedJoints(const swivel_skeleton& skeleton, const swivel_group_def& group)

@@ -199,34 +199,34 @@ namespace {
 constexpr PlantRules plant_rules(const swivel_plant& plant)
 {
     const auto per = [](float time) { return 1 / (time > kShortestTime ? double(time) : kShortestTime); };
-    const double lock = plant.lock;
-    return {
-        plant.lock,
-        plant.unlock,
-        plant.again,
-        plant.longest,
-        plant.stop,
-        plant.blend,
-        static_cast<float>(double(plant.run) * plant.stop / 3),
-        static_cast<float>(3 * lock * per(plant.stop)),
-        static_cast<float>(6.75 * lock * per(plant.blend)),  // an offset swings out by at most 4/27 of speed times time
-        static_cast<float>(per(plant.stop)),
-        static_cast<float>(2 * per(plant.blend)),
-        plant.speed[0],
-        plant.speed[1],
-        plant.height[0],
-        plant.height[1]};
+    const double lock = plant.lock_radius;
+    return {plant.lock_radius,
+            plant.unlock_radius,
+            plant.relock_speed,
+            plant.reset_time,
+            plant.stop_time,
+            plant.release_time,
+            static_cast<float>(double(plant.anchor_lead) * plant.stop_time / 3),
+            static_cast<float>(3 * lock * per(plant.stop_time)),
+            static_cast<float>(6.75 * lock *
+                               per(plant.release_time)),  // an offset swings out by at most 4/27 of speed times time
+            static_cast<float>(per(plant.stop_time)),
+            static_cast<float>(2 * per(plant.release_time)),
+            plant.speed[0],
+            plant.speed[1],
+            plant.height[0],
+            plant.height[1]};
 }
 
 GroundRules ground_rules(const swivel_ground& ground)
 {
-    const double cos = ground.cos_most;  // of the whole angle
+    const double cos = ground.cos_max;  // of the whole angle
     return {{ground.heel[0], ground.heel[1], ground.heel[2]},
             ground.toe_clearance,
             ground.heel_clearance,
             static_cast<float>(sqrt(0.5 + 0.5 * cos)),
             static_cast<float>(sqrt(0.5 - 0.5 * cos)),
-            spring_rule(ground.half)};
+            spring_rule(ground.half_life)};
 }
 
 LookRules look_rules(const swivel_look& look)
@@ -235,7 +235,7 @@ LookRules look_rules(const swivel_look& look)
     double left = 0;
     for (std::uint32_t n = look.joint_count; n-- > 0;) {
         left += double(look.share[n]);
-        const double cos = look.cos_most[n];  // of the whole angle
+        const double cos = look.cos_max[n];  // of the whole angle
         rules.joint[n] = {static_cast<float>(look.share[n] / left), static_cast<float>(sqrt(0.5 + 0.5 * cos)),
                           static_cast<float>(sqrt(0.5 - 0.5 * cos))};
     }
@@ -268,15 +268,16 @@ void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, Body
     for (std::size_t c = 0; c < 3; ++c) limb.up[c] = static_cast<float>(up.c[c]);
     limb.rules = plant_rules(group.plant);
     limb.drop = group.fit.drop, limb.rise = group.fit.rise;
-    limb.spring = spring_rule(group.fit.half);
-    if (group.features & SWIVEL_WITH_COMING) {
-        const float ahead = first_with(def, SWIVEL_FIT).fit.ahead;
+    limb.spring = spring_rule(group.fit.half_life);
+    if (group.features & SWIVEL_WITH_NEXT_TARGET) {
+        const float ahead = first_with(def, SWIVEL_FIT).fit.lookahead;
         limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
     }
     if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_FIT))
-        limb.rest_length = rest_length(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_FIT) : group);
+        limb.rest_length =
+            rest_length(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_PELVIS_FIT) : group);
     if (group.features & SWIVEL_WITH_GROUND) limb.ground = ground_rules(group.ground);
-    limb.most_move = group.prop.most_move;
+    limb.max_move = group.prop.max_move;
     if (group.features & SWIVEL_LOOK) limb.look = look_rules(group.look);
 }
 
@@ -284,7 +285,7 @@ std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyL
 {
     const auto take = [&](std::uint32_t rows) { return std::exchange(first, first + rows); };
     if (features & SWIVEL_SENT) limb.goal = take(kGoalRows);
-    if (features & SWIVEL_WITH_HAND_FRAME) limb.frame = take(kHeldRows);
+    if (features & SWIVEL_WITH_HAND_TRANSFORM) limb.frame = take(kHeldRows);
     if (features & SWIVEL_PROP) limb.frame = take(kPropRows);
     return first;
 }

@@ -117,8 +117,8 @@ void fill_inputs(const Group& group)
 void unknown_inputs(const Group& group)
 {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-    float unknown[kMostComponents];
-    std::fill_n(unknown, kMostComponents, kUnknown);
+    float unknown[kMaxComponents];
+    std::fill_n(unknown, kMaxComponents, kUnknown);
     for (const FieldRow& row : kFields) {
         const bool is_unknown = row.starts == Start::unknown ||
                                 (row.field == SWIVEL_POLE && (group.features & SWIVEL_BODY)) ||
@@ -176,10 +176,10 @@ swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
     if (def.skeleton) {
         group.features |= SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
         if (group.joints && !(group.features & kTwistBones))
-            group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MOST_TWIST_BONES) *
+            group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MAX_TWIST_BONES) *
                               SWIVEL_WITH_TWIST_BONES;
         group.features = with_sent(group.features);
-        if (is_linked_to(def, g) && group.features & SWIVEL_WITH_HAND) group.features |= SWIVEL_WITH_HAND_FRAME;
+        if (is_linked_to(def, g) && group.features & SWIVEL_WITH_HAND) group.features |= SWIVEL_WITH_HAND_TRANSFORM;
         if (group.limb_count == 0) group.limb_count = def.body_count;
     }
     return group;

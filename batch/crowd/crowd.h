@@ -34,7 +34,7 @@ struct Group {
 // Whether a group counts a position from an origin. A prop on a joint has its place in the joint's frame.
 inline bool has_origin(const Group& group, swivel_field field)
 {
-    return has_origin(group.features, field) && !(field == SWIVEL_PROP_PLACE && group.limb.joint != 0);
+    return has_origin(group.features, field) && !(field == SWIVEL_PROP_POSITION && group.limb.joint != 0);
 }
 
 }  // namespace swivel
@@ -76,7 +76,7 @@ inline constexpr float kNoDoubt = -1;  // swivel_crowd::doubted_time
 // With any of these features, a group's limbs are whole limbs.
 inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);
 
-inline constexpr std::uint32_t kMostWorkspaces = 64;  // of a crowd
+inline constexpr std::uint32_t kMaxWorkspaces = 64;  // of a crowd
 // A workspace: a strip of so many blocks, and the same blocks of bodies, if joints are needed.
 inline std::size_t workspace_floats(std::uint32_t strip_blocks, std::uint32_t body_row_count)
 {

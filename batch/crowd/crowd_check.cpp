@@ -21,7 +21,7 @@ namespace swivel {
 
 namespace {
 
-constexpr std::uint64_t kMostLimbs = 1u << 31;
+constexpr std::uint64_t kMaxLimbs = 1u << 31;
 
 bool is_zero(float x) { return x == 0; }
 
@@ -114,9 +114,9 @@ swivel_status check_def(const swivel_crowd_def* given)
     if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
         return status;
     const swivel_crowd_def def = full_def(given);
-    if (def.workspace_count > kMostWorkspaces)
+    if (def.workspace_count > kMaxWorkspaces)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u workspaces, %u are the most; let jobs bring others",
-                    def.workspace_count, kMostWorkspaces);
+                    def.workspace_count, kMaxWorkspaces);
     if (!def.skeleton && def.body_count > 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u bodies, but no skeleton; give it", def.body_count);
     if (def.skeleton && def.body_count == 0)
@@ -138,7 +138,7 @@ swivel_status check_def(const swivel_crowd_def* given)
         if (const swivel_status status = check_group(g, group); status != SWIVEL_OK) return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
-    if (limb_count > kMostLimbs)
+    if (limb_count > kMaxLimbs)
         return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");
     if (def.skeleton)
         if (const swivel_status status = check_bodies(def); status != SWIVEL_OK) return status;

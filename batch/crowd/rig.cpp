@@ -124,7 +124,7 @@ swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& to)
     binding.lengths[0] = static_cast<float>(std::sqrt(len2(upper)));
     binding.lengths[1] = static_cast<float>(std::sqrt(len2(fore)));
     binding.twist_bone_count = limb.twist_bone_count;
-    for (std::uint32_t n = 0; n < SWIVEL_MOST_TWIST_BONES; ++n) {
+    for (std::uint32_t n = 0; n < SWIVEL_MAX_TWIST_BONES; ++n) {
         const bool is_known = n < limb.twist_bone_count;
         const Rotor<double> parent = is_known ? parent_from(limb.twist_bones[n], fore_from_arm) : fore_from_arm;
         store_unit(parent, binding.twist_parent_from_arm[n]);
@@ -143,7 +143,7 @@ bool is_binding(const swivel_binding& b)
     const auto are_unit = [&](const auto& list) { return std::all_of(std::begin(list), std::end(list), is_unit); };
     return is_unit(b.parent_from_arm) && is_unit(b.upper_from_arm) && is_unit(b.elbow_parent_from_arm) &&
            is_unit(b.fore_from_arm) && is_unit(b.wrist_parent_from_arm) && is_unit(b.shoulder_rest) &&
-           is_unit(b.elbow_rest) && is_unit(b.wrist_rest) && b.twist_bone_count <= SWIVEL_MOST_TWIST_BONES &&
+           is_unit(b.elbow_rest) && is_unit(b.wrist_rest) && b.twist_bone_count <= SWIVEL_MAX_TWIST_BONES &&
            are_unit(b.twist_parent_from_arm) && are_unit(b.twist_from_arm);
 }
 

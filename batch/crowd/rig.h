@@ -23,7 +23,7 @@ struct RestLimb {
     RestJoint shoulder, elbow, wrist;  // of the shoulder only the rotation counts
     Vector<double> bend;               // in the shoulder's frame
     std::uint32_t twist_bone_count;
-    RestJoint twist_bones[SWIVEL_MOST_TWIST_BONES];  // below the elbow
+    RestJoint twist_bones[SWIVEL_MAX_TWIST_BONES];  // below the elbow
 };
 
 // What swivel_bind() promises of a limb whose rotations are usable. call: named in the line that a refusal leaves.

@@ -20,7 +20,7 @@ struct Part {
 constexpr std::uint32_t kShoulder = 0, kElbow = 1, kWrist = 2, kFirstTwistBone = 3;
 
 struct Parts {
-    Part part[kFirstTwistBone + SWIVEL_MOST_TWIST_BONES];
+    Part part[kFirstTwistBone + SWIVEL_MAX_TWIST_BONES];
     std::uint32_t count = 0;
 
     void add(const Part& each) { part[count++] = each; }
@@ -69,9 +69,9 @@ swivel_status check_skeleton(const swivel_skeleton& skeleton)
 
 swivel_status name_parts(const swivel_limb_joints& joints, Parts& parts)
 {
-    if (joints.twist_bone_count > SWIVEL_MOST_TWIST_BONES)
+    if (joints.twist_bone_count > SWIVEL_MAX_TWIST_BONES)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: there are %u twist bones; a limb has at most %d",
-                    joints.twist_bone_count, SWIVEL_MOST_TWIST_BONES);
+                    joints.twist_bone_count, SWIVEL_MAX_TWIST_BONES);
     if (joints.twist_bone_count > 0 && !joints.twist_bones)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: twist_bones is null");
     parts.add({"the shoulder", joints.shoulder});

@@ -89,7 +89,7 @@ void copy_doubles(const Stream& stream, std::size_t first, std::size_t limb_coun
 }
 
 // Of the field with the most components.
-constexpr std::uint32_t kMostFieldStreams = stream_count(field_row_count(kEveryFeature, SWIVEL_TWIST_BONES));
+constexpr std::uint32_t kMaxFieldStreams = stream_count(field_row_count(kEveryFeature, SWIVEL_TWIST_BONES));
 
 // Streams in only read the caller's values.
 char* bytes_of(swivel_in values) { return static_cast<char*>(const_cast<void*>(values.data)); }
@@ -154,7 +154,7 @@ void copy(const Stream* stream, const Stream* end, std::size_t first, std::size_
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)
 {
     if (limb_count == 0) return;  // there may be no values
-    Stream all[kMostFieldStreams];
+    Stream all[kMaxFieldStreams];
     copy(all, streams_in(rows, first, values, all), first, limb_count);
 }
 
@@ -168,7 +168,7 @@ void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_
 void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values)
 {
     if (limb_count == 0) return;  // there may be no values
-    Stream all[kMostFieldStreams];
+    Stream all[kMaxFieldStreams];
     copy(all, streams_out(rows, first, values, all), first, limb_count);
 }
 

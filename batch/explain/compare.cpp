@@ -241,20 +241,20 @@ private:
         text_.add("%u, %u and %u", limb_.body.skeleton_joint(joints.at[0]), limb_.body.skeleton_joint(joints.at[1]),
                   limb_.body.skeleton_joint(joints.at[2]));
     }
-    bool is_at(int part, std::uint32_t joint, double most) const
+    bool is_at(int part, std::uint32_t joint, double max) const
     {
-        return distance(limb_.body.place(joint, limb_.as_given), limb_.theirs.at[part]) <= most;
+        return distance(limb_.body.place(joint, limb_.as_given), limb_.theirs.at[part]) <= max;
     }
     // The needed joint that lies at one of the places, the nearest along the chain if several do; 0: none.
-    std::uint32_t joint_at_place(int part, double most) const
+    std::uint32_t joint_at_place(int part, double max) const
     {
-        std::uint32_t found = 0, least = std::numeric_limits<std::uint32_t>::max();
+        std::uint32_t found = 0, min = std::numeric_limits<std::uint32_t>::max();
         for (std::uint32_t joint = 1; joint < limb_.crowd.joint_count; ++joint) {
-            if (!is_at(part, joint, most)) continue;
+            if (!is_at(part, joint, max)) continue;
             const std::uint32_t own = limb_.joints.at[part],
                                 steps = std::max(limb_.body.steps_up(own, joint), limb_.body.steps_up(joint, own));
             const std::uint32_t far = joint == own ? 0 : steps > 0 ? steps : limb_.crowd.joint_count;
-            if (far < least) least = far, found = joint;
+            if (far < min) min = far, found = joint;
         }
         return found;
     }

@@ -22,12 +22,12 @@ LimbPlaces ComparedLimb::places(const LimbJoints& chosen, const Reading& how) co
 
 double ComparedLimb::worst(const LimbPlaces& ours) const
 {
-    double most = 0;
-    for (int n = 0; n < 3 && !std::isnan(most); ++n) {
+    double max = 0;
+    for (int n = 0; n < 3 && !std::isnan(max); ++n) {
         const double off = distance(ours.at[n], theirs.at[n]);
-        if (!(off <= most)) most = off;
+        if (!(off <= max)) max = off;
     }
-    return most;
+    return max;
 }
 double ComparedLimb::allowed(const LimbPlaces& ours) const
 {

@@ -48,7 +48,7 @@ struct GroundedFoot {
     {
         const double scale = value(SWIVEL_RECORD)[kRecordScale];
         const Vector<double> heel = vector<double>(rules.heel[0], rules.heel[1], rules.heel[2]);
-        const Foot<double> foot{vector_of(value(SWIVEL_GOAL)), sent};
+        const Foot<double> foot{vector_of(value(SWIVEL_SOLVED_GOAL)), sent};
         return foot_on_ground(ground, leaning(ground, vector_of(value(SWIVEL_LIFT), kSlope), up), up, foot,
                               scale * (heel - vector_of(value(SWIVEL_EFFECTOR))), scale, value(SWIVEL_GROUND_WEIGHT)[0],
                               by)
@@ -67,7 +67,7 @@ struct GroundedFoot {
         GroundRules heel_anywhere = rules;
         heel_anywhere.heel_clearance = -1e15f;
         GroundRules any_angle = heel_anywhere;
-        any_angle.cos_half_most = 0, any_angle.sin_half_most = 1;
+        any_angle.cos_half_max = 0, any_angle.sin_half_max = 1;
         const Rotor<double> with_ground = stood(heel_anywhere);
         const double turn = degrees_between(sent, with_ground), wanted = degrees_between(sent, stood(any_angle)),
                      lift = degrees_between(with_ground, stood(rules));
@@ -98,7 +98,7 @@ void explain_ground(const Group& group, std::uint32_t limb, Text& text)
     if (foot.value(SWIVEL_LIFT)[2] == 0) return;  // it was reset
     foot.explain_lift(text);
     // A planted rotation is not known here: its support may be turned.
-    if (!(group.features & SWIVEL_WITH_PLANT_TURN)) foot.explain_turn(text);
+    if (!(group.features & SWIVEL_WITH_PLANT_ROTATION)) foot.explain_turn(text);
     text.add(" ");
 }
 

@@ -81,11 +81,11 @@ struct HeldProp {
     const swivel_crowd& crowd;
     const Group& group;
     std::uint32_t limb;
-    LimbValue place{group, limb, SWIVEL_PROP_PLACE}, turn{group, limb, SWIVEL_PROP_TURN};
+    LimbValue place{group, limb, SWIVEL_PROP_POSITION}, turn{group, limb, SWIVEL_PROP_ROTATION};
 
     bool has_joint() const { return group.limb.joint != 0; }
     bool is_pair() const { return group.limb.holder_count > 1; }
-    double share() const { return is_pair() ? LimbValue(group, limb, SWIVEL_PROP_SHARE)[0] : 0; }
+    double share() const { return is_pair() ? LimbValue(group, limb, SWIVEL_HAND_BLEND)[0] : 0; }
     double weight() const { return LimbValue(group, limb, SWIVEL_PROP_WEIGHT)[0]; }
     Holder holder(std::uint32_t n) const
     {
@@ -113,13 +113,17 @@ struct HeldProp {
         const auto hands = between(holder(0).held(), holder(group.limb.holder_count - 1).held(), share()).place;
         return given == 0 ? hands : (1 - given) * hands + given * vector_of(place);
     }
-    double moved() const { return std::sqrt(len2(vector_of(LimbValue(group, limb, SWIVEL_PROP_FRAME)) - unmoved())); }
+    double moved() const
+    {
+        return std::sqrt(len2(vector_of(LimbValue(group, limb, SWIVEL_PROP_TRANSFORM)) - unmoved()));
+    }
 
     void explain_bad(Text& text) const
     {
         text.add("Bad input: ");
         bool is_found = false;
-        for (const swivel_field field : {SWIVEL_PROP_PLACE, SWIVEL_PROP_TURN, SWIVEL_PROP_SHARE, SWIVEL_PROP_WEIGHT}) {
+        for (const swivel_field field :
+             {SWIVEL_PROP_POSITION, SWIVEL_PROP_ROTATION, SWIVEL_HAND_BLEND, SWIVEL_PROP_WEIGHT}) {
             if (!is_bad_in_body(group, limb, field)) continue;
             const LimbValue value(group, limb, field);
             text.add("%s%s (", is_found ? "; " : "", name_of(field));
@@ -179,7 +183,7 @@ struct HeldProp {
         constexpr double kNone = 1e-5;  // what rounding leaves, in shares of the first arm
         const Holder first = holder(0);
         const double arm = first.has_record() ? first.length() : double{group.limb.rest_length};
-        const double way = is_known() ? moved() : 0, most = double{group.limb.most_move};
+        const double way = is_known() ? moved() : 0, max = double{group.limb.max_move};
         const bool moves = way > kNone * arm;
         if (moves) text.add("It moved by %.4g. ", way);
         if (flags & SWIVEL_REACHED)
@@ -188,8 +192,8 @@ struct HeldProp {
                                   : "It moves no further than it must for all hands to reach it.");
         else if (flags & SWIVEL_CLAMPED_NEAR)
             text.add("A grip is nearer to the shoulder than its arm gets, and the prop does not move for that.");
-        else if (most > 0)
-            text.add("Not all hands reach it, wherever it goes within %.3g limb lengths.", most);
+        else if (max > 0)
+            text.add("Not all hands reach it, wherever it goes within %.3g limb lengths.", max);
         else
             text.add("It never moves, and not all hands reach it.");
     }

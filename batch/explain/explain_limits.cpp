@@ -121,7 +121,7 @@ void explain_place(Probe& probe, std::uint32_t flags, const Broken& broken, Text
     const LimbPose solved = probe.pose();
     probe.take();
     for_each_limit([&](const FlagRow& row) { probe.give_up(row); });
-    if (step_wins) probe.give_up(SWIVEL_MOST_SWIVEL);
+    if (step_wins) probe.give_up(SWIVEL_MAX_SWIVEL);
     probe.solve();
     text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
              is_step ? "the step takes the elbow," : "the elbow was wished", broken.room[0],

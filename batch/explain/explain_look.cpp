@@ -149,10 +149,10 @@ private:
     {
         const std::uint32_t count = group.limb.turned_count;
         const LookJoint& last = rules.joint[count - 1];
-        const double most = in_degrees(2 * std::atan2(double{last.sin_half_most}, double{last.cos_half_most}));
+        const double max = in_degrees(2 * std::atan2(double{last.sin_half_max}, double{last.cos_half_max}));
         const bool is_last = count == 1 || (is_whole && !(flags & SWIVEL_LIMITED_STEP));
         if (!is_last) return text.add(" A cone holds a joint of the chain back.");
-        text.add(" The cone of joint %u, %.4g degrees, holds it back", last_joint(), most);
+        text.add(" The cone of joint %u, %.4g degrees, holds it back", last_joint(), max);
         const Vector<double> eye = vector<double>(rules.eye[0], rules.eye[1], rules.eye[2]),
                              ahead = vector<double>(rules.axis[0], rules.axis[1], rules.axis[2]);
         if (count > 1 && len2(cross(eye, ahead)) > 0)

@@ -12,30 +12,30 @@ namespace swivel {
 
 namespace {
 
-bool is_within(double x, double least, double most) { return x >= least && x <= most; }
+bool is_within(double x, double min, double max) { return x >= min && x <= max; }
 
 // Whether a value is bad. What NaN leaves out is none: targets and hands of limbs that are sent, and where props lie.
 bool is_bad(const LimbValue& value, swivel_field field)
 {
-    constexpr double kMost = 1e15;
+    constexpr double kMax = 1e15;
     switch (field) {
         case SWIVEL_TARGET:
-        case SWIVEL_PROP_PLACE:
+        case SWIVEL_PROP_POSITION:
         case SWIVEL_LOOK_TARGET:
-            return value.length(0, 3) > kMost;
+            return value.length(0, 3) > kMax;
         case SWIVEL_HAND:
-        case SWIVEL_PROP_TURN:
+        case SWIVEL_PROP_ROTATION:
             return value.length(0, 4) < 1e-9 || value.length(0, 4) > 1e9;
         case SWIVEL_GRIP:
-            return !is_within(value.length(0, 3), 0, kMost) || !is_within(value.length(3, 4), 1e-9, 1e9);
-        case SWIVEL_COMING:
-            return !is_within(value.length(0, 3), 0, kMost);
-        case SWIVEL_COMING_TIME:
-            return !is_within(value[0], 0, kMost);
+            return !is_within(value.length(0, 3), 0, kMax) || !is_within(value.length(3, 4), 1e-9, 1e9);
+        case SWIVEL_NEXT_TARGET:
+            return !is_within(value.length(0, 3), 0, kMax);
+        case SWIVEL_NEXT_TIME:
+            return !is_within(value[0], 0, kMax);
         case SWIVEL_GROUND_NORMAL:
             return !is_within(value.length(0, 3), 1e-9, 1e9);
         case SWIVEL_SHIFT_WISH:
-            return !is_within(value[0], -kMost, kMost);
+            return !is_within(value[0], -kMax, kMax);
         default:
             return !is_within(value[0], 0, 1);
     }
@@ -50,16 +50,16 @@ bool is_of_whole_bodies(const Group& group, swivel_field field)
         case SWIVEL_CLAVICLE:
             return group.features & SWIVEL_BODY;
         case SWIVEL_CONTACT:
-        case SWIVEL_FIT_WEIGHT:
-        case SWIVEL_COMING:
-        case SWIVEL_COMING_TIME:
+        case SWIVEL_PELVIS_FIT_WEIGHT:
+        case SWIVEL_NEXT_TARGET:
+        case SWIVEL_NEXT_TIME:
         case SWIVEL_SHIFT_WISH:
         case SWIVEL_GROUND_NORMAL:
         case SWIVEL_GROUND_WEIGHT:
         case SWIVEL_GRIP:
-        case SWIVEL_PROP_PLACE:
-        case SWIVEL_PROP_TURN:
-        case SWIVEL_PROP_SHARE:
+        case SWIVEL_PROP_POSITION:
+        case SWIVEL_PROP_ROTATION:
+        case SWIVEL_HAND_BLEND:
         case SWIVEL_LOOK_TARGET:
         case SWIVEL_LOOK_WEIGHT:
             return true;
@@ -101,7 +101,7 @@ struct PlantedLimb {
     float label() const { return LimbValue(group, limb, SWIVEL_CONTACT).number(0); }
     bool is_in_contact() const
     {
-        return is_by_motion() ? LimbValue(group, limb, SWIVEL_MOTION).number(3) > 0.5f : label() > 0.5f;
+        return is_by_motion() ? LimbValue(group, limb, SWIVEL_CONTACT_STATE).number(3) > 0.5f : label() > 0.5f;
     }
     // As the limb's parent is scaled.
     double share(double distance) const
@@ -114,7 +114,7 @@ struct PlantedLimb {
         if (state.is_moving)
             text.add(
                 "It is planted, and its target runs in: it locked %.0f ms ago and comes to rest in %.0f ms, %.4g away.",
-                in_ms(double{rules.stop} - state.left), in_ms(state.left), state.offset);
+                in_ms(double{rules.stop_time} - state.left), in_ms(state.left), state.offset);
         else
             text.add("It is planted, and its target stands.");
         if (!is_by_motion() && !is_in_contact())
@@ -125,16 +125,16 @@ struct PlantedLimb {
         if (by_distance)
             text.add(
                 "It broke away, though in contact: the animated point was further from where it was locked than "
-                "unlock, "
+                "unlock_radius, "
                 "%.3g limb lengths. It is %.4g from where the point is now.",
-                double{rules.unlock}, state.offset);
+                double{rules.unlock_radius}, state.offset);
         else
             text.add("It was just released, because its contact ended: the animated point is %.4g from it.",
                      state.offset);
         if (!by_distance && is_by_motion())
             text.add(" Its motion ends it above %.3g limb lengths a second or %.3g over the root.",
                      double{rules.speed_off}, double{rules.height_off});
-        text.add(" From the next solve on its target fades back, within %.0f ms.", in_ms(double{rules.blend}));
+        text.add(" From the next solve on its target fades back, within %.0f ms.", in_ms(double{rules.release_time}));
     }
     void explain_fading(Text& text) const
     {
@@ -147,7 +147,7 @@ struct PlantedLimb {
     // Why it is not locked.
     void explain_free(Text& text) const
     {
-        const bool is_long = share(state.offset) > double{rules.lock};
+        const bool is_long = share(state.offset) > double{rules.lock_radius};
         if (!is_in_contact() && is_by_motion())
             text.add(
                 " Its motion shows no contact, which begins below %.3g limb lengths a second and %.3g over the root.",
@@ -159,14 +159,15 @@ struct PlantedLimb {
         else if (!is_long)
             text.add(" It is in contact by now: the next solve locks it.");
         if (is_in_contact() && is_long)
-            text.add(" It cannot lock: %.3g limb lengths are left to fade, more than lock, %.3g.", share(state.offset),
-                     double{rules.lock});
+            text.add(" It cannot lock: %.3g limb lengths are left to fade, more than lock_radius, %.3g.",
+                     share(state.offset), double{rules.lock_radius});
     }
     void explain_waiting(Text& text) const
     {
         text.add(" It broke away and is still in contact, so it waits to lock until");
-        if (rules.again > 0)
-            text.add(" the animation is slower than again, %.3g limb lengths a second, or", double{rules.again});
+        if (rules.relock_speed > 0)
+            text.add(" the animation is slower than relock_speed, %.3g limb lengths a second, or",
+                     double{rules.relock_speed});
         text.add(" contact ends and begins anew.");
     }
 };

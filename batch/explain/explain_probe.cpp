@@ -46,7 +46,7 @@ double Probe::violation(const FlagRow& limit) const
 
 double Probe::outside(swivel_field limit) const
 {
-    float values[kMostComponents] = {};
+    float values[kMaxComponents] = {};
     const std::uint32_t count = component_count(limit);
     for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
     const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? source_.wrist_order : source_.shoulder_order;

@@ -53,42 +53,42 @@ void mirror_range(const float* from, float* to)
 
 }  // namespace
 
-swivel_status swivel_range(double least, double most, float range[4])
+swivel_status swivel_range(double min, double max, float range[4])
 {
-    const FloatEnv env(least, most);
+    const FloatEnv env(min, max);
     if (!range) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: range is null");
-    if (!std::isfinite(least) || !std::isfinite(most))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is not finite", least, most);
-    if (least > most) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: least %g is above most %g", least, most);
-    if (most - least > 2 * kPi + kSlack)
+    if (!std::isfinite(min) || !std::isfinite(max))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is not finite", min, max);
+    if (min > max) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: least %g is above most %g", min, max);
+    if (max - min > 2 * kPi + kSlack)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_range: %g to %g is wider than a whole turn, 2 pi; angles are in radians", least, most);
-    store_turn(0.5 * least + 0.5 * most, range);
-    store_half_turn(0.5 * most - 0.5 * least, range + 2);
+                    "swivel_range: %g to %g is wider than a whole turn, 2 pi; angles are in radians", min, max);
+    store_turn(0.5 * min + 0.5 * max, range);
+    store_half_turn(0.5 * max - 0.5 * min, range + 2);
     return SWIVEL_OK;
 }
 
-swivel_status swivel_cone(const double axis[3], double most, float cone[4])
+swivel_status swivel_cone(const double axis[3], double max, float cone[4])
 {
-    const FloatEnv env(most);
+    const FloatEnv env(max);
     if (!axis || !cone) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: %s is null", axis ? "cone" : "axis");
-    if (!(most >= 0 && most <= kPi + kSlack))
+    if (!(max >= 0 && max <= kPi + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi; angles are in radians",
-                    most);
+                    max);
     if (const swivel_status status = store_unit("swivel_cone", axis, cone); status != SWIVEL_OK) return status;
-    cone[3] = static_cast<float>(std::cos(std::fmin(most, kPi)));
+    cone[3] = static_cast<float>(std::cos(std::fmin(max, kPi)));
     return SWIVEL_OK;
 }
 
-swivel_status swivel_flexion(double least, double most, float flexion[2])
+swivel_status swivel_flexion(double min, double max, float flexion[2])
 {
-    const FloatEnv env(least, most);
+    const FloatEnv env(min, max);
     if (!flexion) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: flexion is null");
-    if (!(least >= 0 && least <= most && most <= kPi + kSlack))
+    if (!(min >= 0 && min <= max && max <= kPi + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_flexion: %g to %g is not a range within 0 to pi; angles are in radians", least, most);
-    flexion[0] = least >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * least));
-    flexion[1] = most >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * most));
+                    "swivel_flexion: %g to %g is not a range within 0 to pi; angles are in radians", min, max);
+    flexion[0] = min >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * min));
+    flexion[1] = max >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * max));
     return SWIVEL_OK;
 }
 
@@ -106,7 +106,7 @@ swivel_status swivel_aim(const double axis[3], double flexion, float aim[5])
     return SWIVEL_OK;
 }
 
-void swivel_turn(double angle, float turn[2])
+void swivel_cos_sin(double angle, float turn[2])
 {
     const FloatEnv env(angle);
     store_turn(angle, turn);
@@ -123,7 +123,7 @@ swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const 
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", name_of(field));
     if (static_cast<unsigned>(order) > SWIVEL_ZYX)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
-    float value[kMostComponents] = {};
+    float value[kMaxComponents] = {};
     const std::uint32_t count = row_of(field).component_count;
     for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
     switch (field) {

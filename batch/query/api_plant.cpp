@@ -120,11 +120,11 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
         Carried(planted, limb, SWIVEL_PLANT, 0).change(place);
         Carried(planted, limb, SWIVEL_PLANT, 3).change(along);
         Carried(planted, limb, SWIVEL_PLANT, 6).change(along);
-        if (planted.features & SWIVEL_PLANT_BY_MOTION) Carried(planted, limb, SWIVEL_MOTION, 0).change(place);
-        if (!(planted.features & SWIVEL_WITH_PLANT_TURN)) continue;
-        Carried(planted, limb, SWIVEL_PLANT_TURN, 0).turn(turn);
-        Carried(planted, limb, SWIVEL_PLANT_TURN, 4).change(along);
-        Carried(planted, limb, SWIVEL_PLANT_TURN, 7).change(along);
+        if (planted.features & SWIVEL_PLANT_BY_MOTION) Carried(planted, limb, SWIVEL_CONTACT_STATE, 0).change(place);
+        if (!(planted.features & SWIVEL_WITH_PLANT_ROTATION)) continue;
+        Carried(planted, limb, SWIVEL_PLANT_ROTATION, 0).turn(turn);
+        Carried(planted, limb, SWIVEL_PLANT_ROTATION, 4).change(along);
+        Carried(planted, limb, SWIVEL_PLANT_ROTATION, 7).change(along);
     }
     return SWIVEL_OK;
 }

@@ -72,7 +72,7 @@ swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, 
     const Use use(crowd, Sharing::alone);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
     const Group& limbs = crowd->groups[group];
-    constexpr float zeros[kMostComponents] = {};
+    constexpr float zeros[kMaxComponents] = {};
     for (const FieldRow& row : kFields)
         if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(limbs.features, row.field) > 0)
             copy_in(rows_of(limbs, row.field), first, limb_count, {zeros, 0});

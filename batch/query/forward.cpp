@@ -62,7 +62,7 @@ LimbPose forward(const Group& group, std::size_t limb)
     const double scale = world ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
     if (group.features & SWIVEL_WITH_CLAVICLE) {
         const Vector<double> bone = read.vector_of(SWIVEL_CLAVICLE);
-        const Rotor<double> turn = read.rotor_of(SWIVEL_CLAVICLE_TURN);
+        const Rotor<double> turn = read.rotor_of(SWIVEL_CLAVICLE_ROTATION);
         shoulder = shoulder + scale * sandwich(parent, sandwich(turn, bone) - bone);
         parent = parent * turn;
     }

@@ -17,8 +17,8 @@ constexpr swivel_features free_features(swivel_features features)
     // An aim sees the hand that the record has.
     const swivel_features hand = features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0;
     constexpr swivel_features of_bodies = SWIVEL_BODY | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
-                                          SWIVEL_WITH_PLANT_TURN | SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_FIT |
-                                          SWIVEL_WITH_COMING | SWIVEL_WITH_HAND_FRAME | SWIVEL_WITH_LINK |
+                                          SWIVEL_WITH_PLANT_ROTATION | SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_PELVIS_FIT |
+                                          SWIVEL_WITH_NEXT_TARGET | SWIVEL_WITH_HAND_TRANSFORM | SWIVEL_WITH_LINK |
                                           SWIVEL_WITH_GROUND | SWIVEL_SENT;
     return (features & ~(of_bodies | SWIVEL_WITH_CLAVICLE | kTwistBones)) | hand;
 }
@@ -93,11 +93,11 @@ void OneLimb::take_record(std::uint32_t limb)
         if (!(features & SWIVEL_WITH_HAND)) set(SWIVEL_WRIST, rotor_at(kRecordIncoming + 8));
         set(SWIVEL_AIM, sandwich(hand, vector_of(SWIVEL_AIM)));
     } else if (features & SWIVEL_WITH_HAND) {
-        const float* const q = features & SWIVEL_SENT ? value_of(source_, limb, SWIVEL_GOAL) + 3 * kLanes
+        const float* const q = features & SWIVEL_SENT ? value_of(source_, limb, SWIVEL_SOLVED_GOAL) + 3 * kLanes
                                                       : value_of(source_, limb, SWIVEL_HAND);
         set(SWIVEL_HAND, rotor<double>(q[0], q[kLanes], q[2 * kLanes], q[3 * kLanes]) * ~hand);
     }
-    if (features & SWIVEL_SENT) set(SWIVEL_TARGET, vector_of(SWIVEL_GOAL));
+    if (features & SWIVEL_SENT) set(SWIVEL_TARGET, vector_of(SWIVEL_SOLVED_GOAL));
     if (features & SWIVEL_WITH_EFFECTOR) set(SWIVEL_EFFECTOR, sandwich(hand, vector_of(SWIVEL_EFFECTOR)));
 }
 

@@ -17,14 +17,14 @@ using namespace swivel;
 namespace {
 
 // Each value takes a row at least.
-constexpr std::size_t kMostValues = [] {
+constexpr std::size_t kMaxValues = [] {
     std::size_t rows = 0;
     for (const FieldRow& row : kFields) rows += packed_row_count(kEveryFeature, row.field);
     return rows;
 }();
 
 struct PackedValues {
-    PackedValue values[kMostValues];
+    PackedValue values[kMaxValues];
     std::uint32_t count = 0, word_rows = 0;
 
     explicit PackedValues(const Group& group)

@@ -35,7 +35,7 @@ bool is_valid(const swivel_half_space& half)
 void RegionBuilder::add(const HalfSpace& half)
 {
     const std::uint32_t at = region_.first[region_.part_count] + open_;
-    if (at >= SWIVEL_MOST_HALF_SPACES) {
+    if (at >= SWIVEL_MAX_HALF_SPACES) {
         full_ = true;
         return;
     }
@@ -45,7 +45,7 @@ void RegionBuilder::add(const HalfSpace& half)
 
 void RegionBuilder::end_part()
 {
-    if (region_.part_count >= SWIVEL_MOST_REGION_PARTS) {
+    if (region_.part_count >= SWIVEL_MAX_REGION_PARTS) {
         full_ = true;
         return;
     }
@@ -57,7 +57,7 @@ void RegionBuilder::end_part()
 void RegionBuilder::cut(const HalfSpace& half)
 {
     const std::uint32_t count = region_.first[region_.part_count];
-    if (count >= SWIVEL_MOST_HALF_SPACES) {
+    if (count >= SWIVEL_MAX_HALF_SPACES) {
         full_ = true;
         return;
     }
@@ -73,9 +73,9 @@ swivel_status check_region(const char* function, const swivel_region* region)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "%s: the region's size is %zu, not %zu; start from swivel_default_region()", function, region->size,
                     sizeof(swivel_region));
-    if (region->part_count > SWIVEL_MOST_REGION_PARTS)
+    if (region->part_count > SWIVEL_MAX_REGION_PARTS)
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the region has %u parts; the most are %d", function,
-                    region->part_count, SWIVEL_MOST_REGION_PARTS);
+                    region->part_count, SWIVEL_MAX_REGION_PARTS);
     if (region->first[0] != region->cut_count)
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the region's first part starts at %u, not after its %u cuts",
                     function, region->first[0], region->cut_count);
@@ -83,9 +83,9 @@ swivel_status check_region(const char* function, const swivel_region* region)
         if (region->first[part + 1] <= region->first[part])
             return fail(SWIVEL_INVALID_ARGUMENT, "%s: part %u of the region has no half-spaces", function, part);
     const std::uint32_t count = region->first[region->part_count];
-    if (count > SWIVEL_MOST_HALF_SPACES)
+    if (count > SWIVEL_MAX_HALF_SPACES)
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the region has %u half-spaces; the most are %d", function, count,
-                    SWIVEL_MOST_HALF_SPACES);
+                    SWIVEL_MAX_HALF_SPACES);
     for (std::uint32_t n = 0; n < count; ++n)
         if (!is_valid(region->half_space[n]))
             return fail(SWIVEL_INVALID_ARGUMENT,
@@ -111,7 +111,7 @@ swivel_status read_cone(const char* function, std::uint32_t n, const swivel_regi
         status != SWIVEL_OK)
         return status;
     to.angle = double{cone.angle};
-    if (!(to.angle >= kLeastAngle - kSlack && to.angle <= kMostAngle + kSlack))
+    if (!(to.angle >= kMinAngle - kSlack && to.angle <= kMaxAngle + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the angle of cone %u, %g, is not in 0.01 to pi - 0.01", function, n,
                     to.angle);
     return SWIVEL_OK;
@@ -121,7 +121,7 @@ swivel_status keep(const char* function, const RegionBuilder& builder, swivel_re
 {
     if (builder.is_full())
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the region would have more than %d half-spaces or %d parts", function,
-                    SWIVEL_MOST_HALF_SPACES, SWIVEL_MOST_REGION_PARTS);
+                    SWIVEL_MAX_HALF_SPACES, SWIVEL_MAX_REGION_PARTS);
     *region = builder.region();
     return SWIVEL_OK;
 }
@@ -146,10 +146,10 @@ swivel_status swivel_region_add_polygon(swivel_region* region, const float* corn
     const FloatEnv env;
     constexpr const char* kCall = "swivel_region_add_polygon";
     if (const swivel_status status = check_region(kCall, region); status != SWIVEL_OK) return status;
-    if (count < 3 || count > SWIVEL_MOST_HALF_SPACES)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u corners are not 3 to %d", kCall, count, SWIVEL_MOST_HALF_SPACES);
+    if (count < 3 || count > SWIVEL_MAX_HALF_SPACES)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u corners are not 3 to %d", kCall, count, SWIVEL_MAX_HALF_SPACES);
     if (!corners) return fail(SWIVEL_INVALID_ARGUMENT, "%s: corners is null", kCall);
-    Vector<double> corner[SWIVEL_MOST_HALF_SPACES];
+    Vector<double> corner[SWIVEL_MAX_HALF_SPACES];
     for (std::uint32_t n = 0; n < count; ++n)
         if (const swivel_status status = read_direction(kCall, "corner", n, corners + 3 * n, corner[n]);
             status != SWIVEL_OK)

@@ -34,10 +34,10 @@ private:
 // Whether a region's numbers are what its header says. function: for the message.
 swivel_status check_region(const char* function, const swivel_region* region);
 
-constexpr double kLeastAngle = 0.01, kMostAngle = 3.14159265358979 - 0.01;
+constexpr double kMinAngle = 0.01, kMaxAngle = 3.14159265358979 - 0.01;
 struct RegionCone {
     Vector<double> axis;  // unit
-    double angle;         // kLeastAngle to kMostAngle
+    double angle;         // kMinAngle to kMaxAngle
 };
 // The nth of a function's cones.
 swivel_status read_cone(const char* function, std::uint32_t n, const swivel_region_cone& cone, RegionCone& to);

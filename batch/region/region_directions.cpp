@@ -21,7 +21,7 @@ namespace swivel {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::uint32_t kMostCones = 6;
+constexpr std::uint32_t kMaxCones = 6;
 constexpr int kRounds = 20;        // of moving centres; more change little
 constexpr int kSteps = 200;        // towards the farthest direction: within 1 / 200 of the smallest cone
 constexpr int kAreaPoints = 4096;  // an area is told to 2 % of the sphere's sixteenth
@@ -38,7 +38,7 @@ struct Directions {
     }
 };
 struct Centres {
-    Vector<double> at[kMostCones];
+    Vector<double> at[kMaxCones];
     std::uint32_t count = 0;
 
     std::uint32_t nearest(const Vector<double>& d) const
@@ -69,7 +69,7 @@ void add_farthest(const Directions& directions, Centres& centres)
 void move_to_middles(const Directions& directions, Centres& centres)
 {
     for (int round = 0; round < kRounds; ++round) {
-        Vector<double> sum[kMostCones] = {};
+        Vector<double> sum[kMaxCones] = {};
         for (std::uint32_t n = 0; n < directions.count; ++n) {
             const Vector<double> d = directions.at(n);
             Vector<double>& to = sum[centres.nearest(d)];
@@ -80,10 +80,10 @@ void move_to_middles(const Directions& directions, Centres& centres)
 }
 // Of each centre's directions, the one that is farthest from the middle.
 struct Farthest {
-    Vector<double> at[kMostCones] = {};
-    double cos[kMostCones] = {2, 2, 2, 2, 2, 2};  // 2: the centre has no direction
+    Vector<double> at[kMaxCones] = {};
+    double cos[kMaxCones] = {2, 2, 2, 2, 2, 2};  // 2: the centre has no direction
 
-    Farthest(const Directions& directions, const Centres& centres, const Vector<double> (&middle)[kMostCones])
+    Farthest(const Directions& directions, const Centres& centres, const Vector<double> (&middle)[kMaxCones])
     {
         for (std::uint32_t n = 0; n < directions.count; ++n) {
             const Vector<double> d = directions.at(n);
@@ -95,9 +95,9 @@ struct Farthest {
 };
 // The smallest cone about each centre's directions, and the margin. The middle goes a smaller and smaller part of the
 // way to the direction that is farthest. A cone may be wider than a region's may.
-void enclose(const Directions& directions, const Centres& centres, double margin, RegionCone (&cones)[kMostCones])
+void enclose(const Directions& directions, const Centres& centres, double margin, RegionCone (&cones)[kMaxCones])
 {
-    Vector<double> middle[kMostCones] = {}, axes[kMostCones] = {};
+    Vector<double> middle[kMaxCones] = {}, axes[kMaxCones] = {};
     std::copy_n(centres.at, centres.count, middle);
     std::copy_n(centres.at, centres.count, axes);
     for (int step = 1; step <= kSteps; ++step) {
@@ -110,27 +110,27 @@ void enclose(const Directions& directions, const Centres& centres, double margin
     }
     const Farthest farthest(directions, centres, axes);
     for (std::uint32_t n = 0; n < centres.count; ++n)
-        cones[n] = {axes[n], std::fmax(std::acos(std::clamp(farthest.cos[n], -1.0, 1.0)) + margin, kLeastAngle)};
+        cones[n] = {axes[n], std::fmax(std::acos(std::clamp(farthest.cos[n], -1.0, 1.0)) + margin, kMinAngle)};
 }
 // The order in which the way from axis to axis is shortest.
-void put_in_order(RegionCone (&cones)[kMostCones], std::uint32_t count)
+void put_in_order(RegionCone (&cones)[kMaxCones], std::uint32_t count)
 {
-    std::uint32_t order[kMostCones] = {0, 1, 2, 3, 4, 5}, best[kMostCones] = {0, 1, 2, 3, 4, 5};
+    std::uint32_t order[kMaxCones] = {0, 1, 2, 3, 4, 5}, best[kMaxCones] = {0, 1, 2, 3, 4, 5};
     double shortest = 1e9;
     do {
         double way = 0;
         for (std::uint32_t n = 0; n + 1 < count; ++n)
             way += std::acos(std::clamp(scalar_product(cones[order[n]].axis, cones[order[n + 1]].axis), -1.0, 1.0));
-        if (way < shortest) shortest = way, std::copy_n(order, kMostCones, best);
+        if (way < shortest) shortest = way, std::copy_n(order, kMaxCones, best);
     } while (std::next_permutation(order, order + count));
-    RegionCone ordered[kMostCones] = {};
+    RegionCone ordered[kMaxCones] = {};
     for (std::uint32_t n = 0; n < count; ++n) ordered[n] = cones[best[n]];
     std::copy_n(ordered, count, cones);
 }
 // Whether they are cones of a region, and bridges fit between them.
-bool are_allowed(const RegionCone (&cones)[kMostCones], std::uint32_t count)
+bool are_allowed(const RegionCone (&cones)[kMaxCones], std::uint32_t count)
 {
-    return std::none_of(cones, cones + count, [](const RegionCone& cone) { return cone.angle > kMostAngle; }) &&
+    return std::none_of(cones, cones + count, [](const RegionCone& cone) { return cone.angle > kMaxAngle; }) &&
            first_opposite(cones, count, false) == count;
 }
 // How many of many directions, spread evenly, a region allows.
@@ -150,7 +150,7 @@ int area(const swivel_region& region)
 }  // namespace swivel
 
 swivel_status swivel_region_add_directions(swivel_region* region, const float* directions, std::uint32_t count,
-                                           float margin, std::uint32_t most_cones)
+                                           float margin, std::uint32_t max_cones)
 {
     const FloatEnv env(margin);
     constexpr const char* kCall = "swivel_region_add_directions";
@@ -159,8 +159,8 @@ swivel_status swivel_region_add_directions(swivel_region* region, const float* d
     if (!directions) return fail(SWIVEL_INVALID_ARGUMENT, "%s: directions is null", kCall);
     if (!(margin >= 0.01f && margin <= 1))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the margin, %g, is not in 0.01 to 1", kCall, double{margin});
-    if (most_cones < 1 || most_cones > kMostCones)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u cones are not 1 to %u", kCall, most_cones, kMostCones);
+    if (max_cones < 1 || max_cones > kMaxCones)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u cones are not 1 to %u", kCall, max_cones, kMaxCones);
     Vector<double> unit;
     for (std::uint32_t n = 0; n < count; ++n)
         if (const swivel_status status = read_direction(kCall, "direction", n, directions + std::size_t{3} * n, unit);
@@ -168,21 +168,21 @@ swivel_status swivel_region_add_directions(swivel_region* region, const float* d
             return status;
 
     const Directions all{directions, count};
-    RegionCone best[kMostCones] = {};
+    RegionCone best[kMaxCones] = {};
     std::uint32_t best_count = 0;
-    int least = kAreaPoints + 1;
-    for (std::uint32_t cone_count = 1; cone_count <= std::min(most_cones, count); ++cone_count) {
+    int min = kAreaPoints + 1;
+    for (std::uint32_t cone_count = 1; cone_count <= std::min(max_cones, count); ++cone_count) {
         Centres centres;
         while (centres.count < cone_count) add_farthest(all, centres);
         move_to_middles(all, centres);
-        RegionCone cones[kMostCones] = {};
+        RegionCone cones[kMaxCones] = {};
         enclose(all, centres, double{margin}, cones);
         put_in_order(cones, cone_count);
         if (!are_allowed(cones, cone_count)) continue;
         RegionBuilder alone(swivel_default_region());
         add_cones(alone, cones, cone_count, false);
-        if (const int now = area(alone.region()); now < least) {
-            least = now, best_count = cone_count;
+        if (const int now = area(alone.region()); now < min) {
+            min = now, best_count = cone_count;
             std::copy_n(cones, cone_count, best);
         }
     }

@@ -123,9 +123,9 @@ private:
     void sample(const Group& group, GroupBlocks run) const
     {
         if (!(group.features & SWIVEL_WITH_GROUND)) return;
-        constexpr std::size_t kMost = kStripBlocks * SWIVEL_LANES;
-        std::uint32_t bodies[kMost];
-        float places[kMost][3], grounds[kMost][3], normals[kMost][3];
+        constexpr std::size_t kMax = kStripBlocks * SWIVEL_LANES;
+        std::uint32_t bodies[kMax];
+        float places[kMax][3], grounds[kMax][3], normals[kMax][3];
         std::uint32_t count = 0;
         for_each_block(run, [&](const BodyBlock& block) {
             for (LaneMask lanes = block.lanes; lanes != 0; lanes &= lanes - 1)
@@ -173,7 +173,7 @@ private:
     void share(const Group& group, GroupBlocks run, swivel_frame frame, const Copy& copy) const
     {
         frame.origin = origin_of(pose);
-        Stream streams[kMostStreams];
+        Stream streams[kMaxStreams];
         Share part;
         part.set({&group, run, frame}, run.count, streams);
         copy(part);

@@ -17,18 +17,18 @@ namespace swivel {
 
 namespace {
 
-constexpr float kMostPriority = 1e15f;  // as for lengths
+constexpr float kMaxPriority = 1e15f;  // as for lengths
 
-// The largest priority of a block's limbs, within 0 ... kMostPriority. NaN fails every comparison.
+// The largest priority of a block's limbs, within 0 ... kMaxPriority. NaN fails every comparison.
 float largest(const char* priority, std::size_t stride, std::uint32_t limb_count)
 {
-    float most = 0;
+    float max = 0;
     for (std::uint32_t n = 0; n < limb_count; ++n, priority += stride) {
         float each;
         std::memcpy(&each, priority, sizeof each);
-        most = each > most ? each : most;
+        max = each > max ? each : max;
     }
-    return most < kMostPriority ? most : kMostPriority;
+    return max < kMaxPriority ? max : kMaxPriority;
 }
 
 // Adds priorities to the urgency of a group's blocks. The urgency of blocks that are not wanted now becomes negative,
@@ -56,13 +56,13 @@ struct Threshold {
     std::uint32_t key, equal_count;
 };
 
-// Finds the most_blocks largest keys, digit by digit, the leading one first. More keys than that are above 0.
-Threshold find_threshold(const float* urgency, std::uint32_t block_count, std::uint32_t most_blocks)
+// Finds the max_blocks largest keys, digit by digit, the leading one first. More keys than that are above 0.
+Threshold find_threshold(const float* urgency, std::uint32_t block_count, std::uint32_t max_blocks)
 {
-    constexpr std::uint32_t kMostBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart
-    std::uint32_t prefix = 0, left = most_blocks, known = 31;  // bits not yet known; floats above 0 have no sign
+    constexpr std::uint32_t kMaxBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart
+    std::uint32_t prefix = 0, left = max_blocks, known = 31;  // bits not yet known; floats above 0 have no sign
     for (const std::uint32_t shift : {20u, 10u, 0u}) {
-        std::uint32_t counts[1u << kMostBits] = {}, digit = (1u << (known - shift)) - 1;
+        std::uint32_t counts[1u << kMaxBits] = {}, digit = (1u << (known - shift)) - 1;
         for (std::uint32_t block = 0; block < block_count; ++block) {
             const std::uint32_t key = key_of(urgency[block]);
             if (key >> known == prefix) ++counts[key >> shift & digit];
@@ -76,7 +76,7 @@ Threshold find_threshold(const float* urgency, std::uint32_t block_count, std::u
 
 }  // namespace
 
-std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, float* urgency, std::uint32_t most_blocks,
+std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, float* urgency, std::uint32_t max_blocks,
                      std::uint32_t* words)
 {
     const FloatEnv env;
@@ -85,15 +85,15 @@ std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, flo
     for (std::uint32_t g = 0; g < lane_group_count(crowd); ++g)
         wanted += add_urgency(urgency + crowd.groups[g].first_block, crowd.groups[g], priorities[g]);
     std::fill_n(words, mask_word_count(crowd.block_count), 0u);
-    if (most_blocks == 0) return 0;
-    Threshold least = wanted > most_blocks ? find_threshold(urgency, crowd.block_count, most_blocks) : Threshold{0, 0};
+    if (max_blocks == 0) return 0;
+    Threshold min = wanted > max_blocks ? find_threshold(urgency, crowd.block_count, max_blocks) : Threshold{0, 0};
     for (std::uint32_t g = 0; g < lane_group_count(crowd); ++g) {
         const Group& group = crowd.groups[g];
         for (std::uint32_t n = 0, block = group.first_block; n < group.block_count; ++n, ++block) {
             const std::uint32_t key = key_of(urgency[block]);
-            const bool equal = key == least.key && least.equal_count > 0;
-            if (key <= least.key && !equal) continue;
-            least.equal_count -= equal;
+            const bool equal = key == min.key && min.equal_count > 0;
+            if (key <= min.key && !equal) continue;
+            min.equal_count -= equal;
             add_lanes(words, block, lanes_of_limbs(group, n));
             limb_count += limb_count_of(group, n);
             urgency[block] = 0;

@@ -27,19 +27,19 @@ template <class Take>
 void for_each_bundle(const Work& work, const Take& take)
 {
     GroupFrame frames[kGroupsTogether];
-    std::uint32_t count = 0, most = 0, streams = 0;
+    std::uint32_t count = 0, max = 0, streams = 0;
     const auto flush = [&] {
         if (count == 0) return;
         const std::uint32_t run = run_blocks(count);
-        take(frames, count, (most + run - 1) / run);
-        count = most = streams = 0;
+        take(frames, count, (max + run - 1) / run);
+        count = max = streams = 0;
     };
     for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks blocks, std::uint32_t n) {
         const swivel_frame frame = frame_at(work.frames, n);
         const std::uint32_t more = stream_count_of(group, frame);
-        if (count == kGroupsTogether || streams + more > kMostStreams) flush();
+        if (count == kGroupsTogether || streams + more > kMaxStreams) flush();
         frames[count++] = {&group, blocks, frame};
-        most = std::max(most, blocks.count);
+        max = std::max(max, blocks.count);
         streams += more;
     });
     flush();
@@ -50,7 +50,7 @@ struct Bundle {
     const Work& work;
     std::uint32_t count, run;  // how many groups, and how many blocks of each in a round
     Share shares[kGroupsTogether];
-    Stream streams[kMostStreams];  // of all shares
+    Stream streams[kMaxStreams];  // of all shares
 
     explicit Bundle(const Work& todo) : work(todo) {}
 

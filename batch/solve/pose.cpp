@@ -118,7 +118,7 @@ void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBloc
         kernels.place(block, plan.joints[n]);
         const std::uint32_t joint = plan.joints[n].skeleton_joint;
         if (pose.joint_rotations.data) writer.write<4>(pose.joint_rotations, joint, kOutTurnRow);
-        if (pose.joint_places.data) writer.write<3>(pose.joint_places, joint, kOutPlaceRow);
+        if (pose.joint_positions.data) writer.write<3>(pose.joint_positions, joint, kOutPlaceRow);
     }
 }
 

@@ -15,7 +15,7 @@ swivel_pose full_pose(const swivel_pose* given);
 inline swivel_in origin_of(const swivel_pose& pose) { return pose.root_is_double ? pose.root_position : swivel_in{}; }
 
 // Whether a pose asks for where all needed joints are.
-inline bool gives_joints(const swivel_pose& pose) { return pose.joint_rotations.data || pose.joint_places.data; }
+inline bool gives_joints(const swivel_pose& pose) { return pose.joint_rotations.data || pose.joint_positions.data; }
 
 // These write a block's bodies to the caller's memory: the joints that a group's limb moves; and, once all groups are
 // solved, where all needed joints are.

@@ -137,7 +137,7 @@ bool can_start(std::size_t thread_count)
 }
 
 // oneTBB's state is the process's, and so is what is known of it.
-std::atomic<int> most_threads{0};  // that could be started, the calling thread among them; 0: nothing has used oneTBB
+std::atomic<int> max_threads{0};  // that could be started, the calling thread among them; 0: nothing has used oneTBB
 // The fewest that could not be started. They are not tried again, because trying takes threads from the host.
 std::atomic<int> too_many_threads{std::numeric_limits<int>::max()};
 std::atomic<bool> has_failed{false};  // it has thrown: what it left unfinished then, its later calls may await for ever
@@ -147,13 +147,13 @@ std::atomic<bool> has_failed{false};  // it has thrown: what it left unfinished 
 bool has_threads()
 {
     const int wanted = oneapi::tbb::this_task_arena::max_concurrency();
-    if (wanted <= most_threads) return true;
+    if (wanted <= max_threads) return true;
     if (wanted >= too_many_threads) return false;
     if (!can_start(static_cast<std::size_t>(wanted - 1))) {
         too_many_threads = wanted;
         return false;
     }
-    most_threads = wanted;
+    max_threads = wanted;
     return true;
 }
 
@@ -216,7 +216,7 @@ void end_schedule([[maybe_unused]] swivel_crowd& crowd)
 #ifdef SWIVEL_WITH_TBB
     // The destructor asks how many threads there are, which may fail or wait for ever as well. Without it, at most the
     // partitioner's few numbers stay behind.
-    if (most_threads > 0 && !has_failed) partitioner_of(crowd).~Partitioner();
+    if (max_threads > 0 && !has_failed) partitioner_of(crowd).~Partitioner();
 #endif
 }
 

@@ -11,7 +11,7 @@
 namespace swivel {
 
 // Streams of a frame that has every field, or of four ordinary ones.
-constexpr std::uint32_t kMostStreams = [] {
+constexpr std::uint32_t kMaxStreams = [] {
     std::uint32_t count = 0;
     for (const FieldRow& row : kFields) count += stream_count(field_row_count(kEveryFeature, row.field));
     return count;

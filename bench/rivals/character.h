@@ -25,8 +25,8 @@ constexpr float kToe[3] = {0, -0.05f, 0.1f}, kHeel[3] = {0, -0.05f, -0.05f};  //
 constexpr float kGrip[3] = {0.1f, 0.05f, 0.15f};                              // in the right hand's frame
 constexpr float kEye[3] = {0, 0.08f, 0.1f};                                   // in the head's frame
 constexpr std::uint32_t kLookChain[] = {2, 3, 4, 5};
-constexpr float kLookShares[] = {1, 1, 2, 4}, kLookMost[] = {0.97f, 0.94f, 0.8f, 0.5f};  // cosines
-constexpr float kMostFlexion = 2.5f, kLeastFlexion = 0.05f;
+constexpr float kLookShares[] = {1, 1, 2, 4}, kLookMax[] = {0.97f, 0.94f, 0.8f, 0.5f};  // cosines
+constexpr float kMaxFlexion = 2.5f, kMinFlexion = 0.05f;
 constexpr float kFrameTime = 1.0f / 60;
 // Where the right upper arm may point: cones in order, in the frame of its shoulder at rest, from the bone along z.
 struct CharacterCone {

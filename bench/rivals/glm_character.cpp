@@ -26,13 +26,13 @@ glm::quat arc(const glm::vec3& from, const glm::vec3& to)
     return glm::normalize(glm::quat(1 + glm::dot(from, to), axis.x, axis.y, axis.z));
 }
 // A share of a turn, up to an angle whose half has this cosine.
-glm::quat part(const glm::quat& turn, float share, float cos_half_most)
+glm::quat part(const glm::quat& turn, float share, float cos_half_max)
 {
     const glm::quat some =
         glm::normalize(glm::quat(1 - share + share * turn.w, share * turn.x, share * turn.y, share * turn.z));
-    if (some.w >= cos_half_most) return some;
-    const float sine = std::sqrt((1 - cos_half_most * cos_half_most) / (1 - some.w * some.w));
-    return {cos_half_most, sine * some.x, sine * some.y, sine * some.z};
+    if (some.w >= cos_half_max) return some;
+    const float sine = std::sqrt((1 - cos_half_max * cos_half_max) / (1 - some.w * some.w));
+    return {cos_half_max, sine * some.x, sine * some.y, sine * some.z};
 }
 
 // A body as it is solved: places are from the root.
@@ -63,9 +63,9 @@ struct Bones {
     glm::vec3 upper, fore;
 };
 // side: the elbow's, across the line; least, most: distances of the wrist.
-Bones two_bones(const glm::vec3& goal, const glm::vec3& elbow, float l1, float l2, float least, float most)
+Bones two_bones(const glm::vec3& goal, const glm::vec3& elbow, float l1, float l2, float min, float max)
 {
-    const float wanted = glm::length(goal), d = glm::clamp(wanted, least, most);
+    const float wanted = glm::length(goal), d = glm::clamp(wanted, min, max);
     const glm::vec3 u = goal / wanted, side = glm::normalize(elbow - glm::dot(elbow, u) * u);
     const float along = (l1 * l1 + d * d - l2 * l2) / (2 * d), off = std::sqrt(std::max(l1 * l1 - along * along, 0.0f));
     const glm::vec3 upper = along * u + off * side;
@@ -144,7 +144,7 @@ void set_legs(Character& c, Body& body, CharacterState& state)
     constexpr float kMargin = 0.01f;
     FootGoal goals[2];
     glm::vec3 ankle[2];
-    float most[2], low = -1, high = 1;
+    float max[2], low = -1, high = 1;
     for (std::size_t leg = 0; leg < 2; ++leg) {
         const BodyChain& chain = kBodyChains[kLegs + leg];
         goals[leg] = stand(c, leg, body, state.feet[leg]);
@@ -152,9 +152,9 @@ void set_legs(Character& c, Body& body, CharacterState& state)
         const glm::vec3 hip = body.place[chain.first];
         const float l1 = glm::distance(body.place[chain.middle], hip),
                     l2 = glm::distance(body.place[chain.last], body.place[chain.middle]);
-        most[leg] = std::min(glm::distance(body.place[chain.last], hip) + kMargin, l1 + l2);
+        max[leg] = std::min(glm::distance(body.place[chain.last], hip) + kMargin, l1 + l2);
         const glm::vec3 m = hip - ankle[leg];
-        const float b = m.y, k2 = glm::dot(m, m) - b * b, r = std::sqrt(std::max(most[leg] * most[leg] - k2, 0.0f));
+        const float b = m.y, k2 = glm::dot(m, m) - b * b, r = std::sqrt(std::max(max[leg] * max[leg] - k2, 0.0f));
         low = std::max(low, -b - r), high = std::min(high, -b + r);
     }
     const glm::vec3 shift(0, sprung(state, low, high), 0);
@@ -164,7 +164,7 @@ void set_legs(Character& c, Body& body, CharacterState& state)
         const glm::vec3 hip = body.place[chain.first], upper = body.place[chain.middle] - hip,
                         fore = body.place[chain.last] - body.place[chain.middle];
         const float l1 = glm::length(upper), l2 = glm::length(fore);
-        set_bones(body, chain, two_bones(ankle[leg] - shift - hip, upper, l1, l2, std::abs(l1 - l2), most[leg]),
+        set_bones(body, chain, two_bones(ankle[leg] - shift - hip, upper, l1, l2, std::abs(l1 - l2), max[leg]),
                   goals[leg].turn);
     }
 }
@@ -195,7 +195,7 @@ void look(const Character& c, Body& body, CharacterState& state)
         const auto parent = static_cast<std::size_t>(kBodyParents[j]);
         body.place[j] = body.place[parent] + body.turn[parent] * vec3(kBodyOffsets[j]);
         const glm::quat turn = part(arc(axis, glm::normalize(target - eye)), fade * kLookShares[n] / left,
-                                    std::sqrt(0.5f + 0.5f * kLookMost[n]));
+                                    std::sqrt(0.5f + 0.5f * kLookMax[n]));
         left -= kLookShares[n];
         sum = turn * sum;
         body.set(j, sum * body.above(j) * quat(body.of->rotations[j]));
@@ -224,12 +224,12 @@ struct ArmRegion {
     // How deep the direction is in the best of the cones and of the bridges.
     float room(const glm::vec3& d) const
     {
-        float most = glm::dot(axis[0], d) - cosine[0];
+        float max = glm::dot(axis[0], d) - cosine[0];
         for (std::size_t n = 1; n < 4; ++n)
-            most = std::max(
-                {most, glm::dot(axis[n], d) - cosine[n],
+            max = std::max(
+                {max, glm::dot(axis[n], d) - cosine[n],
                  std::min({wide[n] - std::abs(glm::dot(pole[n], d)), glm::dot(from[n], d), glm::dot(to[n], d)})});
-        return most;
+        return max;
     }
 };
 void set_arms(const Character& c, const ArmRegion& region, Body& body)
@@ -241,9 +241,9 @@ void set_arms(const Character& c, const ArmRegion& region, Body& body)
     const glm::vec3 goal = glm::mix(wrist, vec3(rifle.target) - vec3(c.body.root_place) - shoulder, c.weights[0]);
     const glm::quat hand = glm::normalize(glm::slerp(body.turn[chain.last], quat(rifle.hand), c.weights[1]));
     const float l1 = glm::length(elbow), l2 = glm::distance(body.place[chain.last], body.place[chain.middle]);
-    const float least = std::sqrt(l1 * l1 + l2 * l2 + 2 * l1 * l2 * std::cos(kMostFlexion)),
-                most = std::sqrt(l1 * l1 + l2 * l2 + 2 * l1 * l2 * std::cos(kLeastFlexion));
-    Bones bones = two_bones(goal, elbow, l1, l2, least, most);
+    const float min = std::sqrt(l1 * l1 + l2 * l2 + 2 * l1 * l2 * std::cos(kMaxFlexion)),
+                max = std::sqrt(l1 * l1 + l2 * l2 + 2 * l1 * l2 * std::cos(kMinFlexion));
+    Bones bones = two_bones(goal, elbow, l1, l2, min, max);
     // The upper arm as its cones see it: the bone lies along -x, and bends to z.
     const glm::quat frame = glm::conjugate(body.above(chain.first));
     const auto seen = [&](const glm::vec3& upper) {

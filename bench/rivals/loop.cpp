@@ -21,7 +21,7 @@ namespace bench::SWIVEL_LEVEL {
 
 namespace {
 
-float clamp(float x, float least, float most) { return std::fmin(std::fmax(x, least), most); }
+float clamp(float x, float min, float max) { return std::fmin(std::fmax(x, min), max); }
 
 enum class Writing { trig, light, roots };
 

@@ -99,7 +99,7 @@ SolvedLimb solve_limb(const swivel::LimbUse& use, const swivel::LimbGoal<Counted
         const auto region = swivel::region_limit(arm, use.limits.region);
         swivel::room(region, swivel::Turned<Counted>{Counted(1.0), Counted(0.0)});
         const auto chosen = swivel::choose_swivel(
-            swivel::LimitsInRegion<Counted, swivel::kMostBoxes>{swivel::Limits<Counted>{}, region}, valid);
+            swivel::LimitsInRegion<Counted, swivel::kMaxBoxes>{swivel::Limits<Counted>{}, region}, valid);
         normal = swivel::swivelled(normal, to.line, chosen.swivel);
     }
     const Rotor<Counted> shoulder = swivel::lifted(to.line, normal, bones.lift);

@@ -83,7 +83,7 @@ TEST_CASE("docs: bodies")
     CHECK(characters[7].solved[kUpperArm] == before.pose[kUpperArm]);
     // [places]
     std::vector<std::array<Float3, kJoints>> places(characters.size());
-    pose.joint_places = {places.data(), sizeof places[0], sizeof(Float3), nullptr};
+    pose.joint_positions = {places.data(), sizeof places[0], sizeof(Float3), nullptr};
     crowd.solve({.frames = {arms, legs}, .pose = &pose});
     const Float3 foot_from_root = places[3][kFoot];  // in the root's frame
     // [end]

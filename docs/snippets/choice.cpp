@@ -46,10 +46,10 @@ TEST_CASE("docs: budget")
     const swivel_in priorities{priority.data(), sizeof(float)};
     // At most two blocks of 16 in this frame.
     const std::uint32_t count =
-        crowd.solve({.priorities = {priorities}, .urgency = urgency, .most_blocks = 2});
+        crowd.solve({.priorities = {priorities}, .urgency = urgency, .max_blocks = 2});
     // [end]
     CHECK(count == 32);
     CHECK(solved(crowd) == 32);
-    crowd.solve({.priorities = {priorities}, .urgency = urgency, .most_blocks = 2});
+    crowd.solve({.priorities = {priorities}, .urgency = urgency, .max_blocks = 2});
     CHECK(solved(crowd) == 64);
 }

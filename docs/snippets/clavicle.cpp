@@ -16,7 +16,7 @@ TEST_CASE("docs: clavicle")
     crowd.solve();
     std::array<Float4, 1>
         turn;  // the clavicle's local rotation becomes rotation * turn
-    crowd.read(SWIVEL_CLAVICLE_TURN, 0, turn);
+    crowd.read(SWIVEL_CLAVICLE_ROTATION, 0, turn);
     // [end]
     std::array<Double3, 1> elbow, wrist;
     crowd.elbows(0, elbow);

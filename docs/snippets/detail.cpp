@@ -55,7 +55,7 @@ TEST_CASE("docs: bodies come near and go")
     pose.weight = swivel::stream(characters, &Character::weight);
     std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
     const float seconds = 1.0f / 60;
-    double most = 0;
+    double max = 0;
     std::vector<double> was(kCount);
     Float3 camera{20, 0, 0};
     for (int frame = 0; frame < 120; ++frame) {
@@ -86,12 +86,12 @@ TEST_CASE("docs: bodies come near and go")
         crowd.solve({.mask = mask, .frames = {arm}, .pose = &pose});
         // [end]
         for (std::uint32_t n = 0; n < kCount; ++n) {
-            most = std::max(most, std::abs(turn_of(characters[n]) - was[n]));
+            max = std::max(max, std::abs(turn_of(characters[n]) - was[n]));
             was[n] = turn_of(characters[n]);
         }
     }
-    CHECK(most > 0.01);
-    CHECK(most < 0.1);
+    CHECK(max > 0.01);
+    CHECK(max < 0.1);
     CHECK(std::ranges::count_if(was, [](double turn) { return turn > 0.5; }) > 40);
 }
 

@@ -257,8 +257,8 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
     const swivel_limb_joints left = leg(kLeftThigh), right = leg(kRightThigh);
     // [fit]
     constexpr swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT |
-                                         SWIVEL_WITH_CAP | SWIVEL_WITH_FIT |
-                                         SWIVEL_WITH_COMING;
+                                         SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT |
+                                         SWIVEL_WITH_NEXT_TARGET;
     const std::array groups = {swivel::body_group(left, features),
                                swivel::body_group(right, features),
                                swivel_default_fit_group_def()};
@@ -294,10 +294,10 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
             for (Character& each : characters) each.place[1] += 0.1f;
         // [shift]
         swivel::Frame left_leg, right_leg, pelvis;
-        left_leg.in(SWIVEL_COMING, swivel::stream(steps, &Steps::left_next));
-        left_leg.in(SWIVEL_COMING_TIME, swivel::stream(steps, &Steps::left_in));
-        right_leg.in(SWIVEL_COMING, swivel::stream(steps, &Steps::right_next));
-        right_leg.in(SWIVEL_COMING_TIME, swivel::stream(steps, &Steps::right_in));
+        left_leg.in(SWIVEL_NEXT_TARGET, swivel::stream(steps, &Steps::left_next));
+        left_leg.in(SWIVEL_NEXT_TIME, swivel::stream(steps, &Steps::left_in));
+        right_leg.in(SWIVEL_NEXT_TARGET, swivel::stream(steps, &Steps::right_next));
+        right_leg.in(SWIVEL_NEXT_TIME, swivel::stream(steps, &Steps::right_in));
         pelvis.out(SWIVEL_SHIFT, swivel::stream(steps, &Steps::shift));
         crowd.solve({.frames = {left_leg, right_leg, pelvis}, .pose = &pose});
         for (std::size_t body = 0; body < characters.size(); ++body) {
@@ -324,7 +324,7 @@ TEST_CASE("docs: palms and standing feet keep their rotation")
     // [turn]
     const swivel_group_def group = swivel::body_group(
         left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND |
-                  SWIVEL_WITH_PLANT_TURN | SWIVEL_WITH_EFFECTOR);
+                  SWIVEL_WITH_PLANT_ROTATION | SWIVEL_WITH_EFFECTOR);
     swivel::Crowd crowd(skeleton, 40, std::array{group});
     crowd.write_all(SWIVEL_EFFECTOR, 0,
                     Float3{0, -0.07f, 0.1f});  // the ball of the foot

@@ -93,7 +93,7 @@ struct Scene {
     // How far the worst ball of a foot is from the ground.
     double worst() const
     {
-        double most = 0;
+        double max = 0;
         for (const Character& each : characters)
             for (const std::array<float, 7>& ankle : each.ankle) {
                 const Eigen::Quaterniond turn =
@@ -101,9 +101,9 @@ struct Scene {
                 const Eigen::Vector3d ball = vec(ankle) + turn * vec(kBall);
                 const float height = terrain.height(static_cast<float>(ball[0]),
                                                     static_cast<float>(ball[2]));
-                most = std::max(most, std::fabs(ball[1] - double{height}));
+                max = std::max(max, std::fabs(ball[1] - double{height}));
             }
-        return most;
+        return max;
     }
 };
 
@@ -128,8 +128,8 @@ TEST_CASE("docs: feet on hills")
     const swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND |
                                      SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT |
                                      SWIVEL_WITH_GROUND |  // feet that stand, on ground
-                                     SWIVEL_WITH_FIT |     // the pelvis follows
-                                     SWIVEL_HAND_YIELDS | SWIVEL_WITH_HAND_FRAME;
+                                     SWIVEL_WITH_PELVIS_FIT |  // the pelvis follows
+                                     SWIVEL_HAND_YIELDS | SWIVEL_WITH_HAND_TRANSFORM;
     std::vector<swivel_group_def> groups;
     for (const swivel_limb_joints& leg : legs) {
         groups.push_back(swivel::body_group(leg, features));
@@ -150,7 +150,7 @@ TEST_CASE("docs: feet on hills")
         frames[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
         frames[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
         frames[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
-        frames[leg].out(SWIVEL_HAND_FRAME, {&characters[0].ankle[leg], step});
+        frames[leg].out(SWIVEL_HAND_TRANSFORM, {&characters[0].ankle[leg], step});
     }
     // [end]
     for (int n = 0; n < 30; ++n) {

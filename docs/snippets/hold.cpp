@@ -82,13 +82,13 @@ struct Scene {
     // How far the worst left hand is from a place in the right hand's frame.
     double worst(const Float3& grip) const
     {
-        double most = 0;
+        double max = 0;
         for (const Character& each : characters) {
             const Frame leader = frame_of(each, kRightHand);
             const Eigen::Vector3d at = leader.place + leader.turn * vec(grip);
-            most = std::max(most, (frame_of(each, kLeftHand).place - at).norm());
+            max = std::max(max, (frame_of(each, kLeftHand).place - at).norm());
         }
-        return most;
+        return max;
     }
 };
 
@@ -152,7 +152,7 @@ TEST_CASE("docs: a rifle in both hands")
     // [end]
     // [frame]
     swivel::Frame right_arm, left_arm, rifle;
-    rifle.out(SWIVEL_PROP_FRAME, swivel::stream(characters, &Character::rifle));
+    rifle.out(SWIVEL_PROP_TRANSFORM, swivel::stream(characters, &Character::rifle));
     left_arm.out(SWIVEL_FLAGS, swivel::stream(characters, &Character::left_flags));
     crowd.solve({.frames = {right_arm, left_arm, rifle}, .pose = &pose});
     // [end]
@@ -165,7 +165,7 @@ TEST_CASE("docs: a rifle in both hands")
     }
 
     // [share]
-    crowd.write_all(SWIVEL_PROP_SHARE, 2, std::array{0.5f});
+    crowd.write_all(SWIVEL_HAND_BLEND, 2, std::array{0.5f});
     // [end]
     crowd.solve({.pose = &pose});
     CHECK(scene.worst({0.1f, 0, 0.25f}) < 3e-6);
@@ -185,7 +185,7 @@ TEST_CASE("docs: a wheel, and a thing on a joint")
     // [wheel]
     swivel_prop& wheel = groups[2].prop;
     wheel.joint = kSeat;  // its place and turn are in this joint's frame
-    wheel.most_move = 0;  // it does not come to the hands
+    wheel.max_move = 0;   // it does not come to the hands
     // [end]
     swivel::Crowd crowd(skeleton, 40, groups);
     crowd.write_all(SWIVEL_GRIP, 0, Grip{-0.2f, 0, 0, 0, 0, 0, 1});
@@ -193,8 +193,8 @@ TEST_CASE("docs: a wheel, and a thing on a joint")
     const float angle = 0.4f;
     // [turn]
     const Float4 turned = {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
-    crowd.write_all(SWIVEL_PROP_PLACE, 2, Float3{0, 0.4f, 0});
-    crowd.write_all(SWIVEL_PROP_TURN, 2, turned);
+    crowd.write_all(SWIVEL_PROP_POSITION, 2, Float3{0, 0.4f, 0});
+    crowd.write_all(SWIVEL_PROP_ROTATION, 2, turned);
     // [end]
     crowd.solve({.pose = &scene.pose});
     for (const Character& each : scene.characters) {

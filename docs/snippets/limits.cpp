@@ -180,9 +180,9 @@ TEST_CASE("docs: limits that do not pop")
 {
     // [wins]
     swivel::Crowd crowd({swivel::group(
-        1, SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_STEP_WINS)});
+        1, SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_STEP_WINS)});
     // 540 degrees a second, at 60 frames a second.
-    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, swivel::turn(swivel::degrees(9)));
+    crowd.write_all(SWIVEL_MAX_SWIVEL, 0, swivel::cos_sin(swivel::degrees(9)));
     // [end]
     give_arm(crowd);
     crowd.solve();

@@ -123,9 +123,9 @@ TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
     look.rate = 0;
     // [shares]
     const float shares[] = {1, 1, 2, 4};
-    const float most[] = {0.99f, 0.98f, 0.85f, 0.5f};  // 8, 11, 32 and 60 degrees
+    const float max[] = {0.99f, 0.98f, 0.85f, 0.5f};  // 8, 11, 32 and 60 degrees
     std::ranges::copy(shares, look.share);
-    std::ranges::copy(most, look.cos_most);
+    std::ranges::copy(max, look.cos_max);
     // [end]
     const Eigen::Quaternionf head_at_rest(
         Eigen::AngleAxisf(0.7f, Eigen::Vector3f(1, 2, 3).normalized()));
@@ -140,8 +140,8 @@ TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
     look.axis[0] = look.axis[1] = 0, look.axis[2] = 1;
     // [eyes]
     swivel_look eye = swivel_default_look();
-    eye.cos_most[0] = 0.87f;  // 30 degrees
-    eye.rate = 0;             // the head is eased, the eyes are quick
+    eye.cos_max[0] = 0.87f;  // 30 degrees
+    eye.rate = 0;            // the head is eased, the eyes are quick
     const std::array groups = {swivel::look_group({kSpine, kChest, kNeck, kHead}, look),
                                swivel::look_group({kLeftEye}, eye),
                                swivel::look_group({kRightEye}, eye)};
@@ -178,7 +178,7 @@ TEST_CASE("docs: turrets")
     mount.joint_count = kParts;
     // [turret]
     swivel_look aim = swivel_default_look();
-    aim.cos_most[0] = -1;  // all the way round
+    aim.cos_max[0] = -1;  // all the way round
     aim.cos_full = -0.99f, aim.cos_none = -1;
     aim.rate = 0;
     swivel::Crowd turrets(mount, 40, std::array{swivel::look_group({kBarrel}, aim)});

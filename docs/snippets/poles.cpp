@@ -74,7 +74,7 @@ TEST_CASE("docs: swivel angle")
     swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_ANGLE)});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // Radians on from the pole, about the line to the wrist.
-    crowd.write_all(SWIVEL_ANGLE, 0, swivel::turn(0.35));
+    crowd.write_all(SWIVEL_ANGLE, 0, swivel::cos_sin(0.35));
     // [end]
     give_arm(crowd);
     crowd.solve();

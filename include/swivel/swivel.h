@@ -101,7 +101,7 @@ typedef enum swivel_flag {
     // The pole, or with POLE_HAND the hand, does not say where the elbow goes. It has no length, or it is on the line
     // to
     // the target: the sine of the angle between them is below 1e-3. Or the target is on the shoulder. The last solve's
-    // normal (WITH_MOST_SWIVEL)
+    // normal (WITH_MAX_SWIVEL)
     // then says it, or the incoming pose. If neither does, the arm frame's x axis is the normal, or else its y axis.
     SWIVEL_SWIVEL_UNDEFINED = 1u << 5,
     SWIVEL_LIMITED_FLEXION = 1u << 6,  // the elbow's flexion limit keeps the wrist from the target
@@ -113,12 +113,12 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_FOREARM_TWIST = 1u << 11,
     SWIVEL_LIMITED_HAND_TWIST = 1u << 12,
     SWIVEL_LIMITED_WRIST_BOX = 1u << 13,
-    // The swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's. With STEP_WINS it is the swivel
+    // The swivel wished for is further than SWIVEL_MAX_SWIVEL from the last solve's. With STEP_WINS it is the swivel
     // that limits leave, so the elbow may still be outside of them.
     SWIVEL_LIMITED_STEP = 1u << 14,
     // No swivel is within the limits. This one violates them least; with STEP_WINS it may be on its way there.
     SWIVEL_INFEASIBLE = 1u << 15,
-    SWIVEL_JUMPED = 1u << 16,      // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
+    SWIVEL_JUMPED = 1u << 16,      // joint limits made the swivel turn further than SWIVEL_MAX_SWIVEL
     SWIVEL_PLANTED = 1u << 17,     // the point is locked to its support
     SWIVEL_RELEASED = 1u << 18,    // this solve released it
     SWIVEL_BROKE_AWAY = 1u << 19,  // by distance: the animated point is too far from it, though in contact
@@ -135,12 +135,13 @@ typedef enum swivel_flag {
 // - POLE_DIRECTION and WITH_CLAVICLE need WORLD. POLE_INCOMING and WITH_WEIGHTS need WITH_INCOMING. WITH_EFFECTOR,
 //   WITH_TWIST_BONES, POLE_HAND and limits of the hand need WITH_HAND. At most one of the four POLE_ features is given.
 // - WITH_AIM excludes POLE_HAND, WITH_WEIGHTS, WITH_REACH, WITH_FLEXION_LIMIT, limits of the hand, WITH_PLANT,
-//   WITH_CAP and WITH_FIT. WITH_CAP excludes WITH_REACH.
-// - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION
-//   need WITH_PLANT. WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
+//   WITH_CAP and WITH_PELVIS_FIT. WITH_CAP excludes WITH_REACH.
+// - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_PELVIS_FIT is of bodies. WITH_PLANT_ROTATION and
+// PLANT_BY_MOTION
+//   need WITH_PLANT. WITH_PLANT_ROTATION needs WITH_HAND, too. WITH_NEXT_TARGET needs WITH_PELVIS_FIT.
 // - HAND_YIELDS needs WITH_EFFECTOR and excludes WITH_AIM. WITH_GROUND needs WITH_PLANT and WITH_EFFECTOR.
-// - WITH_HAND_FRAME and WITH_LINK are of bodies and need WITH_HAND. WITH_LINK excludes WITH_AIM, WITH_PLANT and
-//   WITH_FIT.
+// - WITH_HAND_TRANSFORM and WITH_LINK are of bodies and need WITH_HAND. WITH_LINK excludes WITH_AIM, WITH_PLANT and
+//   WITH_PELVIS_FIT.
 // - A group that is FIT, PROP or LOOK is no limb: it has none of the other features, and its joints are null. Calls
 //   that need a limb refuse it.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
@@ -156,7 +157,7 @@ typedef uint64_t swivel_features;
 #define SWIVEL_POLE_INCOMING (UINT64_C(1) << 9)  // no poles: the incoming pose says where elbows go
 #define SWIVEL_WITH_WEIGHTS (UINT64_C(1) << 10)
 #define SWIVEL_WITH_REACH (UINT64_C(1) << 11)
-#define SWIVEL_WITH_MOST_SWIVEL (UINT64_C(1) << 12)
+#define SWIVEL_WITH_MAX_SWIVEL (UINT64_C(1) << 12)
 #define SWIVEL_WITH_FLEXION_LIMIT (UINT64_C(1) << 13)
 #define SWIVEL_WITH_SHOULDER_CONE (UINT64_C(1) << 14)
 #define SWIVEL_WITH_HUMERAL_TWIST (UINT64_C(1) << 15)
@@ -170,24 +171,24 @@ typedef uint64_t swivel_features;
 #define SWIVEL_BODY (UINT64_C(1) << 23)  // limb i is body i's: groups of a crowd with a skeleton have it, and its needs
 #define SWIVEL_WITH_RECORD (UINT64_C(1) << 24)  // of bodies: keeps what the pose gave, which explain and others need
 #define SWIVEL_WITH_PLANT (UINT64_C(1) << 25)   // a point of the hand or foot stands where it touches: swivel_plant
-#define SWIVEL_WITH_PLANT_TURN (UINT64_C(1) << 26)  // the hand or foot keeps its rotation, too
-#define SWIVEL_PLANT_BY_MOTION (UINT64_C(1) << 27)  // no labels: the point's speed and height show its contact
+#define SWIVEL_WITH_PLANT_ROTATION (UINT64_C(1) << 26)  // the hand or foot keeps its rotation, too
+#define SWIVEL_PLANT_BY_MOTION (UINT64_C(1) << 27)      // no labels: the point's speed and height show its contact
 #define SWIVEL_WITH_CAP (UINT64_C(1) << 28)
-#define SWIVEL_WITH_FIT (UINT64_C(1) << 29)     // a FIT group shifts the body so that this limb reaches
-#define SWIVEL_WITH_COMING (UINT64_C(1) << 30)  // it also prepares for where the limb goes next
-#define SWIVEL_FIT (UINT64_C(1) << 31)          // the group is each body's shift, not its limb: swivel_fit
+#define SWIVEL_WITH_PELVIS_FIT (UINT64_C(1) << 29)   // a FIT group shifts the body so that this limb reaches
+#define SWIVEL_WITH_NEXT_TARGET (UINT64_C(1) << 30)  // it also prepares for where the limb goes next
+#define SWIVEL_FIT (UINT64_C(1) << 31)               // the group is each body's shift, not its limb: swivel_fit
 // Where the wrist misses its place, the hand turns about it, no further than it must, to bring the effector nearest to
 // its target. So a heel lifts where the leg is too short for the toe.
 #define SWIVEL_HAND_YIELDS (UINT64_C(1) << 32)
 // Where the hand or foot is after a solve. A group that others are linked to has it by itself.
-#define SWIVEL_WITH_HAND_FRAME (UINT64_C(1) << 33)
+#define SWIVEL_WITH_HAND_TRANSFORM (UINT64_C(1) << 33)
 #define SWIVEL_WITH_LINK (UINT64_C(1) << 34)    // the goal is a grip on another limb's hand, or on a PROP: link
 #define SWIVEL_PROP (UINT64_C(1) << 35)         // the group is a thing that hands hold, not a limb: swivel_prop
 #define SWIVEL_WITH_GROUND (UINT64_C(1) << 36)  // the foot that is planted stands on ground as it lies: swivel_ground
 #define SWIVEL_SENT (UINT64_C(1) << 37)  // its goal is made by the library: WITH_PLANT and WITH_LINK have it themselves
 #define SWIVEL_LOOK (UINT64_C(1) << 38)  // the group is joints that turn to a target, not a limb: swivel_look
 #define SWIVEL_WITH_REGION (UINT64_C(1) << 39)  // the upper arm stays in a region: swivel_group_def's region
-// SWIVEL_MOST_SWIVEL takes precedence over limits: the elbow goes to where they allow it as fast as that lets it.
+// SWIVEL_MAX_SWIVEL takes precedence over limits: the elbow goes to where they allow it as fast as that lets it.
 #define SWIVEL_STEP_WINS (UINT64_C(1) << 43)
 // No poles: the wished hand says where elbows go. The elbow lies where it would if the wrist were not bent. Within 20
 // degrees of the line from shoulder to wrist a hand hardly says it. WITH_INCOMING, the incoming pose fades in there,
@@ -203,11 +204,11 @@ typedef uint64_t swivel_features;
 // swivel_on_bad_input. No other limb changes by a bit. The magnitude of positions and poles is at most 1e15, in the
 // world as given and in the arm frame. The norm of a quaternion is 1e-9..1e9; it need not be normalised. The squared
 // length of an axis, summed in floats, is 1 within 1e-6. The same holds for each pair of cosine and sine, except
-// SWIVEL_ANGLE's. Limits and SWIVEL_MOST_SWIVEL use them as they are. Weights and shares are 0..1. Other bounds are
+// SWIVEL_ANGLE's. Limits and SWIVEL_MAX_SWIVEL use them as they are. Weights and shares are 0..1. Other bounds are
 // given at their fields.
 //
 // RANGES. A range of angles is four numbers: cos and sin of its middle, cos and sin of its half-width. The half-width
-// is 0..pi. swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_turn() make values from angles.
+// is 0..pi. swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_cos_sin() make values from angles.
 //
 // LIMITS are measured from the rest pose with the elbow straightened. All their axes, the hand's too, are given in the
 // arm frame; the axes of a skeleton's joints do not matter. swivel_arm_axis() converts a direction of the character. A
@@ -222,7 +223,7 @@ typedef uint64_t swivel_features;
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
 //   the target, lower its weight or use WITH_CLAVICLE.
 // - A region (WITH_REGION) is one more limit of the upper arm, the same for all limbs of the group.
-// - Limits take precedence over SWIVEL_MOST_SWIVEL, and that over the wish. With STEP_WINS the step comes first.
+// - Limits take precedence over SWIVEL_MAX_SWIVEL, and that over the wish. With STEP_WINS the step comes first.
 //
 // RESULTS. Every quaternion is of unit length within 1.1e-6 and has w >= 0; with WITH_INCOMING it has the sign nearer
 // to the incoming one. At w = 0 the first of x, y, z that is not zero is positive. Equal inputs give equal bits on
@@ -273,10 +274,10 @@ typedef enum swivel_field {
     // + s becomes d - (d - R + s)^2 / (4 s). A larger distance becomes R. The near end mirrors this. A zone is at most
     // half of the range between the two ends. Stretch then lengthens the bones to close the gap, up to its most.
     SWIVEL_REACH,
-    // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL. Where a
+    // 2, WITH_MAX_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL. Where a
     // pose has a time, that is in a 60th of a second: the tangent of half of the angle goes with time, and at 0 the
     // plane stays.
-    SWIVEL_MOST_SWIVEL,
+    SWIVEL_MAX_SWIVEL,
     // 2, WITH_FLEXION_LIMIT: cos of half the least flexion, cos of half the largest. Flexion does not depend on the
     // swivel. So this limit narrows the reach, and the wrist stops short.
     SWIVEL_FLEXION_LIMIT,
@@ -301,7 +302,7 @@ typedef enum swivel_field {
     //   and runs along the axis. The elbow lies on the pole's side of the line from shoulder to target.
     // - If the target is too near for the flexion, the limb gets SWIVEL_CLAMPED_NEAR. The ray's point nearest to the
     //   shoulder then lies on the line from shoulder to target.
-    // - If the elbow crosses that line between solves, the arm rolls over, whatever SWIVEL_MOST_SWIVEL says.
+    // - If the elbow crosses that line between solves, the arm rolls over, whatever SWIVEL_MAX_SWIVEL says.
     SWIVEL_AIM,
     // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Give the
     // parent's
@@ -318,14 +319,17 @@ typedef enum swivel_field {
     // end. So a zone wider than the margin eases what the incoming pose reaches, too. In the order margin, least, zone.
     // They start as 0.01, 0.9, 0: legs that are animated bent may still stretch far enough to stand.
     SWIVEL_CAP,
-    // 1, WITH_FIT: how much the limb's goal counts, 0..1. At 0 it does not. At 1, as at the start, it must reach.
-    SWIVEL_FIT_WEIGHT,
-    // 3, WITH_COMING: where the wrist or effector goes next, such as a swinging foot's next step, in the space of the
+    // 1, WITH_PELVIS_FIT: how much the limb's goal counts, 0..1. At 0 it does not. At 1, as at the start, it must
+    // reach.
+    SWIVEL_PELVIS_FIT_WEIGHT,
+    // 3, WITH_NEXT_TARGET: where the wrist or effector goes next, such as a swinging foot's next step, in the space of
+    // the
     // target.
-    SWIVEL_COMING,
-    // 1, WITH_COMING: the seconds until then, 0 or more. It counts the more the nearer it is, whatever the weight: see
+    SWIVEL_NEXT_TARGET,
+    // 1, WITH_NEXT_TARGET: the seconds until then, 0 or more. It counts the more the nearer it is, whatever the weight:
+    // see
     // swivel_fit. At the start 1e15, so it does not. Write that for a foot that stands.
-    SWIVEL_COMING_TIME,
+    SWIVEL_NEXT_TIME,
     // 1, FIT: the shift that is wished for, at most 1e15 either way; 0 at the start.
     SWIVEL_SHIFT_WISH,
     // 3, WITH_GROUND: a point of the ground below the foot, in the space of the target. Sample it at SWIVEL_PROBE. NaN,
@@ -342,12 +346,12 @@ typedef enum swivel_field {
     // 3, PROP: where it is, in the space of the targets; with a joint, in that joint's frame, in the world's unit, and
     // in floats whatever the root is.
     // NaN, as at the start: as swivel_prop says.
-    SWIVEL_PROP_PLACE,
+    SWIVEL_PROP_POSITION,
     // 4, PROP: its rotation, in the world or the joint's frame. NaN, as at the start: as swivel_prop says.
-    SWIVEL_PROP_TURN,
+    SWIVEL_PROP_ROTATION,
     // 1, PROP: which hand says where it is, 0..1. At 0, as at the start, the first that is linked to it, at 1 the
     // other; in between both.
-    SWIVEL_PROP_SHARE,
+    SWIVEL_HAND_BLEND,
     // 1, PROP: how much place and rotation count that are given or are the joint's, 0..1. 1 at the start. At 0 it is as
     // the hands have it, in between it lies between both.
     SWIVEL_PROP_WEIGHT,
@@ -370,8 +374,8 @@ typedef enum swivel_field {
     SWIVEL_FLAGS,
     // 1, WITH_REACH: the factor for both bone lengths, 1 or more.
     SWIVEL_STRETCH,
-    // 3, WITH_MOST_SWIVEL: unit normal of the swivel plane, in the arm frame. The next solve makes it perpendicular to
-    // its own line from shoulder to wrist. SWIVEL_MOST_SWIVEL limits the turn from there. Bad input clears it, unless
+    // 3, WITH_MAX_SWIVEL: unit normal of the swivel plane, in the arm frame. The next solve makes it perpendicular to
+    // its own line from shoulder to wrist. SWIVEL_MAX_SWIVEL limits the turn from there. Bad input clears it, unless
     // the group keeps poses. swivel_reset() clears it, too: call it after a teleport. Without this feature, results
     // depend on the present inputs alone, but for poses that are kept. The swivel is still continuous, with three
     // exceptions. The target crosses the shoulder, the pole crosses the line from shoulder to wrist, or the nearest
@@ -385,7 +389,7 @@ typedef enum swivel_field {
     SWIVEL_TWIST_BONES,
     // 4, WITH_CLAVICLE: the turn of the parent joint. Its rotation, in the world or local, becomes the old one times
     // this.
-    SWIVEL_CLAVICLE_TURN,
+    SWIVEL_CLAVICLE_ROTATION,
     // 22, WITH_RECORD: how a body's limb came, from its pose and after the clavicle's turn. The shoulder's place, 3, in
     // the space of the target; the arm frame's rotation in the world, 4; the parent's scale; both lengths, as they
     // counted. Then the incoming pose, 4 each: the upper arm in the arm frame, the forearm relative to it, the hand
@@ -396,14 +400,14 @@ typedef enum swivel_field {
     // animated place, 3. The offset that fades, 3, and its velocity, 3. The seconds until it is gone. Last a number: 0
     // before the first solve, else 8, plus 1 if locked, 2 if the next label locks it, 4 if it was just released.
     SWIVEL_PLANT,
-    // 10, WITH_PLANT_TURN: the same of the rotation: a quaternion, 4, then offset, 3, and velocity, 3, of the axis
+    // 10, WITH_PLANT_ROTATION: the same of the rotation: a quaternion, 4, then offset, 3, and velocity, 3, of the axis
     // times the tangent of half the angle.
-    SWIVEL_PLANT_TURN,
+    SWIVEL_PLANT_ROTATION,
     // 4, PLANT_BY_MOTION: the point's last animated place in the support's frame, 3, and 1 if it was in contact.
-    SWIVEL_MOTION,
+    SWIVEL_CONTACT_STATE,
     // 7, SENT and WITH_RECORD: where the wrist or effector was sent, 3, in the space of the target, and the hand's
     // rotation in the world, 4.
-    SWIVEL_GOAL,
+    SWIVEL_SOLVED_GOAL,
     // 3, FIT: the shift of the body along the crowd's axis `up`, in the world's unit; its rate a second; and 1 once it
     // has begun.
     SWIVEL_SHIFT,
@@ -412,12 +416,13 @@ typedef enum swivel_field {
     // 9, WITH_GROUND: how far the ground lifts the animated foot along `up`, in the world's unit; its rate a second;
     // and 1 once it has begun. Then the normal that the foot turns with, in the world, of any length, 3; its rate, 3.
     SWIVEL_LIFT,
-    // 7, WITH_HAND_FRAME: where the wrist joint is after the solve, 3, in the space of the target, and its rotation in
+    // 7, WITH_HAND_TRANSFORM: where the wrist joint is after the solve, 3, in the space of the target, and its rotation
+    // in
     // the world, 4. Bones are as long as SWIVEL_LENGTHS says, also where weights of 0 keep the pose, or stretched. It
     // is NaN beyond 1e15, and after bad input but for a good pose that stays.
-    SWIVEL_HAND_FRAME,
+    SWIVEL_HAND_TRANSFORM,
     // 7, PROP: where it is, 3, in the space of the targets, and its rotation in the world, 4.
-    SWIVEL_PROP_FRAME,
+    SWIVEL_PROP_TRANSFORM,
     // 6, LOOK: the line of sight after the solve: its start, 3, in the space of the targets, and its direction in the
     // world, 3, of unit length.
     SWIVEL_SIGHT,
@@ -427,7 +432,7 @@ typedef enum swivel_field {
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
-enum { SWIVEL_MOST_TWIST_BONES = 7 };  // of one limb
+enum { SWIVEL_MAX_TWIST_BONES = 7 };  // of one limb
 
 // What becomes of a field.
 typedef enum swivel_field_kind {
@@ -487,7 +492,7 @@ typedef struct swivel_binding {
     float lengths[2];                                      // upper arm, forearm; NaN where they are not known
     uint32_t twist_bone_count;  // 0: none is bound, and SWIVEL_TWIST_BONES is relative to their rest
     // The same, to each twist bone's parent and to its own frame. Unused entries hold fore_from_arm.
-    float twist_parent_from_arm[SWIVEL_MOST_TWIST_BONES][4], twist_from_arm[SWIVEL_MOST_TWIST_BONES][4];
+    float twist_parent_from_arm[SWIVEL_MAX_TWIST_BONES][4], twist_from_arm[SWIVEL_MAX_TWIST_BONES][4];
 } swivel_binding;
 
 // Not bound yet.
@@ -545,7 +550,7 @@ static inline swivel_skeleton swivel_default_skeleton(void)
 typedef struct swivel_limb_joints {
     size_t size;  // sizeof(swivel_limb_joints), set by swivel_default_limb_joints()
     uint32_t shoulder, elbow, wrist;
-    // Joints that share the hand's twist, listed from elbow to wrist, at most SWIVEL_MOST_TWIST_BONES. Each is below
+    // Joints that share the hand's twist, listed from elbow to wrist, at most SWIVEL_MAX_TWIST_BONES. Each is below
     // the elbow and not below the wrist. None of them is above another or above the wrist, which would be turned along.
     uint32_t twist_bone_count;
     const uint32_t* twist_bones;
@@ -584,22 +589,25 @@ typedef enum swivel_on_bad_input {
 // How the limbs of a group with SWIVEL_WITH_PLANT stand. A point is planted: the effector, or without one the wrist.
 // The incoming pose says where it is, so no target and no hand is given; one that is written counts instead of the
 // pose's. While it is in contact, it is locked to its support, and moves by no bit in the support's frame. A label
-// makes it lock where it is. It comes to rest within `stop`. Without contact, or once the animation has left it by more
-// than `unlock`, it is released, and goes back to the animation within `blend`. Its way and its speed are continuous,
-// also where one change interrupts another. Without WITH_PLANT_TURN the hand or foot keeps its incoming rotation in the
-// world, with it that is planted, too.
+// makes it lock where it is. It comes to rest within `stop_time`. Without contact, or once the animation has left it by
+// more than `unlock_radius`, it is released, and goes back to the animation within `release_time`. Its way and its
+// speed are continuous, also where one change interrupts another. Without WITH_PLANT_ROTATION the hand or foot keeps
+// its incoming rotation in the world, with it that is planted, too.
 //
 // Lengths are in limb lengths: both bones of the skeleton at rest, times the root's scale. Times are in seconds.
 // The page docs/howto/feet.md has pictures. The pose has the time and the support (swivel_pose). Source: our own, after
 // D. Holden, Inverse Kinematics and Foot Locking (2026).
 typedef struct swivel_plant {
-    float lock;    // it locks only within this of the animated point. A speed that is eased away adds at most as much
-    float unlock;  // it is released if the animated point is further than this from it; no less than lock
-    float stop;    // a point that locks is at rest after this time
-    float blend;   // a point that is released is with the animation again after this time
-    float again;   // limb lengths a second: after a release by distance it locks anew if it is slower; 0: never so
-    float run;     // 0: the anchor is where the point locks. 1: where it would come to rest by itself. 0.5 slides least
-    float longest;  // a body that was not solved for longer than this starts anew; 0: it never does
+    float lock_radius;    // it locks only within this of the animated point. A speed that is eased away adds at most as
+                          // much
+    float unlock_radius;  // it is released if the animated point is further than this from it; no less than lock_radius
+    float stop_time;      // a point that locks is at rest after this time
+    float release_time;   // a point that is released is with the animation again after this time
+    float
+        relock_speed;   // limb lengths a second: after a release by distance it locks anew if it is slower; 0: never so
+    float anchor_lead;  // 0: the anchor is where the point locks. 1: where it would come to rest by itself. 0.5 slides
+                        // least
+    float reset_time;   // a body that was not solved for longer than this starts anew; 0: it never does
     // With PLANT_BY_MOTION: the speed, in limb lengths a second, and the height of the point over the root, along `up`,
     // that bound a contact. First to begin, then to go on. Below both it is in contact.
     float speed[2], height[2];
@@ -612,18 +620,18 @@ static inline swivel_plant swivel_default_plant(void)
 }
 
 // How a group with SWIVEL_FIT shifts a body along the crowd's axis `up`, such as the pelvis of a character, so that its
-// limbs WITH_FIT reach. The shift is the nearest to the wish from which all do. Where there is none, it is the middle
-// between those that conflict. It is eased by a critically damped spring. The group's flags are REACHED where some
-// shift within drop and rise lets all limbs that count reach, and CLAMPED_FAR where none does. Limbs are solved for a
-// root that is shifted. The result SWIVEL_SHIFT says by how much: add it to the root's place along `up`, or to that of
-// the pelvis. Places of joints are from the shifted root. Solve the group together with all limbs of its bodies. A job
-// without the group solves them for a root that is not shifted. A job without some limbs does not know what these ask
-// for. What counts is the reach of bones and cap; a flexion limit narrower than that may still keep a limb short. Limbs
-// are of two bones; legs of more are not fitted.
+// limbs WITH_PELVIS_FIT reach. The shift is the nearest to the wish from which all do. Where there is none, it is the
+// middle between those that conflict. It is eased by a critically damped spring. The group's flags are REACHED where
+// some shift within drop and rise lets all limbs that count reach, and CLAMPED_FAR where none does. Limbs are solved
+// for a root that is shifted. The result SWIVEL_SHIFT says by how much: add it to the root's place along `up`, or to
+// that of the pelvis. Places of joints are from the shifted root. Solve the group together with all limbs of its
+// bodies. A job without the group solves them for a root that is not shifted. A job without some limbs does not know
+// what these ask for. What counts is the reach of bones and cap; a flexion limit narrower than that may still keep a
+// limb short. Limbs are of two bones; legs of more are not fitted.
 typedef struct swivel_fit {
-    float drop, rise;  // the most down and up, in limb lengths of the first group WITH_FIT: see swivel_plant
-    float half;        // s: the time in which about half of a distance is made up
-    float ahead;       // s: from when on a coming target counts. At 0 s it counts whole, before by a parabola
+    float drop, rise;  // the most down and up, in limb lengths of the first group WITH_PELVIS_FIT: see swivel_plant
+    float half_life;   // s: the time in which about half of a distance is made up
+    float lookahead;   // s: from when on a coming target counts. At 0 s it counts whole, before by a parabola
 } swivel_fit;
 
 static inline swivel_fit swivel_default_fit(void)
@@ -649,8 +657,8 @@ static inline swivel_fit swivel_default_fit(void)
 typedef struct swivel_ground {
     float heel[3];  // a point of the sole, in the wrist joint's frame, in the bones' unit; at 0 it is the wrist itself
     float toe_clearance, heel_clearance;  // of effector and heel where they stand: 0 if both are on the sole
-    float cos_most;                       // cosine of the angle that the foot turns at most, 0..1
-    float half;                           // s: the time in which about half of a lift or a slope is made up
+    float cos_max;                        // cosine of the angle that the foot turns at most, 0..1
+    float half_life;                      // s: the time in which about half of a lift or a slope is made up
 } swivel_ground;
 
 static inline swivel_ground swivel_default_ground(void)
@@ -661,22 +669,22 @@ static inline swivel_ground swivel_default_ground(void)
 
 // How a group with SWIVEL_PROP lies: a thing that one hand or two hold, such as a rifle, a steering wheel or a ladder.
 // Limbs are linked to it, and their grips are on it. Its place, and apart from that its rotation, are
-// - SWIVEL_PROP_PLACE and SWIVEL_PROP_TURN, where they are given;
+// - SWIVEL_PROP_POSITION and SWIVEL_PROP_ROTATION, where they are given;
 // - or else the joint's, if there is one: as posed, and shifted with the body. No limb may turn it;
-// - or else as the hands have it in the incoming pose, each by its grip: SWIVEL_PROP_SHARE says which hand. Targets and
+// - or else as the hands have it in the incoming pose, each by its grip: SWIVEL_HAND_BLEND says which hand. Targets and
 //   hands that are written for these limbs count instead of the pose's. A hand that says alone where it is keeps its
 //   goal to the bit.
 // SWIVEL_PROP_WEIGHT is how much of the first two counts, against the third.
 //
-// Then it moves as little as it must so that all hands on it reach their grips, up to most_move. What counts is the
+// Then it moves as little as it must so that all hands on it reach their grips, up to max_move. What counts is the
 // reach of bones, flexion limit, cap and soft zone. A hand with a position weight of 0 asks for nothing. The flags are
-// REACHED where all hands reach, and CLAMPED_FAR where not: then it is where the worse hand misses least, or most_move
+// REACHED where all hands reach, and CLAMPED_FAR where not: then it is where the worse hand misses least, or max_move
 // on its way there. Nothing moves for a grip that is nearer to the shoulder than bones, flexion limit and least
-// distance let the arm get: the flag is then CLAMPED_NEAR. Bad input leaves SWIVEL_PROP_FRAME as it was. Source: our
-// own.
+// distance let the arm get: the flag is then CLAMPED_NEAR. Bad input leaves SWIVEL_PROP_TRANSFORM as it was. Source:
+// our own.
 typedef struct swivel_prop {
-    int32_t joint;    // of the skeleton; -1: none
-    float most_move;  // in limb lengths of the first limb that is linked to it; 0: it stays, as a ladder does
+    int32_t joint;   // of the skeleton; -1: none
+    float max_move;  // in limb lengths of the first limb that is linked to it; 0: it stays, as a ladder does
 } swivel_prop;
 
 static inline swivel_prop swivel_default_prop(void)
@@ -685,7 +693,7 @@ static inline swivel_prop swivel_default_prop(void)
     return prop;
 }
 
-enum { SWIVEL_MOST_LOOK_JOINTS = 8 };  // of a look
+enum { SWIVEL_MAX_LOOK_JOINTS = 8 };  // of a look
 
 // How a group with SWIVEL_LOOK looks: a chain of 1 to 8 joints, such as spine, neck and head, turns so that a line of
 // sight in the last one meets SWIVEL_LOOK_TARGET. Each joint lies below the one before; joints in between turn along.
@@ -710,15 +718,15 @@ enum { SWIVEL_MOST_LOOK_JOINTS = 8 };  // of a look
 // The flags are REACHED where the line meets the target within 1e-4 rad, LIMITED_LOOK, LIMITED_STEP where the rate
 // holds the line back, and FADED. Bad input keeps the incoming pose and leaves SWIVEL_SIGHT as it was. Source: our own.
 typedef struct swivel_look {
-    uint32_t joint_count;                      // 1 to 8
-    uint32_t joints[SWIVEL_MOST_LOOK_JOINTS];  // of the skeleton, from the first to the last
-    float share[SWIVEL_MOST_LOOK_JOINTS];      // of the turn, of any sum: 0 or more, the last one's more than 0
-    float cos_most[SWIVEL_MOST_LOOK_JOINTS];   // cosine of the angle that each joint turns at most, -1..1
-    float eye[3];                              // where the line of sight starts, in the last joint's frame, in its unit
-    float axis[3];                             // where it points, in the last joint's frame, of any length but 0
-    float cos_full, cos_none;                  // cosines of angles: cos_full is more than cos_none
-    float fade_distance;                       // in the last joint's unit, 0 to 1e15
-    float rate;                                // radians a second; 0: turns are not eased
+    uint32_t joint_count;                     // 1 to 8
+    uint32_t joints[SWIVEL_MAX_LOOK_JOINTS];  // of the skeleton, from the first to the last
+    float share[SWIVEL_MAX_LOOK_JOINTS];      // of the turn, of any sum: 0 or more, the last one's more than 0
+    float cos_max[SWIVEL_MAX_LOOK_JOINTS];    // cosine of the angle that each joint turns at most, -1..1
+    float eye[3];                             // where the line of sight starts, in the last joint's frame, in its unit
+    float axis[3];                            // where it points, in the last joint's frame, of any length but 0
+    float cos_full, cos_none;                 // cosines of angles: cos_full is more than cos_none
+    float fade_distance;                      // in the last joint's unit, 0 to 1e15
+    float rate;                               // radians a second; 0: turns are not eased
 } swivel_look;
 
 // No joints yet: shares of 1, cones of 46 degrees, a line along the last joint's z axis. It fades from 96 to 154
@@ -728,7 +736,7 @@ static inline swivel_look swivel_default_look(void)
     swivel_look look;
     int n;
     memset(&look, 0, sizeof look);
-    for (n = 0; n < SWIVEL_MOST_LOOK_JOINTS; ++n) look.share[n] = 1, look.cos_most[n] = 0.7f;
+    for (n = 0; n < SWIVEL_MAX_LOOK_JOINTS; ++n) look.share[n] = 1, look.cos_max[n] = 0.7f;
     look.axis[2] = 1;
     look.cos_full = -0.1f, look.cos_none = -0.9f;
     look.fade_distance = 0.05f;
@@ -741,7 +749,7 @@ static inline swivel_look swivel_default_look(void)
 // swivel_arm_axis() converts those of the character. Start with an empty region, which allows nothing, then add to it
 // and forbid, in any order: swivel_region_add_cones() and the calls after it. A call that fails leaves the region as it
 // was. Any thread; no allocation.
-enum { SWIVEL_MOST_HALF_SPACES = 64, SWIVEL_MOST_REGION_PARTS = 24 };
+enum { SWIVEL_MAX_HALF_SPACES = 64, SWIVEL_MAX_REGION_PARTS = 24 };
 
 // The directions whose scalar product with the axis is at least the cosine.
 typedef struct swivel_half_space {
@@ -751,11 +759,11 @@ typedef struct swivel_half_space {
 } swivel_half_space;
 
 typedef struct swivel_region {
-    size_t size;                                   // sizeof(swivel_region), set by swivel_default_region()
-    uint32_t cut_count;                            // the first half-spaces, which hold for all parts
-    uint32_t part_count;                           // part n is half_space[first[n]] to half_space[first[n + 1] - 1]
-    uint32_t first[SWIVEL_MOST_REGION_PARTS + 1];  // first[0] is cut_count
-    swivel_half_space half_space[SWIVEL_MOST_HALF_SPACES];
+    size_t size;                                  // sizeof(swivel_region), set by swivel_default_region()
+    uint32_t cut_count;                           // the first half-spaces, which hold for all parts
+    uint32_t part_count;                          // part n is half_space[first[n]] to half_space[first[n + 1] - 1]
+    uint32_t first[SWIVEL_MAX_REGION_PARTS + 1];  // first[0] is cut_count
+    swivel_half_space half_space[SWIVEL_MAX_HALF_SPACES];
 } swivel_region;
 
 static inline swivel_region swivel_default_region(void)
@@ -816,7 +824,7 @@ static inline swivel_group_def swivel_default_body_group_def(const swivel_limb_j
     return group;
 }
 
-// The shift of each body, which its limbs WITH_FIT ask for.
+// The shift of each body, which its limbs WITH_PELVIS_FIT ask for.
 static inline swivel_group_def swivel_default_fit_group_def(void)
 {
     swivel_group_def group = swivel_default_body_group_def(NULL);
@@ -942,10 +950,10 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 // Results depend on differences of positions only, but a float 1e7 units from the origin is good to half a unit. So
 // positions far from the origin may be given as doubles. An origin near the limb is subtracted in double before they
 // are rounded to floats. The positions of a limb (SWIVEL_TARGET, SWIVEL_POLE unless a direction,
-// SWIVEL_SHOULDER_POSITION, SWIVEL_COMING, SWIVEL_GROUND, and SWIVEL_PROP_PLACE of a prop without a joint) must be
-// given from the same origin. Any origin within some arm lengths of
-// the limb will do, such as the character's place. A position is rounded to 6e-8 of its distance from its origin.
-// Rotations need no origin; swivel_forward()'s positions are from it, too.
+// SWIVEL_SHOULDER_POSITION, SWIVEL_NEXT_TARGET, SWIVEL_GROUND, and SWIVEL_PROP_POSITION of a prop without a joint) must
+// be given from the same origin. Any origin within some arm lengths of the limb will do, such as the character's place.
+// A position is rounded to 6e-8 of its distance from its origin. Rotations need no origin; swivel_forward()'s positions
+// are from it, too.
 //
 // field is one of these. Each limb has 3 consecutive doubles, and so has its origin; stride 0 means one origin
 // for all. The call subtracts the origin in double, and rounds the difference once, to the nearest float. If the data
@@ -966,7 +974,7 @@ typedef struct swivel_frame_field {
 
 // The kind of a caller's numbers.
 typedef enum swivel_numbers {
-    SWIVEL_NUMBERS_UNSAID,  // the caller does not say, so nothing is checked
+    SWIVEL_NUMBERS_UNSPECIFIED,  // the caller does not say, so nothing is checked
     SWIVEL_FLOATS,
     SWIVEL_DOUBLES
 } swivel_numbers;
@@ -1072,9 +1080,9 @@ typedef struct swivel_pose {
     // If given: where the joints are after the solve, relative to the root. Of those that some group needs: limbs,
     // joints in between, and all above. x, y, z, w with w >= 0, and 3 floats. A limb that keeps its pose has them as
     // they come; what is bad in the pose is NaN.
-    swivel_joint_values joint_rotations, joint_places;
+    swivel_joint_values joint_rotations, joint_positions;
     // Of each body, for groups WITH_PLANT, FIT or LOOK with a rate: the seconds since its last solve, 1 float. It must
-    // be given where one of these is solved. Where it is given, WITH_MOST_SWIVEL goes by it, too. 0 changes nothing
+    // be given where one of these is solved. Where it is given, WITH_MAX_SWIVEL goes by it, too. 0 changes nothing
     // that has begun to be carried. Less than 0, NaN and more than 1e15 are bad input.
     swivel_in time;
     // What planted points stand on: a platform, a ladder, or the ground. Null position: at the world's origin. Null
@@ -1149,10 +1157,10 @@ typedef struct swivel_job {
     // an index that is out of range or a padding lane, before anything is solved. A list in no order costs some
     // nanoseconds an entry more than bits.
     const swivel_limbs* limbs;
-    // The most urgent blocks, at most most_blocks of them, as swivel_choose() picks them; urgency is its, or null.
+    // The most urgent blocks, at most max_blocks of them, as swivel_choose() picks them; urgency is its, or null.
     const swivel_in* priorities;
     float* urgency;
-    uint32_t most_blocks;
+    uint32_t max_blocks;
 
     // The caller's own arrays: one frame for each group that is named, in the crowd's order, as far apart as the first
     // one's size. Null: values are in the crowd's rows.
@@ -1236,7 +1244,7 @@ SWIVEL_API size_t swivel_workspace_bytes(const swivel_crowd* crowd);
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
 
 // Chooses limbs by urgency, within a budget. Whole blocks are picked, because one limb costs about as much as its
-// block: at most most_blocks of them. Each call adds the largest priority among a block's limbs to the block's urgency.
+// block: at most max_blocks of them. Each call adds the largest priority among a block's limbs to the block's urgency.
 // It picks the most urgent blocks, of equals the lower index. The urgency of a picked block returns to 0. So over time
 // a block is picked about as often as its priority says, and blocks of equal priority take turns. None waits for ever,
 // unless others have 1e7 times its priority: floats then stop its urgency. Place limbs of equal importance side by
@@ -1257,10 +1265,10 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job
 // other or the crowd's own memory. mask_word_count is (swivel_block_count() + 1) / 2. Fails for another one, for a null
 // mask, for missing priorities, and for a stride below 4 other than 0.
 SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency,
-                                       uint32_t most_blocks, uint32_t* mask, uint32_t mask_word_count,
+                                       uint32_t max_blocks, uint32_t* mask, uint32_t mask_word_count,
                                        uint32_t* chosen_count);
 
-// Clears what these limbs carry from solve to solve. SWIVEL_MOST_SWIVEL then does not limit their next solve. Planted
+// Clears what these limbs carry from solve to solve. SWIVEL_MAX_SWIVEL then does not limit their next solve. Planted
 // points and shifts start anew, as in the first solve. Call it after a teleport, and where a body's place is used anew.
 // Nothing to do in groups without such fields.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
@@ -1327,7 +1335,7 @@ SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t grou
                                         const double wrist[3], char* text, size_t size, int* agrees);
 
 // An arc of swivels, as cos and sin of its ends. It turns from one to the other by the right hand about the line from
-// shoulder to wrist. Angle 0 is the wish, as far as SWIVEL_MOST_SWIVEL allows it. The whole circle is one arc with
+// shoulder to wrist. Angle 0 is the wish, as far as SWIVEL_MAX_SWIVEL allows it. The whole circle is one arc with
 // equal ends.
 typedef struct swivel_arc {
     float from[2], to[2];
@@ -1349,11 +1357,11 @@ SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t
                                              swivel_euler_order wrist_order, int family, swivel_out angles);
 
 // Values of limit and step fields, from angles in radians. Any thread; no allocation. These functions, except
-// swivel_turn(), fail for values that are not finite or out of range; outputs then stay unchanged. A range from least
-// to most, least <= most, no wider than 2 pi: one of the three of a box, or a twist's.
-SWIVEL_API swivel_status swivel_range(double least, double most, float range[4]);
+// swivel_cos_sin(), fail for values that are not finite or out of range; outputs then stay unchanged. A range from
+// least to most, least <= most, no wider than 2 pi: one of the three of a box, or a twist's.
+SWIVEL_API swivel_status swivel_range(double min, double max, float range[4]);
 // An axis of any length but zero and the largest angle to it, 0 to pi.
-SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float cone[4]);
+SWIVEL_API swivel_status swivel_cone(const double axis[3], double max, float cone[4]);
 // Converts a direction of the character into the arm frame, which the axes of limits are in.
 // parent_rotation: of the shoulder's parent joint in the world of the rest pose, x, y, z, w.
 // direction: in that world, 1e-15..1e15 long.
@@ -1369,11 +1377,11 @@ SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float co
 SWIVEL_API swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_rotation[4],
                                          const double direction[3], double axis[3]);
 // The elbow's least and largest flexion, 0 <= least <= most <= pi.
-SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion[2]);
+SWIVEL_API swivel_status swivel_flexion(double min, double max, float flexion[2]);
 // For SWIVEL_AIM: an axis of the hand, of any length but zero, and the elbow's flexion, 0 to pi.
 SWIVEL_API swivel_status swivel_aim(const double axis[3], double flexion, float aim[5]);
-// Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MOST_SWIVEL.
-SWIVEL_API void swivel_turn(double angle, float turn[2]);
+// Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MAX_SWIVEL.
+SWIVEL_API void swivel_cos_sin(double angle, float turn[2]);
 // The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side. A skeleton mirrored in x has
 // offsets and bends (-x, y, z) and rotations (x, -y, -z, w). Its arm frame from swivel_bind() is the mirror image with
 // the x axis negated. order: of boxes, else ignored. from and to have the field's components and may be the same.
@@ -1398,11 +1406,11 @@ SWIVEL_API swivel_status swivel_region_add_cones(swivel_region* region, const sw
 // circles. corners: x, y, z of each, of any length but zero; no corner may be equal or opposite to the next.
 SWIVEL_API swivel_status swivel_region_add_polygon(swivel_region* region, const float* corners, uint32_t count);
 // Adds cones in order that hold all these directions, each with `margin` radians around it: what a clip does, and a
-// little more. They are 1 to most_cones, as many as allow least. directions: x, y, z of each, of any length but zero,
-// `count` of them, 1 or more. margin: 0.01 to 1. most_cones: 1 to 6. Directions for which it finds no such cones,
+// little more. They are 1 to max_cones, as many as allow least. directions: x, y, z of each, of any length but zero,
+// `count` of them, 1 or more. margin: 0.01 to 1. max_cones: 1 to 6. Directions for which it finds no such cones,
 // as two that are opposite, are refused. Takes about 0.05 ms for each direction.
 SWIVEL_API swivel_status swivel_region_add_directions(swivel_region* region, const float* directions, uint32_t count,
-                                                      float margin, uint32_t most_cones);
+                                                      float margin, uint32_t max_cones);
 // Cuts a cone out of all that is there and will be added.
 SWIVEL_API swivel_status swivel_region_forbid(swivel_region* region, const swivel_region_cone* cone);
 // The region of the same limb on the body's other side, as swivel_mirror() has it. from and to may be the same.
@@ -1451,7 +1459,7 @@ SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride
 SWIVEL_API float swivel_unpack_half(uint16_t word);
 
 // Changes what planted points of some bodies stand on, from one support to another, without a jump: SWIVEL_PLANT and
-// SWIVEL_PLANT_TURN, which are in the support's frame, become those of the new one. Call it between two solves, and
+// SWIVEL_PLANT_ROTATION, which are in the support's frame, become those of the new one. Call it between two solves, and
 // give the next pose the new support. Both supports as they are now; how they move against each other is not known
 // here, so a point that fades does so in the new one. Best change it while a foot is in the air. first is the group's
 // first limb, that is body. Positions are 3 doubles, also where the pose's are floats. Rotations are x, y, z, w as

@@ -89,7 +89,7 @@ inline swivel_group_def body_group(const swivel_limb_joints& joints, swivel_feat
     return made;
 }
 swivel_group_def body_group(const swivel_limb_joints&& joints, swivel_features features = 0) = delete;
-// The shift of each body, for its limbs WITH_FIT.
+// The shift of each body, for its limbs WITH_PELVIS_FIT.
 inline swivel_group_def fit_group(const swivel_fit& fit = swivel_default_fit())
 {
     swivel_group_def made = swivel_default_fit_group_def();
@@ -110,7 +110,7 @@ inline swivel_group_def look_group(std::span<const std::uint32_t> joints,
     swivel_group_def made = swivel_default_look_group_def();
     made.look = look;
     made.look.joint_count = static_cast<std::uint32_t>(joints.size());
-    std::copy_n(joints.begin(), std::min<std::size_t>(joints.size(), SWIVEL_MOST_LOOK_JOINTS), made.look.joints);
+    std::copy_n(joints.begin(), std::min<std::size_t>(joints.size(), SWIVEL_MAX_LOOK_JOINTS), made.look.joints);
     return made;
 }
 inline swivel_group_def look_group(std::initializer_list<std::uint32_t> joints,
@@ -150,21 +150,21 @@ std::array<float, size> made_by(Make make, Angles... angles)
     return value;
 }
 // Values of fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim(),
-// swivel_turn().
-inline std::array<float, 4> range(double least, double most) { return made_by<4>(swivel_range, least, most); }
-inline std::array<float, 4> cone(const std::array<double, 3>& axis, double most)
+// swivel_cos_sin().
+inline std::array<float, 4> range(double min, double max) { return made_by<4>(swivel_range, min, max); }
+inline std::array<float, 4> cone(const std::array<double, 3>& axis, double max)
 {
-    return made_by<4>(swivel_cone, axis.data(), most);
+    return made_by<4>(swivel_cone, axis.data(), max);
 }
-inline std::array<float, 2> flexion(double least, double most) { return made_by<2>(swivel_flexion, least, most); }
+inline std::array<float, 2> flexion(double min, double max) { return made_by<2>(swivel_flexion, min, max); }
 inline std::array<float, 5> aim(const std::array<double, 3>& axis, double flexion)
 {
     return made_by<5>(swivel_aim, axis.data(), flexion);
 }
-inline std::array<float, 2> turn(double angle)
+inline std::array<float, 2> cos_sin(double angle)
 {
     std::array<float, 2> value;
-    swivel_turn(angle, value.data());
+    swivel_cos_sin(angle, value.data());
     return value;
 }
 // Where the upper arms of a group may point: REACH REGIONS in swivel.h. It starts empty, and allows nothing. A group
@@ -192,10 +192,10 @@ public:
     {
         return add_polygon(std::span(corners.begin(), corners.size()));
     }
-    Region& add_directions(std::span<const std::array<float, 3>> directions, float margin, std::uint32_t most_cones)
+    Region& add_directions(std::span<const std::array<float, 3>> directions, float margin, std::uint32_t max_cones)
     {
         check(swivel_region_add_directions(&region_, first_of(directions),
-                                           static_cast<std::uint32_t>(directions.size()), margin, most_cones));
+                                           static_cast<std::uint32_t>(directions.size()), margin, max_cones));
         return *this;
     }
     Region& forbid(const swivel_region_cone& cone)
@@ -281,10 +281,10 @@ inline bool is_position(swivel_field field)
 // The numbers in a value of a field, in whichever kind of group has it.
 inline std::uint32_t component_count(swivel_field field)
 {
-    std::uint32_t most = 0;
+    std::uint32_t max = 0;
     for (const swivel_features kind : {~SWIVEL_NO_LIMB, SWIVEL_FIT, SWIVEL_PROP, SWIVEL_LOOK})
-        most = std::max(most, swivel_component_count(field, kind));
-    return most;
+        max = std::max(max, swivel_component_count(field, kind));
+    return max;
 }
 
 // Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
@@ -400,7 +400,7 @@ private:
     }
     void say_positions(swivel_numbers are)
     {
-        if (positions_ != SWIVEL_NUMBERS_UNSAID && positions_ != are)
+        if (positions_ != SWIVEL_NUMBERS_UNSPECIFIED && positions_ != are)
             fail(SWIVEL_INVALID_ARGUMENT, "a frame has positions in floats and in doubles; give all in one of them");
         positions_ = are;
     }
@@ -409,7 +409,7 @@ private:
     std::array<swivel_frame_field, 64> fields_ = {};
     std::size_t count_ = 0;
     swivel_in origin_ = {};
-    swivel_numbers positions_ = SWIVEL_NUMBERS_UNSAID;
+    swivel_numbers positions_ = SWIVEL_NUMBERS_UNSPECIFIED;
 };
 
 // Some things, none of them, or everything. It views a std::span or a range with a name, which must outlive it. It
@@ -513,7 +513,7 @@ struct Job {
     Given<std::uint32_t> limbs = everything;   // numbers of limbs in the crowd
     Given<swivel_in> priorities = everything;  // one for each group; of bodies one alone
     std::span<float> urgency = {};             // with priorities: one for each block, kept by the caller
-    std::uint32_t most_blocks = 0;             // with priorities
+    std::uint32_t max_blocks = 0;              // with priorities
     Given<swivel_frame> frames = everything;   // one for each group that is named, such as a Frame with a name
     bool on_this_thread = false;
     void* workspace = nullptr;          // memory for this call alone; null: one of the crowd's workspaces
@@ -616,7 +616,7 @@ public:
         if (wanted.limbs) job.limbs = &limbs;
         if (wanted.priorities) job.priorities = checked(*wanted.priorities);
         job.urgency = checked(wanted.urgency);
-        job.most_blocks = wanted.most_blocks;
+        job.max_blocks = wanted.max_blocks;
         if (wanted.frames) {
             std::size_t named_count = 0;
             for (const std::uint32_t word : named) named_count += static_cast<std::size_t>(std::popcount(word));
@@ -637,11 +637,11 @@ public:
         return solved;
     }
     // swivel_choose(): marks limbs in a mask and returns how many.
-    std::uint32_t choose(std::span<const swivel_in> priorities, std::span<float> urgency, std::uint32_t most_blocks,
+    std::uint32_t choose(std::span<const swivel_in> priorities, std::span<float> urgency, std::uint32_t max_blocks,
                          std::span<std::uint32_t> mask)
     {
         std::uint32_t chosen = 0;
-        check(swivel_choose(crowd_, checked(priorities), checked(urgency), most_blocks, mask.data(), count(mask),
+        check(swivel_choose(crowd_, checked(priorities), checked(urgency), max_blocks, mask.data(), count(mask),
                             &chosen));
         return chosen;
     }

@@ -30,7 +30,7 @@ struct StageBody<Stage::posed> {
                                  s.body_vector(limb.wrist + kPlaceRow)};
         s.require(is_posed(s));
         s.require(is_share(body_weight(s)));
-        if (s.has(SWIVEL_WITH_FIT)) s.require(FitWish<S>(s).is_valid());
+        if (s.has(SWIVEL_WITH_PELVIS_FIT)) s.require(FitWish<S>(s).is_valid());
         Mask<T> stays = T(0) == T(1);
         if (which == BendNormal::chosen && weighs) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),
@@ -183,7 +183,7 @@ struct StageBody<Stage::correct> {
                   b.wrist_rest);
         if (s.has(SWIVEL_WITH_CLAVICLE))
             store(limb.parent,
-                  unit_rotation(s.body_rotor(limb.parent + kLocalRow) * load_result_rotor(s, SWIVEL_CLAVICLE_TURN)),
+                  unit_rotation(s.body_rotor(limb.parent + kLocalRow) * load_result_rotor(s, SWIVEL_CLAVICLE_ROTATION)),
                   limb.clavicle_rest);
         for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
             store(limb.twist_bones[n], turned_twist_bone(s, n), limb.twist_rest[n]);

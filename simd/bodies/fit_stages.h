@@ -13,17 +13,17 @@ template <class S>
 struct FitWish {
     using T = typename S::T;
     T weight, time = T(0);
-    Vector<T> coming = vector(T(0), T(0), T(0));
+    Vector<T> next_target = vector(T(0), T(0), T(0));
 
-    SWIVEL_INLINE explicit FitWish(const S& s) : weight(s.io.load(SWIVEL_FIT_WEIGHT, 0))
+    SWIVEL_INLINE explicit FitWish(const S& s) : weight(s.io.load(SWIVEL_PELVIS_FIT_WEIGHT, 0))
     {
-        if (!s.has(SWIVEL_WITH_COMING)) return;
-        coming = s.io.load_vector(SWIVEL_COMING);
-        time = s.io.load(SWIVEL_COMING_TIME, 0);
+        if (!s.has(SWIVEL_WITH_NEXT_TARGET)) return;
+        next_target = s.io.load_vector(SWIVEL_NEXT_TARGET);
+        time = s.io.load(SWIVEL_NEXT_TIME, 0);
     }
     SWIVEL_INLINE Mask<T> is_valid() const
     {
-        return is_share(weight) & (len2(coming) <= T(kHuge2)) & is_within(time, 0, kHuge);
+        return is_share(weight) & (len2(next_target) <= T(kHuge2)) & is_within(time, 0, kHuge);
     }
 };
 
@@ -55,9 +55,9 @@ struct StageBody<Stage::span> {
         ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
         const T weight = s.has(SWIVEL_WITH_WEIGHTS) ? wish.weight * s.io.load(SWIVEL_WEIGHTS, 0) : wish.weight;
         ShiftSpan<T> asked = span & asks(target, weight);
-        if (s.has(SWIVEL_WITH_COMING)) {
+        if (s.has(SWIVEL_WITH_NEXT_TARGET)) {
             const T near = hi(T(1) - wish.time * T(limb.per_ahead), T(0));
-            asked = asked & asks(wish.coming - root, near * near);
+            asked = asked & asks(wish.next_target - root, near * near);
         }
         s.require(is_posed(s) & wish.is_valid() & (len2(target) <= T(kHuge2)) & (len2(from_wrist) <= T(kHuge2)));
         const Mask<T> counts = lanes_where<T>(s.good());  // bad input asks for nothing

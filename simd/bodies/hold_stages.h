@@ -94,13 +94,13 @@ struct PropAtHand {
         frame = between(hands, told, select(is_of_hands, T(0), weight));
     }
     SWIVEL_INLINE explicit PropAtHand(const S& slice)
-        : s(slice), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_PROP_SHARE, 0))
+        : s(slice), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_HAND_BLEND, 0))
     {
         s.require(is_share(share));
         if (prop.holder_count == 1) share = T(0);
         const HeldFrame<T> hands = between(get_held(s, holder(0)), get_held(s, holder(prop.holder_count - 1)), share);
-        const Rotor<T> turn = s.io.load_rotor(SWIVEL_PROP_TURN);
-        const Vector<T> at = s.io.load_vector(SWIVEL_PROP_PLACE);
+        const Rotor<T> turn = s.io.load_rotor(SWIVEL_PROP_ROTATION);
+        const Vector<T> at = s.io.load_vector(SWIVEL_PROP_POSITION);
         const T turn2 = len2(turn), at2 = len2(at);
         const Mask<T> has_turn = turn2 == turn2, has_place = at2 == at2;
         s.require((is_orientation(turn) | !has_turn) & ((at2 <= T(kHuge2)) | !has_place));
@@ -152,12 +152,12 @@ struct StageBody<Stage::prop> {
         const auto within = [&](const ReachingMoves<T>& moves) SWIVEL_INLINE_LAMBDA {
             return ReachingMoves<T>{moves.middle, hi(moves.reach - T(2 * kReachSlack) * size, T(0))};
         };
-        const T most = T(prop.most_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
+        const T max = T(prop.max_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
         Mask<T> is_longer = no_lanes<T>();
         const Vector<T> none = vector(T(0), T(0), T(0));
         const Mask<T> rests = a.has(none) & b.has(none);
         const Vector<T> move =
-            all(rests) ? none : select(rests, none, at_most(least_move(within(a), within(b)), most, !rests, is_longer));
+            all(rests) ? none : select(rests, none, at_most(min_move(within(a), within(b)), max, !rests, is_longer));
         held.frame.place = held.frame.place + move;
         const Mask<T> is_far = !(rests | (a.has(move) & b.has(move))),
                       is_near = (!is_far) & (held.is_too_near(0) | held.is_too_near(prop.holder_count - 1)),
@@ -173,8 +173,8 @@ struct StageBody<Stage::prop> {
                    select(says & (held.share == T(0)), T(0), select(says & (held.share == T(1)), T(1), T(-1))));
 
         const Rows<T, kTold> out = good_rows(s);
-        out.store_vector(SWIVEL_PROP_FRAME, held.frame.place + s.body_vector(kRootRow));
-        out.store_rotor(SWIVEL_PROP_FRAME, hemisphere(held.frame.rotation), 3);
+        out.store_vector(SWIVEL_PROP_TRANSFORM, held.frame.place + s.body_vector(kRootRow));
+        out.store_rotor(SWIVEL_PROP_TRANSFORM, hemisphere(held.frame.rotation), 3);
         Rows<T, kTold> all_rows = s.io;
         all_rows.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
         all_rows.store(SWIVEL_FLAGS, 0,
@@ -205,15 +205,15 @@ struct StageBody<Stage::link> {
         send(s, goal.place, goal.rotation);
         if (s.has(SWIVEL_WITH_RECORD)) {
             const Rows<T, kTold> out = waiting_rows(s);
-            out.store_vector(SWIVEL_GOAL, goal.place + s.body_vector(kRootRow));
-            out.store_rotor(SWIVEL_GOAL, goal.rotation, 3);
+            out.store_vector(SWIVEL_SOLVED_GOAL, goal.place + s.body_vector(kRootRow));
+            out.store_rotor(SWIVEL_SOLVED_GOAL, goal.rotation, 3);
         }
     }
 };
 
 // By the arm's own forward kinematics. A limb that keeps its pose has its hand where it came.
 template <>
-struct StageBody<Stage::hand_frame> {
+struct StageBody<Stage::hand_transform> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
@@ -242,8 +242,8 @@ struct StageBody<Stage::hand_frame> {
         s.set_body(limb.frame + kHeldScaleRow, scale);
         Rows<T, kTold> out = s.io;
         out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        out.store_vector(SWIVEL_HAND_FRAME, with_one_nan(hand.place + s.body_vector(kRootRow)));
-        out.store_rotor(SWIVEL_HAND_FRAME, with_one_nan(hemisphere(hand.rotation)), 3);
+        out.store_vector(SWIVEL_HAND_TRANSFORM, with_one_nan(hand.place + s.body_vector(kRootRow)));
+        out.store_rotor(SWIVEL_HAND_TRANSFORM, with_one_nan(hemisphere(hand.rotation)), 3);
     }
 };
 

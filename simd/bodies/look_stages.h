@@ -85,12 +85,12 @@ private:
     };
     template <class T>
     struct Chain {
-        LookedJoint<T> joint[kMostLookJoints];
+        LookedJoint<T> joint[kMaxLookJoints];
         LineOfSight<T> sight;
         Vector<T>
-            carried[kMostLookJoints];  // with a rate: quarter_tangent() of turns, in the last joint's frame as it comes
-        Mask<T> held;                  // by a cone
-        Mask<T> is_behind;             // of its goal, by the rate
+            carried[kMaxLookJoints];  // with a rate: quarter_tangent() of turns, in the last joint's frame as it comes
+        Mask<T> held;                 // by a cone
+        Mask<T> is_behind;            // of its goal, by the rate
     };
 
     // Turns the joints of the chain, each in the frame that those before it have turned. turn_of gives the turn of the
@@ -130,7 +130,7 @@ private:
         const bool has_rate = goal.rules.rate > 0;
         if (!has_rate && all(goal.body_weight == T(1))) return;
         const Rotor<T> came = s.body_rotor(s.strip.run.limb->turned[count - 1].row + kTurnRow);
-        Rotor<T> goals[kMostLookJoints];
+        Rotor<T> goals[kMaxLookJoints];
         for (std::uint32_t n = 0; n < count; ++n)
             goals[n] = seen_by(~(n == 0 ? came : chain.joint[n - 1].sum * came), chain.joint[n].turn);
         if (has_rate) hold_back(s, goal, chain, goals);
@@ -155,19 +155,19 @@ private:
     }
     template <class S>
     SWIVEL_INLINE static void hold_back(const S& s, const LookGoal<S>& goal, Chain<typename S::T>& chain,
-                                        Rotor<typename S::T> (&goals)[kMostLookJoints])
+                                        Rotor<typename S::T> (&goals)[kMaxLookJoints])
     {
         using T = typename S::T;
         const std::uint32_t count = s.strip.run.limb->turned_count;
         const T time = s.body_row(kTimeRow), half = T(0.5f * goal.rules.rate) * time;
         s.require(is_within(time, 0, kHuge));
-        Vector<T> carried[kMostLookJoints];
+        Vector<T> carried[kMaxLookJoints];
         Mask<T> has_begun = s.io.load_result(SWIVEL_LOOK_TURNS, 0) > T(0.5);
         for (std::uint32_t n = 0; n < count; ++n) {
             carried[n] = s.io.load_result_vector(SWIVEL_LOOK_TURNS, 1 + 3 * static_cast<int>(n));
             has_begun = has_begun & (len2(carried[n]) <= T(1.00001));
         }
-        LookWay<T> ways[kMostLookJoints];
+        LookWay<T> ways[kMaxLookJoints];
         T sum = T(0);
         for (std::uint32_t n = 0; n < count; ++n) {
             ways[n] = look_way(from_quarter_tangent(carried[n]), goals[n]);

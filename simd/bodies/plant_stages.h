@@ -3,7 +3,7 @@
 // The stages of limbs that are planted: where their points go, on flat ground and on other, and how they stand then.
 #pragma once
 
-#include "core/plant_turn.h"
+#include "core/plant_rotation.h"
 #include "simd/bodies/sent_rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -59,11 +59,12 @@ SWIVEL_INLINE Mask<typename S::T> in_contact(const S& s, const Mask<typename S::
         return contact > T(0.5);
     }
     const BodyLimb& limb = *s.strip.run.limb;
-    MotionState<T> motion{s.io.load_result_vector(SWIVEL_MOTION, 0), s.io.load_result(SWIVEL_MOTION, 3) > T(0.5)};
+    MotionState<T> motion{s.io.load_result_vector(SWIVEL_CONTACT_STATE, 0),
+                          s.io.load_result(SWIVEL_CONTACT_STATE, 3) > T(0.5)};
     const Mask<T> is_in_contact = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.rules);
     const Rows<T, kTold> out = waiting_rows(s);
-    out.store_vector(SWIVEL_MOTION, motion.place);
-    out.store(SWIVEL_MOTION, 3, select(motion.contact, T(1), T(0)));
+    out.store_vector(SWIVEL_CONTACT_STATE, motion.place);
+    out.store(SWIVEL_CONTACT_STATE, 3, select(motion.contact, T(1), T(0)));
     return is_in_contact;
 }
 
@@ -74,14 +75,15 @@ SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<type
                                                 const Rotor<typename S::T>& hand)
 {
     using T = typename S::T;
-    TurnState<T> turn{s.io.load_result_rotor(SWIVEL_PLANT_TURN, kTurnMark),
-                      s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnOffset),
-                      s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnVelocity)};
-    const Rotor<T> planted = plant_turn(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
+    TurnState<T> turn{s.io.load_result_rotor(SWIVEL_PLANT_ROTATION, kTurnMark),
+                      s.io.load_result_vector(SWIVEL_PLANT_ROTATION, kTurnOffset),
+                      s.io.load_result_vector(SWIVEL_PLANT_ROTATION, kTurnVelocity)};
+    const Rotor<T> planted =
+        plant_rotation(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
     const Rows<T, kTold> out = waiting_rows(s);
-    out.store_rotor(SWIVEL_PLANT_TURN, turn.mark, kTurnMark);
-    out.store_vector(SWIVEL_PLANT_TURN, turn.offset, kTurnOffset);
-    out.store_vector(SWIVEL_PLANT_TURN, turn.velocity, kTurnVelocity);
+    out.store_rotor(SWIVEL_PLANT_ROTATION, turn.mark, kTurnMark);
+    out.store_vector(SWIVEL_PLANT_ROTATION, turn.offset, kTurnOffset);
+    out.store_vector(SWIVEL_PLANT_ROTATION, turn.velocity, kTurnVelocity);
     return support * planted;
 }
 
@@ -169,7 +171,7 @@ struct StageBody<Stage::plant> {
         const Vector<T> place = point.place();
         s.require(len2(place) <= T(kHuge2));
         const Rotor<T> hand =
-            s.has(SWIVEL_WITH_PLANT_TURN)
+            s.has(SWIVEL_WITH_PLANT_ROTATION)
                 ? planted_turn(s, planted.step, point.state.locked, point.support.rotation, point.animated.rotation)
                 : point.animated.rotation;
         const Rows<T, kTold> out = waiting_rows(s);
@@ -188,8 +190,8 @@ struct StageBody<Stage::plant> {
                    word_where(point.state.locked, SWIVEL_PLANTED) | word_where(planted.step.releases, SWIVEL_RELEASED) |
                        word_where(planted.too_far, SWIVEL_BROKE_AWAY) | word_where(planted.cut, SWIVEL_CUT));
         if (s.has(SWIVEL_WITH_RECORD)) {
-            out.store_vector(SWIVEL_GOAL, in_world);
-            out.store_rotor(SWIVEL_GOAL, hand, 3);
+            out.store_vector(SWIVEL_SOLVED_GOAL, in_world);
+            out.store_rotor(SWIVEL_SOLVED_GOAL, hand, 3);
         }
     }
 };
@@ -215,8 +217,8 @@ struct StageBody<Stage::ground> {
         send(s, foot.toe, foot.rotation);
         if (s.has(SWIVEL_WITH_RECORD)) {
             const Rows<T, kTold> out = waiting_rows(s);
-            out.store_vector(SWIVEL_GOAL, foot.toe + s.body_vector(kRootRow));
-            out.store_rotor(SWIVEL_GOAL, foot.rotation, 3);
+            out.store_vector(SWIVEL_SOLVED_GOAL, foot.toe + s.body_vector(kRootRow));
+            out.store_rotor(SWIVEL_SOLVED_GOAL, foot.rotation, 3);
         }
     }
 };

@@ -25,8 +25,8 @@ SWIVEL_INLINE Rows<typename S::T, kTold> good_rows(const S& s)
 
 // The results of a limb that is sent that it has before all of its input is known to be good. Their rows lie side by
 // side.
-inline constexpr swivel_field kSentResults[] = {SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION,
-                                                SWIVEL_GOAL,  SWIVEL_PROBE,      SWIVEL_LIFT};
+inline constexpr swivel_field kSentResults[] = {SWIVEL_PLANT,       SWIVEL_PLANT_ROTATION, SWIVEL_CONTACT_STATE,
+                                                SWIVEL_SOLVED_GOAL, SWIVEL_PROBE,          SWIVEL_LIFT};
 static_assert([] {
     std::uint32_t count = 0;
     for (const swivel_field field : kSentResults) count += row_of(field).component_count;
@@ -207,16 +207,16 @@ SWIVEL_INLINE LimbReach<typename S::T> limb_reach(const S& s)
     const T upper = length(0, elbow - shoulder), fore = length(1, wrist - elbow), bones = upper + fore;
     T far = bones, near = abs(upper - fore);
     if (s.has(SWIVEL_WITH_FLEXION_LIMIT)) {
-        const T cos_half = s.io.load(SWIVEL_FLEXION_LIMIT, 0), cos_half_most = s.io.load(SWIVEL_FLEXION_LIMIT, 1);
-        s.require(is_within(cos_half, 0, 1) & is_within(cos_half_most, 0, 1));
+        const T cos_half = s.io.load(SWIVEL_FLEXION_LIMIT, 0), cos_half_max = s.io.load(SWIVEL_FLEXION_LIMIT, 1);
+        s.require(is_within(cos_half, 0, 1) & is_within(cos_half_max, 0, 1));
         far = lo(bent_reach(upper, fore, cos_half), far);
-        near = hi(bent_reach(upper, fore, cos_half_most), near);
+        near = hi(bent_reach(upper, fore, cos_half_max), near);
     }
     if (s.has(SWIVEL_WITH_REACH)) {
         const ReachGoal<T> reach{s.io.load(SWIVEL_REACH, 0), s.io.load(SWIVEL_REACH, 1), s.io.load(SWIVEL_REACH, 2),
                                  s.io.load(SWIVEL_REACH, 3)};
         s.require(is_valid(reach));
-        return {far, hi(far - reach.soft_far * bones, T(0)), hi(near, reach.least_distance * far)};
+        return {far, hi(far - reach.soft_far * bones, T(0)), hi(near, reach.min_distance * far)};
     }
     if (!s.has(SWIVEL_WITH_CAP)) return {far, far, near};
     const Cap<T> cap{s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),

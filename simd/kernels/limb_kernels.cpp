@@ -38,9 +38,9 @@ constexpr StageFunction stage_function()
     if constexpr (stage == Stage::choose)
         return choose < Number, n + 1 < kLineCounts ? n + 1 : 0, 0 > ;
     else if constexpr (stage == Stage::choose_in_box)
-        return choose<Number, 0, kMostBoxes>;
+        return choose<Number, 0, kMaxBoxes>;
     else if constexpr (stage == Stage::choose_in_region)
-        return choose<Number, 0, kMostBoxes, true>;
+        return choose<Number, 0, kMaxBoxes, true>;
     else
         return run_stage<stage, subset(row_of(stage).knows, n)>;
 }
@@ -76,14 +76,14 @@ void solve(const SolveRun& run)
 }
 
 #ifdef SWIVEL_SINGLE_LIMBS  // of one instruction set (dispatch.h)
-std::uint32_t store_arcs(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs])
+std::uint32_t store_arcs(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMaxArcs])
 {
     const Binding bind = binding_of<kTold>(run);
     Strip strip{run, bind, run.strip.rows};
     add_block(strip, static_cast<std::uint32_t>(limb / kLanes), 1u << limb % kLanes);
     for (std::uint32_t n = 0; run.stages->function[n] < first_function(Stage::choose); ++n)
         kFunctions[run.stages->function[n]](strip);
-    static_assert(kMostAllowedArcs == kMostArcs);
+    static_assert(kMaxAllowedArcs == kMaxArcs);
     std::uint32_t count = 0;
     const auto store = [&](const AllowedArcs<float>& allowed) {
         count = static_cast<std::uint32_t>(allowed.count);
@@ -95,9 +95,9 @@ std::uint32_t store_arcs(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[
     const LimitList list(run.features);
     for_each_slice<float, 0, 0>(strip, [&](const auto& s) {
         if (s.good() == 0) return;
-        const Limits<float> limits = load_limits<kMostBoxes>(s, list.line_count, list);
+        const Limits<float> limits = load_limits<kMaxBoxes>(s, list.line_count, list);
         if (run.region)
-            store(allowed_arcs(LimitsInRegion<float, kMostBoxes>{limits, load_region(s)}));
+            store(allowed_arcs(LimitsInRegion<float, kMaxBoxes>{limits, load_region(s)}));
         else
             store(allowed_arcs(limits));
     });

@@ -113,11 +113,11 @@ SWIVEL_INLINE void load_continuity(const S& s, Continuity<typename S::T>& contin
     using T = typename S::T;
     continuity = {vector(s.io.load_result(SWIVEL_NORMAL, 0), s.io.load_result(SWIVEL_NORMAL, 1),
                          s.io.load_result(SWIVEL_NORMAL, 2)),
-                  s.io.load_turned(SWIVEL_MOST_SWIVEL)};
+                  s.io.load_turned(SWIVEL_MAX_SWIVEL)};
     if (!s.has(SWIVEL_BODY) || !s.strip.run.strip.pose->time.data) return;
     const T time = s.body_row(kTimeRow);
     s.require(is_within(time, 0, kHuge) & is_valid(continuity));
-    continuity.most = timed_step(continuity.most, time);
+    continuity.max = timed_step(continuity.max, time);
 }
 
 template <class S>

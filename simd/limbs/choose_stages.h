@@ -15,8 +15,8 @@ namespace swivel::inline SWIVEL_ISA {
 // The swivel's limits that a group has: lines, then boxes, with the flag of each.
 struct LimitList {
     int line_count = 0, box_count = 0;
-    std::uint32_t line_flag[kMostLimitLines] = {}, box_flag[kMostLimitBoxes] = {};
-    swivel_field box_field[kMostLimitBoxes] = {};
+    std::uint32_t line_flag[kMaxLimitLines] = {}, box_flag[kMaxLimitBoxes] = {};
+    swivel_field box_field[kMaxLimitBoxes] = {};
 
     explicit LimitList(swivel_features features)
     {
@@ -99,7 +99,7 @@ struct GatheredLimits {
     static constexpr std::uint32_t lanes = lane_count<T>;
     const Strip& strip;
     const LimitList& list;
-    alignas(64) float rows[(3 * kMostLines + 27 * Boxes) * lanes];
+    alignas(64) float rows[(3 * kMaxLines + 27 * Boxes) * lanes];
 
     GatheredLimits(const Strip& in, const LimitList& limits) : strip(in), list(limits) {}
 
@@ -201,10 +201,10 @@ SWIVEL_FLATTEN [[gnu::noinline]] void search_end(const Strip& strip, const Limit
 }
 // This search is rare, so limbs without boxes share the code of those with boxes.
 template <class T, bool InRegion>
-SWIVEL_FLATTEN [[gnu::noinline]] void search_least(const Strip& strip, const LimitList& list, const LaneList& searched)
+SWIVEL_FLATTEN [[gnu::noinline]] void search_min(const Strip& strip, const LimitList& list, const LaneList& searched)
 {
-    search<T, kMostBoxes, InRegion>(strip, list, searched, nullptr,
-                                    [](const auto& limits) SWIVEL_INLINE_LAMBDA { return least_violation(limits); });
+    search<T, kMaxBoxes, InRegion>(strip, list, searched, nullptr,
+                                   [](const auto& limits) SWIVEL_INLINE_LAMBDA { return min_violation(limits); });
 }
 
 // Lines: how many limits are lines; 0: as many as the group has. The nearest end of an allowed arc of lines is found
@@ -220,15 +220,15 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         const Limits<T, Boxes> limits = load_limits<Boxes>(s, line_count, list);
         const Turned<T> wish{T(1), T(0)};
         Word<T> flags = s.get_flags();
-        T least_room = T(2);
+        T min_room = T(2);
         const auto look = [&](const T& room_left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
             flags = flags | word_where(room_left < T(kNoRoom), flag);
-            least_room = lo(room_left, least_room);
+            min_room = lo(room_left, min_room);
         };
         for (int n = 0; n < line_count; ++n) look(limits.line[n].at(wish), list.line_flag[n]);
         for (int n = 0; n < limits.box_count; ++n) look(room(limits.box[n], wish), list.box_flag[n]);
         if constexpr (InRegion) look(room(load_region(s), wish), SWIVEL_LIMITED_REGION);
-        const Mask<T> granted = least_room >= T(kNoRoom);
+        const Mask<T> granted = min_room >= T(kNoRoom);
         std::uint32_t forbidden = s.good() & lane_bits(!granted);
         if constexpr (InRegion) forbidden &= s.limbs();  // padding has no limits, but its group's region
         const std::uint32_t first = s.block * kLanes + s.lane;
@@ -248,7 +248,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
     });
     if constexpr (is_long)
         if (for_end.count > 0) search_end<T, Boxes, InRegion>(strip, list, for_end, for_least);
-    if (for_least.count > 0) search_least<T, InRegion>(strip, list, for_least);
+    if (for_least.count > 0) search_min<T, InRegion>(strip, list, for_least);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

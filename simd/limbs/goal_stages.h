@@ -25,7 +25,7 @@ SWIVEL_INLINE LimbUse use_of(const S& s)
     use.weights = s.has(SWIVEL_WITH_WEIGHTS);
     use.reach = s.has(SWIVEL_WITH_REACH);
     use.cap = s.has(SWIVEL_WITH_CAP);
-    use.continuity = s.has(SWIVEL_WITH_MOST_SWIVEL);
+    use.continuity = s.has(SWIVEL_WITH_MAX_SWIVEL);
     use.step_wins = s.has(SWIVEL_STEP_WINS);
     use.aim = s.has(SWIVEL_WITH_AIM);
     use.yields = s.has(SWIVEL_HAND_YIELDS);
@@ -184,8 +184,8 @@ struct StageBody<Stage::clavicle> {
         const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
         const Vector<T> target = s.get_vector(kWristRow) + bone;
         s.require((len2(bone) <= T(kHuge2)) & is_share(share));
-        const Rotor<T> turn =
-            clavicle_turn(ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
+        const Rotor<T> turn = clavicle_rotation(
+            ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
         const Turn<T> back = turn_by(~turn);
         s.set_vector(kWristRow, back(target) - bone);
         if (has_pole(s)) {

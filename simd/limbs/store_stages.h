@@ -55,10 +55,10 @@ struct StageBody<Stage::store> {
         Word<T> flags = s.get_flags();
         if (s.has(SWIVEL_SENT)) flags = flags | s.body_flags(s.strip.run.limb->goal + kGoalFlagsRow);
         Continuity<T> continuity;
-        if (s.has(SWIVEL_WITH_MOST_SWIVEL)) load_continuity(s, continuity);
+        if (s.has(SWIVEL_WITH_MAX_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & kSwivelLimits) {
             normal = swivelled(normal, line, {s.get(kSwivelRow), s.get(kSwivelRow + 1)});
-            if (s.has(SWIVEL_WITH_MOST_SWIVEL) && !s.has(SWIVEL_STEP_WINS))
+            if (s.has(SWIVEL_WITH_MAX_SWIVEL) && !s.has(SWIVEL_STEP_WINS))
                 flags = flags | word_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
         }
         if (s.has(SWIVEL_STEP_WINS)) normal = last_step(continuity, normal, line, flags);
@@ -85,11 +85,11 @@ struct StageBody<Stage::store> {
         if (s.has(SWIVEL_WITH_CLAVICLE)) {
             const Rotor<T> parent_from_arm = broadcast<T>(bind.parent_from_arm);
             const Rotor<T> turn = parent_from_arm * s.get_rotor(kClavicleRow) * ~parent_from_arm;
-            results.out.store_rotor(SWIVEL_CLAVICLE_TURN, hemisphere(select(results.valid, turn, one<T>())));
+            results.out.store_rotor(SWIVEL_CLAVICLE_ROTATION, hemisphere(select(results.valid, turn, one<T>())));
         }
         if (s.has(SWIVEL_WITH_REACH))
             results.out.store(SWIVEL_STRETCH, 0, select(results.valid, s.get(kStretchRow), T(1)));
-        if (s.has(SWIVEL_WITH_MOST_SWIVEL))
+        if (s.has(SWIVEL_WITH_MAX_SWIVEL))
             results.out.store_vector(SWIVEL_NORMAL, select(results.valid, normalise(normal), vector(T(0), T(0), T(0))));
     }
 };

@@ -10,7 +10,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-static_assert(kMostLines == kMostLimitLines && kMostBoxes == kMostLimitBoxes);
+static_assert(kMaxLines == kMaxLimitLines && kMaxBoxes == kMaxLimitBoxes);
 
 struct Strip {
     const SolveRun& run;

@@ -25,7 +25,7 @@ CLIP = next((str(place) for place in PLACES if place.is_file()), None)
 LIMITED = (ROOT / "tests/command/limited.toml").read_text()
 STATE = LIMITED + """
 [limb.all.swivel]
-most_deg_per_second = 900
+max_deg_per_second = 900
 """
 WHOLE = f"""{STATE}
 [look]

@@ -21,7 +21,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::uint32_t up_to(std::uint32_t most) { return *rc::gen::inRange(1u, most + 1); }
+std::uint32_t up_to(std::uint32_t max) { return *rc::gen::inRange(1u, max + 1); }
 
 CachedCrowd some_crowd()
 {
@@ -29,7 +29,7 @@ CachedCrowd some_crowd()
     crowd.frame_count = up_to(60);
     crowd.character_count = up_to(300);
     crowd.limbs.resize(up_to(4));
-    if (*rc::gen::arbitrary<bool>()) crowd.limbs.back().setup.features = SWIVEL_WITH_MOST_SWIVEL;
+    if (*rc::gen::arbitrary<bool>()) crowd.limbs.back().setup.features = SWIVEL_WITH_MAX_SWIVEL;
     crowd.chunk = {up_to(20), 16 * up_to(6)};
     return crowd;
 }

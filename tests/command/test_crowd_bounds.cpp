@@ -46,10 +46,7 @@ void require_limit(const CrowdStage& stage, std::size_t arm, const std::string& 
     CHECK(worst < kKept);
 }
 
-AngleRange degrees(double least, double most)
-{
-    return {0.5 * (least + most) / kDegrees, 0.5 * (most - least) / kDegrees};
-}
+AngleRange degrees(double min, double max) { return {0.5 * (min + max) / kDegrees, 0.5 * (max - min) / kDegrees}; }
 
 const Vector3d kBone = Vector3d::UnitZ();
 
@@ -178,15 +175,15 @@ TEST_CASE("crowd bounds: reach")
     CHECK(distance(0.95, "soft_far = 0.2\n") == Approx(0.95 - 0.15 * 0.15 / 0.8).epsilon(1e-5));
     CHECK(distance(1.3, "soft_far = 0.2\n") == Approx(1).epsilon(1e-5));
     CHECK(distance(0.5, "soft_far = 0.2\n") == Approx(0.5).epsilon(1e-5));
-    CHECK(distance(0.3, "least_distance = 0.4\n") == Approx(0.4).epsilon(1e-5));
-    CHECK(distance(0.45, "least_distance = 0.4\nsoft_near = 0.1\n") == Approx(0.45 + 0.05 * 0.05 / 0.4).epsilon(1e-5));
+    CHECK(distance(0.3, "min_distance = 0.4\n") == Approx(0.4).epsilon(1e-5));
+    CHECK(distance(0.45, "min_distance = 0.4\nsoft_near = 0.1\n") == Approx(0.45 + 0.05 * 0.05 / 0.4).epsilon(1e-5));
 
     const auto stretch = [&](double share, const std::string& reach) {
         return one.rows(toml(share, reach), "left_arm", ",stretch")[0].number("stretch");
     };
-    CHECK(stretch(1.2, "most_stretch = 1.5\n") == Approx(1.2).epsilon(1e-5));
-    CHECK(stretch(2, "most_stretch = 1.5\n") == 1.5);
-    CHECK(stretch(0.8, "most_stretch = 1.5\n") == 1);
+    CHECK(stretch(1.2, "max_stretch = 1.5\n") == Approx(1.2).epsilon(1e-5));
+    CHECK(stretch(2, "max_stretch = 1.5\n") == 1.5);
+    CHECK(stretch(0.8, "max_stretch = 1.5\n") == 1);
 }
 
 namespace {
@@ -213,12 +210,12 @@ TEST_CASE("crowd bounds: the swivel turns no further in a frame than it may")
 {
     const CrowdStage stage(1000, 4);
     const PlainArm& left = stage.arms[0];
-    const auto most = [](const std::vector<double>& all) { return *std::max_element(all.begin(), all.end()); };
-    REQUIRE(most(steps(stage.clip, left)) > 3);
-    const std::string swivel = "[limb.left_arm.swivel]\nmost_deg_per_";
+    const auto max = [](const std::vector<double>& all) { return *std::max_element(all.begin(), all.end()); };
+    REQUIRE(max(steps(stage.clip, left)) > 3);
+    const std::string swivel = "[limb.left_arm.swivel]\nmax_deg_per_";
     const double frame_time = stage.json("[crowd]\n").at("frame_time");
     for (const std::string& limit : {std::string("frame = 1.5"), "second = " + std::to_string(1.5 / frame_time)})
-        CHECK(most(steps(stage.motion(swivel + limit + "\n"), left)) == Approx(1.5).margin(0.02));
+        CHECK(max(steps(stage.motion(swivel + limit + "\n"), left)) == Approx(1.5).margin(0.02));
     CHECK(stage.json(swivel + "frame = 1.5\n").at("flags").at("limited step") > 10);
 
     // Character 1 starts within the clip. Where it starts the clip again nothing holds its elbow back.
@@ -235,7 +232,7 @@ TEST_CASE("crowd bounds: one limb's step wins, and not another's")
 {
     const CrowdStage stage;
     const std::string steps =
-        "[limb.arms]\nswivel.most_deg_per_frame = 2\n"
+        "[limb.arms]\nswivel.max_deg_per_frame = 2\n"
         "limits.shoulder_cone = {axis = [0.3, 0.2, 0.6], opening_deg = 74}\n";
     const std::string wins = steps + "[limb.left_arm]\nswivel.step_wins = true\n";
     CHECK(worst_rotation(stage.rows(wins, "right_arm"), stage.rows(steps, "right_arm")) == 0);

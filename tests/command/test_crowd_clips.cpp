@@ -52,8 +52,8 @@ TEST_CASE("crowd file: clips, of which each character performs one")
                                           : first[(frame + start) % stage.first_count];
         // Twice what a joint may differ from the clip's, by the knee's bend.
         const double bend = alone.joint[1].angularDistance(Quaterniond::Identity());
-        const double most = 2 * (2e-6 + 4 * 4e-7 / std::sin(bend));
-        for (std::size_t j = 0; j < 3; ++j) REQUIRE(is.joint[j].angularDistance(alone.joint[j]) < most);
+        const double max = 2 * (2e-6 + 4 * 4e-7 / std::sin(bend));
+        for (std::size_t j = 0; j < 3; ++j) REQUIRE(is.joint[j].angularDistance(alone.joint[j]) < max);
     }
     CHECK(both[0].number("start") == 0);
     CHECK(performers[0] > 1);
@@ -93,15 +93,15 @@ namespace {
 // The most that any joint moves between two frames that follow each other, from one frame to another.
 double largest_step(const Clip& clip, std::size_t from, std::size_t to)
 {
-    double most = 0;
+    double max = 0;
     std::vector<Eigen::Isometry3d> last = joints_of(clip, from);
     for (std::size_t frame = from + 1; frame <= to; ++frame) {
         const std::vector<Eigen::Isometry3d> now = joints_of(clip, frame);
         for (std::size_t n = 0; n < now.size(); ++n)
-            most = std::max(most, (now[n].translation() - last[n].translation()).norm());
+            max = std::max(max, (now[n].translation() - last[n].translation()).norm());
         last = now;
     }
-    return most;
+    return max;
 }
 
 // A root, and two joints that are turned so far about x, in radians.
@@ -225,7 +225,7 @@ TEST_CASE("a clip that moves has no loop in which it rests, however well it rest
     const Clip breath = nodding_clip(1000, 0.02, [](double t) { return std::array{0.01 * std::sin(t), 0.0}; });
     CHECK(tools::find_loop(breath, 0).loop.length() >= 50);
     // Where all frames are alike, not all pairs of them are looked at.
-    const Clip still = nodding_clip(tools::kMostSearched, 0.02, [](double) { return std::array{0.3, 0.0}; });
+    const Clip still = nodding_clip(tools::kMaxSearched, 0.02, [](double) { return std::array{0.3, 0.0}; });
     CHECK(tools::find_loop(still, 0).loop.length() == 50);
 }
 
@@ -244,12 +244,12 @@ TEST_CASE("the loop that is found is the best one, as a comparison of all frames
         const Clip clip = nodding_clip(700, 1.0 / 60, [pitch](double t) {
             return std::array{0.7 * std::sin(pitch * t) + 0.3 * std::sin(4.1 * t), 0.5 * std::cos(1.9 * t * pitch)};
         });
-        double least = 1e9;
+        double min = 1e9;
         for (std::size_t a = 0; a < clip.frame_count; ++a)
-            for (std::size_t b = a + 60; b < clip.frame_count; ++b) least = std::min(least, plain_gap(clip, a, b));
+            for (std::size_t b = a + 60; b < clip.frame_count; ++b) min = std::min(min, plain_gap(clip, a, b));
         const tools::FoundLoop found = tools::find_loop(clip, 0);
         CHECK(found.gap == Approx(plain_gap(clip, found.loop.first, found.loop.last)).margin(1e-5));
-        CHECK(found.gap <= least + 1e-5);
+        CHECK(found.gap <= min + 1e-5);
     }
 }
 

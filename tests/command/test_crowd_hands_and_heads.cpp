@@ -35,22 +35,22 @@ Grip grip_in(const PlainMotion& motion, std::size_t frame, const char* hand, con
 // The most by which a hand's place and rotation on another differ from the clip's.
 double slip(const CrowdStage& stage, const PlainMotion& motion, const char* hand, const char* held)
 {
-    double most = 0;
+    double max = 0;
     for (std::size_t frame = 0; frame < motion.lines.size(); ++frame) {
         const Grip was = grip_in(stage.clip, frame, hand, held), is = grip_in(motion, frame, hand, held);
-        most = std::max({most, (is.place - was.place).norm() / kUnit, (is.rotation - was.rotation).norm()});
+        max = std::max({max, (is.place - was.place).norm() / kUnit, (is.rotation - was.rotation).norm()});
     }
-    return most;
+    return max;
 }
 // How far a hand goes from where the clip has it.
 double moved(const CrowdStage& stage, const PlainMotion& motion, const char* hand)
 {
-    double most = 0;
+    double max = 0;
     for (std::size_t frame = 0; frame < motion.lines.size(); ++frame) {
         const PlainPose was = joint_in(stage.clip, frame, hand), is = joint_in(motion, frame, hand);
-        most = std::max(most, (is.position - was.position).norm());
+        max = std::max(max, (is.position - was.position).norm());
     }
-    return most;
+    return max;
 }
 
 }  // namespace
@@ -312,7 +312,7 @@ TEST_CASE("heads look at a point, by necks and head alone")
 TEST_CASE("no joint of a look turns further than it may, and behind a head there is nothing to see")
 {
     const CrowdStage stage{100, 2};
-    const std::string narrow = look_at(aside(stage.clip, 60), "most_deg = 5\n");
+    const std::string narrow = look_at(aside(stage.clip, 60), "max_deg = 5\n");
     const PlainMotion limited = stage.motion(narrow, kFew);
     for (std::size_t frame = 0; frame < kCount; ++frame)
         for (const double by : turned(stage.clip, limited, frame).looking) CHECK(by == Approx(5).margin(0.01));
@@ -328,7 +328,7 @@ TEST_CASE("each of a crowd looks from where it is, whatever its size")
     const PlainPose head = joint_in(stage.clip, 0, "Head");
     const Vector3d face = head.rotation * stage.face(), target = head.position + Vector3d(150, -5, 170);
     const std::string toml = "[crowd]\ncharacters = 100\nstagger = false\nsize = [0.5, 2]\n";
-    const nlohmann::json all = stage.json(toml + look_at(target, "most_deg = 180\n"), {"--frames", "1"});
+    const nlohmann::json all = stage.json(toml + look_at(target, "max_deg = 180\n"), {"--frames", "1"});
     std::size_t ahead = 0;
     for (const nlohmann::json& each : all.at("each_character")) {
         const nlohmann::json& place = each.at("place");

@@ -108,9 +108,9 @@ TEST_CASE("characters have one of eight builds by the seed, the first one its ow
     CHECK(seen.size() == 8);
     CHECK(out.at("each_character").at(0).at("start") == 0);
     for (std::size_t n = 1; n < 8; ++n)
-        for (const auto& [key, least, most] : {std::tuple{"legs", 0.7, 1.3}, {"arms", 0.8, 1.2}, {"spine", 0.9, 1.1}}) {
-            CHECK(performed.at(n).at(key) > least);
-            CHECK(performed.at(n).at(key) < most);
+        for (const auto& [key, min, max] : {std::tuple{"legs", 0.7, 1.3}, {"arms", 0.8, 1.2}, {"spine", 0.9, 1.1}}) {
+            CHECK(performed.at(n).at(key) > min);
+            CHECK(performed.at(n).at(key) < max);
         }
     // One place is too far away for short arms alone.
     const auto shoulder = [&](std::size_t arm) { return arm_pose(stage.clip, stage.arms[arm], 0).shoulder; };

@@ -98,12 +98,12 @@ Clip with_bones_along(const Vector3d& along, Clip clip)
 // The largest distance between the joints of two clips of one skeleton, in all frames.
 double apart(const Clip& a, const Clip& b)
 {
-    double most = 0;
+    double max = 0;
     for (std::size_t frame = 0; frame < a.frame_count; ++frame) {
         const auto a_w = world_pose(a, frame), b_w = world_pose(b, frame);
-        for (std::size_t n = 0; n < a_w.size(); ++n) most = std::max(most, (a_w[n].position - b_w[n].position).norm());
+        for (std::size_t n = 0; n < a_w.size(); ++n) max = std::max(max, (a_w[n].position - b_w[n].position).norm());
     }
-    return most;
+    return max;
 }
 
 Clip on_demo(const Clip& source)
@@ -412,13 +412,13 @@ TEST_CASE("eased: no step is above the most, slow courses stay, and none leaves 
     for (int round = 0; round < 200; ++round) {
         std::vector<double> values(50);
         for (double& value : values) value = std::uniform_real_distribution(-1.0, 1.0)(random);
-        const double most_step = std::uniform_real_distribution(0.01, 3.0)(random);
-        const std::vector<double> course = tools::eased(values, most_step);
+        const double max_step = std::uniform_real_distribution(0.01, 3.0)(random);
+        const std::vector<double> course = tools::eased(values, max_step);
         for (std::size_t n = 1; n < course.size(); ++n)
-            CHECK(std::abs(course[n] - course[n - 1]) <= most_step * (1 + 1e-12));
-        const auto [least, most] = std::ranges::minmax(values);
-        for (const double value : course) CHECK((value >= least && value <= most));
-        CHECK(tools::eased(course, most_step * (1 + 1e-9)) == course);
+            CHECK(std::abs(course[n] - course[n - 1]) <= max_step * (1 + 1e-12));
+        const auto [min, max] = std::ranges::minmax(values);
+        for (const double value : course) CHECK((value >= min && value <= max));
+        CHECK(tools::eased(course, max_step * (1 + 1e-9)) == course);
     }
     std::vector<double> jump(100, 0);
     jump[50] = 1;

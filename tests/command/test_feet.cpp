@@ -113,7 +113,7 @@ TEST_CASE("feet: recorded feet stand where legs or way do not fit the clip")
         const PlainSkating before = plain_skating(skates, contacts), after = plain_skating(stands, contacts);
         const Skates skates_after = in_metres(after), &wanted = kAfter[clip];
         CHECK(skates_after.mean <= wanted.mean);
-        CHECK(skates_after.most <= wanted.most);
+        CHECK(skates_after.max <= wanted.max);
         CHECK(skates_after.step <= wanted.step);
         CHECK(skates_after.knee <= wanted.knee + 0.05);  // half of the last digit
         CHECK(after.jump <= before.jump);
@@ -128,9 +128,9 @@ TEST_CASE("feet: recorded feet stand where legs or way do not fit the clip")
         const PlainSkating told = plain_skating(skates, plain_contacts(source));
         CHECK(report.at("before").at("contact_speed_mean") == Approx(told.mean / leg).epsilon(1e-3));
         CHECK(report.at("before").at("skate_a_step") == Approx(told.step / leg).epsilon(1e-3));
-        CHECK(report.at("after").at("knee_degrees_a_frame_most") == Approx(after.knee).epsilon(1e-3));
-        CHECK(report.at("after").at("velocity_jump_most") == Approx(after.jump / leg).epsilon(1e-3));
-        CHECK(report.at("after").at("body_velocity_jump_most") == Approx(after.body_jump / leg).epsilon(1e-3));
+        CHECK(report.at("after").at("knee_degrees_a_frame_max") == Approx(after.knee).epsilon(1e-3));
+        CHECK(report.at("after").at("velocity_jump_max") == Approx(after.jump / leg).epsilon(1e-3));
+        CHECK(report.at("after").at("body_velocity_jump_max") == Approx(after.body_jump / leg).epsilon(1e-3));
     }
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("feet: a clip that skates tells its own contacts, and all else of its 
     const PlainMotion before = plain_motion_of(folder / "skates.bvh"), after = plain_motion_of(folder / "stands.bvh");
     const PlainContacts found = contacts_in_table(slurp(folder / "c.csv"), before.lines.size());
     CHECK(agreement(found, plain_contacts(legs_path(before, kCarriedTime))) == 1);
-    CHECK(kMetre * plain_skating(legs_path(after, kCarriedTime), found).most < 1e-3);
+    CHECK(kMetre * plain_skating(legs_path(after, kCarriedTime), found).max < 1e-3);
     const PlainContacts true_ones = prototypes_contacts(legs_path(plain_motion(carried(recorded, {})), kCarriedTime));
     CHECK(agreement(found, true_ones) > 0.95);
     CHECK(in_metres(plain_skating(legs_path(after, kCarriedTime), true_ones)).step < 12);
@@ -302,7 +302,7 @@ TEST_CASE("feet: on hills they stand on the ground as it lies, and on one side o
         CHECK(lowest > -0.01);
         CHECK(slope < 1);
         const PlainSkating before = plain_skating(flat, contacts), after = plain_skating(stands, contacts);
-        CHECK(kMetre * after.most < 1e-3);
+        CHECK(kMetre * after.max < 1e-3);
         CHECK(after.knee < 13.1);
         CHECK(after.jump < 1.5 * before.jump);
         CHECK(after.body_jump < 1.5 * before.body_jump);
@@ -363,23 +363,23 @@ TEST_CASE("feet: ground that legs cannot follow is told, with frames and place")
     Words written = words;
     written.insert(written.end(), {"--out", "out.bvh"});
     const json report = feet_report(folder, written), look = report.at("look");
-    const auto of_feet = [](const json& each) { return each.at("measure") == "off_ground_most"; };
+    const auto of_feet = [](const json& each) { return each.at("measure") == "off_ground_max"; };
     const auto found = std::ranges::find_if(look, of_feet);
     REQUIRE(found != look.end());
     const json off = *found;
     // It is true of the foot.
     const PlainLegs legs = legs_in(folder / "out.bvh");
     const auto& toes = legs.legs[off.at("limb") == "left_leg" ? 0 : 1].toe;
-    double most = 0, nearest = 1e9;
+    double max = 0, nearest = 1e9;
     for (std::size_t n = off.at("first_frame"); n <= off.at("last_frame").get<std::size_t>(); ++n) {
-        most = std::max(
-            most, std::abs(toes[n].y() - report.at("floor").get<double>() - cliff.height(toes[n].x(), toes[n].z())));
+        max = std::max(
+            max, std::abs(toes[n].y() - report.at("floor").get<double>() - cliff.height(toes[n].x(), toes[n].z())));
         const json& place = off.at("near");
         nearest = std::min(nearest, (toes[n] - Vector3d(place.at(0), place.at(1), place.at(2))).norm());
     }
     const double leg = (legs.leg_length(0) + legs.leg_length(1)) / 2;
     CHECK(off.at("value") > 0.012);
-    CHECK(off.at("value").get<double>() * leg == Approx(most).epsilon(1e-2));
+    CHECK(off.at("value").get<double>() * leg == Approx(max).epsilon(1e-2));
     CHECK(nearest < 1e-3);
     CHECK_THAT(off.at("text").get<std::string>(), Contains(" leg, frames ") && Contains(" off the ground, near ("));
     CHECK_THAT(feet(folder, words).out, Contains("look     " + off.at("text").get<std::string>() + "\n"));
@@ -404,7 +404,7 @@ TEST_CASE("feet: a glTF's feet stand, and a foot without a toe joint stands on i
         legs_path(out, {"DEF-hips", "DEF-thigh.*", "DEF-shin.*", "DEF-foot.*", "DEF-toe.*"}, {"L", "R"}, times);
     CHECK(std::ranges::count(contacts[0], true) + std::ranges::count(contacts[1], true) > 100);
     const PlainSkating skating = plain_skating(legs, contacts);
-    CHECK(skating.most / 60 < 1e-5);
+    CHECK(skating.max / 60 < 1e-5);
     CHECK(skating.sink < 1e-5);
     const fs::path man = find_or_warn("cesium_man.gltf");
     if (man.empty()) return;

@@ -35,7 +35,7 @@ loop = "auto"
 [limb.arms]
 limits.flexion_deg = [5, 150]
 limits.shoulder_cone = { axis = [0, 0, 1], opening_deg = 80 }
-swivel.most_deg_per_frame = 4
+swivel.max_deg_per_frame = 4
 [look]
 target = [60, 15, 160]
 [ground]

@@ -60,7 +60,7 @@ class Memory(Stage):
         self.inputs.mkdir()
         (self.inputs / "clip.bvh").write_text(bvh())
         (self.inputs / "table.csv").write_text("frame,character,limb,x,y,z\n0,0,left_arm,6,8,3\n1,0,right_arm,-6,8,3\n")
-        (self.inputs / "crowd.toml").write_text("[limb.arms]\nlimits.flexion_deg = [5, 150]\nswivel.most_deg_per_frame = 4\n")
+        (self.inputs / "crowd.toml").write_text("[limb.arms]\nlimits.flexion_deg = [5, 150]\nswivel.max_deg_per_frame = 4\n")
         for words in (("store", "clip.bvh", "empty"), ("store", "clip.bvh", "full"), ("fill", "full")):
             self.assertEqual(measured(self.command, (*words, "--quiet"), self.inputs)[0], 0)
         self.before = files_of(self.inputs)

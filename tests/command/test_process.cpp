@@ -26,9 +26,9 @@ using swivel::tools::progress_line;
 
 namespace {
 
-void limit(int resource, std::uint64_t most)
+void limit(int resource, std::uint64_t max)
 {
-    const rlimit limits = {most, most};
+    const rlimit limits = {max, max};
     ::setrlimit(static_cast<__rlimit_resource>(resource), &limits);
 }
 
@@ -133,15 +133,15 @@ TEST_CASE("process: lack of memory is one line that blames no file, wherever it 
         poor.before = [kib] { limit(RLIMIT_CORE, 0), limit(RLIMIT_AS, 1024 * kib); };
         return spawn_command(stage.folder.path, words, poor);
     };
-    std::uint64_t least = 8192;  // before main() begins nothing is promised
-    while (run({"--version"}, least).exit_code != 0) least += least / 16;
+    std::uint64_t min = 8192;  // before main() begins nothing is promised
+    while (run({"--version"}, min).exit_code != 0) min += min / 16;
     for (const Words& words :
          std::vector<Words>{{"rig", "clip.bvh"},
                             {"solve", "clip.bvh", "--out", "o.csv", "--threads", "2", "--characters", "3"},
                             {"solve", "clip.bvh", "--out", "o.bvh"},
                             {"demo", "--characters", "20000", "--frames", "1", "--threads", "2"}}) {
         int failed = 0, done = 0;
-        for (std::uint64_t kib = least; done < 3 && kib < 1 << 20; kib += kib / 16) {
+        for (std::uint64_t kib = min; done < 3 && kib < 1 << 20; kib += kib / 16) {
             const Outcome outcome = run(words, kib);
             INFO(words.front() << " " << kib << " KiB: " << outcome.err);
             if (outcome.exit_code == 0) {

@@ -30,11 +30,11 @@ using Eigen::Vector3d;
 namespace {
 
 // Any pose that its legs can stand in: knees are bent by 30 to 60 degrees.
-std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, double least_elbow = 20,
-                                             double most_elbow = 70)
+std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, double min_elbow = 20,
+                                             double max_elbow = 70)
 {
     std::mt19937 random(4);
-    const auto between = [&](double least, double most) { return std::uniform_real_distribution(least, most)(random); };
+    const auto between = [&](double min, double max) { return std::uniform_real_distribution(min, max)(random); };
     const PlainMotion motion = plain_motion(body.text());
     std::vector<std::vector<double>> rows;
     for (int n = 0; n < count; ++n) {
@@ -48,7 +48,7 @@ std::vector<std::vector<double>> random_rows(const MadeBody& body, int count, do
                     value = joint.channels[c] == "Xrotation" ? between(30, 60) : 0;
                 else if (joint.name.ends_with("ForeArm"))
                     value = joint.channels[c] == "Yrotation"
-                                ? between(least_elbow, most_elbow) * (joint.name[0] == 'L' ? -1 : 1)
+                                ? between(min_elbow, max_elbow) * (joint.name[0] == 'L' ? -1 : 1)
                                 : 0;
                 else
                     value = between(-20, 20);
@@ -83,10 +83,10 @@ struct Made {
     // How far the joint is at most from `expected` of the source's pose.
     double off(const std::string& joint, const auto& expected) const
     {
-        double most = 0;
+        double max = 0;
         for (std::size_t frame = 0; frame < out.lines.size(); ++frame)
-            most = std::max(most, (at(out, joint, frame).position - expected(frame)).norm());
-        return most;
+            max = std::max(max, (at(out, joint, frame).position - expected(frame)).norm());
+        return max;
     }
     static PlainPose at(const PlainMotion& motion, const std::string& joint, std::size_t frame)
     {
@@ -281,10 +281,10 @@ std::string retargeted(const TempFolder& folder, const fs::path& source, const f
 // The most keys that a channel of the first animation has: in these figures all others have keys at some of the same.
 std::vector<double> key_times(const PlainGltf& gltf)
 {
-    std::vector<double> most;
+    std::vector<double> max;
     for (const auto& sampler : gltf.json["animations"][0]["samplers"])
-        if (const auto& times = plain_numbers(gltf, sampler["input"]); times.size() > most.size()) most = times;
-    return most;
+        if (const auto& times = plain_numbers(gltf, sampler["input"]); times.size() > max.size()) max = times;
+    return max;
 }
 
 }  // namespace
@@ -349,7 +349,7 @@ TEST_CASE("retarget: a walk goes to a figure and comes back, and its feet slide 
     retargeted(folder, folder / "figure.glb", walk, "walk.bvh");
     const PlainMotion before = plain_motion_of(walk), after = plain_motion_of(folder / "walk.bvh");
     REQUIRE(after.lines.size() == before.lines.size());
-    double sum = 0, most = 0;
+    double sum = 0, max = 0;
     std::size_t count = 0;
     for (std::size_t frame = 0; frame < before.lines.size(); ++frame) {
         const auto turns = local_turns(before, frame, false), turns_after = local_turns(after, frame, false);
@@ -358,12 +358,12 @@ TEST_CASE("retarget: a walk goes to a figure and comes back, and its feet slide 
                 const auto n = static_cast<std::size_t>(joint_named(before, side + joint));
                 const double turn_deg = kDegrees * turn_between(turns[n], turns_after[n]);
                 sum += turn_deg;
-                most = std::max(most, turn_deg);
+                max = std::max(max, turn_deg);
                 ++count;
             }
     }
     CHECK(sum / static_cast<double>(count) < 3);
-    CHECK(most < 10);
+    CHECK(max < 10);
     const PlainLegs source = legs_path(before, 1.0 / 120), back = legs_path(after, 1.0 / 120);
     const PlainGltf figures = plain_gltf_of(folder / "figure.glb");
     const PlainLegs there =

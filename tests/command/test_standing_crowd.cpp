@@ -123,23 +123,23 @@ TEST_CASE("feet of a crowd on hills stand where they touch, on the ground")
     constexpr std::size_t kRunIn = 12;  // frames: it comes to rest, and what interrupts it fades
     const std::array clearance{stage.clearance(0), stage.clearance(1)};
     std::size_t down = 0, standing = 0, since = 0;
-    double slide = 0, gap = 0, below = 0, float_most = 0, slide_most = 0;
+    double slide = 0, gap = 0, below = 0, float_max = 0, slide_max = 0;
     for (std::size_t n = 1; n < rows.size(); ++n) {
         const PoseLine &row = rows[n], &last = rows[n - 1];
         const std::size_t side = row.limb == "left_leg" ? 0 : 1, count = stage.clip.lines.size();
         const auto frame = (row.frame + static_cast<std::size_t>(row.number("start"))) % count;
         const double size = row.number("size");
         const Vector3d toe = toe_of(stage.clip, row);
-        const auto [least, most] = clearance[side];
+        const auto [min, max] = clearance[side];
         const double height = (toe.y() - stage.ground(toe)) / size,
-                     over = size * (height - std::clamp(height, least, most));
+                     over = size * (height - std::clamp(height, min, max));
         below = std::max(below, -over);
         const bool goes_on = last.limb == row.limb && last.character == row.character && frame > 0;
         since = goes_on && stage.contacts[side][frame] ? since + 1 : 0;
         if (since <= kRunIn) continue;
         ++down;
-        float_most = std::max(float_most, std::fabs(over));
-        slide_most = std::max(slide_most, (toe - toe_of(stage.clip, last)).norm());
+        float_max = std::max(float_max, std::fabs(over));
+        slide_max = std::max(slide_max, (toe - toe_of(stage.clip, last)).norm());
         if ((row.flags & kPlanted) == 0 || (row.flags & kReached) == 0) continue;
         ++standing;
         gap = std::max(gap, std::fabs(over));
@@ -148,8 +148,8 @@ TEST_CASE("feet of a crowd on hills stand where they touch, on the ground")
     CHECK(down > 1000);
     // Where a leg cannot reach down a slope of 20 degrees, its foot still is near its place.
     CHECK(static_cast<double>(standing) > 0.85 * static_cast<double>(down));
-    CHECK(kMillimetres * slide_most < 3);
-    CHECK(kMillimetres * float_most < 3);
+    CHECK(kMillimetres * slide_max < 3);
+    CHECK(kMillimetres * float_max < 3);
     CHECK(kMillimetres * slide < 0.1);
     CHECK(kMillimetres * gap < 1);
     CHECK(kMillimetres * below < 0.1);
@@ -158,11 +158,11 @@ TEST_CASE("feet of a crowd on hills stand where they touch, on the ground")
 // The largest change of a velocity from frame to frame, in leg lengths a second.
 double jump_of(const PlainLegs& legs, std::span<const std::vector<Vector3d>* const> paths)
 {
-    double most = 0;
+    double max = 0;
     for (const std::vector<Vector3d>* path : paths)
         for (std::size_t n = 2; n < path->size(); ++n)
-            most = std::max(most, ((*path)[n] - 2 * (*path)[n - 1] + (*path)[n - 2]).norm());
-    return most / legs.frame_time / legs.leg_length(0);
+            max = std::max(max, ((*path)[n] - 2 * (*path)[n - 1] + (*path)[n - 2]).norm());
+    return max / legs.frame_time / legs.leg_length(0);
 }
 
 // Ground by the way along it, in millimetres.
@@ -199,15 +199,15 @@ TEST_CASE("a crowd climbs steps without a jump, and its feet stand on them")
         const PlainLegs after = stage.legs_of("out.bvh");
         double gap = 0, depth = 0;
         for (std::size_t side = 0; side < 2; ++side) {
-            const auto [least, most] = stage.clearance(side);
+            const auto [min, max] = stage.clearance(side);
             std::size_t since = 0;
             for (std::size_t frame = 0; frame < after.frame_count(); ++frame) {
                 const Vector3d& toe = after.legs[side].toe[frame];
                 const double height = toe.y() - stage.floor - ground.height(toe.x(), toe.z());
-                depth = std::max(depth, least - height);
+                depth = std::max(depth, min - height);
                 since = stage.contacts[side][frame] ? since + 1 : 0;
                 if (static_cast<double>(since) * stage.frame_time > 0.1)
-                    gap = std::max(gap, std::fabs(height - std::clamp(height, least, most)));
+                    gap = std::max(gap, std::fabs(height - std::clamp(height, min, max)));
             }
         }
         const auto [hips, toes] = jumps(after);
@@ -253,12 +253,12 @@ TEST_CASE("a foot that a table sends beside its clip stands on the ground there"
     spill(stage.folder / "beside.csv", table.text());
     stage.solved(crowd_on_hills(), {"--targets", "beside.csv", "--out", "out.bvh", "--quiet"});
     const PlainLegs legs = stage.legs_of("out.bvh"), own = stage.legs_of("walk.bvh");
-    const auto [least, most] = stage.clearance(0);
+    const auto [min, max] = stage.clearance(0);
     double aside = 0, below = 0;
     for (std::size_t frame = 12; frame < legs.frame_count(); ++frame) {
         const Vector3d& toe = legs.legs[0].toe[frame];
         aside = std::max(aside, toe.x() - own.legs[0].toe[frame].x());
-        below = std::max(below, least - (toe.y() - stage.ground(toe)));
+        below = std::max(below, min - (toe.y() - stage.ground(toe)));
     }
     CHECK(aside > 3);
     CHECK(kMillimetres * below < 0.1);

@@ -320,7 +320,7 @@ TEST_CASE("bvh: keys follow a motion over full turns, through the lock and at it
         const char* start;  // the file's
         int frame_count;
         Vector3d (*angles_deg)(double frame);
-        double most;
+        double max;
     };
     const Course courses[] = {
         // The middle angle crosses 90 between two frames, then once hits it exactly.
@@ -343,7 +343,7 @@ TEST_CASE("bvh: keys follow a motion over full turns, through the lock and at it
             }
             const std::vector<Vector3d> angles = written_angles(folder, order, rotations, course.start);
             for (std::size_t n = 0; n < angles.size(); ++n)
-                REQUIRE((angles[n] - course.angles_deg(static_cast<double>(n))).norm() < course.most);
+                REQUIRE((angles[n] - course.angles_deg(static_cast<double>(n))).norm() < course.max);
         }
 }
 

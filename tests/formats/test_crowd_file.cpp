@@ -75,13 +75,13 @@ TEST_CASE("crowd file: the special table goes before the general one, and says w
     CHECK(limit(kRightArm, "humeral_twist_deg").mirrored);
     CHECK_FALSE(limit(kLeftArm, "humeral_twist_deg").mirrored);
     CHECK_FALSE(limit(kRightArm, "forearm_twist_deg").mirrored);
-    CHECK(std::get<NumberRange>(limit(kRightArm, "forearm_twist_deg").value).most == 20);
+    CHECK(std::get<NumberRange>(limit(kRightArm, "forearm_twist_deg").value).max == 20);
     CHECK(limit(kRightLeg, "forearm_twist_deg").mirrored);
     CHECK_FALSE(settings_of(file, kRightLeg).pole_angle_deg->mirrored);
     CHECK_FALSE(settings_of(file, kLeftLeg).pole_angle_deg);
 
     const CrowdFile steps =
-        read("[limb.all.swivel]\nmost_deg_per_frame = 3\n[limb.legs.swivel]\nmost_deg_per_second = 90\n");
+        read("[limb.all.swivel]\nmax_deg_per_frame = 3\n[limb.legs.swivel]\nmax_deg_per_second = 90\n");
     CHECK(settings_of(steps, kLeftArm).step_deg_per_frame);
     CHECK_FALSE(settings_of(steps, kLeftLeg).step_deg_per_frame);
     CHECK(settings_of(steps, kLeftLeg).step_deg_per_second->value == 90);

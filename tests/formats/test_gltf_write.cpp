@@ -329,8 +329,8 @@ TEST_CASE("gltf write: keys go into files that have nothing yet to hold them")
 {
     const TempFolder folder;
     const json nodes = {{{"name", "root"}, {"children", {1}}}, {{"name", "arm"}, {"translation", {1, 0, 0}}}};
-    const json least = {{"asset", {{"version", "2.0"}}}, {"nodes", nodes}};
-    json six = least, named = least, pictured = least;
+    const json min = {{"asset", {{"version", "2.0"}}}, {"nodes", nodes}};
+    json six = min, named = min, pictured = min;
     six.update({{"scene", 0},
                 {"scenes", {{{"nodes", {0}}}}},
                 {"extras", {{"a", 1}}},
@@ -340,7 +340,7 @@ TEST_CASE("gltf write: keys go into files that have nothing yet to hold them")
     spill(folder / "a.png", kPixel);
     const std::vector<Quaterniond> turn = {Quaterniond(0, 1, 0, 0)};
     const JointKeys changes[] = {{0, turn}, {1, turn}};
-    for (const json& whole : {least, six, named, pictured})
+    for (const json& whole : {min, six, named, pictured})
         for (const char* to : {"new.glb", "new.gltf"}) {
             INFO(whole.dump() << " to " << to);
             spill(folder / "rig.gltf", whole.dump());

@@ -8,10 +8,10 @@
 
 namespace swivel::fuzz {
 
-BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
+BodyDef::BodyDef(Bytes& bytes, std::uint32_t max_bodies)
 {
     Random random{bytes.take<std::uint16_t>()};
-    body_count = 1 + bytes.below(most_bodies);
+    body_count = 1 + bytes.below(max_bodies);
     const std::uint32_t trunk = bytes.below(5);
     for (std::uint32_t n = 0; n < trunk; ++n) add(random, static_cast<std::int32_t>(bytes.below(n + 1)) - 1);
     groups.resize(1 + bytes.below(4));
@@ -51,7 +51,7 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
 // The group that limbs which are to fit need.
 void BodyDef::add_shift()
 {
-    if (std::ranges::any_of(groups, [](const auto& group) { return group.features & SWIVEL_WITH_FIT; }))
+    if (std::ranges::any_of(groups, [](const auto& group) { return group.features & SWIVEL_WITH_PELVIS_FIT; }))
         groups.push_back(swivel_default_fit_group_def());
 }
 
@@ -94,8 +94,8 @@ void BodyDef::take_looks(Bytes& bytes, std::uint32_t trunk)
 }
 void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
 {
-    const auto number = [&](float least, float most) {
-        return least + (most - least) * static_cast<float>(bytes.below(9)) / 8;
+    const auto number = [&](float min, float max) {
+        return min + (max - min) * static_cast<float>(bytes.below(9)) / 8;
     };
     swivel_group_def group = swivel_default_group_def(0);
     group.features = SWIVEL_LOOK;
@@ -105,7 +105,7 @@ void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
     for (std::size_t n = 0; n < count; ++n) {
         look.joints[n] = of[n];
         look.share[n] = number(n + 1 < count ? 0 : 0.5f, 3);
-        look.cos_most[n] = number(-1, 1);
+        look.cos_max[n] = number(-1, 1);
     }
     for (float& x : look.eye) x = number(-0.2f, 0.2f);
     for (float& x : look.axis) x = number(-1, 1);
@@ -118,7 +118,7 @@ void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
 // How limbs stand and bodies shift, in steps from nothing to much.
 void BodyDef::take_constants(Bytes& bytes)
 {
-    const auto number = [&](float most) { return most * static_cast<float>(bytes.below(9)) / 8; };
+    const auto number = [&](float max) { return max * static_cast<float>(bytes.below(9)) / 8; };
     for (swivel_group_def& group : groups) {
         group.plant = {number(1),
                        number(1),
@@ -129,7 +129,7 @@ void BodyDef::take_constants(Bytes& bytes)
                        number(2),
                        {number(4), number(4)},
                        {number(2) - 1, number(2) - 1}};
-        group.plant.unlock += group.plant.lock;  // which it is no less than
+        group.plant.unlock_radius += group.plant.lock_radius;  // which it is no less than
         group.fit = {number(1), number(1), number(0.4f), number(1)};
         if (!((group.features & SWIVEL_WITH_GROUND) | (group.features & SWIVEL_PROP))) continue;
         group.ground = {{number(0.4f) - 0.2f, number(0.4f) - 0.2f, number(0.4f) - 0.2f},
@@ -137,7 +137,7 @@ void BodyDef::take_constants(Bytes& bytes)
                         number(0.2f),
                         number(1),
                         number(0.4f)};
-        group.prop.most_move = number(1);
+        group.prop.max_move = number(1);
     }
     for (float& x : up) x = number(2) - 1;
     up[1] = 1;
@@ -166,7 +166,7 @@ void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swive
     for (float& x : joints.back().bend) x = random.share();
     // At the elbow, all of them: they must not lie one before the other.
     std::vector<std::uint32_t>& bones = twist_bones.emplace_back();
-    for (auto n = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1); n > 0; --n) {
+    for (auto n = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1); n > 0; --n) {
         bones.push_back(static_cast<std::uint32_t>(add(random, elbow)));
         std::fill_n(translations.end() - 3, 3, 0.0f);
     }
@@ -272,7 +272,7 @@ std::vector<std::uint32_t> BodyDef::turned_joints(std::uint32_t group) const
     std::vector<std::uint32_t> turned = {limb.shoulder, limb.elbow};
     if (features & SWIVEL_WITH_HAND) turned.push_back(limb.wrist);
     if (features & SWIVEL_WITH_CLAVICLE) turned.push_back(static_cast<std::uint32_t>(parents[limb.shoulder]));
-    const auto bones = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1);
+    const auto bones = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1);
     turned.insert(turned.end(), limb.twist_bones, limb.twist_bones + bones);
     return turned;
 }

@@ -10,7 +10,7 @@ namespace swivel::fuzz {
 namespace {
 
 constexpr std::uint32_t kFlags = (2 * SWIVEL_CUT - 1) | SWIVEL_LIMITED_REGION;  // of limbs
-constexpr std::size_t kMostComponents = 28;                                     // of seven twist bones
+constexpr std::size_t kMaxComponents = 28;                                      // of seven twist bones
 
 double length_of(const float* v, std::size_t count)
 {
@@ -49,7 +49,7 @@ std::array<std::size_t, 2> rows_of_field(const Session& session, std::uint32_t g
 struct Reader {
     const Session& session;
     std::uint32_t group, limb;
-    std::array<float, kMostComponents> value{};
+    std::array<float, kMaxComponents> value{};
 
     // The components; 0 where the group has no such field.
     std::uint32_t read(swivel_field field)
@@ -77,7 +77,7 @@ void check_rotations(Reader& reader)
     reader.check_quaternions(SWIVEL_SHOULDER, follows_incoming);
     reader.check_quaternions(SWIVEL_WRIST, follows_incoming);
     reader.check_quaternions(SWIVEL_TWIST_BONES, follows_incoming);
-    reader.check_quaternions(SWIVEL_CLAVICLE_TURN, follows_incoming);
+    reader.check_quaternions(SWIVEL_CLAVICLE_ROTATION, follows_incoming);
     if (features & SWIVEL_JOINTS) return reader.check_quaternions(SWIVEL_ELBOW, follows_incoming);
     reader.read(SWIVEL_ELBOW);
     SWIVEL_REQUIRE(reader.value[0] >= 0 && reader.value[1] >= 0);
@@ -87,7 +87,8 @@ void check_rotations(Reader& reader)
 // What stands, and what it stands with: numbers, and a state that there is.
 void check_plant(Reader& reader)
 {
-    for (const swivel_field field : {SWIVEL_PLANT_TURN, SWIVEL_MOTION, SWIVEL_SHIFT, SWIVEL_LIFT, SWIVEL_PLANT}) {
+    for (const swivel_field field :
+         {SWIVEL_PLANT_ROTATION, SWIVEL_CONTACT_STATE, SWIVEL_SHIFT, SWIVEL_LIFT, SWIVEL_PLANT}) {
         const std::uint32_t count = reader.read(field);
         for (std::uint32_t n = 0; n < count; ++n) SWIVEL_REQUIRE(std::isfinite(reader.value[n]));
     }
@@ -95,7 +96,7 @@ void check_plant(Reader& reader)
     const float state = reader.value[10], left = reader.value[9];
     SWIVEL_REQUIRE(state == 0 || (state >= 8 && state < 16 && state == std::floor(state)));
     SWIVEL_REQUIRE(left >= 0);
-    if (state != 0 && reader.read(SWIVEL_PLANT_TURN) > 0) SWIVEL_REQUIRE(is_unit(reader.value.data(), 4, 1e-5));
+    if (state != 0 && reader.read(SWIVEL_PLANT_ROTATION) > 0) SWIVEL_REQUIRE(is_unit(reader.value.data(), 4, 1e-5));
 }
 
 // Whether a limb is so long that its hand may be further away than any place.
@@ -147,8 +148,8 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     if (has_features(session, group, SWIVEL_LOOK)) return check_sight(session, group, limb, flags);
     SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
     check_plant(reader);
-    check_frame(reader, SWIVEL_PROP_FRAME, false);
-    check_frame(reader, SWIVEL_HAND_FRAME, flags == SWIVEL_BAD_INPUT || is_endless(reader));
+    check_frame(reader, SWIVEL_PROP_TRANSFORM, false);
+    check_frame(reader, SWIVEL_HAND_TRANSFORM, flags == SWIVEL_BAD_INPUT || is_endless(reader));
     if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
         return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_CLAMPED_NEAR ||
                               flags == SWIVEL_BAD_INPUT);

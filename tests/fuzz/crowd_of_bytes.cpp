@@ -24,29 +24,29 @@ float hard_number(Random& random)
 }
 
 // Two angles, the smaller first, of 0 to `most`.
-std::array<double, 2> two_angles(Random& random, double most)
+std::array<double, 2> two_angles(Random& random, double max)
 {
-    const double a = std::abs(random.share()) * most, b = std::abs(random.share()) * most;
+    const double a = std::abs(random.share()) * max, b = std::abs(random.share()) * max;
     return {std::min(a, b), std::max(a, b)};
 }
 
 void make_range(Random& random, float* range)
 {
-    const auto [least, most] = two_angles(random, 6);
-    swivel_range(least - 3, most - 3, range);
+    const auto [min, max] = two_angles(random, 6);
+    swivel_range(min - 3, max - 3, range);
 }
 
 // A value of a field's range, as the library says it in words: by its own maker of such values where it names one.
 void make_ordinary(Random& random, swivel_field field, std::span<float> value)
 {
     const std::array<double, 3> axis = {random.share(), random.share(), random.share()};
-    const auto [least, most] = two_angles(random, 3.1415926);
+    const auto [min, max] = two_angles(random, 3.1415926);
     const std::string_view range = described(field).range;
     const auto says = [&](std::string_view words) { return range.find(words) != range.npos; };
-    if (says("swivel_turn()")) return void(swivel_turn(says("of 0 to pi") ? least : 4 * least - 6, value.data()));
-    if (says("swivel_flexion()")) return void(swivel_flexion(least, most, value.data()));
-    if (says("swivel_cone()")) return void(swivel_cone(axis.data(), most, value.data()));
-    if (says("swivel_aim()")) return void(swivel_aim(axis.data(), most, value.data()));
+    if (says("swivel_cos_sin()")) return void(swivel_cos_sin(says("of 0 to pi") ? min : 4 * min - 6, value.data()));
+    if (says("swivel_flexion()")) return void(swivel_flexion(min, max, value.data()));
+    if (says("swivel_cone()")) return void(swivel_cone(axis.data(), max, value.data()));
+    if (says("swivel_aim()")) return void(swivel_aim(axis.data(), max, value.data()));
     if (says("swivel_range()")) {  // below an axis, or alone
         std::array<float, 4> cone = {0, 0, 1, 0};
         swivel_cone(axis.data(), 1, cone.data());
@@ -65,7 +65,7 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
         if (random.below(4) == 0) value[0] = std::round(value[0]);  // nothing or all
     } else if (says("1e-15 to 1e15")) {
         for (float& x : value) x = std::abs(x) + 0.01f;
-    } else if (field == SWIVEL_GROUND || field == SWIVEL_PROP_PLACE || field == SWIVEL_PROP_TURN) {
+    } else if (field == SWIVEL_GROUND || field == SWIVEL_PROP_POSITION || field == SWIVEL_PROP_ROTATION) {
         if (random.below(4) == 0) std::ranges::fill(value, std::numeric_limits<float>::quiet_NaN());  // none
     } else if (field == SWIVEL_TARGET) {
         for (float& x : value) x *= 2;
@@ -126,7 +126,7 @@ swivel_features features_with(swivel_features features, swivel_features excluded
     swivel_feature_info info;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
         const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
-        const swivel_features all = is_counted ? SWIVEL_MOST_TWIST_BONES * info.feature : info.feature;
+        const swivel_features all = is_counted ? SWIVEL_MAX_TWIST_BONES * info.feature : info.feature;
         const Whole whole(info);
         if (!(wanted & all) || (excluded & (all | whole.features)) || (features & whole.excludes)) continue;
         features |= (wanted & all) | (whole.features & ~all);
@@ -176,11 +176,11 @@ void give_region(Bytes& bytes, swivel_group_def& group)
         group.region = &regions[bytes.below(static_cast<std::uint32_t>(regions.size()))];
 }
 
-std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
+std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t max_limbs)
 {
     std::vector<swivel_group_def> groups(1 + bytes.take<std::uint8_t>() % 3);
     for (swivel_group_def& group : groups) {
-        const std::uint32_t limb_count = 1 + bytes.take<std::uint8_t>() % most_limbs;
+        const std::uint32_t limb_count = 1 + bytes.take<std::uint8_t>() % max_limbs;
         group = swivel_default_group_def(limb_count);
         group.features = &group == groups.data() || bytes.one_in(2) ? features_of(bytes) : groups.front().features;
         group.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));

@@ -21,8 +21,8 @@ swivel_features body_features_of(Bytes& bytes);
 // A region for a group that has the feature: of cones, a polygon and forbidden cones.
 void give_region(Bytes& bytes, swivel_group_def& group);
 
-// Each group has features and a sound binding of its own, and 1 to most_limbs limbs.
-std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs);
+// Each group has features and a sound binding of its own, and 1 to max_limbs limbs.
+std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t max_limbs);
 
 // A limb's number in a row of a group.
 inline float& number_at(const swivel_rows& rows, std::size_t limb, std::size_t row)
@@ -67,7 +67,7 @@ struct BodyDef {
     std::array<float, 3> up = {0, 1, 0};
     bool is_sound = true;
 
-    BodyDef(Bytes& bytes, std::uint32_t most_bodies);
+    BodyDef(Bytes& bytes, std::uint32_t max_bodies);
     BodyDef(const BodyDef&) = delete;  // its parts point to each other
 
     std::uint32_t joint_count() const { return static_cast<std::uint32_t>(parents.size()); }

@@ -181,7 +181,7 @@ void check_bvh(std::string_view text, const ScratchFolder& folder)
 // ---- glTF
 
 // Tiny files must not take long. Keys that are read again are up to 60 times as many, by the rate of frames.
-constexpr std::size_t kMostPoseBytes = 1 << 20;
+constexpr std::size_t kMaxPoseBytes = 1 << 20;
 
 // Frames are those of the last joint and of all above it, so that other joints have keys in between.
 GltfFile read_sampled(const std::filesystem::path& path, const GltfChoice& choice)
@@ -252,7 +252,7 @@ void check_new_keys(const GltfFile& file, const std::filesystem::path& to)
     }
     write_gltf(to, file, overrides);
     if (overrides.empty()) return;
-    const GltfFile again = read_sampled(to, {std::to_string(std::max(file.animation, 0)), 0, 64 * kMostPoseBytes});
+    const GltfFile again = read_sampled(to, {std::to_string(std::max(file.animation, 0)), 0, 64 * kMaxPoseBytes});
     check_gltf_file(again);
     SWIVEL_REQUIRE(again.clip.joints.size() == file.clip.joints.size());
     for (const JointKeys& change : overrides)
@@ -264,7 +264,7 @@ void check_new_keys(const GltfFile& file, const std::filesystem::path& to)
 // rate: of the frames.
 void check_gltf(const std::filesystem::path& path, const std::filesystem::path& written, double rate)
 {
-    const GltfChoice choice{"", rate, kMostPoseBytes};
+    const GltfChoice choice{"", rate, kMaxPoseBytes};
     const auto file = read_or_refuse([&] { return read_sampled(path, choice); });
     if (!file) return;
     check_gltf_file(*file);
@@ -301,7 +301,7 @@ void check_gltf_or_parts(std::string_view text, const ScratchFolder& folder)
 
 // ---- crowd files, tables and pictures
 
-void check_limit(const NumberRange& range) { SWIVEL_REQUIRE(range.least <= range.most); }
+void check_limit(const NumberRange& range) { SWIVEL_REQUIRE(range.min <= range.max); }
 void check_limit(const ConeLimit& cone) { SWIVEL_REQUIRE(std::abs(cone.axis.norm() - 1) < 1e-12); }
 void check_limit(const TwistLimit& twist)
 {

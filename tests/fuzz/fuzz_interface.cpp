@@ -16,8 +16,8 @@ using namespace swivel::fuzz;
 
 namespace {
 
-constexpr std::uint32_t kMostLimbs = 40;
-constexpr int kMostCalls = 40;
+constexpr std::uint32_t kMaxLimbs = 40;
+constexpr int kMaxCalls = 40;
 constexpr std::uint8_t kBodies = 0xb0;  // from this first byte on, the crowd is of bodies
 
 struct Free {
@@ -66,7 +66,7 @@ void run(Session session, swivel_crowd_def def, bool must_be, std::size_t isa)
     session.is_solved = session.is_overwritten = session.limbs_that(false);
     session.alone.resize(def.group_count);
     choose_isa(isa);
-    for (int n = 0; n < kMostCalls && !session.bytes.is_empty(); ++n) call_one(session);
+    for (int n = 0; n < kMaxCalls && !session.bytes.is_empty(); ++n) call_one(session);
     session.alone.push_back(session.crowd);
     for (swivel_crowd* const crowd : session.alone) swivel_crowd_destroy(crowd);
 }
@@ -78,14 +78,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Bytes bytes(data, size);
     if (size > 0 && data[0] >= kBodies) {
         bytes.take<std::uint8_t>();
-        BodyDef bodies(bytes, kMostLimbs);
+        BodyDef bodies(bytes, kMaxLimbs);
         swivel_crowd_def def = bodies.crowd_def(bodies.body_count);
         def.workspace_count = bytes.one_in(4) ? 0 : 1;
         run({.bytes = bytes, .bodies = &bodies}, def, bodies.is_sound, size);
         return 0;
     }
     swivel_crowd_def def = swivel_default_crowd_def();
-    std::vector<swivel_group_def> groups = groups_of(bytes, kMostLimbs);
+    std::vector<swivel_group_def> groups = groups_of(bytes, kMaxLimbs);
     def.groups = groups.data();
     def.group_count = static_cast<std::uint32_t>(groups.size());
     def.workspace_count = bytes.take<std::uint8_t>() % 4 == 3 ? 0 : 1;

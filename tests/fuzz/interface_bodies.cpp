@@ -17,11 +17,12 @@ enum Array : std::size_t {
     kResults,
     kTranslationResults,
     kJointRotations,
-    kJointPlaces
+    kJointPositions
 };
 constexpr swivel_joint_values swivel_pose::*kArrays[] = {
-    &swivel_pose::rotations,           &swivel_pose::translations,    &swivel_pose::scales,      &swivel_pose::results,
-    &swivel_pose::translation_results, &swivel_pose::joint_rotations, &swivel_pose::joint_places};
+    &swivel_pose::rotations,      &swivel_pose::translations,        &swivel_pose::scales,
+    &swivel_pose::results,        &swivel_pose::translation_results, &swivel_pose::joint_rotations,
+    &swivel_pose::joint_positions};
 
 // Its values of bodies, which are like those of a field.
 struct Root {
@@ -38,10 +39,10 @@ struct Root {
 constexpr Root kRoots[] = {{&swivel_pose::root_position, SWIVEL_TARGET, 3, true},
                            {&swivel_pose::root_rotation, SWIVEL_INCOMING_SHOULDER, 4},
                            {&swivel_pose::root_scale, SWIVEL_PARENT_SCALE, 1},
-                           {&swivel_pose::time, SWIVEL_COMING_TIME, 1},
+                           {&swivel_pose::time, SWIVEL_NEXT_TIME, 1},
                            {&swivel_pose::support_position, SWIVEL_TARGET, 3, true},
                            {&swivel_pose::support_rotation, SWIVEL_INCOMING_SHOULDER, 4},
-                           {&swivel_pose::weight, SWIVEL_FIT_WEIGHT, 1}};
+                           {&swivel_pose::weight, SWIVEL_PELVIS_FIT_WEIGHT, 1}};
 
 // Bytes of a rotation or a matrix, as far as a solve may touch them.
 std::size_t rotation_bytes(swivel_pose_form form)
@@ -139,7 +140,7 @@ Pose::Pose(Session& session)
     const bool moves = given.space == SWIVEL_IN_BODY && given.translations.data && given.results.data;
     if (moves != bytes.one_in(16)) take_out(kTranslationResults, three);
     if (bytes.one_in(4)) take_out(kJointRotations, four);
-    if (bytes.one_in(4)) take_out(kJointPlaces, three);
+    if (bytes.one_in(4)) take_out(kJointPositions, three);
     for (std::size_t n = 0; n < roots.size(); ++n) take_root(session, roots[n], given, kRoots[n]);
     if (bytes.one_in(32)) given.size = bytes.below(sizeof given + 9);
     if (bytes.one_in(64)) given.reserved = bytes.below(9);
@@ -182,7 +183,7 @@ bool Pose::is_valid(const Session& session, const std::vector<bool>& named) cons
     return are_right(pose.rotations, bytes, !pose.results.data) && are_right(pose.results, bytes, true) &&
            are_right(pose.translations, three, moves && !pose.translation_results.data) &&
            are_right(pose.scales, three, false) && are_right(pose.translation_results, three, true) &&
-           are_right(pose.joint_rotations, four, true) && are_right(pose.joint_places, three, true) &&
+           are_right(pose.joint_rotations, four, true) && are_right(pose.joint_positions, three, true) &&
            std::ranges::all_of(kRoots, [&](const Root& root) { return is_valid_root(pose, root); }) &&
            (pose.root_position.data || !pose.root_is_double) && (pose.time.data || !needs_time);
 }
@@ -201,7 +202,7 @@ void Pose::for_each_written(const Session& session, std::uint32_t group, const T
     for (std::uint32_t joint = 0; joint < bodies.joint_count(); ++joint) {
         if (!bodies.is_needed(joint)) continue;
         if (pose.joint_rotations.data) take(kJointRotations, joint);
-        if (pose.joint_places.data) take(kJointPlaces, joint);
+        if (pose.joint_positions.data) take(kJointPositions, joint);
     }
 }
 

@@ -70,22 +70,22 @@ void check_helper(swivel_status status, const std::array<float, N>& value, bool 
 
 void call_limits(Bytes& bytes)
 {
-    const double least = take_angle(bytes), most = take_angle(bytes);
+    const double min = take_angle(bytes), max = take_angle(bytes);
     const std::array<double, 3> axis = {take_angle(bytes), take_angle(bytes), take_angle(bytes)};
     std::array<float, 4> range, cone;
     std::array<float, 2> flexion;
     std::array<float, 5> aim;
     range.fill(7), cone.fill(7), flexion.fill(7), aim.fill(7);
-    const swivel_status ranged = swivel_range(least, most, range.data()),
-                        coned = swivel_cone(axis.data(), most, cone.data()),
-                        flexed = swivel_flexion(least, most, flexion.data()),
-                        aimed = swivel_aim(axis.data(), most, aim.data());
+    const swivel_status ranged = swivel_range(min, max, range.data()),
+                        coned = swivel_cone(axis.data(), max, cone.data()),
+                        flexed = swivel_flexion(min, max, flexion.data()),
+                        aimed = swivel_aim(axis.data(), max, aim.data());
     check_helper(ranged, range, is_near_unit(range, 0, 2) && is_near_unit(range, 2, 2) && range[3] >= 0);
     check_helper(coned, cone, is_near_unit(cone, 0, 3) && std::abs(cone[3]) <= 1);
     check_helper(flexed, flexion, flexion[0] <= 1 && flexion[0] >= flexion[1] && flexion[1] >= 0);
     check_helper(aimed, aim, is_near_unit(aim, 0, 3) && is_near_unit(aim, 3, 2) && aim[3] >= 0 && aim[4] >= 0);
-    swivel_turn(least, flexion.data());
-    SWIVEL_REQUIRE(!std::isfinite(least) || is_near_unit(flexion, 0, 2));
+    swivel_cos_sin(min, flexion.data());
+    SWIVEL_REQUIRE(!std::isfinite(min) || is_near_unit(flexion, 0, 2));
 }
 
 void call_mirror(Bytes& bytes)
@@ -116,9 +116,9 @@ void check_binding(swivel_status status, const swivel_binding& bound)
     constexpr std::size_t first = offsetof(swivel_binding, parent_from_arm) / sizeof(float),
                           lengths = offsetof(swivel_binding, lengths) / sizeof(float),
                           bones = offsetof(swivel_binding, twist_parent_from_arm) / sizeof(float),
-                          end = bones + 2 * 4 * SWIVEL_MOST_TWIST_BONES;
+                          end = bones + 2 * 4 * SWIVEL_MAX_TWIST_BONES;
     const auto numbers = std::bit_cast<BindingNumbers>(bound);
-    bool is_sound = bound.twist_bone_count <= SWIVEL_MOST_TWIST_BONES;
+    bool is_sound = bound.twist_bone_count <= SWIVEL_MAX_TWIST_BONES;
     for (const float length : bound.lengths) is_sound = is_sound && length > 0 && std::isfinite(length);
     for (std::size_t n = first; n < end; n += 4) {
         if (n == lengths) n = bones;
@@ -232,7 +232,7 @@ void call_write_doubles(Session& session)
 {
     Bytes& bytes = session.bytes;
     const swivel_field field =
-        session.bytes.one_in(8) ? SWIVEL_COMING : take_field(session, SWIVEL_SHOULDER_POSITION + 1);
+        session.bytes.one_in(8) ? SWIVEL_NEXT_TARGET : take_field(session, SWIVEL_SHOULDER_POSITION + 1);
     const Limbs limbs = take_limbs(session);
     const bool any_bits = bytes.one_in(3), has_origins = bytes.one_in(2);
     Random random{bytes.take<std::uint16_t>()};
@@ -269,7 +269,7 @@ void call_reset(Session& session)
     const Limbs limbs = take_limbs(session);
     check_status(session, swivel_reset(session.crowd, limbs.group, limbs.first, limbs.count), limbs.is_valid);
     for (std::uint32_t n = 0;
-         limbs.is_valid && n < limbs.count && has_features(session, limbs.group, SWIVEL_WITH_MOST_SWIVEL); ++n)
+         limbs.is_valid && n < limbs.count && has_features(session, limbs.group, SWIVEL_WITH_MAX_SWIVEL); ++n)
         session.is_solved[limbs.group][limbs.first + n] = false;  // their normal is none
     for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count; ++n)
         session.is_overwritten[limbs.group][limbs.first + n] = false;

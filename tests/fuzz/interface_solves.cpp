@@ -77,7 +77,7 @@ struct Priorities {
 };
 
 // Blocks are picked whole, and no more than asked for.
-void check_choice(const Session& session, const std::vector<std::uint32_t>& words, std::uint32_t most_blocks,
+void check_choice(const Session& session, const std::vector<std::uint32_t>& words, std::uint32_t max_blocks,
                   std::uint32_t count)
 {
     const std::vector<bool> limbs = limbs_of(session);
@@ -89,7 +89,7 @@ void check_choice(const Session& session, const std::vector<std::uint32_t>& word
         for (std::size_t lane = block * SWIVEL_LANES; lane < (block + 1) * SWIVEL_LANES; ++lane)
             SWIVEL_REQUIRE(has(words, lane) == (is_picked && limbs[lane]));
     }
-    SWIVEL_REQUIRE(blocks <= most_blocks && bits == count);
+    SWIVEL_REQUIRE(blocks <= max_blocks && bits == count);
 }
 
 bool has_workspace(const Session& session)
@@ -296,7 +296,7 @@ private:
     {
         const Priorities& taken = priorities.emplace_back(session);
         job.priorities = taken.in.data();
-        job.most_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
+        job.max_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
         if (session.bytes.one_in(2)) {
             urgency.resize(swivel_block_count(session.crowd));
             for (float& each : urgency) each = session.bytes.any_float();
@@ -358,7 +358,7 @@ void call_solve(Session& session)
 
 void call_choose(Session& session)
 {
-    const std::uint32_t most_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
+    const std::uint32_t max_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
     const Priorities priorities(session);
     std::uint32_t count = ~0u;
     std::vector<std::uint32_t> words = take_words(session);
@@ -367,10 +367,10 @@ void call_choose(Session& session)
     for (float& each : urgency) each = session.bytes.any_float();
     const swivel_status status =
         swivel_choose(session.crowd, priorities.in.data(), session.bytes.one_in(2) ? urgency.data() : nullptr,
-                      most_blocks, words.data(), static_cast<std::uint32_t>(words.size()), &count);
+                      max_blocks, words.data(), static_cast<std::uint32_t>(words.size()), &count);
     check_status(session, status, priorities.are_valid && are_enough(session, words));
     if (status == SWIVEL_OK)
-        check_choice(session, words, most_blocks, count);
+        check_choice(session, words, max_blocks, count);
     else
         SWIVEL_REQUIRE(words == words_before && count == ~0u);
 }

@@ -121,10 +121,9 @@ TEST_CASE("of nearly straight arms the violation is least for the elbow that flo
             CHECK(std::fabs(own.away - exact.away) <= 3e-7 / exact.away);
             if (!(poses[n].flags & SWIVEL_INFEASIBLE)) continue;
             ++infeasible;
-            double most = -2;
-            for (int step = 0; step < 1000; ++step) most = std::max(most, arms.room(n, own.at(step * kPi / 500)));
-            CHECK(arms.room(n, poses[n]) >=
-                  most - 1.5e-6);  // kTie of core/choose_swivel.h, and half of it for rounding
+            double max = -2;
+            for (int step = 0; step < 1000; ++step) max = std::max(max, arms.room(n, own.at(step * kPi / 500)));
+            CHECK(arms.room(n, poses[n]) >= max - 1.5e-6);  // kTie of core/choose_swivel.h, and half of it for rounding
         }
     }
     CHECK(infeasible > 100);

@@ -24,8 +24,8 @@ SkeletonWish random_wish(Random& random, swivel_pose_form form)
 {
     const bool is_chain = random.below(4) == 0;
     const std::uint32_t most_in_line = form == SWIVEL_ROTATIONS ? 60 : 20;
-    const std::uint32_t most = random.below(4) ? 20 : is_chain ? most_in_line : 180;
-    return {random.below(most), 1 + random.below(5), random.below(3), is_chain};
+    const std::uint32_t max = random.below(4) ? 20 : is_chain ? most_in_line : 180;
+    return {random.below(max), 1 + random.below(5), random.below(3), is_chain};
 }
 PoseLayout any_layout(Random& random)
 {

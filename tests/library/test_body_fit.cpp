@@ -13,7 +13,7 @@ namespace {
 using namespace swivel;
 using namespace swivel::test;
 
-constexpr swivel_features kFitting = SWIVEL_WITH_FIT | SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD;
+constexpr swivel_features kFitting = SWIVEL_WITH_PELVIS_FIT | SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD;
 constexpr std::size_t kBodies = 80;
 constexpr std::uint32_t kLimbs[] = {1, 2, 3};  // groups; the shift is the first
 
@@ -41,7 +41,7 @@ struct FitStage : PosedBodies {
                              distance = near + random.between(0.6, 0.98) * (limb.length() - near);
                 return floats(Vector3d(shoulder(g, n) + shifts[n] * up(n) + distance * random.direction()));
             });
-            give(g, SWIVEL_FIT_WEIGHT, [](std::size_t) { return Float1{1}; });
+            give(g, SWIVEL_PELVIS_FIT_WEIGHT, [](std::size_t) { return Float1{1}; });
         }
     }
     swivel_fit& fit() { return groups[0].fit; }
@@ -76,14 +76,14 @@ struct FitStage : PosedBodies {
 double shift_of(const SolvedBodies& solved, std::size_t n) { return solved.result<Float3>(SWIVEL_SHIFT, 0, n)[0]; }
 void weigh(SolvedBodies& solved, float weight)
 {
-    for (const std::uint32_t g : kLimbs) solved.crowd.write_all(SWIVEL_FIT_WEIGHT, g, weight);
+    for (const std::uint32_t g : kLimbs) solved.crowd.write_all(SWIVEL_PELVIS_FIT_WEIGHT, g, weight);
 }
 // Lets no limb count until bodies have had their first solve, after which a shift comes slowly.
 SolvedBodies unshifted(FitStage& stage, float time)
 {
     stage.time = time;
     for (BodyInput& input : stage.inputs)
-        if (input.field == SWIVEL_FIT_WEIGHT) input.numbers.assign(kBodies, 0);
+        if (input.field == SWIVEL_PELVIS_FIT_WEIGHT) input.numbers.assign(kBodies, 0);
     SolvedBodies solved(stage);
     for (std::size_t n = 0; n < kBodies; ++n) REQUIRE(shift_of(solved, n) == 0);
     weigh(solved, 1);
@@ -94,7 +94,7 @@ SolvedBodies unshifted(FitStage& stage, float time)
 
 TEST_CASE("a body is shifted so that all limbs reach, as near to a wish as they do, within drop and rise, and at once")
 {
-    const auto [room, least_far, least_short] = GENERATE(table<float, int, int>({{0.5f, 21, 0}, {0.02f, 0, 11}}));
+    const auto [room, min_far, min_short] = GENERATE(table<float, int, int>({{0.5f, 21, 0}, {0.02f, 0, 11}}));
     FitStage stage(Random{1});
     stage.time = 0;
     stage.fit().drop = room, stage.fit().rise = 0.8f * room;
@@ -116,15 +116,15 @@ TEST_CASE("a body is shifted so that all limbs reach, as near to a wish as they 
         REQUIRE(solved.flags(0, n) == (all ? SWIVEL_REACHED : SWIVEL_CLAMPED_FAR));
         far_count += std::fabs(shift) > 0.01, short_count += !all;
     }
-    REQUIRE(far_count >= least_far);
-    REQUIRE(short_count >= least_short);
-    REQUIRE((short_count == 0) == (least_short == 0));
+    REQUIRE(far_count >= min_far);
+    REQUIRE(short_count >= min_short);
+    REQUIRE((short_count == 0) == (min_short == 0));
 }
 
 TEST_CASE("a shift that is not there yet comes by a critically damped spring, and none while time stands still")
 {
     FitStage stage(Random{2});
-    stage.fit().half = 0.15f;
+    stage.fit().half_life = 0.15f;
     SolvedBodies solved = unshifted(stage, 0);
     const double k = 1.6783469900166605 / 0.15;
     for (int frame = 0; frame <= 60; ++frame) {
@@ -138,7 +138,7 @@ TEST_CASE("a shift that is not there yet comes by a critically damped spring, an
         }
     }
     FitStage quick(Random{3});
-    quick.fit().half = 0;
+    quick.fit().half_life = 0;
     SolvedBodies at_once = unshifted(quick, 0.01f);
     at_once.solve_next();
     for (std::size_t n = 0; n < kBodies; ++n)
@@ -155,10 +155,10 @@ TEST_CASE("a limb with bad input does not count, and costs no other a bit")
     const Fault faults[] = {{SWIVEL_TARGET, {kNan, 0, 0}},
                             {SWIVEL_LENGTHS, {-1, 1, 0}},
                             {SWIVEL_LENGTHS, {kInf, 1, 0}},
-                            {SWIVEL_FIT_WEIGHT, {kNan, 0, 0}},
-                            {SWIVEL_FIT_WEIGHT, {2, 0, 0}},
-                            {SWIVEL_COMING, {kNan, 0, 0}, SWIVEL_WITH_COMING},
-                            {SWIVEL_COMING_TIME, {-1, 0, 0}, SWIVEL_WITH_COMING},
+                            {SWIVEL_PELVIS_FIT_WEIGHT, {kNan, 0, 0}},
+                            {SWIVEL_PELVIS_FIT_WEIGHT, {2, 0, 0}},
+                            {SWIVEL_NEXT_TARGET, {kNan, 0, 0}, SWIVEL_WITH_NEXT_TARGET},
+                            {SWIVEL_NEXT_TIME, {-1, 0, 0}, SWIVEL_WITH_NEXT_TARGET},
                             {SWIVEL_CAP, {kNan, 0, 0}, SWIVEL_WITH_CAP},
                             {SWIVEL_EFFECTOR, {kNan, 0, 0}, SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_HAND}};
     for (const Fault& fault : faults) {
@@ -170,7 +170,7 @@ TEST_CASE("a limb with bad input does not count, and costs no other a bit")
             check(swivel_write(crowd.get(), field, 2, 17, 1, {&value, sizeof value}));
         };
         spoil(solved.crowd, fault.field, fault.value);
-        spoil(other.crowd, SWIVEL_FIT_WEIGHT, {});
+        spoil(other.crowd, SWIVEL_PELVIS_FIT_WEIGHT, {});
         solved.solve_next(), other.solve_next();
         CHECK(solved.flags(2, 17) == SWIVEL_BAD_INPUT);
         for (std::uint32_t g = 0; g <= 3; ++g)
@@ -199,28 +199,28 @@ TEST_CASE("bad input of a shift is the shift's alone, which then stays")
 
 TEST_CASE("a coming target is prepared for the nearer it is")
 {
-    FitStage stage(Random{8}, kFitting | SWIVEL_WITH_COMING);
+    FitStage stage(Random{8}, kFitting | SWIVEL_WITH_NEXT_TARGET);
     stage.time = 0;
     SolvedBodies solved(stage);
     // The limbs' own wrists are their targets, so only what is coming shifts.
     weigh(solved, 0);
-    solved.crowd.write_all(SWIVEL_FIT_WEIGHT, 1, 1.0f);
+    solved.crowd.write_all(SWIVEL_PELVIS_FIT_WEIGHT, 1, 1.0f);
     for (const std::uint32_t g : kLimbs) {
-        std::vector<Float3> coming, own;
+        std::vector<Float3> next_target, own;
         for (std::size_t n = 0; n < kBodies; ++n) {
-            coming.push_back(stage.value(g, SWIVEL_TARGET, n, kNoPlace));
+            next_target.push_back(stage.value(g, SWIVEL_TARGET, n, kNoPlace));
             own.push_back(own_goal(stage.skeleton, stage.bodies[n], g - 1).target);
         }
-        solved.crowd.write(SWIVEL_COMING, g, coming), solved.crowd.write(SWIVEL_TARGET, g, own);
-        solved.crowd.write_all(SWIVEL_COMING_TIME, g, 1e15f);
+        solved.crowd.write(SWIVEL_NEXT_TARGET, g, next_target), solved.crowd.write(SWIVEL_TARGET, g, own);
+        solved.crowd.write_all(SWIVEL_NEXT_TIME, g, 1e15f);
     }
     std::vector<double> last(kBodies);
     int shifted_count = 0;
     for (const float time : {0.31f, 0.3f, 0.2f, 0.1f, 0.0f}) {
-        solved.crowd.write_all(SWIVEL_COMING_TIME, 1, time);
+        solved.crowd.write_all(SWIVEL_NEXT_TIME, 1, time);
         solved.crowd.reset(0);
         solved.solve_next();
-        const double near = std::max(0.0, 1 - double{time} / stage.fit().ahead);
+        const double near = std::max(0.0, 1 - double{time} / stage.fit().lookahead);
         for (std::size_t n = 0; n < kBodies; ++n) {
             const double shift = std::fabs(shift_of(solved, n)), whole = std::fabs(stage.wanted(n, {1}));
             if (near == 0) REQUIRE(shift == 0);
@@ -270,35 +270,37 @@ TEST_CASE("shifts, plants and ground that cannot be get a line")
     {
         for (const float bad : {-1.0f, kNan, kInf, 1001.0f}) {
             for (float swivel_fit::*const each :
-                 {&swivel_fit::drop, &swivel_fit::rise, &swivel_fit::half, &swivel_fit::ahead})
+                 {&swivel_fit::drop, &swivel_fit::rise, &swivel_fit::half_life, &swivel_fit::lookahead})
                 start(), groups[0].fit.*each = bad, refused();
-            for (float swivel_plant::*const each : {&swivel_plant::lock, &swivel_plant::unlock, &swivel_plant::stop,
-                                                    &swivel_plant::blend, &swivel_plant::again, &swivel_plant::run})
+            for (float swivel_plant::*const each :
+                 {&swivel_plant::lock_radius, &swivel_plant::unlock_radius, &swivel_plant::stop_time,
+                  &swivel_plant::release_time, &swivel_plant::relock_speed, &swivel_plant::anchor_lead})
                 start(), groups[2].plant.*each = bad, refused();
             start(), groups[2].plant.speed[1] = bad, refused();
         }
         for (const float bad : {-1001.0f, kNan, kInf}) start(), groups[2].plant.height[0] = bad, refused();
-        for (const float bad : {-1.0f, kNan, kInf}) start(), groups[2].plant.longest = bad, refused();
-        start(), groups[2].plant.run = 1.01f, refused();
+        for (const float bad : {-1.0f, kNan, kInf}) start(), groups[2].plant.reset_time = bad, refused();
+        start(), groups[2].plant.anchor_lead = 1.01f, refused();
         for (const float bad : {kNan, kInf, -0.01f, 2e15f})
             for (float swivel_ground::*const each : {&swivel_ground::toe_clearance, &swivel_ground::heel_clearance,
-                                                     &swivel_ground::half, &swivel_ground::cos_most})
+                                                     &swivel_ground::half_life, &swivel_ground::cos_max})
                 start(), groups[2].ground.*each = bad, refused("group 2, ground.");
         for (const float bad : {kNan, kInf, 2e15f})
             for (float& each : groups[2].ground.heel) start(), each = bad, refused("group 2, ground.heel is ");
-        start(), groups[2].ground.cos_most = 1.001f;
-        refused("group 2, ground.cos_most is 1.001; it is 0 to 1");
+        start(), groups[2].ground.cos_max = 1.001f;
+        refused("group 2, ground.cos_max is 1.001; it is 0 to 1");
     }
     SECTION("features that do not go together")
     {
         for (const swivel_features bad :
-             {SWIVEL_WITH_PLANT | SWIVEL_WITH_AIM, SWIVEL_WITH_PLANT_TURN | SWIVEL_WITH_HAND, SWIVEL_PLANT_BY_MOTION,
-              SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN, SWIVEL_WITH_CAP | SWIVEL_WITH_REACH,
-              SWIVEL_WITH_CAP | SWIVEL_WITH_AIM, SWIVEL_WITH_COMING, SWIVEL_WITH_FIT | SWIVEL_WITH_AIM})
+             {SWIVEL_WITH_PLANT | SWIVEL_WITH_AIM, SWIVEL_WITH_PLANT_ROTATION | SWIVEL_WITH_HAND,
+              SWIVEL_PLANT_BY_MOTION, SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_ROTATION,
+              SWIVEL_WITH_CAP | SWIVEL_WITH_REACH, SWIVEL_WITH_CAP | SWIVEL_WITH_AIM, SWIVEL_WITH_NEXT_TARGET,
+              SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_AIM})
             start(), groups[2] = body_group(joints[1], bad), refused();
         start(), groups[2].features &= ~(SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS), refused("WITH_EFFECTOR");
         start(), groups[2].features &= ~SWIVEL_WITH_PLANT, refused("WITH_PLANT");
-        for (const swivel_features bad : {SWIVEL_WITH_PLANT, SWIVEL_WITH_FIT, SWIVEL_WITH_CAP, SWIVEL_FIT}) {
+        for (const swivel_features bad : {SWIVEL_WITH_PLANT, SWIVEL_WITH_PELVIS_FIT, SWIVEL_WITH_CAP, SWIVEL_FIT}) {
             const swivel_group_def free = group(1, {}, bad);
             swivel_crowd* crowd = nullptr;
             const swivel_crowd_def of = def_of(free);

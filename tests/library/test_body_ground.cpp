@@ -30,12 +30,12 @@ struct Gait {
     int rest_count = 0;
 
     // As on hills: planes touch smooth ground, which is not the planes.
-    void check_on_hills(double most_heel) const
+    void check_on_hills(double max_heel) const
     {
         CHECK(rest_count > 100000);
         CHECK(rest <= 1e-4);
         CHECK(from_ground <= 1e-4);
-        CHECK(heel <= most_heel);
+        CHECK(heel <= max_heel);
         CHECK(toe <= 1e-3);
         CHECK(under_ground <= 0.0095);
         CHECK(slide <= 1e-4);

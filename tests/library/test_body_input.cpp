@@ -33,7 +33,7 @@ constexpr std::size_t kBadBody = 20;  // whose share is 2/3, or what a case make
 // Whether the hand of the bad body has a frame, which is whole or none.
 bool has_frame(const SolvedBodies& solved, std::uint32_t group)
 {
-    const auto frame = solved.result<Float7>(SWIVEL_HAND_FRAME, group, kBadBody);
+    const auto frame = solved.result<Float7>(SWIVEL_HAND_TRANSFORM, group, kBadBody);
     const auto count = std::ranges::count_if(frame, [](float x) { return std::isnan(x); });
     CHECK((count == 0 || count == 7));
     return count == 0;
@@ -105,7 +105,7 @@ struct BadBodies {
 private:
     static std::array<std::uint32_t, 7> goal_bits(const SolvedBodies& of, std::uint32_t group)
     {
-        return of.result<std::array<std::uint32_t, 7>>(SWIVEL_GOAL, group, kBadBody);
+        return of.result<std::array<std::uint32_t, 7>>(SWIVEL_SOLVED_GOAL, group, kBadBody);
     }
     void check_joints(std::uint32_t group, const PoseBuffer& are, const PoseBuffer& wanted) const
     {
@@ -180,8 +180,8 @@ TEST_CASE("bad input that a prop comes from is its own, and one hand takes it fr
     CHECK(solved.flags(H::handle, kBadBody) == SWIVEL_BAD_INPUT);
     CHECK(solved.flags(H::on_handle, kBadBody) == SWIVEL_BAD_INPUT);
     for (HoldingBodies* const each : {&far.good_bodies, &far.bodies}) {
-        each->groups[H::prop].prop.most_move = 1000;
-        each->find(H::prop, SWIVEL_PROP_PLACE)->write(kBadBody, Float3{30, 0, 0});
+        each->groups[H::prop].prop.max_move = 1000;
+        each->find(H::prop, SWIVEL_PROP_POSITION)->write(kBadBody, Float3{30, 0, 0});
     }
     far.input(H::right, SWIVEL_GRIP)[1] = kNan;
     far.check_bad({H::right});
@@ -201,15 +201,15 @@ TEST_CASE("bad input of hands and props is that of what depends on them, and of 
         std::vector<std::uint32_t> groups;
         float share = 0;
     } rows[] = {
-        {"nothing", H::prop, SWIVEL_PROP_SHARE, 0, 1, {0, 1}, none},
+        {"nothing", H::prop, SWIVEL_HAND_BLEND, 0, 1, {0, 1}, none},
         {"a grip of the hand that says where the prop is", H::left, SWIVEL_GRIP, 1, 1, {kNan, kInf, 1e16f}, all},
         {"a grip of the other hand", H::right, SWIVEL_GRIP, 1, 1, {kNan}, right},
         {"a grip of either hand, between which the prop is", H::right, SWIVEL_GRIP, 4, 1, {kInf}, all, 0.5f},
         {"a grip of no rotation", H::follower, SWIVEL_GRIP, 3, 4, {0}, follower},
-        {"a share", H::prop, SWIVEL_PROP_SHARE, 0, 1, {-0.1f, 1.1f, kNan}, all},
+        {"a share", H::prop, SWIVEL_HAND_BLEND, 0, 1, {-0.1f, 1.1f, kNan}, all},
         {"a weight", H::prop, SWIVEL_PROP_WEIGHT, 0, 1, {-0.1f, 1.1f, kNan}, all},
-        {"a place of a prop", H::prop, SWIVEL_PROP_PLACE, 0, 3, {2e15f, kInf}, all},
-        {"a rotation of a prop", H::prop, SWIVEL_PROP_TURN, 0, 4, {0, kInf}, all},
+        {"a place of a prop", H::prop, SWIVEL_PROP_POSITION, 0, 3, {2e15f, kInf}, all},
+        {"a rotation of a prop", H::prop, SWIVEL_PROP_ROTATION, 0, 4, {0, kInf}, all},
         {"a target of a hand on a prop", H::left, SWIVEL_TARGET, 0, 3, {2e15f}, all},
         {"a target", H::free, SWIVEL_TARGET, 0, 1, {kNan}, {H::free}},
     };
@@ -220,7 +220,7 @@ TEST_CASE("bad input of hands and props is that of what depends on them, and of 
             if (!stage.bodies.find(group, field))
                 for (HoldingBodies* const each : {&stage.bodies, &stage.good_bodies})
                     each->give(group, field, [](std::size_t) { return Float1{1}; });
-            if (share > 0) stage.input(H::prop, SWIVEL_PROP_SHARE)[0] = share;
+            if (share > 0) stage.input(H::prop, SWIVEL_HAND_BLEND)[0] = share;
             std::fill_n(stage.input(group, field) + first, count, bad);
             stage.check_bad(groups);
         }
@@ -234,7 +234,7 @@ TEST_CASE("a hand on a limb that keeps its pose after bad input holds it there")
     const SolvedBodies solved = stage.solved();
     const SolvedBody body(solved, kBadBody);
     const JointAt& wrist = body.was[stage.limb(H::free).wrist];
-    const Held told = solved.from_root(SWIVEL_HAND_FRAME, H::free, kBadBody);
+    const Held told = solved.from_root(SWIVEL_HAND_TRANSFORM, H::free, kBadBody);
     const double off = 2e-7 * vec(body.was_body.root_position).norm() + body.bound(H::free);
     const Vector3d up = quat(body.was_body.root_rotation).normalized() * Vector3d::UnitY(),
                    shifted = double{solved.result<Float3>(SWIVEL_SHIFT, H::fit, kBadBody)[0]} * up;

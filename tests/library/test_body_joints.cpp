@@ -83,7 +83,7 @@ TEST_CASE("twist bones of bodies")
 {
     rc::prop("take their share of the change", [](std::uint64_t seed) {
         Random random{seed};
-        const std::uint32_t bones = 1 + random.below(SWIVEL_MOST_TWIST_BONES);
+        const std::uint32_t bones = 1 + random.below(SWIVEL_MAX_TWIST_BONES);
         const double angle = random.between(-3, 3);
         OneLimb one(random, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND, bones);
         const auto& [joints, was] = std::tie(one.limb, one.was);
@@ -219,7 +219,7 @@ TEST_CASE("where joints are after a solve")
                          if (!is_needed) continue;
                          RC_ASSERT(rotation[3] >= 0);
                          RC_ASSERT(quat(rotation).angularDistance(at[joint].rotation) <= 5e-6);
-                         const Float3& place = solved.joint_places[n * skeleton.size() + joint];
+                         const Float3& place = solved.joint_positions[n * skeleton.size() + joint];
                          RC_ASSERT((vec(place) - at[joint].place).norm() <= 2e-6 + bound(solved_body, at, joint));
                      }
                  }

@@ -24,8 +24,8 @@ constexpr std::uint32_t kPosedBodies = 16, kTwins = 8;
 constexpr swivel_features kPosed = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
                           kOtherwise =  // what bodies do in another way, or alone
                           SWIVEL_JOINTS | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
-                          SWIVEL_WITH_FIT | SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK | SWIVEL_WITH_LINK |
-                          SWIVEL_WITH_HAND_FRAME | SWIVEL_SENT | SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+                          SWIVEL_WITH_PELVIS_FIT | SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK | SWIVEL_WITH_LINK |
+                          SWIVEL_WITH_HAND_TRANSFORM | SWIVEL_SENT | SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
 // Nearly straight bones and narrow ranges have few floats, so rounding makes steps of up to about 1e-4.
 constexpr double kSame = 3e-4;
 using Values = std::map<swivel_field, std::vector<float>>;  // of a limb's inputs
@@ -66,7 +66,7 @@ std::vector<float> list(const Value& value)
 // Goals and limits, in the terms of a body.
 Values random_values(Random& random, const BodyGoal& goal, swivel_features features, double length)
 {
-    const auto number = [&](double least, double most) { return static_cast<float>(random.between(least, most)); };
+    const auto number = [&](double min, double max) { return static_cast<float>(random.between(min, max)); };
     const auto angles = [&] { return AngleRange{random.between(-1, 1), random.between(1.5, 3)}; };
     const auto direction = [&] { return floats(random.direction()); };
     Values values;
@@ -75,12 +75,12 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     values[SWIVEL_POLE] = list(is_point ? goal.pole : direction());
     values[SWIVEL_HAND] = list(goal.hand);
     values[SWIVEL_EFFECTOR] = list(floats(Vector3d(length * random.vector(0, 0.3))));
-    values[SWIVEL_ANGLE] = list(turn(random.between(-3, 3)));
+    values[SWIVEL_ANGLE] = list(cos_sin(random.between(-3, 3)));
     values[SWIVEL_LENGTHS] = {kNan, kNan};  // as the pose has them
     if (random.below(6) == 0) values[SWIVEL_LENGTHS] = {number(0.05, 0.3), number(0.05, 0.3)};
     values[SWIVEL_WEIGHTS] = {number(0, 1), number(0, 1), random.below(2) ? number(0.1, 1) : 0};
     values[SWIVEL_REACH] = {number(0, 0.2), number(0, 0.2), number(1, 1.3), number(0, 0.2)};
-    values[SWIVEL_MOST_SWIVEL] = list(turn(random.below(6) ? random.between(0, 1) : kPi));
+    values[SWIVEL_MAX_SWIVEL] = list(cos_sin(random.below(6) ? random.between(0, 1) : kPi));
     values[SWIVEL_CAP] = {number(0, 0.2), number(0, 0.9), number(0, 0.2)};
     // Rounding decides whether a least flexion near 0 shortens the reach.
     values[SWIVEL_FLEXION_LIMIT] = list(flexion(random.between(0.05, 1), random.between(1.5, 3)));
@@ -99,7 +99,7 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
 Float2 timed_step(const std::vector<float>& step, double seconds)
 {
     const double half = 0.5 * std::atan2(double{step[1]}, double{step[0]});
-    return turn(seconds == 0 ? 0 : 2 * std::atan(60 * seconds * std::tan(half)));
+    return cos_sin(seconds == 0 ? 0 : 2 * std::atan(60 * seconds * std::tan(half)));
 }
 
 // Joints as they are, with the rounding of floats.
@@ -250,10 +250,10 @@ struct Twins : PosedBodies {
                 const LimbInBody in_body(skeleton, g, features);
                 const LimbAt limb(skeleton, bodies[n], at, skeleton.limbs[g]);
                 Values values = random_values(random, goal(random, g, n), features, limb.length());
-                if (frame == 0 && random.below(4) == 0) values.erase(SWIVEL_MOST_SWIVEL);
+                if (frame == 0 && random.below(4) == 0) values.erase(SWIVEL_MAX_SWIVEL);
                 write_values(posed, g, n, values);
-                if (has_time && values.count(SWIVEL_MOST_SWIVEL))
-                    values[SWIVEL_MOST_SWIVEL] = list(timed_step(values[SWIVEL_MOST_SWIVEL], double{times[n]}));
+                if (has_time && values.count(SWIVEL_MAX_SWIVEL))
+                    values[SWIVEL_MAX_SWIVEL] = list(timed_step(values[SWIVEL_MAX_SWIVEL], double{times[n]}));
                 for (std::uint32_t twin = 0; twin < kTwins; ++twin)
                     write_values(free, g, n * kTwins + twin,
                                  in_body.seen(values, bodies[n].root_position, rounded(random, at, limb.way)));

@@ -56,7 +56,7 @@ private:
         swivel_features features = SWIVEL_WITH_HAND | poles[random.below(4)];
         if (!is_linked && random.below(6) == 0) return features | SWIVEL_WITH_AIM;
         features |= maybe(SWIVEL_WITH_EFFECTOR) | maybe(SWIVEL_WITH_FLEXION_LIMIT) | maybe(SWIVEL_WITH_ANGLE) |
-                    maybe(SWIVEL_WITH_MOST_SWIVEL) | maybe(SWIVEL_WITH_SHOULDER_CONE) | maybe(SWIVEL_WITH_HAND_CONE) |
+                    maybe(SWIVEL_WITH_MAX_SWIVEL) | maybe(SWIVEL_WITH_SHOULDER_CONE) | maybe(SWIVEL_WITH_HAND_CONE) |
                     maybe(SWIVEL_WITH_RECORD) | maybe(random.below(2) ? SWIVEL_WITH_REACH : SWIVEL_WITH_CAP);
         if (features & SWIVEL_WITH_EFFECTOR) features |= maybe(SWIVEL_HAND_YIELDS);
         if (!is_linked) features |= maybe(SWIVEL_WITH_WEIGHTS);
@@ -144,7 +144,7 @@ struct PropStage {
     }
     static PropBodies fixed_at(PropBodies bodies)
     {
-        bodies.groups[bodies.prop].prop.most_move = 0;
+        bodies.groups[bodies.prop].prop.max_move = 0;
         return bodies;
     }
     static bool same_bytes(const PoseBuffer& a, const PoseBuffer& b, const BodyLimbJoints& limb, std::size_t n)
@@ -161,12 +161,12 @@ struct PropStage {
         const UnmovedProp wanted = of.unmoved(body, root);
         std::uint32_t flags = solved.flags(of.prop, n);
         RC_ASSERT((flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_CLAMPED_NEAR));
-        Held is = held(solved.result<Float7>(SWIVEL_PROP_FRAME, of.prop, n));
+        Held is = held(solved.result<Float7>(SWIVEL_PROP_TRANSFORM, of.prop, n));
         is.place -= root;
         RC_ASSERT(is.rotation.angularDistance(wanted.frame.rotation) <= 8e-6);
         const Vector3d move = is.place - wanted.frame.place;
-        const bool stays = solved.result<std::array<std::uint32_t, 7>>(SWIVEL_PROP_FRAME, of.prop, n) ==
-                           fixed.result<std::array<std::uint32_t, 7>>(SWIVEL_PROP_FRAME, of.prop, n);
+        const bool stays = solved.result<std::array<std::uint32_t, 7>>(SWIVEL_PROP_TRANSFORM, of.prop, n) ==
+                           fixed.result<std::array<std::uint32_t, 7>>(SWIVEL_PROP_TRANSFORM, of.prop, n);
         check_near(wanted, move, flags, counts);
         if (flags == SWIVEL_CLAMPED_NEAR) flags = SWIVEL_REACHED;  // as far as the far ends say
         check_move(wanted, move, stays, flags, counts);
@@ -203,20 +203,20 @@ struct PropStage {
         const double none = std::max(a.beyond(Vector3d::Zero()), b.beyond(Vector3d::Zero()));
         if (none <= -wanted.off) RC_ASSERT(stays);
         if (stays) RC_ASSERT(move.norm() <= wanted.off);
-        RC_ASSERT(move.norm() <= wanted.most + wanted.off);
+        RC_ASSERT(move.norm() <= wanted.max + wanted.off);
         const std::optional<Vector3d> surely = shrunk(wanted.off), at_most = shrunk(-wanted.off);
-        if (surely && surely->norm() <= wanted.most - wanted.off) RC_ASSERT(flags == SWIVEL_REACHED);
-        if (!at_most || at_most->norm() > wanted.most + wanted.off) RC_ASSERT(flags == SWIVEL_CLAMPED_FAR);
+        if (surely && surely->norm() <= wanted.max - wanted.off) RC_ASSERT(flags == SWIVEL_REACHED);
+        if (!at_most || at_most->norm() > wanted.max + wanted.off) RC_ASSERT(flags == SWIVEL_CLAMPED_FAR);
         if (surely) RC_ASSERT(move.norm() <= surely->norm() + wanted.off);
         if (flags == SWIVEL_REACHED) RC_ASSERT(std::max(a.beyond(move), b.beyond(move)) <= wanted.off);
-        if (!at_most && wanted.most > 10 * wanted.off && move.norm() < wanted.most - wanted.off)  // both miss by half
+        if (!at_most && wanted.max > 10 * wanted.off && move.norm() < wanted.max - wanted.off)  // both miss by half
             RC_ASSERT(std::fabs(a.beyond(move) - b.beyond(move)) <= wanted.off);
         counts.kept += stays, counts.moved += !stays && flags == SWIVEL_REACHED,
             counts.missed += flags != SWIVEL_REACHED;
     }
     void check_sayer(std::size_t n, const SolvedBody& body, const UnmovedProp& wanted, bool stays, PropCounts& counts)
     {
-        const float share = of.value(of.prop, SWIVEL_PROP_SHARE, n, Float1{})[0];
+        const float share = of.value(of.prop, SWIVEL_HAND_BLEND, n, Float1{})[0];
         const std::size_t sayer = of.arms.size() == 1 || share == 0 ? 0 : 1, other = of.arms.size() - 1 - sayer;
         if (!wanted.is_of_hands || (of.arms.size() == 2 && share > 0 && share < 1)) return;
         const std::uint32_t arm = of.arms[sayer];
@@ -254,7 +254,7 @@ TEST_CASE("a linked hand is at its grip on the hand that the other limb reached"
                 RC_ASSERT(!(solved.flags(g, n) & SWIVEL_BAD_INPUT));
                 const Held hand = body.hand(g);
                 if (is_leader(bodies, g)) {
-                    const Held told = solved.from_root(SWIVEL_HAND_FRAME, g, n);
+                    const Held told = solved.from_root(SWIVEL_HAND_TRANSFORM, g, n);
                     RC_ASSERT((told.place - hand.place).norm() <= body.bound(g) + root);
                     RC_ASSERT(told.rotation.angularDistance(hand.rotation) <= 4e-6);
                 }

@@ -61,15 +61,15 @@ struct LookStage {
                   8 * off_place);
         RC_ASSERT(angle_between({sight[3], sight[4], sight[5]}, axis) <= 3e-6);
         for (std::uint32_t n = 0; n <= chain.last(); ++n) {
-            const double most = std::acos(double{chain.look.cos_most[n]});
-            RC_ASSERT(angle_of(chain.own_turn(n)) <= most + 2e-6);
+            const double max = std::acos(double{chain.look.cos_max[n]});
+            RC_ASSERT(angle_of(chain.own_turn(n)) <= max + 2e-6);
         }
         const double miss = angle_between(axis, target - eye);
         if (flags & SWIVEL_REACHED) RC_ASSERT(miss <= 1e-4 + rounding);
         // With the whole weight, only the last cone keeps it from the target.
         const double last_turn = angle_of(chain.own_turn(chain.last())),
-                     last_most = std::acos(double{chain.look.cos_most[chain.last()]});
-        const bool is_whole = !(flags & SWIVEL_FADED), last_is_free = last_turn < last_most - 1e-5;
+                     last_max = std::acos(double{chain.look.cos_max[chain.last()]});
+        const bool is_whole = !(flags & SWIVEL_FADED), last_is_free = last_turn < last_max - 1e-5;
         const Vector3d pivot = chain.is(chain.last()).place;
         const bool is_ahead = (target - pivot).norm() > (eye - pivot).norm() + 10 * off_place;
         if (is_whole && last_is_free && is_ahead) {
@@ -93,10 +93,10 @@ struct LookStage {
             const double share = chain.look.share[n] / left;
             left -= double{chain.look.share[n]};
             const Vector3d axis = chain.axis_after(n), to = target - chain.eye_after(n);
-            const double angle = angle_between(axis, to), most = std::acos(double{chain.look.cos_most[n]}),
+            const double angle = angle_between(axis, to), max = std::acos(double{chain.look.cos_max[n]}),
                          rounding = 2e-6 + off_place / to.norm();
             const Quaterniond turn = chain.own_turn(n);
-            RC_ASSERT(std::fabs(angle_of(turn) - std::min(share * angle, most)) <= 1.1e-3 + rounding);
+            RC_ASSERT(std::fabs(angle_of(turn) - std::min(share * angle, max)) <= 1.1e-3 + rounding);
             if (angle > 0.05 && angle < 3.1 && angle_of(turn) > 0.01)
                 RC_ASSERT(angle_between(turn.w() < 0 ? Vector3d(-turn.vec()) : Vector3d(turn.vec()), axis.cross(to)) <=
                           (1e-5 + 4 * rounding) / (std::sin(angle) * angle_of(turn)));
@@ -161,7 +161,7 @@ struct LookStage {
             const std::size_t at = body.n * of.skeleton.size() + joint;
             if (solved.joint_rotations[at] == Float4{}) continue;  // no group needs it
             RC_ASSERT((root * quat(solved.joint_rotations[at])).angularDistance(body.is[joint].rotation) <= 5e-6);
-            RC_ASSERT((scale * (root * vec(solved.joint_places[at])) - body.is[joint].place).norm() <=
+            RC_ASSERT((scale * (root * vec(solved.joint_positions[at])) - body.is[joint].place).norm() <=
                       3e-6 * (scale + way_to(of.skeleton, body.was, joint)));
             ++counts.told;
         }
@@ -209,7 +209,7 @@ TEST_CASE("a line of sight meets its target to a millionth of a radian, also one
     const bool is_one = GENERATE(true, false), is_behind = GENERATE(true, false);
     Upright upright;
     swivel_look& look = upright.look.look;
-    std::fill_n(look.cos_most, 4, -1.0f);
+    std::fill_n(look.cos_max, 4, -1.0f);
     if (is_one) look.joint_count = 1, look.joints[0] = 3;
     look.cos_full = -0.998f, look.cos_none = -1, look.fade_distance = 0;
     UprightCrowd bodies(upright, kCount);
@@ -239,7 +239,7 @@ TEST_CASE("no joint turns by more than four degrees while the target circles the
     constexpr std::size_t kSteps = 1440;
     const Upright upright;
     UprightCrowd bodies(upright, kSteps);
-    double most = 0;
+    double max = 0;
     for (const double distance : {0.4, 0.7, 1.5, 5.0})
         for (const double height : {-0.6, -0.2, 0.0, 0.3})
             for (const bool is_upright : {false, true}) {  // the circle
@@ -254,11 +254,11 @@ TEST_CASE("no joint turns by more than four degrees while the target circles the
                 bodies.solve(targets);
                 for (std::size_t n = 0; n < kSteps; ++n)
                     for (std::size_t joint = 0; joint < 4; ++joint)
-                        most = std::max(most, quat(bodies.rotations[n][joint])
-                                                  .angularDistance(quat(bodies.rotations[(n + 1) % kSteps][joint])));
+                        max = std::max(max, quat(bodies.rotations[n][joint])
+                                                .angularDistance(quat(bodies.rotations[(n + 1) % kSteps][joint])));
             }
-    INFO("degrees a degree: " << most * kSteps / (2 * std::numbers::pi));
-    CHECK(most * kSteps / (2 * std::numbers::pi) <= 4);
+    INFO("degrees a degree: " << max * kSteps / (2 * std::numbers::pi));
+    CHECK(max * kSteps / (2 * std::numbers::pi) <= 4);
 }
 
 TEST_CASE("a target straight behind, no weight and no target keep the incoming bits")
@@ -290,7 +290,7 @@ TEST_CASE("at any frame rate a line of sight comes to rest on its target, and sa
 {
     Upright upright;
     upright.look.look.rate = 3;
-    std::fill_n(upright.look.look.cos_most, 4, -1.0f);
+    std::fill_n(upright.look.look.cos_max, 4, -1.0f);
     Random random{2};
     std::vector<Float3> from, to;
     for (int n = 0; n < 64; ++n) {
@@ -325,13 +325,13 @@ TEST_CASE("the turn that a look adds changes at the look's rate, whatever its ta
     Upright upright;
     upright.look.look.rate = rate;
     const bool has_cones = GENERATE(true, false);
-    if (!has_cones) std::fill_n(upright.look.look.cos_most, 4, -1.0f);
+    if (!has_cones) std::fill_n(upright.look.look.cos_max, 4, -1.0f);
     UprightCrowd bodies(upright, kCount);
     Random random{5};
     std::vector<Float3> targets(kCount);
     std::vector<Quaterniond> last(kCount);
     std::vector<float> weights(kCount, 1);
-    double most = 0, beyond = 0;
+    double max = 0, beyond = 0;
     std::size_t at_rate = 0;
     for (int frame = 0; frame < 400; ++frame) {
         for (std::uint32_t n = 0; n < kCount; ++n) {
@@ -352,16 +352,16 @@ TEST_CASE("the turn that a look adds changes at the look's rate, whatever its ta
         for (std::uint32_t n = 0; n < kCount; ++n) {
             const Quaterniond turned = added(came[n], bodies.rotations[n]);
             const double turn = turned.angularDistance(last[n]);
-            if (frame > 0) most = std::max(most, turn), at_rate += turn > 0.8 * rate * seconds;
+            if (frame > 0) max = std::max(max, turn), at_rate += turn > 0.8 * rate * seconds;
             last[n] = turned;
             for (std::size_t joint = 0; joint < 4; ++joint)
                 beyond = std::max(beyond, quat(bodies.rotations[n][joint]).angularDistance(quat(came[n][joint])) -
-                                              std::acos(double{upright.look.look.cos_most[joint]}));
+                                              std::acos(double{upright.look.look.cos_max[joint]}));
         }
     }
     CHECK(beyond <= 1e-5);
-    INFO("radians a frame: " << most << ", at the rate: " << at_rate);
-    CHECK(most <= rate * seconds + 1e-5);
+    INFO("radians a frame: " << max << ", at the rate: " << at_rate);
+    CHECK(max <= rate * seconds + 1e-5);
     CHECK(at_rate > 1000);
 }
 

@@ -24,8 +24,8 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support; 
     const bool has_effector = GENERATE(true, false), turns = GENERATE(true, false);
     PlantedBodies stage(1, ground);
     const swivel_plant plant = swivel_default_plant();
-    Crowd crowd =
-        stage.crowd(kPlanted | (has_effector ? SWIVEL_WITH_EFFECTOR : 0) | (turns ? SWIVEL_WITH_PLANT_TURN : 0), plant);
+    Crowd crowd = stage.crowd(
+        kPlanted | (has_effector ? SWIVEL_WITH_EFFECTOR : 0) | (turns ? SWIVEL_WITH_PLANT_ROTATION : 0), plant);
     Random random{9};
     // Some bodies are never in contact, some have targets and hands that are written, and count instead of the pose's.
     const auto is_free = [](std::uint32_t n) { return n % 5 == 0; };
@@ -76,12 +76,12 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support; 
                 if (stays) REQUIRE(is_same_mark(bits, last[g][n]));
                 last[g][n] = bits;
                 if (turns) {
-                    const auto turn = value_of<TurnBits>(crowd, SWIVEL_PLANT_TURN, g, n);
+                    const auto turn = value_of<TurnBits>(crowd, SWIVEL_PLANT_ROTATION, g, n);
                     if (stays) REQUIRE(std::equal(&turn[0], &turn[4], &last_turn[g][n][0]));
                     last_turn[g][n] = turn;
                 }
                 if (!is_written(n)) ++limb_count, reached_count += (flags & SWIVEL_REACHED) != 0;
-                const auto goal = value_of<std::array<float, 7>>(crowd, SWIVEL_GOAL, g, n);
+                const auto goal = value_of<std::array<float, 7>>(crowd, SWIVEL_SOLVED_GOAL, g, n);
                 const Vector3d sent(goal[0], goal[1], goal[2]), from = from_root(n);
                 const Quaterniond hand = quat({goal[3], goal[4], goal[5], goal[6]}),
                                   comes = is_written(n) ? quat(written[g][n].hand) : was[joints.wrist].rotation;
@@ -97,14 +97,14 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support; 
                     is[joints.wrist].place + scale * (is[joints.wrist].rotation * vec(effectors[g][n]));
                 REQUIRE((point + from - sent).norm() <= bound);
                 REQUIRE(is[joints.wrist].rotation.angularDistance(hand) <= 5e-6);
-                if (!(stays && locked > double{plant.stop} + 0.03)) continue;
+                if (!(stays && locked > double{plant.stop_time} + 0.03)) continue;
                 ++stood_count;
                 // The root comes from its support in floats, rounded once.
                 const Vector3d stands = stage.on_support(n, mark_of(crowd, g, n));
                 const double off = 2e-7 * (stage.roots[n] - stage.support_place(n)).norm();
                 REQUIRE((point + stage.roots[n] - stands).norm() <= bound + off);
                 if (turns) {
-                    const auto turn = value_of<std::array<float, 10>>(crowd, SWIVEL_PLANT_TURN, g, n);
+                    const auto turn = value_of<std::array<float, 10>>(crowd, SWIVEL_PLANT_ROTATION, g, n);
                     const Quaterniond mark = quat({turn[0], turn[1], turn[2], turn[3]});
                     REQUIRE(hand.angularDistance(quat(stage.support_turns[n]).normalized() * mark) <= 3e-6);
                 }
@@ -158,7 +158,7 @@ TEST_CASE("contact by motion is a hysteresis of speed and height")
                 if (contacts[g][n].is_clear) {
                     ++compared_count;
                     REQUIRE(plant_bits(by_motion, g, n) == plant_bits(by_label, g, n));
-                    REQUIRE((value_of<Float4>(by_motion, SWIVEL_MOTION, g, n)[3] != 0) == contacts[g][n].is);
+                    REQUIRE((value_of<Float4>(by_motion, SWIVEL_CONTACT_STATE, g, n)[3] != 0) == contacts[g][n].is);
                 }
     }
     REQUIRE(change_count > 100);
@@ -199,13 +199,13 @@ TEST_CASE("a job that names groups steps those alone, and needs no time where no
 TEST_CASE("a support changes without a jump")
 {
     PlantedBodies stage(7, Ground::moving);
-    Crowd crowd = stage.crowd(kPlanted | SWIVEL_WITH_PLANT_TURN);
+    Crowd crowd = stage.crowd(kPlanted | SWIVEL_WITH_PLANT_ROTATION);
     for (int frame = 0; frame < 45; ++frame) stage.go_to(frame), stage.solve(crowd);
     using Goal = std::array<float, 7>;
     const auto solved = [&] {
         stage.solve(crowd);
         std::vector<std::vector<Goal>> goals;
-        for (std::uint32_t g = 0; g < 3; ++g) goals.push_back(read<Goal>(crowd, SWIVEL_GOAL, g));
+        for (std::uint32_t g = 0; g < 3; ++g) goals.push_back(read<Goal>(crowd, SWIVEL_SOLVED_GOAL, g));
         return goals;
     };
     const auto go_on = [&] { stage.go_to(45), std::ranges::fill(stage.times, 0.0f); };  // so that nothing else changes
@@ -245,7 +245,7 @@ TEST_CASE("a support changes without a jump")
 namespace {
 
 constexpr std::uint32_t kWalkers = 40;
-constexpr swivel_features kCarrying = HillWalkers::kFeatures | SWIVEL_WITH_PLANT_TURN | SWIVEL_WITH_WEIGHTS |
+constexpr swivel_features kCarrying = HillWalkers::kFeatures | SWIVEL_WITH_PLANT_ROTATION | SWIVEL_WITH_WEIGHTS |
                                       SWIVEL_WITH_SHOULDER_CONE;  // with all inputs that faults are in
 
 // Walkers on supports that move and turn.
@@ -286,7 +286,7 @@ private:
     static HillWalkers walkers_of(float longest)
     {
         HillWalkers of(5, kWalkers, bumpy_field());
-        of.plant.longest = longest;
+        of.plant.reset_time = longest;
         return of;
     }
 };

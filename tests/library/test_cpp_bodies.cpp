@@ -122,7 +122,7 @@ TEST_CASE("C++: groups from makers and a crowd from a skeleton have the bits of 
 
 TEST_CASE("C++: what a maker is not told is as in C: constants, what bad input gets, and up")
 {
-    CHECK(fit_group().fit.half == swivel_default_fit().half);
+    CHECK(fit_group().fit.half_life == swivel_default_fit().half_life);
     CHECK(prop_group().prop.joint == swivel_default_prop().joint);
     const swivel_group_def look = look_group({3, 1, 4});
     CHECK(look.look.rate == swivel_default_look().rate);
@@ -242,12 +242,12 @@ TEST_CASE("C++: frames of bodies have values of their fields' widths and kinds, 
     std::vector<std::array<double, 3>> places(2);
     Frame frame;
     CHECK_NOTHROW(frame.out(SWIVEL_PLANT, stream(plants)));
-    CHECK_NOTHROW(frame.in(SWIVEL_COMING, stream(places)));
+    CHECK_NOTHROW(frame.in(SWIVEL_NEXT_TARGET, stream(places)));
     CHECK_THROWS_WITH(frame.out(SWIVEL_SHIFT, stream(plants)), Catch::Contains("11 floats is no value"));
     CHECK_THROWS_WITH(frame.in(SWIVEL_CAP, stream(places)), Catch::Contains("is no position"));
     CHECK(component_count(SWIVEL_SIGHT) == 6);
     CHECK(component_count(SWIVEL_SHOULDER_BOX) == 12);
-    CHECK(component_count(SWIVEL_PROP_FRAME) == 7);
+    CHECK(component_count(SWIVEL_PROP_TRANSFORM) == 7);
     CHECK(component_count(SWIVEL_SHIFT) == 3);
 
     Player near(standing("ground"));
@@ -267,7 +267,7 @@ TEST_CASE("C++: frames of bodies have values of their fields' widths and kinds, 
     std::vector<std::array<double, 3>> origins(20);
     std::uint32_t prop = 0;
     while (!(swivel_group_features(far.crowd.get(), prop) & SWIVEL_PROP)) ++prop;
-    CHECK_NOTHROW(far.crowd.write_doubles(SWIVEL_PROP_PLACE, prop, origins));
-    CHECK_THROWS_WITH(far.crowd.write_doubles(SWIVEL_PROP_PLACE, prop, origins, stream(origins)),
+    CHECK_NOTHROW(far.crowd.write_doubles(SWIVEL_PROP_POSITION, prop, origins));
+    CHECK_THROWS_WITH(far.crowd.write_doubles(SWIVEL_PROP_POSITION, prop, origins, stream(origins)),
                       Catch::Contains("it is in a joint's frame here, which has no origin; give null"));
 }

@@ -280,7 +280,7 @@ TEST_CASE("C++: a stream is the first one's member, or a part of it, and the way
     made.in(SWIVEL_PARENT_SCALE, stream(classes));
     const swivel_frame view = made;
     CHECK((view.fields[0].data == classes.data() && view.fields[1].data == nullptr));
-    CHECK(view.positions == SWIVEL_NUMBERS_UNSAID);
+    CHECK(view.positions == SWIVEL_NUMBERS_UNSPECIFIED);
     made.in(SWIVEL_TARGET, stream(characters, &Person::grip));  // a view sees what is added later
     CHECK(view.fields[1].data == &characters[0].grip);
     CHECK(swivel_frame(made).positions == SWIVEL_FLOATS);

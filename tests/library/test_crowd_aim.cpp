@@ -159,12 +159,12 @@ TEST_CASE("limits of the shoulder and regions hold for aims")
 
 TEST_CASE("a carried swivel turns an aiming arm no further than its step")
 {
-    Crowd crowd = crowd_of(SWIVEL_WITH_AIM | SWIVEL_WITH_MOST_SWIVEL, 1);
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM | SWIVEL_WITH_MAX_SWIVEL, 1);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 5});
     const Aim bent{Vector3d::UnitZ(), Vector3d::Zero(), 1};
     crowd.write_all(SWIVEL_AIM, 0, value_of(bent));
-    const Float2 most = {std::cos(0.1f), std::sin(0.1f)};
-    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, most);
+    const Float2 max = {std::cos(0.1f), std::sin(0.1f)};
+    crowd.write_all(SWIVEL_MAX_SWIVEL, 0, max);
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.solve();
     const Quaterniond before = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[0]).normalized();
@@ -231,9 +231,9 @@ TEST_CASE("the clavicle takes its share, and the arm reaches from where it then 
     }
     kept.write_all(SWIVEL_WEIGHTS, 0, Float3{0, 1, 1});  // of the position: nothing turns
     crowd.solve(), kept.solve();
-    for (const Float4& turn : read<Float4>(kept, SWIVEL_CLAVICLE_TURN))
+    for (const Float4& turn : read<Float4>(kept, SWIVEL_CLAVICLE_ROTATION))
         CHECK(distance(quat(turn), Quaterniond::Identity()) <= 1e-6);
-    const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);
+    const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_ROTATION);
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
     std::vector<std::array<double, 3>> wrists(count);
     std::vector<double> residuals(count);
@@ -278,7 +278,7 @@ TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothl
     std::vector<double> residuals(3);
     tiny.residuals(0, residuals);
     for (const double residual : residuals) CHECK(residual <= kWristError);
-    for (const Float4& turn : read<Float4>(tiny, SWIVEL_CLAVICLE_TURN))
+    for (const Float4& turn : read<Float4>(tiny, SWIVEL_CLAVICLE_ROTATION))
         CHECK(distance(quat(turn), Quaterniond::Identity()) <= 1e-6);
 
     constexpr std::uint32_t count = 4001;
@@ -290,6 +290,6 @@ TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothl
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.25f, 0, 0});
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, 0.9999f});
     crowd.solve();
-    const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);
+    const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_ROTATION);
     for (std::uint32_t n = 1; n < count; ++n) CHECK(distance(quat(turns[n - 1]), quat(turns[n])) <= 0.1);
 }

@@ -15,7 +15,7 @@ using namespace swivel::test;
 
 namespace {
 
-double off_cone(const Vector3d& a, const Vector3d& b, double most) { return std::acos(a.dot(b)) - most; }
+double off_cone(const Vector3d& a, const Vector3d& b, double max) { return std::acos(a.dot(b)) - max; }
 double off_twist(const Quaterniond& q, const Vector3d& axis, const AngleRange& range)
 {
     return range.outside(2 * std::atan2(q.vec().dot(axis), q.w()));
@@ -23,10 +23,10 @@ double off_twist(const Quaterniond& q, const Vector3d& axis, const AngleRange& r
 double off_box(const Quaterniond& q, const AngleBox& box)
 {
     const Vector3d angles = q.toRotationMatrix().eulerAngles(box.axes[0], box.axes[1], box.axes[2]);
-    const auto most = [&](double a, double b, double c) {
+    const auto max = [&](double a, double b, double c) {
         return std::max({box.range[0].outside(a), box.range[1].outside(b), box.range[2].outside(c)});
     };
-    return std::min(most(angles[0], angles[1], angles[2]), most(angles[0] + kPi, kPi - angles[1], angles[2] + kPi));
+    return std::min(max(angles[0], angles[1], angles[2]), max(angles[0] + kPi, kPi - angles[1], angles[2] + kPi));
 }
 
 // A limb of bones of length 1 whose shoulder is at the origin, or what a scene makes of it.
@@ -208,8 +208,8 @@ void tell_of_limits(ApprovedTexts& texts)
     hand.write(SWIVEL_HAND_CONE, cone({0, 0, 1}, 0.3));
     hand.with("none kept", SWIVEL_WRIST_BOX, ranges);
 
-    Told step(texts, "a step from solve to solve", SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE);
-    step.write(SWIVEL_MOST_SWIVEL, turn(0.3));
+    Told step(texts, "a step from solve to solve", SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_SHOULDER_CONE);
+    step.write(SWIVEL_MAX_SWIVEL, cos_sin(0.3));
     step.solved("at first");
     step.write(SWIVEL_POLE, Float3{1, 5, 3});
     step.says("another pole");
@@ -223,10 +223,10 @@ void tell_of_limits(ApprovedTexts& texts)
 
     for (const double opening : {1.0, 0.2}) {  // the upper arm is asin(sqrt(5) / 3) from the line to the target
         Told way(texts, opening == 1 ? "an elbow on its way" : "an elbow on its way to where no limit is kept",
-                 SWIVEL_WITH_MOST_SWIVEL | SWIVEL_STEP_WINS | SWIVEL_WITH_SHOULDER_CONE);
+                 SWIVEL_WITH_MAX_SWIVEL | SWIVEL_STEP_WINS | SWIVEL_WITH_SHOULDER_CONE);
         way.write(SWIVEL_LENGTHS, Float2{0.3f, 0.3f});
         way.write(SWIVEL_TARGET, Float3{0, 0, 0.4f});
-        way.write(SWIVEL_MOST_SWIVEL, turn(0.1));
+        way.write(SWIVEL_MAX_SWIVEL, cos_sin(0.1));
         way.with("at first", SWIVEL_POLE, Float3{1, 0, 0});
         way.with("a step later", SWIVEL_SHOULDER_CONE, cone({-1, 0, 0}, opening));
         for (int n = 0; n < 40; ++n) way.crowd.solve();
@@ -353,7 +353,7 @@ TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every
 {
     constexpr swivel_features all = kWorldJointsHand | kLimits | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE |
                                     SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
-                                    SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_CLAVICLE,
+                                    SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_CLAVICLE,
                               aim = kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM;
     Random random{10};
     for (const swivel_features features : {all, aim}) {

@@ -59,19 +59,19 @@ struct Model {
         for (const std::uint32_t limb : all_limbs(crowd, group_count)) blocks[limb / 16].push_back(limb);
     }
     // priority: of each lane.
-    std::vector<std::uint32_t> choose(const std::vector<float>& priority, std::uint32_t most_blocks)
+    std::vector<std::uint32_t> choose(const std::vector<float>& priority, std::uint32_t max_blocks)
     {
         std::vector<std::uint32_t> order;
         for (std::uint32_t block = 0; block < blocks.size(); ++block) {
-            float most = 0;
+            float max = 0;
             for (const std::uint32_t limb : blocks[block])
-                if (!std::isnan(priority[limb])) most = std::max(most, std::min(priority[limb], 1e15f));
-            if (most > 0) order.push_back(block);
-            urgency[block] += most;
+                if (!std::isnan(priority[limb])) max = std::max(max, std::min(priority[limb], 1e15f));
+            if (max > 0) order.push_back(block);
+            urgency[block] += max;
         }
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return urgency[a] > urgency[b]; });
-        order.resize(std::min<std::size_t>(order.size(), most_blocks));
+        order.resize(std::min<std::size_t>(order.size(), max_blocks));
         std::vector<std::uint32_t> words((blocks.size() + 1) / 2);
         for (const std::uint32_t block : order) {
             urgency[block] = 0;
@@ -124,9 +124,9 @@ TEST_CASE("the most urgent blocks are picked, of equals the lower")
         std::vector<std::uint32_t> words(mask_words(crowd), 0xdeadbeef);
         for (int call = 0; call < 30; ++call) {
             const Priorities priorities(crowd, group_count, random);
-            const std::uint32_t most = random.below(4) ? random.below(swivel_block_count(crowd.get()) + 2) : 0;
-            const std::vector<std::uint32_t> expected = model.choose(priorities.lanes, most);
-            const std::uint32_t count = crowd.choose(priorities.streams, urgency, most, words);
+            const std::uint32_t max = random.below(4) ? random.below(swivel_block_count(crowd.get()) + 2) : 0;
+            const std::vector<std::uint32_t> expected = model.choose(priorities.lanes, max);
+            const std::uint32_t count = crowd.choose(priorities.streams, urgency, max, words);
             RC_ASSERT(words == expected);
             RC_ASSERT(count == bit_count(words));
         }
@@ -146,11 +146,11 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on t
         Random random{8};
         for (int call = 0; call < 6; ++call) {
             const Priorities priorities(whole, 3, random);
-            const std::uint32_t most = random.below(500), step = 1 + random.below(40);
+            const std::uint32_t max = random.below(500), step = 1 + random.below(40);
             const std::uint32_t solved =
-                whole.solve({.priorities = priorities.streams, .urgency = of_whole, .most_blocks = most});
+                whole.solve({.priorities = priorities.streams, .urgency = of_whole, .max_blocks = max});
             std::vector<std::uint32_t> words(mask_words(parts));
-            REQUIRE(parts.choose(priorities.streams, of_parts, most, words) == solved);
+            REQUIRE(parts.choose(priorities.streams, of_parts, max, words) == solved);
             const std::uint32_t block_count = swivel_block_count(parts.get());
             for (std::uint32_t first = 0; first < block_count; first += step)
                 parts.solve({.blocks = swivel_blocks{first, std::min(step, block_count - first)},
@@ -212,13 +212,13 @@ TEST_CASE("C++: budgets that cannot be are refused and change nothing")
     const float priority = 1;
     const swivel_in good{&priority, 0};
     std::vector<float> urgency = no_urgency(crowd);
-    CHECK_THROWS_AS(crowd.solve({.priorities = {}, .most_blocks = 1}), Error);
+    CHECK_THROWS_AS(crowd.solve({.priorities = {}, .max_blocks = 1}), Error);
     CHECK_THROWS_AS(crowd.solve({.urgency = urgency}), Error);
-    CHECK_THROWS_AS(crowd.solve({.groups = {0u}, .priorities = {good}, .most_blocks = 1}), Error);
-    CHECK_THROWS_AS(crowd.solve({.priorities = {good}, .urgency = std::span(urgency).first(3), .most_blocks = 1}),
+    CHECK_THROWS_AS(crowd.solve({.groups = {0u}, .priorities = {good}, .max_blocks = 1}), Error);
+    CHECK_THROWS_AS(crowd.solve({.priorities = {good}, .urgency = std::span(urgency).first(3), .max_blocks = 1}),
                     Error);
     CHECK(urgency == no_urgency(crowd));
-    CHECK(crowd.solve({.priorities = {good}, .most_blocks = 100}) == 100);
+    CHECK(crowd.solve({.priorities = {good}, .max_blocks = 100}) == 100);
 }
 
 // ---- groups and frames

@@ -17,7 +17,7 @@ TEST_CASE("whole limbs at rest are the plain arms")
 {
     constexpr std::uint32_t count = 200;
     const swivel_features at_rest =
-        SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_EFFECTOR | kLimits;
+        SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_EFFECTOR | kLimits;
     for (const swivel_features features :
          {swivel_features{0}, kWorldJointsHand & ~SWIVEL_WORLD, kWorldJointsHand,
           kWorldJointsHand | SWIVEL_POLE_DIRECTION, swivel_features{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
@@ -85,17 +85,17 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     const Chained limb = chained(random);
     const double upper = limb.bound.lengths[0], fore = limb.bound.lengths[1];
     Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_FLEXION_LIMIT, count, limb.bound);
-    std::vector<double> wanted, least, most;
+    std::vector<double> wanted, min, max;
     for (std::uint32_t n = 0; n < count; ++n) {
         const Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
         write_limb(crowd, 0, n, each);
         const Parent parent = each.parent();
         const double reach = (vec(each.target) - parent.position).norm() / parent.scale;
         wanted.push_back(std::acos((reach * reach - upper * upper - fore * fore) / (2 * upper * fore)));
-        least.push_back(random.between(0, 2.5));
-        most.push_back(random.between(least[n], kPi));
+        min.push_back(random.between(0, 2.5));
+        max.push_back(random.between(min[n], kPi));
         Float2 range;
-        CHECK(swivel_flexion(least[n], most[n], range.data()) == SWIVEL_OK);
+        CHECK(swivel_flexion(min[n], max[n], range.data()) == SWIVEL_OK);
         put(crowd, SWIVEL_FLEXION_LIMIT, n, range);
     }
     crowd.solve();
@@ -104,11 +104,11 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     for (std::uint32_t n = 0; n < count; ++n) {
         const Vector3d a = vec(limb.chain.elbow_offset), b = local_pose(crowd, n).elbow * vec(limb.chain.wrist_offset);
         const double flexion = std::atan2(a.cross(b).norm(), a.dot(b));
-        INFO("limb " << n << ", wanted " << wanted[n] << " of " << least[n] << " to " << most[n]);
-        CHECK(flexion == Approx(std::clamp(wanted[n], least[n], most[n])).margin(2e-5));
-        straight += wanted[n]<least[n], bent += wanted[n]> most[n];
-        if (wanted[n] < least[n] - 1e-4) CHECK(flags[n] == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION));
-        if (wanted[n] > most[n] + 1e-4) CHECK(flags[n] == (SWIVEL_CLAMPED_NEAR | SWIVEL_LIMITED_FLEXION));
+        INFO("limb " << n << ", wanted " << wanted[n] << " of " << min[n] << " to " << max[n]);
+        CHECK(flexion == Approx(std::clamp(wanted[n], min[n], max[n])).margin(2e-5));
+        straight += wanted[n]<min[n], bent += wanted[n]> max[n];
+        if (wanted[n] < min[n] - 1e-4) CHECK(flags[n] == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION));
+        if (wanted[n] > max[n] + 1e-4) CHECK(flags[n] == (SWIVEL_CLAMPED_NEAR | SWIVEL_LIMITED_FLEXION));
     }
     CHECK(straight > 30);
     CHECK(bent > 30);
@@ -117,8 +117,8 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
 TEST_CASE("the swivel carried from solve to solve is forgotten on reset")
 {
     for (const bool is_reset : {false, true}) {
-        FreeLimb limb({{0, 0, 1}, {0, -1, 0}, 1, 1}, SWIVEL_WITH_MOST_SWIVEL);
-        limb.write(SWIVEL_MOST_SWIVEL, turn(0.1));
+        FreeLimb limb({{0, 0, 1}, {0, -1, 0}, 1, 1}, SWIVEL_WITH_MAX_SWIVEL);
+        limb.write(SWIVEL_MAX_SWIVEL, cos_sin(0.1));
         limb.solve();
         limb.write(SWIVEL_POLE, Float3{0, 1, 0.1f});
         if (is_reset) CHECK(swivel_reset(limb.crowd.get(), 0, 0, 1) == SWIVEL_OK);
@@ -203,7 +203,7 @@ double off_target(const Crowd& crowd, std::uint32_t n, const Chained& limb, cons
     Parent parent = goal.parent();
     if (features & SWIVEL_WITH_CLAVICLE) {
         Float4 turned;
-        crowd.read(SWIVEL_CLAVICLE_TURN, 0, std::span(&turned, 1), n);
+        crowd.read(SWIVEL_CLAVICLE_ROTATION, 0, std::span(&turned, 1), n);
         const Quaterniond turn = quat(turned).normalized();
         const Vector3d bone(more.clavicle[0], more.clavicle[1], more.clavicle[2]);
         parent.position += parent.scale * (parent.rotation * (turn * bone - bone));

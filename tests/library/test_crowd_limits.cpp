@@ -84,7 +84,7 @@ TEST_CASE("the body's other side is the mirror image")
         write_limb(r, 0, n, limb);
         write_limb(l, 0, n, other);
         Float2 turn;
-        swivel_turn(random.between(-2, 2), turn.data());
+        swivel_cos_sin(random.between(-2, 2), turn.data());
         both(SWIVEL_ANGLE, n, turn);
         LimbLimits limits(random);
         const auto range = [&] { return AngleRange{random.between(-1, 1), random.between(1, 3)}; };
@@ -156,8 +156,8 @@ TEST_CASE("a cone said in the character's axes holds in the character's axes")
         std::array<double, 3> in_place = {scaled.x(), scaled.y(), scaled.z()};
         REQUIRE(swivel_arm_axis(&limb.bound, q.data(), in_place.data(), in_place.data()) == SWIVEL_OK);
         CHECK(in_place == axis);
-        const double most = random.between(0.4, 2.5);
-        crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone(axis, most));
+        const double max = random.between(0.4, 2.5);
+        crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone(axis, max));
         for (std::uint32_t n = 0; n < count; ++n) {
             Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
             each.rotation = q;
@@ -168,7 +168,7 @@ TEST_CASE("a cone said in the character's axes holds in the character's axes")
         for (std::uint32_t n = 0; n < count; ++n) {
             if (flags[n] & SWIVEL_INFEASIBLE) continue;
             const Vector3d upper = parent * (local_pose(crowd, n).shoulder * vec(limb.chain.elbow_offset));
-            CHECK(upper.normalized().dot(direction) >= std::cos(most) - 2e-6);
+            CHECK(upper.normalized().dot(direction) >= std::cos(max) - 2e-6);
             ++kept;
         }
     }

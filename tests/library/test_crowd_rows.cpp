@@ -129,8 +129,7 @@ namespace {
 
 bool is_of(const swivel_field_info& field, swivel_features features)
 {
-    if (features & SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES)
-        features |= SWIVEL_WITH_TWIST_BONES;  // any number
+    if (features & SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES) features |= SWIVEL_WITH_TWIST_BONES;  // any number
     return (features & field.needs) == field.needs && !(features & field.excludes);
 }
 
@@ -163,7 +162,7 @@ TEST_CASE("the library describes the fields, features and flags that the header 
         got.push_back(field.name);
         const bool is_input = field.field < SWIVEL_INPUT_END;
         CHECK((field.kind == SWIVEL_FIELD_INPUT) == is_input);
-        constexpr std::array carried = {SWIVEL_NORMAL, SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION,
+        constexpr std::array carried = {SWIVEL_NORMAL, SWIVEL_PLANT, SWIVEL_PLANT_ROTATION, SWIVEL_CONTACT_STATE,
                                         SWIVEL_SHIFT,  SWIVEL_LIFT,  SWIVEL_LOOK_TURNS};
         CHECK((field.kind == SWIVEL_FIELD_CARRIED) == (std::ranges::find(carried, field.field) != carried.end()));
         CHECK((*field.range != 0) == is_input);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: an axis or a pair of cosine and sine whose squared length is not 1 within 1e-6 is bad input, and
-// explain says how long it is. What swivel_cone(), swivel_range(), swivel_aim() and swivel_turn() make is always valid.
+// explain says how long it is. What swivel_cone(), swivel_range(), swivel_aim() and swivel_cos_sin() make is always
+// valid.
 #include <string_view>
 
 #include "tests/limited_arms.h"
@@ -46,10 +47,10 @@ Vector3d any_axis(Random& random)
     return random.spread(1e-30, 1e30) * axis;
 }
 // An angle from 0 to most, often next to an end or a right angle.
-double any_angle(Random& random, double most)
+double any_angle(Random& random, double max)
 {
-    const double angle = random.below(2) ? random.between(0, most) : kPi / 2 * random.below(3);
-    return std::clamp(angle + random.spread(1e-12, 1e-2) * random.between(-1, 1), 0.0, most);
+    const double angle = random.below(2) ? random.between(0, max) : kPi / 2 * random.below(3);
+    return std::clamp(angle + random.spread(1e-12, 1e-2) * random.between(-1, 1), 0.0, max);
 }
 // A value from the library's own functions.
 Float12 made_value(Random& random, swivel_field field)
@@ -68,7 +69,7 @@ Float12 made_value(Random& random, swivel_field field)
     };
     each_limit(limits, take);
     take(SWIVEL_AIM, aim({axis.x(), axis.y(), axis.z()}, any_angle(random, kPi)));
-    take(SWIVEL_MOST_SWIVEL, turn(any_angle(random, 3.14159)));
+    take(SWIVEL_MAX_SWIVEL, cos_sin(any_angle(random, 3.14159)));
     return value;
 }
 

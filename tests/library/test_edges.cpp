@@ -325,7 +325,7 @@ std::vector<Spoilt> every_spoilt(const Crowd& crowd)
     for (const swivel_field field : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) add(field, 3, 1, {-1.1f, 1.1f});
     for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_FLEXION_LIMIT, c, 1, {-0.1f, 1.1f});
     add(SWIVEL_AIM, 3, 1, {-1});
-    add(SWIVEL_MOST_SWIVEL, 1, 1, {-1});
+    add(SWIVEL_MAX_SWIVEL, 1, 1, {-1});
     return ways;
 }
 
@@ -336,7 +336,7 @@ TEST_CASE("a bad number spoils its limb and no other")
     std::vector<swivel_features> sets = {SWIVEL_WITH_AIM | SWIVEL_WITH_ANGLE,
                                          kWorldJointsHand | kLimits | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE |
                                              SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
-                                             SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_CLAVICLE |
+                                             SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_CLAVICLE |
                                              3 * SWIVEL_WITH_TWIST_BONES};
     for (swivel_features features = 0; features < 16; ++features)
         if (is_feature_set(features)) sets.push_back(features);

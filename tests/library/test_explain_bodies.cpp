@@ -68,7 +68,7 @@ struct ToldLook {
         made.joint_count = count;
         for (std::uint32_t n = 0; n < count; ++n) {
             made.joints[n] = 3 - count + n;
-            made.cos_most[n] = static_cast<float>(std::cos(degrees(cone)));
+            made.cos_max[n] = static_cast<float>(std::cos(degrees(cone)));
         }
         made.rate = 0;
         return made;
@@ -130,7 +130,7 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     chain.aim(30), chain.weigh(0), chain.solved("at 30 degrees, with a weight of 0");
 
     swivel_look uneven = ToldLook::look(2, 5);
-    uneven.cos_most[1] = -1;
+    uneven.cos_max[1] = -1;
     ToldLook made_up(texts, "a cone of 5 degrees, and then one of 180", uneven);
     made_up.aim(50), made_up.solved("at 50 degrees");
 
@@ -187,11 +187,11 @@ TEST_CASE("explain says of a prop how far it moved, and how far each hand is fro
             const SolvedBody body(solved, n);
             const Vector3d root = bodies.root(n, solved);
             const UnmovedProp wanted = bodies.unmoved(body, root);
-            const Held told = held(solved.result<Float7>(SWIVEL_PROP_FRAME, bodies.prop, n)),
+            const Held told = held(solved.result<Float7>(SWIVEL_PROP_TRANSFORM, bodies.prop, n)),
                        is{told.rotation, told.place - root};
             const bool reaches = solved.flags(bodies.prop, n) == SWIVEL_REACHED,
                        is_known = bodies.groups[bodies.prop]
-                                      .prop.joint<0, may_move = bodies.groups[bodies.prop].prop.most_move> 0;
+                                      .prop.joint<0, may_move = bodies.groups[bodies.prop].prop.max_move> 0;
             const double moved = (is.place - wanted.frame.place).norm();
             if (is_known && moved > 1e-4 * body.length(bodies.arms[0]))
                 RC_ASSERT(is_told(number_after(text, "It moved by "), moved, wanted.off));
@@ -242,10 +242,10 @@ TEST_CASE("explain says what hands hold, where props lie and why, and what depen
     for (const auto& [when, group, share, weight, has_place, has_turn] : places) {
         HoldingBodies bodies = holding(2);
         const Float3 place = group == H::prop ? bodies.bodies[kBody].root_position : Float3{0.1f, 0, 0};
-        bodies.give(group, SWIVEL_PROP_SHARE, [&, is = share](std::size_t) { return Float1{is}; });
+        bodies.give(group, SWIVEL_HAND_BLEND, [&, is = share](std::size_t) { return Float1{is}; });
         bodies.give(group, SWIVEL_PROP_WEIGHT, [&, is = weight](std::size_t) { return Float1{is}; });
-        bodies.give(group, SWIVEL_PROP_PLACE, [&, has = has_place](std::size_t) { return has ? place : kNoPlace; });
-        bodies.give(group, SWIVEL_PROP_TURN, [has = has_turn](std::size_t) {
+        bodies.give(group, SWIVEL_PROP_POSITION, [&, has = has_place](std::size_t) { return has ? place : kNoPlace; });
+        bodies.give(group, SWIVEL_PROP_ROTATION, [has = has_turn](std::size_t) {
             return has ? Float4{0.6f, 0, 0, 0.8f} : kNoTurn;
         });
         texts.line(when, first_sentence(text_of(bodies, group)));
@@ -281,10 +281,10 @@ TEST_CASE("explain says what hands hold, where props lie and why, and what depen
     } inputs[] = {
         {"a grip that is too far", H::follower, SWIVEL_GRIP, 1, 1, 2e15f},
         {"a grip of the hand that says where the prop is", H::left, SWIVEL_GRIP, 5, 1, kNan},
-        {"a share above 1", H::prop, SWIVEL_PROP_SHARE, 0, 1, 1.5f},
-        {"a share that is no number", H::prop, SWIVEL_PROP_SHARE, 0, 1, kNan},
-        {"a place", H::prop, SWIVEL_PROP_PLACE, 0, 3, 1e15f},
-        {"no rotation", H::prop, SWIVEL_PROP_TURN, 0, 4, 0},
+        {"a share above 1", H::prop, SWIVEL_HAND_BLEND, 0, 1, 1.5f},
+        {"a share that is no number", H::prop, SWIVEL_HAND_BLEND, 0, 1, kNan},
+        {"a place", H::prop, SWIVEL_PROP_POSITION, 0, 3, 1e15f},
+        {"no rotation", H::prop, SWIVEL_PROP_ROTATION, 0, 4, 0},
         {"a target that is written for a hand on a prop", H::left, SWIVEL_TARGET, 0, 3, 1e15f},
     };
     for (const auto& [scene, group, field, first, count, bad] : inputs)

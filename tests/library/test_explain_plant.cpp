@@ -64,7 +64,7 @@ struct GlidingLeg {
         crowd.solve({.pose = &pose});
         if (!(swivel_group_features(crowd.get(), 0) & SWIVEL_WITH_PLANT)) return;
         std::array<float, 7> goal;
-        crowd.read(SWIVEL_GOAL, 0, std::span(&goal, 1));
+        crowd.read(SWIVEL_SOLVED_GOAL, 0, std::span(&goal, 1));
         sent.emplace_back(goal[0], goal[1], goal[2]);
     }
     // Frames in which the root glides along x.
@@ -106,7 +106,7 @@ private:
         std::vector<swivel_group_def> groups = {body_group(joints, features)};
         groups[0].plant = plant;
         groups[0].ground = ground;
-        if (features & SWIVEL_WITH_FIT) groups.push_back(swivel_default_fit_group_def());
+        if (features & SWIVEL_WITH_PELVIS_FIT) groups.push_back(swivel_default_fit_group_def());
         return groups;
     }
 };
@@ -188,7 +188,7 @@ void tell_of_contact(ApprovedTexts& texts)
     CHECK(swivel_reset(free.crowd.get(), 0, 0, 1) == SWIVEL_OK);
     free.says("reset");
 
-    swivel_plant low = with(&swivel_plant::again, 0.07f);
+    swivel_plant low = with(&swivel_plant::relock_speed, 0.07f);
     low.speed[0] = 0.55f, low.height[0] = 0.45f, low.height[1] = 0.5f;  // the ankle is 0.14 over the root
     ToldLeg moves(texts, "contact by motion", kPlants | SWIVEL_PLANT_BY_MOTION, low);
     moves.glide(0, 0.8, 3), moves.says("fast");
@@ -205,7 +205,7 @@ void tell_of_contact(ApprovedTexts& texts)
     for (const float again : {0.06f, 0.0f}) {
         ToldLeg away(texts,
                      again > 0 ? "a foot breaks away" : "a foot breaks away, which never locks in a contact again",
-                     kPlants, with(&swivel_plant::again, again));
+                     kPlants, with(&swivel_plant::relock_speed, again));
         away.glide(1, 0, 10);
         while (!(away.flags() & SWIVEL_RELEASED)) away.glide(1, 0.5);
         away.says("breaks away");
@@ -223,7 +223,7 @@ void tell_of_contact(ApprovedTexts& texts)
         const char* const scene = cap & SWIVEL_WITH_FLEXION_LIMIT ? "a cap that binds is no limit of the flexion"
                                   : cap                           ? "a cap keeps a leg from its foot"
                                                                   : "bones keep a leg from its foot";
-        ToldLeg high(texts, scene, kPlants | cap, with(&swivel_plant::unlock, 5));
+        ToldLeg high(texts, scene, kPlants | cap, with(&swivel_plant::unlock_radius, 5));
         high.glide(1, 0, 3);
         high.root[1] += 0.3f;
         high.solve(), high.says("the root rises");
@@ -286,7 +286,7 @@ void tell_of_bad_poses(ApprovedTexts& texts)
     ToldLeg handless(texts, "a bad pose of a leg without a hand");
     handless.rotations[3] = {0, 0, kNan, 0};
     handless.solve(), handless.says("its foot");
-    ToldLeg fits(texts, "a bad time of a leg that fits", kPlants | SWIVEL_WITH_FIT);
+    ToldLeg fits(texts, "a bad time of a leg that fits", kPlants | SWIVEL_WITH_PELVIS_FIT);
     fits.time = kNan;
     fits.solve(), fits.says("its shift", 1);
 }
@@ -308,7 +308,7 @@ void tell_of_limits(ApprovedTexts& texts)
 
 void tell_of_shifts(ApprovedTexts& texts)
 {
-    ToldLeg leg(texts, "a shift of the body", kPlants | SWIVEL_WITH_FIT, with(&swivel_plant::unlock, 5));
+    ToldLeg leg(texts, "a shift of the body", kPlants | SWIVEL_WITH_PELVIS_FIT, with(&swivel_plant::unlock_radius, 5));
     leg.says("not solved", 1);
     leg.glide(1, 0, 3), leg.says("at rest", 1);
     leg.root[1] += 0.15f;
@@ -354,14 +354,14 @@ void tell_of_ground(ApprovedTexts& texts)
     foot.turn_foot(turned(0.2, Vector3d::UnitZ()));
     foot.stand(0.3, 0.1, Vector3d::UnitZ());
     foot.glide(0, 0, 3), foot.says("5.7 degrees");
-    ToldLeg most(texts, "a foot turns with steep ground, by 36.9 degrees at the most", kStands);
-    most.stand(0.5, 0.9, Vector3d::UnitZ());
-    most.glide(0, 0, 3), most.says("51.6 degrees");
-    most.write(SWIVEL_GROUND_WEIGHT, std::array{0.5f});
+    ToldLeg max(texts, "a foot turns with steep ground, by 36.9 degrees at the most", kStands);
+    max.stand(0.5, 0.9, Vector3d::UnitZ());
+    max.glide(0, 0, 3), max.says("51.6 degrees");
+    max.write(SWIVEL_GROUND_WEIGHT, std::array{0.5f});
     // Half of a turn, as rotors blend: tan(half the turn) = 0.5 sin 0.9 / (1 + 0.5 (1 + cos 0.9)).
-    most.glide(0, 0, 3), most.says("by half, 24.4 degrees");
-    most.write(SWIVEL_GROUND_WEIGHT, std::array{0.0f});
-    most.glide(0, 0, 3), most.says("not at all");
+    max.glide(0, 0, 3), max.says("by half, 24.4 degrees");
+    max.write(SWIVEL_GROUND_WEIGHT, std::array{0.0f});
+    max.glide(0, 0, 3), max.says("not at all");
 
     ToldLeg heel(texts, "a heel stays over the ground", kStands);
     heel.turn_foot(turned(-0.3, Vector3d::UnitX()));
@@ -371,7 +371,7 @@ void tell_of_ground(ApprovedTexts& texts)
     heel.write(SWIVEL_TARGET, floats(heel.toe()));
     heel.stand(0, 0);
     heel.glide(1, 0, 30), heel.says("a hand that is written, up by 11.5 degrees");
-    ToldLeg turns(texts, "a planted rotation is not known", kStands | SWIVEL_WITH_PLANT_TURN);
+    ToldLeg turns(texts, "a planted rotation is not known", kStands | SWIVEL_WITH_PLANT_ROTATION);
     turns.stand(turns.toe().y(), 0.2, Vector3d::UnitZ());
     turns.glide(1, 0, 30), turns.says("a slope");
 }
@@ -393,7 +393,7 @@ TEST_CASE("explain speaks of feet as approved")
 TEST_CASE("explain names each bad input of a body, and its range as the library describes it")
 {
     for (const swivel_features features :
-         {kStands | SWIVEL_WITH_CAP, kPlants | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING,
+         {kStands | SWIVEL_WITH_CAP, kPlants | SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_NEXT_TARGET,
           swivel_features{SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_WEIGHTS}}) {
         GlidingLeg leg(features);
         if (!(features & SWIVEL_WITH_PLANT)) leg.crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0.2f, 0.1f});
@@ -431,10 +431,10 @@ TEST_CASE("whatever happens, explain says what the flags say, and how far the an
     for (int n = 0; n < 60; ++n) {
         swivel_features features = kPlants;
         for (const swivel_features each :
-             {SWIVEL_WITH_HAND, SWIVEL_PLANT_BY_MOTION, SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_CAP, SWIVEL_WITH_FIT})
+             {SWIVEL_WITH_HAND, SWIVEL_PLANT_BY_MOTION, SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_CAP, SWIVEL_WITH_PELVIS_FIT})
             if (random.below(2)) features |= each;
-        if (features & SWIVEL_WITH_HAND && random.below(2)) features |= SWIVEL_WITH_PLANT_TURN;
-        swivel_plant plant = with(&swivel_plant::run, static_cast<float>(random.unit()));
+        if (features & SWIVEL_WITH_HAND && random.below(2)) features |= SWIVEL_WITH_PLANT_ROTATION;
+        swivel_plant plant = with(&swivel_plant::anchor_lead, static_cast<float>(random.unit()));
         plant.height[0] = plant.height[1] = 1;
         GlidingLeg leg(features, plant);
         leg.scale = static_cast<float>(random.spread(0.3, 3));
@@ -463,7 +463,7 @@ TEST_CASE("whatever happens, explain says what the flags say, and how far the an
                 if (says(words)) CHECK(number_after(text, words) == Approx(offset).epsilon(6e-4).margin(2e-6));
             if (says("It cannot lock: "))
                 CHECK(number_after(text, "It cannot lock: ") == Approx(offset / length).epsilon(6e-3));
-            if (!says(" out of reach: ") || says("blended") || features & SWIVEL_WITH_FIT) continue;
+            if (!says(" out of reach: ") || says("blended") || features & SWIVEL_WITH_PELVIS_FIT) continue;
             const Vector3d hip = vec(leg.root) + double{leg.scale} * Vector3d(0.1, 1, 0);
             const double reach = number_after(text, "the wrist is ");
             CHECK(number_after(text, "The target is ") + reach == Approx((leg.sent.back() - hip).norm()).epsilon(1e-3));
@@ -476,7 +476,7 @@ TEST_CASE("whatever happens, explain says what the flags say, and how far the an
 
 TEST_CASE("a body is explained group after group, in a line each, as far as there is room")
 {
-    GlidingLeg leg(kPlants | SWIVEL_WITH_FIT);
+    GlidingLeg leg(kPlants | SWIVEL_WITH_PELVIS_FIT);
     leg.glide(1, 0, 3);
     const std::string all = "group 0: " + leg.text(0) + "\ngroup 1: " + leg.text(1);
     const auto before = all_words(leg.crowd);

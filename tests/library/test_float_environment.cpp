@@ -67,7 +67,7 @@ constexpr std::uint32_t kLimbs = 40;
 struct CallInputs {
     std::array<double, 12> numbers;
     std::array<double, 3> far;
-    double most;
+    double max;
     std::array<float, 60> values;
     std::array<float, kLimbs> priorities;
     std::array<std::uint16_t, 3> words;
@@ -82,7 +82,7 @@ struct CallInputs {
         targets = read<Float3>(crowd, SWIVEL_TARGET);
         for (double& number_in : numbers) number_in = number(random);
         far = {1e7 * numbers[0], numbers[1], numbers[2]};
-        most = numbers[4] + 1;
+        max = numbers[4] + 1;
         fill(values, random);
         for (float& priority : priorities) priority = as_float(any_number(random));
         for (std::uint16_t& word : words) word = static_cast<std::uint16_t>(random.word());
@@ -103,13 +103,13 @@ struct CallInputs {
 
 void make_values(const CallInputs& in, Record& record)
 {
-    const double *axis = in.numbers.data(), least = in.numbers[3], most = in.most;
+    const double *axis = in.numbers.data(), min = in.numbers[3], max = in.max;
     float values[12] = {};
-    record.add(swivel_range(least, most, values)), record.add(values);
-    record.add(swivel_cone(axis, most, values)), record.add(values);
-    record.add(swivel_flexion(least, most, values)), record.add(values);
-    record.add(swivel_aim(axis, most, values)), record.add(values);
-    swivel_turn(least, values), record.add(values);
+    record.add(swivel_range(min, max, values)), record.add(values);
+    record.add(swivel_cone(axis, max, values)), record.add(values);
+    record.add(swivel_flexion(min, max, values)), record.add(values);
+    record.add(swivel_aim(axis, max, values)), record.add(values);
+    swivel_cos_sin(min, values), record.add(values);
     for (const swivel_field field : every_field())
         record.add(swivel_mirror(field, SWIVEL_YXZ, in.values.data(), values)), record.add(values);
     swivel_unpack_rotation(in.words.data(), 1, values), record.add(values);
@@ -201,9 +201,9 @@ void stand(const CallInputs& in, Record& record)
     swivel_limb_joints joints = swivel_default_limb_joints(1, 2, 3);
     joints.bend[2] = -1;
     swivel_group_def groups[] = {swivel_default_body_group_def(&joints), swivel_default_fit_group_def()};
-    groups[0].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN |
-                         SWIVEL_WITH_CAP | SWIVEL_WITH_FIT;
-    groups[0].plant.lock = groups[0].plant.unlock = std::fabs(in.values[0]);
+    groups[0].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_ROTATION |
+                         SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT;
+    groups[0].plant.lock_radius = groups[0].plant.unlock_radius = std::fabs(in.values[0]);
     swivel_crowd_def def = swivel_default_crowd_def();
     def.groups = groups, def.group_count = 2;
     def.skeleton = &skeleton, def.body_count = 1;

@@ -53,8 +53,8 @@ struct LectureEntities {
 // An arm that is neither straight nor folded, with its pole off the line to its target.
 LectureArm random_lecture_arm(Random& random)
 {
-    const double upper = random.between(0.1, 2), fore = random.between(0.1, 2), least = std::fabs(upper - fore);
-    const double distance = least + random.between(0.05, 0.95) * (upper + fore - least);
+    const double upper = random.between(0.1, 2), fore = random.between(0.1, 2), min = std::fabs(upper - fore);
+    const double distance = min + random.between(0.05, 0.95) * (upper + fore - min);
     const Vector3d along = random.direction();
     return {distance * along, random.between(0.2, 3) * (random.across(along) + 0.3 * random.between(-1, 1) * along),
             upper, fore};

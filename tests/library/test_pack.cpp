@@ -195,13 +195,13 @@ TEST_CASE("of components of equal size the first is left out; q and -q have the 
 
 TEST_CASE("every finite half float, its neighbours and the ties between two")
 {
-    constexpr std::uint32_t most = 0x7bff;
-    for (std::uint32_t half = 0; half <= most; ++half) {
+    constexpr std::uint32_t max = 0x7bff;
+    for (std::uint32_t half = 0; half <= max; ++half) {
         const float value = static_cast<float>(half_value(half));
         INFO("half " << half << ", " << value);
         REQUIRE(swivel_unpack_half(static_cast<std::uint16_t>(half)) == value);
         REQUIRE(pack_half(value) == half);
-        if (half == most) break;
+        if (half == max) break;
         const float tie = static_cast<float>((half_value(half) + half_value(half + 1)) / 2);
         REQUIRE(pack_half(tie) == half + (half & 1));
         REQUIRE(pack_half(std::nextafterf(tie, 0)) == half);

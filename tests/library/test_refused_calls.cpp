@@ -78,7 +78,7 @@ struct Called : Outputs {
     swivel_status solve_budget(const swivel_in* priorities)
     {
         swivel_job job = swivel_default_job();
-        job.priorities = priorities, job.most_blocks = 1, job.solved_count = &count;
+        job.priorities = priorities, job.max_blocks = 1, job.solved_count = &count;
         return swivel_solve(crowd.get(), &job);
     }
     swivel_status choose(const swivel_in* priorities, std::uint32_t* mask, std::uint32_t word_count)
@@ -150,7 +150,7 @@ TEST_CASE("reads and writes with wrong arguments are refused")
             "group 0, origin: stride 23 is smaller than a value, 24 bytes");
     refused(swivel_write_doubles(crowd, SWIVEL_LENGTHS, 0, 0, 1, {c.up, 0}, {}),
             "group 0, lengths: not a position; doubles are for target, pole, shoulder_position, coming, ground and "
-            "prop_place");
+            "prop_position");
     refused(swivel_write_doubles(directions, SWIVEL_POLE, 0, 0, 1, {c.up, 0}, {c.up, 0}),
             "group 0, pole: it is a direction here, which has no origin; give null");
 }
@@ -225,7 +225,7 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
                         null[] = {{nullptr, 4}, good[1]};
         refused(swivel_solve(nullptr, nullptr), "crowd is null");
         refused(swivel_choose(nullptr, good, c.urgency, 1, c.words, 2, &c.count), "crowd is null");
-        refused(c.solve_budget(nullptr), "most_blocks goes with priorities");
+        refused(c.solve_budget(nullptr), "max_blocks goes with priorities");
         refused(c.choose(nullptr, c.words, 2), "priorities are missing; give one for each of this crowd's 2 groups");
         refused(c.solve_budget(narrow), "group 1, priority: stride 3 is smaller than a value, 4 bytes");
         refused(c.choose(narrow, c.words, 2), "group 1, priority: stride 3 is smaller than a value, 4 bytes");
@@ -245,7 +245,7 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
         const swivel_limbs list{limbs, 4};
         const auto give_mask = [&](swivel_job& job) { job.mask = mask, job.mask_word_count = 2; };
         const auto give_list = [&](swivel_job& job) { job.limbs = &list; };
-        const auto give_priorities = [&](swivel_job& job) { job.priorities = good, job.most_blocks = 1; };
+        const auto give_priorities = [&](swivel_job& job) { job.priorities = good, job.max_blocks = 1; };
         refused_job("give one of them", [&](auto& job) { give_mask(job), give_list(job); });
         refused_job("give one of them", [&](auto& job) { give_list(job), give_priorities(job); });
         refused_job("give one of them", [&](auto& job) { give_mask(job), give_priorities(job); });
@@ -258,8 +258,8 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
         refused_job("the mask is null", [](auto& job) { job.mask_word_count = 2; });
         refused_job("a mask of 1 words; this crowd of 3 blocks has 2, a bit for each lane",
                     [&](auto& job) { job.mask = mask, job.mask_word_count = 1; });
-        refused_job("most_blocks goes with priorities", [](auto& job) { job.most_blocks = 2; });
-        refused_job("most_blocks goes with priorities", [&](auto& job) { give_mask(job), job.most_blocks = 2; });
+        refused_job("max_blocks goes with priorities", [](auto& job) { job.max_blocks = 2; });
+        refused_job("max_blocks goes with priorities", [&](auto& job) { give_mask(job), job.max_blocks = 2; });
         refused_job("job has size 0", [](auto& job) { job.size = 0; });
         refused_job("build with the header", [](auto& job) { job.size += 8; });
         refused_job("start from its default", [](auto& job) { job.size -= 4; });  // half a member
@@ -297,7 +297,7 @@ TEST_CASE("frames that cannot be are refused")
     const struct {
         const char* words;
         std::vector<swivel_frame_field> fields;  // of group 1
-        std::uint32_t positions = SWIVEL_NUMBERS_UNSAID;
+        std::uint32_t positions = SWIVEL_NUMBERS_UNSPECIFIED;
         swivel_in origin = {};
     } rows[] = {
         {"group 1, target: stride 11 is smaller than a value, 12 bytes", {{SWIVEL_TARGET, c.floats, 11}}},
@@ -305,7 +305,7 @@ TEST_CASE("frames that cannot be are refused")
         {"group 1, flags: ", {{SWIVEL_FLAGS, c.floats, 0}}},  // one place for all: results cannot
         {"group 1, hand: not part of this group; create it with SWIVEL_WITH_HAND", {{SWIVEL_HAND, c.floats, 16}}},
         {"group 1, incoming_wrist: not part of this group; create it with ", {{SWIVEL_INCOMING_WRIST, c.floats, 16}}},
-        {"create it with SWIVEL_WITH_CLAVICLE", {{SWIVEL_CLAVICLE_TURN, c.floats, 16}}},
+        {"create it with SWIVEL_WITH_CLAVICLE", {{SWIVEL_CLAVICLE_ROTATION, c.floats, 16}}},
         {"frame of group 1 lists pole twice; list it once", {{SWIVEL_POLE, c.floats, 0}, {SWIVEL_POLE, c.floats, 0}}},
         {"there is no field ", {{SWIVEL_INPUT_END, c.floats, 0}}},
         {"target is in doubles, but floats are read without an origin; give floats, or an",
@@ -316,10 +316,10 @@ TEST_CASE("frames that cannot be are refused")
          SWIVEL_FLOATS,
          origin},
         {"positions is 3; it is a swivel_numbers, 0 to 2", {{SWIVEL_TARGET, c.floats, 24}}, 3},
-        {"origin: stride 23 is smaller than a value, 24 bytes", {}, SWIVEL_NUMBERS_UNSAID, narrow_origin},
+        {"origin: stride 23 is smaller than a value, 24 bytes", {}, SWIVEL_NUMBERS_UNSPECIFIED, narrow_origin},
         {"target: stride 12 is smaller than a value, 24 bytes",  // which is enough for floats
          {{SWIVEL_TARGET, c.doubles, 12}},
-         SWIVEL_NUMBERS_UNSAID,
+         SWIVEL_NUMBERS_UNSPECIFIED,
          origin},
     };
     const swivel_blocks whole{0, 3}, of_second{2, 1}, of_first{0, 2};
@@ -371,9 +371,9 @@ TEST_CASE("poses that cannot be are refused")
         {"only translations in the body's space change", [](auto& p, auto& o) { p.translation_results = o; }},
         {"but no translation_results",
          [](auto& p, auto& o) { p.space = SWIVEL_IN_BODY, p.translations = p.results = o; }},
-        {"joint_places: body_stride 8",
+        {"joint_positions: body_stride 8",
          [](auto& p, auto& o) {
-             p.joint_places = {o.data, 8, 16, nullptr};
+             p.joint_positions = {o.data, 8, 16, nullptr};
          }},
         {"reserved is not 0", [](auto& p, auto&) { p.reserved = 1; }},
         {"pose has size 0", [](auto& p, auto&) { p.size = 0; }},

@@ -161,7 +161,7 @@ TEST_CASE("a crowd of free limbs that cannot be is refused")
 
 TEST_CASE("features that no group has, that lack another or that exclude each other are refused")
 {
-    swivel_features known = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+    swivel_features known = SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
     swivel_feature_info info;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) known |= info.feature;
     const auto refuse = [](swivel_features features, const char* words) {
@@ -182,7 +182,7 @@ TEST_CASE("features that no group has, that lack another or that exclude each ot
         refuse(feature, "needs SWIVEL_WITH_HAND; add it");
     for (const swivel_features feature : {SWIVEL_POLE_INCOMING, SWIVEL_WITH_WEIGHTS})
         refuse(feature, "needs SWIVEL_WITH_INCOMING; add it");
-    for (const swivel_features feature : {SWIVEL_WITH_LINK, SWIVEL_WITH_HAND_FRAME})
+    for (const swivel_features feature : {SWIVEL_WITH_LINK, SWIVEL_WITH_HAND_TRANSFORM})
         refuse(feature | SWIVEL_WITH_HAND, "needs SWIVEL_BODY; add it");
     refuse(SWIVEL_PROP, "group 1 is of bodies, but the crowd def has no skeleton; give it");
     constexpr swivel_features kPoles[] = {SWIVEL_POLE_DIRECTION, SWIVEL_POLE_NORMAL, SWIVEL_POLE_INCOMING,
@@ -238,16 +238,16 @@ TEST_CASE("links and props that cannot be are refused")
         {"group 8, prop.joint is ",
          [](auto& d) { d.groups[H::handle].prop.joint = static_cast<std::int32_t>(d.bodies.skeleton.size()); }},
         {"group 8, prop.joint is 1073741824", [](auto& d) { d.groups[H::handle].prop.joint = 1 << 30; }},
-        {"group 0, prop.most_move is -1; it is 0 to 1000", [](auto& d) { d.groups[H::prop].prop.most_move = -1; }},
-        {"group 0, prop.most_move is nan", [](auto& d) { d.groups[H::prop].prop.most_move = kNan; }},
-        {"group 0, prop.most_move is inf", [](auto& d) { d.groups[H::prop].prop.most_move = kInf; }},
-        {"group 0, prop.most_move is 1001", [](auto& d) { d.groups[H::prop].prop.most_move = 1001; }},
+        {"group 0, prop.max_move is -1; it is 0 to 1000", [](auto& d) { d.groups[H::prop].prop.max_move = -1; }},
+        {"group 0, prop.max_move is nan", [](auto& d) { d.groups[H::prop].prop.max_move = kNan; }},
+        {"group 0, prop.max_move is inf", [](auto& d) { d.groups[H::prop].prop.max_move = kInf; }},
+        {"group 0, prop.max_move is 1001", [](auto& d) { d.groups[H::prop].prop.max_move = 1001; }},
         {"group 5: SWIVEL_WITH_LINK excludes SWIVEL_WITH_AIM",
          [](auto& d) { d.groups[H::follower].features = SWIVEL_WITH_LINK | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM; }},
         {"group 5: SWIVEL_WITH_LINK excludes SWIVEL_WITH_PLANT",
          [](auto& d) { d.groups[H::follower].features |= SWIVEL_WITH_PLANT; }},
-        {"group 5: SWIVEL_WITH_LINK excludes SWIVEL_WITH_FIT",
-         [](auto& d) { d.groups[H::follower].features |= SWIVEL_WITH_FIT; }},
+        {"group 5: SWIVEL_WITH_LINK excludes SWIVEL_WITH_PELVIS_FIT",
+         [](auto& d) { d.groups[H::follower].features |= SWIVEL_WITH_PELVIS_FIT; }},
         {"group 5: SWIVEL_WITH_LINK needs", [](auto& d) { d.groups[H::follower].features = SWIVEL_WITH_LINK; }},
         {"group 0: SWIVEL_PROP excludes", [](auto& d) { d.groups[H::prop].features |= SWIVEL_WITH_HAND; }},
         {"group 0 is SWIVEL_PROP, which is no limb, but names joints",
@@ -265,7 +265,7 @@ TEST_CASE("a look that cannot be is refused")
         {"look.joints[2], joint 2, is not below the one before, joint 3", [](auto& d) { d.look.joints[1] = 3; }},
         {"look.share[1] is -1; it is 0 to 1000", [](auto& d) { d.look.share[1] = -1; }},
         {"look.share of the last joint is 0; let it be more", [](auto& d) { d.look.share[3] = 0; }},
-        {"look.cos_most[1] is nan; it is -1 to 1", [](auto& d) { d.look.cos_most[1] = kNan; }},
+        {"look.cos_max[1] is nan; it is -1 to 1", [](auto& d) { d.look.cos_max[1] = kNan; }},
         {"look.axis is 0, 0, 0; give an axis", [](auto& d) { d.look.axis[2] = 0; }},
         {"look.eye is 0, 0.08, 1e+16; give a place", [](auto& d) { d.look.eye[2] = 1e16f; }},
         {"look.cos_full is -0.1, look.cos_none -0.1; they are -1 to 1, and cos_full is 0.001 more",

@@ -45,11 +45,11 @@ struct Painted {
 
 // Runs a call on a thread with that much stack, and returns how many bytes of it were used. All threads have the same
 // memory.
-constexpr std::size_t kMostStack = 192 * 1024;
-std::size_t stack_of(const std::function<void()>& call, std::size_t size = kMostStack)
+constexpr std::size_t kMaxStack = 192 * 1024;
+std::size_t stack_of(const std::function<void()>& call, std::size_t size = kMaxStack)
 {
     static void* const memory =
-        mmap(nullptr, kMostStack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+        mmap(nullptr, kMaxStack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
     REQUIRE(memory != MAP_FAILED);
     Painted painted{call, static_cast<unsigned char*>(memory)};
     pthread_attr_t attributes;
@@ -101,7 +101,7 @@ struct Frames {
 };
 
 // Every kind of job over a crowd, on rows and on frames. pose: of bodies.
-void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& most)
+void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& max)
 {
     const std::uint32_t blocks = swivel_block_count(crowd.get());
     const std::vector<std::uint32_t> few((blocks + 1) / 2, 0x00018001u), many((blocks + 1) / 2, 0xfff70ff7u);
@@ -121,15 +121,15 @@ void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Mo
         if (job.mask) job.mask_word_count = (blocks + 1) / 2, job.on_this_thread = 1;
         job.pose = pose;
         const auto solve = [&, &each = job] { check(swivel_solve(crowd.get(), &each)); };
-        most.take(name + ", " + kind, solve);
+        max.take(name + ", " + kind, solve);
         job.frames = frames.frames.data();
-        most.take(name + ", " + kind + ", with frames", solve);
+        max.take(name + ", " + kind + ", with frames", solve);
     }
 }
 
 // Calls that judge a crowd's results, of limbs of each group. pose: of bodies, of which the first limb is compared with
 // one that is nowhere, so that every mistake is tried.
-void run_questions(const Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& most)
+void run_questions(const Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& max)
 {
     constexpr double shoulder[3] = {0.3, 1.2, 0.1}, elbow[3] = {0.5, 1, 0.3}, wrist[3] = {0.7, 1.1, 0.5};
     char text[4096];
@@ -138,17 +138,17 @@ void run_questions(const Crowd& crowd, const swivel_pose* pose, const std::strin
     double three[3], seven[7];
     const swivel_crowd* const c = crowd.get();
     if (pose)
-        most.take(name + ", compare",
-                  [&] { swivel_compare(c, 0, 0, pose, shoulder, elbow, wrist, text, sizeof text, nullptr); });
+        max.take(name + ", compare",
+                 [&] { swivel_compare(c, 0, 0, pose, shoulder, elbow, wrist, text, sizeof text, nullptr); });
     for (std::uint32_t g = 0; g < swivel_group_count(c); ++g)
         for (std::uint32_t limb = 0; limb < swivel_group_limb_count(c, g); limb += 7) {
-            most.take(name + ", explain", [&] { swivel_explain(c, g, limb, text, sizeof text); });
-            most.take(name + ", allowed arcs", [&] { swivel_allowed_arcs(c, g, limb, arcs, std::size(arcs), &count); });
-            most.take(name + ", residuals", [&] { swivel_residuals(c, g, limb, 1, {three, sizeof three}); });
-            most.take(name + ", forward", [&] {
+            max.take(name + ", explain", [&] { swivel_explain(c, g, limb, text, sizeof text); });
+            max.take(name + ", allowed arcs", [&] { swivel_allowed_arcs(c, g, limb, arcs, std::size(arcs), &count); });
+            max.take(name + ", residuals", [&] { swivel_residuals(c, g, limb, 1, {three, sizeof three}); });
+            max.take(name + ", forward", [&] {
                 swivel_forward(c, g, limb, 1, {three, sizeof three}, {three, sizeof three}, {nullptr, 0});
             });
-            most.take(name + ", joint angles", [&] {
+            max.take(name + ", joint angles", [&] {
                 swivel_joint_angles(c, g, limb, 1, SWIVEL_XYZ, SWIVEL_ZYX, 0, {seven, sizeof seven});
             });
         }
@@ -199,26 +199,26 @@ TEST_CASE("jobs run on threads of 64 KiB, also on oneTBB's own")
 
 TEST_CASE("the other calls take at most 32 KiB of stack")
 {
-    Most most;
+    Most max;
     Random random{7};
     const BodySkeleton rest = random_body_skeleton(random, {300, 1, 3, true, 7});
     double axis[3], closing;
     float value[12];
     swivel_binding binding = swivel_default_binding();
-    most.take("bind joints", [&] {
+    max.take("bind joints", [&] {
         const swivel_skeleton skeleton = rest.view();
         const swivel_limb_joints joints = rest.joints(0);
         swivel_bind_joints(&skeleton, &joints, &binding);
     });
     const float up[4] = {0, 0, 0, 1};
     const double ahead[3] = {0, -1, 1}, target[3] = {0.5, 0.9, 0.7}, pole[3] = {0, -1, 0};
-    most.take("arm axis", [&] { swivel_arm_axis(&binding, up, ahead, axis); });
-    most.take("cone", [&] { swivel_cone(ahead, 1, value); });
-    most.take("steps", [&] {
+    max.take("arm axis", [&] { swivel_arm_axis(&binding, up, ahead, axis); });
+    max.take("cone", [&] { swivel_cone(ahead, 1, value); });
+    max.take("steps", [&] {
         swivel_entity entities[SWIVEL_ENTITY_COUNT];
         swivel_steps(target, pole, 1, 0.75, entities, &closing);
     });
-    most.take("verify", [&] {
+    max.take("verify", [&] {
         swivel_verify(
             100, 7, [](const swivel_check*, void*) {}, nullptr);
     });
@@ -228,19 +228,19 @@ TEST_CASE("the other calls take at most 32 KiB of stack")
     def.group_count = 2;
     for (swivel_group_def& group : groups) group.features = kEverything;
     swivel_crowd* crowd = nullptr;
-    most.take("create", [&] { swivel_crowd_create(&def, &crowd); });
+    max.take("create", [&] { swivel_crowd_create(&def, &crowd); });
     REQUIRE(crowd);
     std::vector<float> many(40 * 12);
     std::uint32_t mask[2];
     float urgency[4] = {};
     const swivel_in priorities[] = {{many.data(), 0}, {many.data(), 0}};
     for (const swivel_field field : every_field()) {
-        most.take("write", [&] { swivel_write(crowd, field, 0, 0, 40, {many.data(), 48}); });
-        most.take("read", [&] { swivel_read(crowd, field, 0, 0, 40, {many.data(), 48}); });
+        max.take("write", [&] { swivel_write(crowd, field, 0, 0, 40, {many.data(), 48}); });
+        max.take("read", [&] { swivel_read(crowd, field, 0, 0, 40, {many.data(), 48}); });
     }
-    most.take("choose", [&] { swivel_choose(crowd, priorities, urgency, 1, mask, 2, nullptr); });
-    most.take("digest", [&] { swivel_digest(crowd); });
-    most.take("destroy", [&] { swivel_crowd_destroy(crowd); });
-    INFO(most.what << ": " << most.bytes);
-    CHECK(most.bytes <= kPromised);
+    max.take("choose", [&] { swivel_choose(crowd, priorities, urgency, 1, mask, 2, nullptr); });
+    max.take("digest", [&] { swivel_digest(crowd); });
+    max.take("destroy", [&] { swivel_crowd_destroy(crowd); });
+    INFO(max.what << ": " << max.bytes);
+    CHECK(max.bytes <= kPromised);
 }

@@ -76,10 +76,10 @@ struct Run {
     Vector3d last;  // normal of the swivel plane
 };
 // most: of the swivel in a frame; none: no limit.
-Run run(const Path& arms, std::optional<double> most)
+Run run(const Path& arms, std::optional<double> max)
 {
-    FreeLimb limb(arms[0], most ? SWIVEL_WITH_MOST_SWIVEL : 0);
-    if (most) limb.write(SWIVEL_MOST_SWIVEL, turn(*most));
+    FreeLimb limb(arms[0], max ? SWIVEL_WITH_MAX_SWIVEL : 0);
+    if (max) limb.write(SWIVEL_MAX_SWIVEL, cos_sin(*max));
     Run out;
     for (std::size_t n = 0; n < arms.size(); ++n) {
         write_arm(limb.crowd, 0, arms[n]);
@@ -97,10 +97,10 @@ Run run(const Path& arms, std::optional<double> most)
 TEST_CASE("the swivel of a frame stays under the limit on every hard path")
 {
     for (const NamedPath& hard : hard_paths())
-        for (const double most : {0.02, 0.1, 0.5}) {
-            INFO(hard.name << ", most " << most);
-            const Run got = run(hard.path, most);
-            CHECK(got.largest <= most + 1e-5);
+        for (const double max : {0.02, 0.1, 0.5}) {
+            INFO(hard.name << ", most " << max);
+            const Run got = run(hard.path, max);
+            CHECK(got.largest <= max + 1e-5);
             CHECK(got.jumped == 0);
         }
 }
@@ -123,7 +123,7 @@ TEST_CASE("random walks of target and pole stay under the limit, and follow the 
 {
     rc::prop("with nothing else", [](std::uint64_t seed) {
         Random random{seed};
-        const double most = random.between(0.01, 1);
+        const double max = random.between(0.01, 1);
         Path arms;
         Vector3d wrist = 0.4 * random.direction(), pole = random.direction();
         for (int n = 0; n < 300; ++n) {
@@ -131,8 +131,8 @@ TEST_CASE("random walks of target and pole stay under the limit, and follow the 
             arms.push_back(rounded(Arm{wrist, pole, 0.3, 0.25}));
         }
         arms.insert(arms.end(), 400, Arm(arms.back()));  // time to come to rest at the pole
-        const Run got = run(arms, most);
-        RC_ASSERT(got.largest <= most + 2e-5);
+        const Run got = run(arms, max);
+        RC_ASSERT(got.largest <= max + 2e-5);
         const double sine = arms.back().wrist.normalized().cross(arms.back().pole.normalized()).norm();
         if (sine > 0.05) RC_ASSERT((got.last - solve_all({arms.back()})[0].hinge()).norm() <= 1e-5);
     });
@@ -141,8 +141,8 @@ TEST_CASE("random walks of target and pole stay under the limit, and follow the 
 TEST_CASE("an angle is not turned on while the pole does not say where the elbow goes")
 {
     const Arm arm{{0, 0, 1.2}, {0, -1, 0}, 1, 1};
-    FreeLimb limb(arm, SWIVEL_WITH_ANGLE | SWIVEL_WITH_MOST_SWIVEL);
-    limb.write(SWIVEL_ANGLE, turn(0.5));
+    FreeLimb limb(arm, SWIVEL_WITH_ANGLE | SWIVEL_WITH_MAX_SWIVEL);
+    limb.write(SWIVEL_ANGLE, cos_sin(0.5));
     const Vector3d first = limb.solve().hinge();
     limb.write(SWIVEL_POLE, Float3{0, 0, 5});  // along the line
     for (int frame = 0; frame < 4; ++frame) CHECK((limb.solve().hinge() - first).norm() <= 1e-6);
@@ -154,21 +154,21 @@ TEST_CASE("steps of any size are told from larger ones, 1e-4 rad and half a turn
     for (int n = 0; n < 3000; ++n) {
         const Arm arm = random_reachable(random);
         const Vector3d line = arm.wrist.normalized(), free = solve_all({arm})[0].hinge();
-        FreeLimb limb(arm, SWIVEL_WITH_MOST_SWIVEL);
-        const double most = random.spread(1e-4, 3);
-        limb.write(SWIVEL_MOST_SWIVEL, turn(most)), limb.write(SWIVEL_NORMAL, floats(free));
+        FreeLimb limb(arm, SWIVEL_WITH_MAX_SWIVEL);
+        const double max = random.spread(1e-4, 3);
+        limb.write(SWIVEL_MAX_SWIVEL, cos_sin(max)), limb.write(SWIVEL_NORMAL, floats(free));
         CHECK(limb.solve().flags == SWIVEL_REACHED);  // it is there already
-        const double away = random.between(most + 1e-3, kPi);
+        const double away = random.between(max + 1e-3, kPi);
         const Vector3d far = Eigen::AngleAxisd(random.below(2) ? away : -away, line) * free;
         limb.write(SWIVEL_NORMAL, floats(far));
         const LimbPose got = limb.solve();
-        INFO("most " << most << ", from " << away);
-        CHECK(step(far, got.hinge(), line) <= most * (1 + 1e-5) + 2e-6);
-        CHECK(step(free, got.hinge(), line) == Approx(away - most).margin(1e-5));
+        INFO("most " << max << ", from " << away);
+        CHECK(step(far, got.hinge(), line) <= max * (1 + 1e-5) + 2e-6);
+        CHECK(step(free, got.hinge(), line) == Approx(away - max).margin(1e-5));
         CHECK((got.flags & SWIVEL_LIMITED_STEP) != 0);
         // Half a turn is no limit, however it is rounded.
         for (const double half_turn : {kPi, double{3.14159274f}}) {
-            limb.write(SWIVEL_MOST_SWIVEL,
+            limb.write(SWIVEL_MAX_SWIVEL,
                        std::array{static_cast<float>(std::cos(half_turn)), static_cast<float>(std::sin(half_turn))});
             limb.write(SWIVEL_NORMAL, floats(Vector3d(-free)));
             CHECK(limb.solve().flags == SWIVEL_REACHED);
@@ -228,8 +228,8 @@ struct Seen {
     Seen(Random random, const Kind& kind, swivel_features more)
     {
         Walk walk(random, kind);
-        Crowd crowd = walk.arms.crowd(SWIVEL_WITH_MOST_SWIVEL | more);
-        crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(kStep));
+        Crowd crowd = walk.arms.crowd(SWIVEL_WITH_MAX_SWIVEL | more);
+        crowd.write_all(SWIVEL_MAX_SWIVEL, 0, cos_sin(kStep));
         std::vector<Vector3d> before(kCharacters);
         std::vector<int> lasts(kCharacters);
         for (int frame = 0; frame < kWalkFrames; ++frame) {
@@ -279,8 +279,8 @@ TEST_CASE("where the step wins an elbow ends where it would be without a step")
     const LimitedArms before(random, kCharacters, true);
     LimitedArms arms = before;
     for (LimitedArm& arm : arms.arms) arm.arm.wrist = rounded(arm.arm.wrist.norm() * random.direction());
-    Crowd crowd = before.crowd(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_STEP_WINS), free = arms.crowd();
-    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(kStep));
+    Crowd crowd = before.crowd(SWIVEL_WITH_MAX_SWIVEL | SWIVEL_STEP_WINS), free = arms.crowd();
+    crowd.write_all(SWIVEL_MAX_SWIVEL, 0, cos_sin(kStep));
     crowd.solve(), free.solve();
     for (std::uint32_t n = 0; n < kCharacters; ++n) arms.write(crowd, n);
     crowd.solve();

@@ -110,20 +110,20 @@ TEST_CASE("drop and rise bound the shift, and the flag says whether all reach fr
 TEST_CASE("where limbs conflict, none is much farther out of reach than it must be")
 {
     Random random{1};
-    double sum = 0, most = 0;
+    double sum = 0, max = 0;
     int count = 0;
     while (count < 2000) {
         const Figure figure = random_figure(random, 2);
         const ShiftSpan<double> span = figure.span();
         if (span.low <= span.high) continue;
-        double least = 1e9;
-        scan([&](double shift) { least = std::min(least, figure.beyond(shift)); });
-        const double more = figure.beyond(fitted_shift(span, 0.0, 10.0, 10.0).shift) - least;
-        sum += more, most = std::max(most, more), ++count;
+        double min = 1e9;
+        scan([&](double shift) { min = std::min(min, figure.beyond(shift)); });
+        const double more = figure.beyond(fitted_shift(span, 0.0, 10.0, 10.0).shift) - min;
+        sum += more, max = std::max(max, more), ++count;
     }
-    INFO("mean " << sum / count << ", most " << most);
+    INFO("mean " << sum / count << ", most " << max);
     CHECK(sum / count <= 0.030);
-    CHECK(most <= 0.219);  // m; of 20,000 figures the most was 0.224
+    CHECK(max <= 0.219);  // m; of 20,000 figures the most was 0.224
 }
 
 TEST_CASE("a limb asks for its share of a shift, and allows more")
@@ -193,14 +193,14 @@ TEST_CASE("a capped limb meets what is no farther than it was, and gets straight
         for (int n = 0; n < 1000; ++n) {
             const auto length = static_cast<float>(random.spread(0.1, 10)), near = length * 0.1f;
             const auto incoming = static_cast<float>(random.between(0.1, 1) * length);
-            const auto share = [&](double most) {
-                return random.below(3) ? static_cast<float>(random.between(0, most)) : 0;
+            const auto share = [&](double max) {
+                return random.below(3) ? static_cast<float>(random.between(0, max)) : 0;
             };
             const Cap<float> cap{share(0.1), share(1), 0, incoming};
             const CappedReach<float> capped = capped_reach(cap, length, length);
             const auto wanted = static_cast<float>(random.between(0.1, 1.3) * length);
             const SoftReach<float> got = soft_reach(wanted, {near, capped.far, 0, capped.zone, 1});
-            const float from = std::max(incoming, cap.least * length);
+            const float from = std::max(incoming, cap.min * length);
             if (wanted <= incoming && capped.zone <= 0.5f * (capped.far - near)) {
                 RC_ASSERT(got.distance == wanted);
                 RC_ASSERT(!got.softened && !got.too_far);

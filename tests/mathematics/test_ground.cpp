@@ -29,7 +29,7 @@ struct FootCase {
     Vector3d up, place, normal;  // the normal is of any length
     Vector3d toe, heel;          // heel: from the toe, in the foot's frame, in the world's unit
     Quaterniond foot;
-    double scale, share, most;  // most: an angle
+    double scale, share, max;  // most: an angle
     double toe_clearance, heel_clearance;
 
     Vector3d unit() const { return normal.normalized(); }
@@ -39,8 +39,8 @@ struct FootCase {
         return {{},
                 static_cast<float>(toe_clearance),
                 static_cast<float>(heel_clearance),
-                static_cast<float>(std::cos(most / 2)),
-                static_cast<float>(std::sin(most / 2)),
+                static_cast<float>(std::cos(max / 2)),
+                static_cast<float>(std::sin(max / 2)),
                 spring_rule(0.05f)};
     }
 };
@@ -59,7 +59,7 @@ FootCase random_case(Random& random, double slope = 1.4)
     given.heel = random.vector(0.02, 0.3);
     given.scale = random.spread(0.5, 2);
     given.share = random.below(4) ? random.unit() : random.below(2);
-    given.most = random.below(8) ? random.spread(1e-4, 1.5) : 0;
+    given.max = random.below(8) ? random.spread(1e-4, 1.5) : 0;
     given.toe_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
     given.heel_clearance = random.below(3) ? as_float(random.between(0, 0.05)) : 0;
     return given;
@@ -102,7 +102,7 @@ double lean_of(const FootCase& given)
     const double slope = std::atan2(given.up.cross(given.unit()).norm(), given.up.dot(given.unit()));
     const double turn =
         2 * std::atan2(given.share * std::sin(slope), 2 * (1 - given.share) + given.share * (1 + std::cos(slope)));
-    return std::min(turn, given.most);
+    return std::min(turn, given.max);
 }
 // What must come out: a toe that is too low goes straight up, the foot leans with the slope, and a heel that is then
 // too low goes up a circle about the toe, in the plane that it and the normal span, so that no turn is less.
@@ -171,12 +171,12 @@ TEST_CASE("a foot turns with the whole of its ground, by no share not at all, an
             // High enough for any heel.
             given.toe = given.place + random.between(0.5, 1) * given.unit();
             given.toe_clearance = given.heel_clearance = 0;
-            RC_ASSERT(stood<double>(given).foot.angularDistance(given.foot) <= given.most + kAngle);
-            given.share = 1, given.most = 1.57;
+            RC_ASSERT(stood<double>(given).foot.angularDistance(given.foot) <= given.max + kAngle);
+            given.share = 1, given.max = 1.57;
             RC_ASSERT((stood<double>(given).foot * given.foot.conjugate() * given.up - given.unit()).norm() <= 1e-12);
             given.share = 0;
             RC_ASSERT(stood<double>(given).foot.angularDistance(given.foot) <= 1e-12);
-            given.share = random.unit(), given.most = 0;
+            given.share = random.unit(), given.max = 0;
             RC_ASSERT(stood<float>(given).foot.angularDistance(given.foot) <= kAngle);
         }
     });

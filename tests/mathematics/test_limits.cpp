@@ -24,7 +24,7 @@ constexpr std::uint32_t kCrowd = 500;
 // The least turn from the wish at which there is room to spare; more than pi: none. `most` is the most room there is.
 struct Scan {
     static constexpr int kSteps = 10'000;
-    double nearest = 10, most = -4;
+    double nearest = 10, max = -4;
 
     Scan(const LimitedArms& arms, std::uint32_t n, const SwivelCircle& circle)
     {
@@ -32,7 +32,7 @@ struct Scan {
         for (int k = 0; k <= kSteps / 2; ++k)
             for (const double sign : {1.0, -1.0}) {
                 const double turn = 2 * kPi * k / kSteps, here = room_at(sign * turn);
-                most = std::max(most, here);
+                max = std::max(max, here);
                 if (here < kClear || nearest < 10) continue;
                 double in = turn, out = std::max(0.0, turn - 2 * kPi / kSteps);
                 while (in - out > 1e-6) {
@@ -82,7 +82,7 @@ void judge(Random& random, const LimitedArms& arms, Tally& tally)
         tally.missed += is_clear && !allowed;
         tally.too_far += is_clear && std::fabs(swivel) > scan.nearest + 1e-5;
         // Outside of a box there is no one way to measure how far.
-        if (!allowed && !(arms.features & kBoxes)) tally.not_least += room < scan.most - 1e-6;
+        if (!allowed && !(arms.features & kBoxes)) tally.not_least += room < scan.max - 1e-6;
     }
 }
 
@@ -155,9 +155,9 @@ TEST_CASE("where no middle angle is allowed, the one nearest its range is taken"
     const auto sine_at = [&](double angle) {  // of the middle angle, the swivel turned on by an angle
         return (Eigen::AngleAxisd(angle, arm.wrist.normalized()) * pose.shoulder).toRotationMatrix()(0, 2);
     };
-    double least = 1;
-    for (int n = 0; n < 3600; ++n) least = std::min(least, sine_at(n * kPi / 1800));
-    CHECK(sine_at(0) <= least + 1e-5);
+    double min = 1;
+    for (int n = 0; n < 3600; ++n) min = std::min(min, sine_at(n * kPi / 1800));
+    CHECK(sine_at(0) <= min + 1e-5);
 }
 
 namespace {
@@ -173,10 +173,10 @@ Limits<float> both(const OnCircle<float>& one, const OnCircle<float>& other)
     return limits;
 }
 // Two lines whose room is least - |sin(phi - peak)| + tilt cos(phi - peak). It peaks at `peak`, and opposite of it.
-Limits<float> two_peaks(double peak, double least, double tilt)
+Limits<float> two_peaks(double peak, double min, double tilt)
 {
     const double s = std::sin(peak), c = std::cos(peak);
-    return both(line(tilt * c - s, tilt * s + c, least), line(tilt * c + s, tilt * s - c, least));
+    return both(line(tilt * c - s, tilt * s + c, min), line(tilt * c + s, tilt * s - c, min));
 }
 double angle(const Turned<float>& turn) { return std::atan2(double{turn.sin}, double{turn.cos}); }
 bool is_at(const FoundSwivel<float>& chosen, double phi)

@@ -26,9 +26,9 @@ Vector3d beside(Random& random, const Vector3d& direction)
     const double angle = random.below(4) == 0 ? kPi - random.spread(1e-7, 0.1) : random.between(0, kPi);
     return std::cos(angle) * direction.normalized() + std::sin(angle) * random.across(direction.normalized());
 }
-LookJoint joint_of(double share, double most)
+LookJoint joint_of(double share, double max)
 {
-    return {float(share), float(std::cos(0.5 * most)), float(std::sin(0.5 * most))};
+    return {float(share), float(std::cos(0.5 * max)), float(std::sin(0.5 * max))};
 }
 
 TEST_CASE("the shortest turn carries a direction to another, whatever the two are and however long")
@@ -58,15 +58,15 @@ TEST_CASE("a share of a turn is that share of its angle, within 0.06 degrees, an
         for (int n = 0; n < kTurns; ++n) {
             const Vector3d from = random.direction(), goal = beside(random, from);
             const double share = random.below(4) == 0 ? 0.5 * random.below(3) : random.unit(),
-                         most = random.below(2) == 0 ? random.spread(1e-3, 3) : random.between(0, 3);
-            const LookTurn<float> turn = look_turn(mv<float>(from), mv<float>(goal), float(share), joint_of(1, most));
+                         max = random.below(2) == 0 ? random.spread(1e-3, 3) : random.between(0, 3);
+            const LookTurn<float> turn = look_turn(mv<float>(from), mv<float>(goal), float(share), joint_of(1, max));
             const Quaterniond got = eigen(turn.turn);
             const double whole = angle_between(from, goal), angle = angle_of(got), wanted = share * whole;
             RC_ASSERT(std::fabs(got.norm() - 1) <= 1e-6);
-            RC_ASSERT(angle <= most + 2e-6);
-            if (std::fabs(wanted - most) > 2e-3) RC_ASSERT(turn.held == (wanted > most));
+            RC_ASSERT(angle <= max + 2e-6);
+            if (std::fabs(wanted - max) > 2e-3) RC_ASSERT(turn.held == (wanted > max));
             if (turn.held) {
-                RC_ASSERT(std::fabs(angle - most) <= 2e-6);
+                RC_ASSERT(std::fabs(angle - max) <= 2e-6);
             } else {
                 worst = std::max(worst, std::fabs(angle - wanted));
                 if (share == 0) RC_ASSERT(got.coeffs() == Quaterniond::Identity().coeffs());

@@ -18,7 +18,7 @@ using namespace swivel::test;
 
 namespace {
 
-constexpr double kLeast = 2e-15;  // shorter bones are bad input, nearer wrists on the shoulder
+constexpr double kMin = 2e-15;  // shorter bones are bad input, nearer wrists on the shoulder
 
 // Sizes from corner to corner of what floats hold, most arms where products of them come near the limits.
 Arm sized_arm(Random& random)
@@ -28,7 +28,7 @@ Arm sized_arm(Random& random)
     Arm arm;
     arm.upper = size();
     arm.fore = random.below(2) ? arm.upper * random.spread(1e-8, 1) : arm.upper * random.spread(0.5, 1);
-    arm.fore = std::max(arm.fore, kLeast);
+    arm.fore = std::max(arm.fore, kMin);
     if (random.below(2)) std::swap(arm.upper, arm.fore);
     arm = rounded({Vector3d::UnitX(), Vector3d::UnitY(), arm.upper, arm.fore});
     const double near = std::fabs(arm.upper - arm.fore), far = arm.length();
@@ -36,7 +36,7 @@ Arm sized_arm(Random& random)
                              far * (1 - 1e-6 * random.unit()), far * random.spread(1e-6, 10), size()};
     const Vector3d line = random.direction();
     const double sine = random.spread(1.1e-3, 1), side = random.below(2) ? 1 : -1;
-    arm.wrist = std::max(wrists[random.below(5)], kLeast) * line;
+    arm.wrist = std::max(wrists[random.below(5)], kMin) * line;
     arm.pole = size() * (side * std::sqrt(1 - sine * sine) * line + sine * random.across(line));
     return rounded(arm);
 }

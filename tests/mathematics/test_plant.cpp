@@ -32,13 +32,13 @@ PlantRules random_rules(Random& random)
 {
     swivel_plant plant = swivel_default_plant();
     if (random.below(3) == 0) return rules_of(plant);
-    plant.lock = static_cast<float>(random.between(0.02, 0.3));
-    plant.unlock = static_cast<float>(random.between(0.05, 0.6));
-    plant.stop = random.below(5) ? static_cast<float>(random.between(0.02, 0.4)) : 0;
-    plant.blend = random.below(5) ? static_cast<float>(random.between(0.02, 0.4)) : 0;
-    plant.again = random.below(3) ? static_cast<float>(random.between(0.02, 0.8)) : 0;
-    plant.run = static_cast<float>(random.unit());
-    plant.longest = random.below(2) ? 0.5f : 0;
+    plant.lock_radius = static_cast<float>(random.between(0.02, 0.3));
+    plant.unlock_radius = static_cast<float>(random.between(0.05, 0.6));
+    plant.stop_time = random.below(5) ? static_cast<float>(random.between(0.02, 0.4)) : 0;
+    plant.release_time = random.below(5) ? static_cast<float>(random.between(0.02, 0.4)) : 0;
+    plant.relock_speed = random.below(3) ? static_cast<float>(random.between(0.02, 0.8)) : 0;
+    plant.anchor_lead = static_cast<float>(random.unit());
+    plant.reset_time = random.below(2) ? 0.5f : 0;
     return rules_of(plant);
 }
 double random_time(Random& random, double per_second)
@@ -105,9 +105,9 @@ void for_each_step(std::uint64_t seed, const Look& look)
 PlantRules random_turn_rules(Random& random)
 {
     swivel_plant plant = swivel_default_plant();
-    plant.stop = static_cast<float>(random.between(0.05, 0.4));
-    plant.blend = static_cast<float>(random.between(0.05, 0.4));
-    plant.run = static_cast<float>(random.unit());
+    plant.stop_time = static_cast<float>(random.between(0.05, 0.4));
+    plant.release_time = static_cast<float>(random.between(0.05, 0.4));
+    plant.anchor_lead = static_cast<float>(random.unit());
     return rules_of(plant);
 }
 
@@ -136,7 +136,7 @@ void for_each_turn(std::uint64_t seed, const Look& look)
         const Quaterniond want = turns.step(eigen(animated).normalized(), time, stood, machine);
         if (machine.clearance < 1e-4 || turns.clearance < 1e-2) return;
         const TurnState<T> before = state;
-        const Rotor<T> got = plant_turn(state, point.last.step, point.state.locked, animated, rules);
+        const Rotor<T> got = plant_rotation(state, point.last.step, point.state.locked, animated, rules);
         look(point, before, state, got, want);
     }
 }
@@ -147,10 +147,10 @@ constexpr double kLeg = 0.83;  // m: of a man
 struct Jumps {
     double target = 0, input = 0;
 };
-void add_jumps(std::uint64_t seed, double per_second, Jumps& most)
+void add_jumps(std::uint64_t seed, double per_second, Jumps& max)
 {
     swivel_plant plant = swivel_default_plant();
-    plant.stop = plant.blend = 0.2f;
+    plant.stop_time = plant.release_time = 0.2f;
     Random random{seed};
     const Way way(random);
     PlantedPoint<float> point(rules_of(plant));
@@ -166,8 +166,8 @@ void add_jumps(std::uint64_t seed, double per_second, Jumps& most)
         const auto jump = [&](const Vector3d(&places)[3]) {
             return ((places[2] - places[1]) / time[2] - (places[1] - places[0]) / time[1]).norm();
         };
-        if (n >= 2) most.input = std::max(most.input, jump(x));
-        if (n >= 2 && !was_cut && !point.last.cut) most.target = std::max(most.target, jump(y));
+        if (n >= 2) max.input = std::max(max.input, jump(x));
+        if (n >= 2 && !was_cut && !point.last.cut) max.target = std::max(max.target, jump(y));
         was_cut = point.last.cut;
     }
 }
@@ -176,7 +176,7 @@ void add_jumps(std::uint64_t seed, double per_second, Jumps& most)
 std::vector<Vector3d> at_common_times(std::uint64_t seed, int per_second, int looks_per_second)
 {
     swivel_plant plant = swivel_default_plant();
-    plant.unlock = 10;  // distances are passed in other frames at other rates
+    plant.unlock_radius = 10;  // distances are passed in other frames at other rates
     Random random{seed};
     const Way way(random);
     std::vector<bool> labels(120);
@@ -193,25 +193,26 @@ std::vector<Vector3d> at_common_times(std::uint64_t seed, int per_second, int lo
 }
 
 // A finite float of any bits, no larger than `most`; often 0 or of a usual size.
-float random_float(Random& random, float most)
+float random_float(Random& random, float max)
 {
     const std::uint32_t n = random.below(8);
     if (n == 0) return 0;
-    if (n == 1) return static_cast<float>(std::min<double>(most, random.between(-1, 1)));
-    if (n == 2) return random.below(2) ? most : -most;
+    if (n == 1) return static_cast<float>(std::min<double>(max, random.between(-1, 1)));
+    if (n == 2) return random.below(2) ? max : -max;
     for (;;) {
         const float x = bit_cast<float>(random.word());
-        if (std::fabs(x) <= most) return x;
+        if (std::fabs(x) <= max) return x;
     }
 }
-float random_size(Random& random, float most) { return std::fabs(random_float(random, most)); }
+float random_size(Random& random, float max) { return std::fabs(random_float(random, max)); }
 PlantRules any_rules(Random& random)
 {
     swivel_plant plant = swivel_default_plant();
-    for (float* const each : {&plant.lock, &plant.unlock, &plant.stop, &plant.blend, &plant.again})
+    for (float* const each :
+         {&plant.lock_radius, &plant.unlock_radius, &plant.stop_time, &plant.release_time, &plant.relock_speed})
         if (random.below(2)) *each = random_size(random, 1000);
-    plant.run = random_size(random, 1);
-    plant.longest = random.below(4) ? 0 : random_size(random, 1e15f);
+    plant.anchor_lead = random_size(random, 1);
+    plant.reset_time = random.below(4) ? 0 : random_size(random, 1e15f);
     return rules_of(plant);
 }
 bool is_finite(const Vector<float>& v)
@@ -247,7 +248,7 @@ TEST_CASE("a locked point moves by no bit, and stands on its mark once it has st
             const bool stood = before.locked && !planted.step.fresh;
             locked_for = stood ? locked_for + time : 0;
             if (stood && point.state.locked) RC_ASSERT(is_same(point.state.mark, before.mark));
-            if (stood && locked_for > point.rules.stop + 1e-5) {
+            if (stood && locked_for > point.rules.stop_time + 1e-5) {
                 RC_ASSERT(is_equal(planted.target, before.mark));
                 RC_ASSERT(point.state.left == 0);
                 ++stood_count;
@@ -268,7 +269,7 @@ TEST_CASE("a released point is with the animation again after its time to blend"
         for_each_step<float>(seed, [&](const PlantState<float>&, const PlantedPoint<float>& point, const Vector3d& x,
                                        bool, double time, double) {
             free_for = point.last.step.fades ? time : point.state.locked || point.state.waiting ? 0 : free_for + time;
-            if (free_for <= point.rules.blend + 1e-5 || point.last.step.releases) return;
+            if (free_for <= point.rules.release_time + 1e-5 || point.last.step.releases) return;
             RC_ASSERT(is_equal(point.last.target, mv<float>(x)));
             ++free_count;
         });
@@ -297,15 +298,15 @@ TEST_CASE("a point that locks goes on at its speed to its anchor, and never past
 {
     for (const double run : {0.0, 0.5, 1.0}) {
         swivel_plant plant = swivel_default_plant();
-        plant.run = static_cast<float>(run);
+        plant.anchor_lead = static_cast<float>(run);
         PlantedPoint<double> point(rules_of(plant));
         for (int n = 0; n < 2000; ++n) point.step({0.5 * n / 2000, 0, 0}, n == 1999, 1 / 2000.0);
         const double at = point.last.target.c[0], anchor = point.state.mark.c[0];
         CHECK(anchor - at == Approx(run * 0.5 * 0.1 / 3).margin(1e-9));
-        double most = 0;
-        for (int n = 0; n < 200; ++n) most = std::max(most, point.step({0.5, 0, 0}, true, 1 / 2000.0).x() - anchor);
+        double max = 0;
+        for (int n = 0; n < 200; ++n) max = std::max(max, point.step({0.5, 0, 0}, true, 1 / 2000.0).x() - anchor);
         // The offset's cubic swings out by most at the root of its derivative.
-        CHECK(most == Approx(run == 0 ? 4.0 / 27 * 0.5 * 0.1 : run == 1 ? 0 : 0.00207).margin(3e-5));
+        CHECK(max == Approx(run == 0 ? 4.0 / 27 * 0.5 * 0.1 : run == 1 ? 0 : 0.00207).margin(3e-5));
     }
 }
 
@@ -359,7 +360,7 @@ TEST_CASE("a rotation is taken as far as a half-tangent goes")
         const Vector3d axis = Vector3d(1, 2, -2) / 3;
         const Vector3d got = eigen(half_tangent(mv<double>(Quaterniond(Eigen::AngleAxisd(angle, axis)))));
         const double short_angle = std::min(angle, 2 * 3.14159265358979323846 - angle);
-        const double size = std::tan(std::min(short_angle / 2, kMostHalf));
+        const double size = std::tan(std::min(short_angle / 2, kMaxHalf));
         CHECK((got - (angle > 3.1416 ? -size : size) * axis).norm() <= 1e-9);
     }
 }
@@ -367,14 +368,14 @@ TEST_CASE("a rotation is taken as far as a half-tangent goes")
 TEST_CASE("the velocity jumps by less the more frames there are")
 {
     struct Row {
-        double per_second, most, input;
+        double per_second, max, input;
     };
-    for (const auto& [per_second, most, input] :
+    for (const auto& [per_second, max, input] :
          {Row{30, 1.8, 0.75}, Row{60, 1.1, 0.4}, Row{144, 0.45, 0.17}, Row{600, 0.15, 0.05}, Row{2400, 0.037, 0.012}}) {
         Jumps jumps;
         for (std::uint64_t seed = 0; seed < 200; ++seed) add_jumps(seed, per_second, jumps);
         INFO(per_second << " a second: " << jumps.target << ", of the input " << jumps.input);
-        CHECK(jumps.target <= most);
+        CHECK(jumps.target <= max);
         CHECK(jumps.input <= input);
     }
 }
@@ -383,16 +384,16 @@ TEST_CASE("frame rates hardly matter")
 {
     struct Row {
         int per_second;
-        double most;
+        double max;
     };
-    for (const auto& [per_second, most] : {Row{30, 3.5e-3}, Row{60, 1.7e-3}, Row{144, 0.7e-3}}) {
+    for (const auto& [per_second, max] : {Row{30, 3.5e-3}, Row{60, 1.7e-3}, Row{144, 0.7e-3}}) {
         double worst = 0;
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             const auto fine = at_common_times(seed, 2880, 6), coarse = at_common_times(seed, per_second, 6);
             for (std::size_t n = 0; n < fine.size(); ++n) worst = std::max(worst, (fine[n] - coarse[n]).norm());
         }
         INFO(per_second << " a second: " << worst);
-        CHECK(worst <= most);
+        CHECK(worst <= max);
     }
 }
 
@@ -413,7 +414,7 @@ TEST_CASE("no finite input makes a planted point or rotation less than a number"
             forget_old(state, time, rules);
             const Planted<float> planted = plant(state, {x, random.below(2) == 1, time, length}, rules);
             const Rotor<float> rotation =
-                plant_turn(turn, planted.step, state.locked, mv<float>(random.rotation()), rules);
+                plant_rotation(turn, planted.step, state.locked, mv<float>(random.rotation()), rules);
             RC_ASSERT(is_finite(planted.target) && is_finite(state.mark) && is_finite(state.offset));
             RC_ASSERT(!is_nan(state.velocity) && std::isfinite(state.left));
             RC_ASSERT(std::fabs(len2(rotation) - 1) <= 1e-5f);

@@ -43,13 +43,13 @@ struct Reaches {
     // share no point.
     std::optional<double> farthest(double off) const
     {
-        double most = 0;
+        double max = 0;
         for (const auto& [less_a, less_b] : {std::pair{off, off}, {off, 0.0}, {0.0, off}}) {
             const std::optional<Vector3d> at = nearest(less_a, less_b);
             if (!at) return {};
-            most = std::max(most, at->norm());
+            max = std::max(max, at->norm());
         }
-        return most;
+        return max;
     }
 };
 enum class Kind { any, touching, inside, apart, alike, parallel, count };
@@ -90,12 +90,12 @@ Reaches rounded(const Reaches& r)
     return {rounded_ball(r.a), rounded_ball(r.b)};
 }
 template <class T>
-Vector3d least_move_of(const Reaches& r)
+Vector3d min_move_of(const Reaches& r)
 {
     const auto reaching = [](const Ball& ball) {
         return ReachingMoves<T>{mv<T>(ball.middle), static_cast<T>(ball.radius)};
     };
-    return eigen(least_move(reaching(r.a), reaching(r.b)));
+    return eigen(min_move(reaching(r.a), reaching(r.b)));
 }
 
 // unit: what one rounding of T may be, and something for what comes after it.
@@ -104,7 +104,7 @@ void check_least(const Reaches& wanted, double unit)
 {
     const Reaches r = rounded<T>(wanted);
     const double off = unit * r.size(), gap = gap_of(r.a, r.b);
-    const Vector3d move = least_move_of<T>(r);
+    const Vector3d move = min_move_of<T>(r);
     RC_ASSERT(r.beyond(move) <= std::max(0.0, 0.5 * gap) + off);
     if (gap > off)  // no point misses one of them by less than half
         RC_ASSERT(std::fabs(r.a.beyond(move) - 0.5 * gap) <= off);
@@ -167,8 +167,8 @@ TEST_CASE("one arm's least move is the nearest point of its reach")
         const Ball ball = random_reaches(random, Kind::any).a;
         const ReachingMoves<double> reach{mv<double>(ball.middle), ball.radius};
         const double far = std::max(0.0, ball.middle.norm() - ball.radius);
-        RC_ASSERT((eigen(reach.least()) - far * ball.middle.normalized()).norm() <= 1e-14 * ball.middle.norm());
-        RC_ASSERT((eigen(least_move(reach, reach)) - eigen(reach.least())).norm() <= 1e-14 * ball.middle.norm());
+        RC_ASSERT((eigen(reach.shortest()) - far * ball.middle.normalized()).norm() <= 1e-14 * ball.middle.norm());
+        RC_ASSERT((eigen(min_move(reach, reach)) - eigen(reach.shortest())).norm() <= 1e-14 * ball.middle.norm());
     });
 }
 
@@ -186,8 +186,7 @@ TEST_CASE("least moves of like reaches are alike")
                 ball->radius += kStep * random.between(-1, 1);
             }
             // The tip of a lens moves by the root of what the balls move.
-            RC_ASSERT((least_move_of<double>(near) - least_move_of<double>(r)).norm() <=
-                      20 * std::sqrt(kStep * r.size()));
+            RC_ASSERT((min_move_of<double>(near) - min_move_of<double>(r)).norm() <= 20 * std::sqrt(kStep * r.size()));
         }
     });
 }

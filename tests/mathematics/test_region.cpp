@@ -134,19 +134,19 @@ TEST_CASE("one cone of directions is the smallest that holds them, wherever most
     rc::prop("two ends, and many directions near one of them", [](std::uint64_t seed) {
         Random random{seed};
         const Vector3d axis = random.direction(), side = random.across(axis);
-        const double most = random.between(0.2, 1.2), slack = 0.03;
+        const double max = random.between(0.2, 1.2), slack = 0.03;
         std::vector<float> flat;
         const auto add = [&](double angle) {
             const Eigen::Vector3f d = (std::cos(angle) * axis + std::sin(angle) * side).cast<float>();
             flat.insert(flat.end(), {d.x(), d.y(), d.z()});
         };
-        add(most), add(-most);
-        for (int n = 0; n < 100; ++n) add(random.between(0.7, 1) * most);
+        add(max), add(-max);
+        for (int n = 0; n < 100; ++n) add(random.between(0.7, 1) * max);
         swivel_region region = swivel_default_region();
         RC_ASSERT(swivel_region_add_directions(&region, flat.data(), 102, 0.05f, 1) == SWIVEL_OK);
         for (int n = 0; n < 1000; ++n) {
             const Vector3d d = random.direction();
-            const double beyond = std::acos(axis.dot(d)) - most - 0.05;
+            const double beyond = std::acos(axis.dot(d)) - max - 0.05;
             if (std::fabs(beyond) > slack) RC_ASSERT((room(region, mv<double>(d)) >= 0) == (beyond < 0));
         }
     });

@@ -95,15 +95,15 @@ TEST_CASE("stretching reaches what the eased arm would miss, up to the most")
         Random random{seed};
         for (int n = 0; n < 1000; ++n) {
             ReachRange<float> range = random_range<float>(random);
-            range.most_stretch = static_cast<float>(random.between(1, 1.5));
+            range.max_stretch = static_cast<float>(random.between(1, 1.5));
             const auto wanted = static_cast<float>(random.between(0.01, 2.5));
             const SoftReach<float> got = soft_reach(wanted, range);
-            RC_ASSERT(got.stretch >= 1 && got.stretch <= range.most_stretch);
+            RC_ASSERT(got.stretch >= 1 && got.stretch <= range.max_stretch);
             const double wrist = double{got.stretch} * got.distance;
             if (!(got.too_far || got.too_near || got.softened))
                 RC_ASSERT(std::fabs(wrist - wanted) <= 3e-7 * double{range.far});
             else if (wanted > range.far)
-                RC_ASSERT(got.stretch == range.most_stretch && wrist <= wanted + 3e-7);
+                RC_ASSERT(got.stretch == range.max_stretch && wrist <= wanted + 3e-7);
         }
     });
 }

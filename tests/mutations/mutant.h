@@ -14,10 +14,10 @@
 namespace swivel_mutants {
 
 struct Choice {
-    static constexpr int kMost = 4096;
+    static constexpr int kMax = 4096;
     int alive = -1;
     const char* met = std::getenv("SWIVEL_MUTANTS_MET");
-    bool is_met[kMost] = {};
+    bool is_met[kMax] = {};
 
     Choice()
     {
@@ -27,7 +27,7 @@ struct Choice {
     {
         if (!met) return;
         std::FILE* const file = std::fopen((met + ("." + std::to_string(getpid()))).c_str(), "a");
-        for (int n = 0; file && n < kMost; ++n)
+        for (int n = 0; file && n < kMax; ++n)
             if (is_met[n]) std::fprintf(file, "%d\n", n);
         if (file) std::fclose(file);
     }

@@ -204,7 +204,7 @@ onPage('a table has goals of one and of everyone, targets and poles', () => writ
 });
 
 test('a table has a crowd file\'s offsets once, everyone\'s poles that are directions, and state', async () => {
-  const toml = file('save.toml', '[limb.all]\ntarget.offset = [0.3, 2.1, -1.7]\npole.kind = "direction"\nswivel.most_deg_per_frame = 3\n'), words = [...crowd, '--crowd', toml];
+  const toml = file('save.toml', '[limb.all]\ntarget.offset = [0.3, 2.1, -1.7]\npole.kind = "direction"\nswivel.max_deg_per_frame = 3\n'), words = [...crowd, '--crowd', toml];
   await visit(write('save_offset.html', ...words), async (page) => {
     await near(page, 'right_arm', 1);
     await everyone(page).check();
@@ -230,6 +230,6 @@ test('what a table does not hold is said, and too many rows are refused', async 
     assert.ok(rows.length === 11 && rows[1].endsWith(',,,'), rows[1]);
     await page.evaluate(() => { swivelPage.stage.frameCount = 2_000_001; });
     await table(page).click();
-    assert.match(await page.textContent('.notice'), /^This table would have 2,000,001 rows, and 2,000,000 are the most/);
+    assert.match(await page.textContent('.notice'), /^This table would have 2,000,001 rows, and 2,000,000 are the max/);
   }, { spoils: true });
 });

@@ -38,9 +38,9 @@ test('a limit of the crowd file can be switched off and on', async () => {
   await visit(limited, async (page) => {
     await page.getByText('Limits and weights').click();
     const flexions = () => page.evaluate(() => {
-      const { stage } = swivelPage, most = (kind) => Math.max(...stage.limbs.filter(({ name }) => name.endsWith(kind))
+      const { stage } = swivelPage, max = (kind) => Math.max(...stage.limbs.filter(({ name }) => name.endsWith(kind))
         .flatMap((limb) => stage.characters.map((_, n) => stage.flexion(limb, n) * 180 / Math.PI)));
-      return [most('arm'), most('leg')];
+      return [max('arm'), max('leg')];
     });
     await page.evaluate(() => {  // targets near the shoulder bend the elbow as far as they may
       const { stage } = swivelPage;

@@ -42,7 +42,7 @@ limits.shoulder_cone = { axis = [0, 0, 1], opening_deg = 80 }
 hand = false
 pole.kind = "direction"
 target.offset = [0, 4, 3]
-reach = { soft_far = 0.1, most_stretch = 1.4 }
+reach = { soft_far = 0.1, max_stretch = 1.4 }
 `,
   'regions, and elbows that follow hands': `[limb.all]
 target.offset = [0, 4, 3]
@@ -153,7 +153,7 @@ test('the lesson says where the solver goes another way', async () => {
 });
 
 test('a crowd that carries state has the command\'s digests, in whatever order its frames are looked at', async () => {
-  const toml = file('state.toml', '[budget]\nblocks = 3\n[limb.all]\nswivel.most_deg_per_frame = 2\n');
+  const toml = file('state.toml', '[budget]\nblocks = 3\n[limb.all]\nswivel.max_deg_per_frame = 2\n');
   await visit(write('state.html', 'view', clip, '--characters', '100', '--frames', '40', '--crowd', toml), (page) => assertEqualBits(page, [...range(40), 20, 21, 0, 1, 39, 2]));
 });
 
@@ -165,7 +165,7 @@ test('goals of one\'s own are the command\'s', async () => {
 
 const limited = `${readFileSync(new URL('../command/limited.toml', import.meta.url), 'utf8')}
 [limb.all.swivel]
-most_deg_per_second = 900
+max_deg_per_second = 900
 `;
 const look = '[look]\ntarget = [60, 15, 160]\n', box = (order) => `limits.shoulder_box = { order = "${order}", x_deg = [-80, 80] }\n`;
 const caches = {

@@ -16,7 +16,7 @@ target.offset = [0.1, 0.3, 0.2]
 clavicle.share = 0.5
 [look]
 target = [5, 2, 30]
-most_deg = 90
+max_deg = 90
 `);
 
 test('joints are where the command writes them, above and below limbs and of heads that look, too', async () => {

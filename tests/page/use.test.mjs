@@ -40,7 +40,7 @@ onDemo('limits: switches add them, sliders and the rim of the cone move them, fl
   assert.ok(Math.abs((await opening()) - 35) < 0.1);
   await pull(page, 'cone', 40, 40);
   assert.ok(Math.abs((await opening()) - 35) > 3, `${await opening()}`);
-  for (const field of ['FLEXION_LIMIT', 'HUMERAL_TWIST', 'SHOULDER_BOX', 'WRIST_BOX', 'HAND_CONE', 'FOREARM_TWIST', 'HAND_TWIST', 'WEIGHTS', 'REACH', 'MOST_SWIVEL']) {
+  for (const field of ['FLEXION_LIMIT', 'HUMERAL_TWIST', 'SHOULDER_BOX', 'WRIST_BOX', 'HAND_CONE', 'FOREARM_TWIST', 'HAND_TWIST', 'WEIGHTS', 'REACH', 'MAX_SWIVEL']) {
     await page.locator(`[data-field=${field}]`).check();
     assert.ok(await page.evaluate((name) => swivelPage.stage.has(limbOf('left_arm'), name), field), field);
     assert.equal((await flags()) >>> 30, 0, `${field}: bad input`);
@@ -55,9 +55,9 @@ onDemo('overlays, colours, light and dark, drawn characters change the picture',
   await page.getByText('Limits and weights').click();
   await page.locator('[data-field=SHOULDER_CONE]').check();
   await page.getByText('Overlays', { exact: true }).click();
-  const changes = async (act, least, name) => {
+  const changes = async (act, min, name) => {
     const { share } = await difference(page, act);
-    assert.ok(share > least, `${name}: ${share}`);
+    assert.ok(share > min, `${name}: ${share}`);
   };
   for (const overlay of ['spheres', 'circle', 'plane', 'middle', 'pole', 'cones'])
     await changes(() => page.evaluate((name) => document.querySelector(`[data-overlay=${name}]`).click(), overlay), 0.0001, overlay);

@@ -233,8 +233,8 @@ void Cache::remove_unfinished() const
 void require_memory(const fs::path& folder, const CachedCrowd& crowd, const CacheArrays& arrays,
                     std::uint32_t characters, const char* advice)
 {
-    constexpr double kMostMemory = 1024, kMebibyte = 1048576;  // MiB
-    constexpr double kSolverBytes = 1024;                      // of a limb with its inputs, at most
+    constexpr double kMaxMemory = 1024, kMebibyte = 1048576;  // MiB
+    constexpr double kSolverBytes = 1024;                     // of a limb with its inputs, at most
     const auto chunks_of = [](const ZarrArray& array) {
         double count = 1;
         for (const std::uint64_t along : array.chunk_counts()) count *= static_cast<double>(along);
@@ -250,9 +250,9 @@ void require_memory(const fs::path& folder, const CachedCrowd& crowd, const Cach
     for (const auto& made : {arrays.clip, arrays.ground, arrays.given}) bytes += 2 * bytes_of(made);  // files, numbers
     bytes += 3 * (bytes_of(arrays.results) + bytes_of(arrays.state));  // and as they are solved again
     bytes += kSolverBytes * characters * static_cast<double>(crowd.limb_count());
-    if (bytes > kMostMemory * kMebibyte)
+    if (bytes > kMaxMemory * kMebibyte)
         throw InputError(folder, fmt::format("takes {:.0f} MiB of memory at once, more than {:.0f}; {}",
-                                             bytes / kMebibyte, kMostMemory, advice));
+                                             bytes / kMebibyte, kMaxMemory, advice));
 }
 
 fs::path folder_name(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }

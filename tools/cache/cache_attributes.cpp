@@ -22,18 +22,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 9;
-constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
-constexpr std::uint32_t kMostLimbs = 4;          // of a character: formats::LimbName has no more
-constexpr double kMostLength = 1e15;             // as swivel.h has it
-constexpr std::uint32_t kMostHeights = 16'384;   // along a side: formats::read_height_picture() has no more
-constexpr std::int64_t kMostJoints = 1'000'000;  // more than the attributes have room for
+constexpr std::uint32_t kMax = 0x7fffffff;      // frames, characters
+constexpr std::uint32_t kMaxLimbs = 4;          // of a character: formats::LimbName has no more
+constexpr double kMaxLength = 1e15;             // as swivel.h has it
+constexpr std::uint32_t kMaxHeights = 16'384;   // along a side: formats::read_height_picture() has no more
+constexpr std::int64_t kMaxJoints = 1'000'000;  // more than the attributes have room for
 
 // A member of a structure by its name in JSON. Whole numbers are within a range.
 template <class Struct, class Value>
 struct Member {
     const char* name;
     Value Struct::*at;
-    std::uint32_t least = 0, most = 1;
+    std::uint32_t min = 0, max = 1;
 };
 constexpr std::tuple kChain{Member{"shoulder_rotation", &swivel_chain::shoulder_rotation},
                             Member{"elbow_rotation", &swivel_chain::elbow_rotation},
@@ -54,21 +54,21 @@ constexpr std::tuple kGoals{Member{"target_point", &goal_plan::target_point},
                             Member{"holds_pole", &goal_plan::holds_pole},
                             Member{"hand_is_local", &goal_plan::hand_is_local},
                             Member{"goes_along", &goal_plan::goes_along},
-                            Member{"holds", &goal_plan::holds, 0, kMostLimbs}};
+                            Member{"holds", &goal_plan::holds, 0, kMaxLimbs}};
 constexpr std::tuple kHalfSpace{Member{"axis", &swivel_half_space::axis}, Member{"cosine", &swivel_half_space::cosine},
                                 Member{"is_edge", &swivel_half_space::is_edge}};
 constexpr std::tuple kGround{Member{"size", &goal_ground::size}, Member{"place", &goal_ground::place},
-                             Member{"columns", &goal_ground::columns, 0, kMostHeights},
-                             Member{"rows", &goal_ground::rows, 0, kMostHeights}};
+                             Member{"columns", &goal_ground::columns, 0, kMaxHeights},
+                             Member{"rows", &goal_ground::rows, 0, kMaxHeights}};
 // What a crowd is, around how it is cut.
 constexpr std::tuple kCrowd{Member{"has_poses", &CachedCrowd::has_poses},
-                            Member{"frames", &CachedCrowd::frame_count, 1, kMost},
-                            Member{"characters", &CachedCrowd::character_count, 1, kMost}};
-constexpr std::tuple kChunk{Member{"chunk_frames", &ChunkShape::frames, 1, kMostFramesInChunk},
-                            Member{"chunk_characters", &ChunkShape::characters, SWIVEL_LANES, kMostCharactersInChunk}};
+                            Member{"frames", &CachedCrowd::frame_count, 1, kMax},
+                            Member{"characters", &CachedCrowd::character_count, 1, kMax}};
+constexpr std::tuple kChunk{Member{"chunk_frames", &ChunkShape::frames, 1, kMaxFramesInChunk},
+                            Member{"chunk_characters", &ChunkShape::characters, SWIVEL_LANES, kMaxCharactersInChunk}};
 constexpr std::tuple kClip{Member{"has_given", &CachedCrowd::has_given}, Member{"title", &CachedCrowd::title},
                            Member{"clip", &CachedCrowd::clip},
-                           Member{"clip_frames", &CachedCrowd::clip_frames, 1, kMost},
+                           Member{"clip_frames", &CachedCrowd::clip_frames, 1, kMax},
                            Member{"frame_seconds", &CachedCrowd::frame_seconds}};
 
 template <class Struct, class... Members>
@@ -85,14 +85,14 @@ Json json_of(const Struct& from, const std::tuple<Members...>& members)
 }
 
 // A number within its range. JSON's own conversions would wrap, cut or round others.
-std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std::uint32_t most)
+std::uint32_t whole(const Json& json, const char* name, std::uint32_t min, std::uint32_t max)
 {
     const Json& value = json.at(name);
     // From 2^63 on it becomes negative, and is out of range as well.
     const std::int64_t number = value.is_number_integer() ? value.get<std::int64_t>() : -1;
-    if (number < least || number > most)
+    if (number < min || number > max)
         throw std::invalid_argument(
-            fmt::format("{} is {}, not a number from {} to {}", name, formats::printable(value.dump()), least, most));
+            fmt::format("{} is {}, not a number from {} to {}", name, formats::printable(value.dump()), min, max));
     return static_cast<std::uint32_t>(number);
 }
 bool yes_or_no(const Json& json, const char* name) { return whole(json, name, 0, 1) != 0; }
@@ -105,7 +105,7 @@ Enum one_of(const Json& json, const char* name, Enum last)
 // A joint's place in the list, or -1.
 int place_of(const Json& json)
 {
-    if (!json.is_number_integer() || json.get<std::int64_t>() < -1 || json.get<std::int64_t>() > kMostJoints)
+    if (!json.is_number_integer() || json.get<std::int64_t>() < -1 || json.get<std::int64_t>() > kMaxJoints)
         throw std::invalid_argument("a joint's number is out of range");
     return json.get<int>();
 }
@@ -133,7 +133,7 @@ void take(const Json& json, const std::tuple<Members...>& members, Struct& to)
 {
     const auto take_one = [&]<class Value>(const Member<Struct, Value>& each) {
         if constexpr (std::is_same_v<Value, std::uint32_t>)
-            to.*each.at = whole(json, each.name, each.least, each.most);
+            to.*each.at = whole(json, each.name, each.min, each.max);
         else if constexpr (std::is_array_v<Value>)
             get(json.at(each.name), to.*each.at);
         else
@@ -199,8 +199,8 @@ Ground ground_of(const Json& json)
 {
     Ground ground{};
     take(json, kGround, ground.grid);
-    const auto is_length = [](double length) { return length > 0 && length <= kMostLength; };
-    const auto is_place = [](double place) { return std::fabs(place) <= kMostLength; };
+    const auto is_length = [](double length) { return length > 0 && length <= kMaxLength; };
+    const auto is_place = [](double place) { return std::fabs(place) <= kMaxLength; };
     if (!std::ranges::all_of(ground.grid.size, is_length) || !std::ranges::all_of(ground.grid.place, is_place))
         throw std::invalid_argument("a ground's size or place is out of range");
     if (std::min(ground.grid.columns, ground.grid.rows) < 2 && ground.grid.columns + ground.grid.rows > 0)
@@ -262,8 +262,8 @@ std::array<double, 4> box_of(const Json& json)
 {
     double box[4];
     get(json, box);
-    const auto is_length = [](double length) { return length > 0 && length <= kMostLength; };
-    if (!std::ranges::all_of(std::span(box).first(3), is_length) || !(std::fabs(box[3]) <= kMostLength))
+    const auto is_length = [](double length) { return length > 0 && length <= kMaxLength; };
+    if (!std::ranges::all_of(std::span(box).first(3), is_length) || !(std::fabs(box[3]) <= kMaxLength))
         throw std::invalid_argument("a box's size or place is out of range");
     return std::to_array(box);
 }
@@ -276,7 +276,7 @@ Json json_of(const CachedLook& look)
             {"goals", json_of(look.setup.goals, kGoals)},
             {"joint_count", how.joint_count},
             {"axis", how.axis},
-            {"cos_most", how.cos_most[0]}};
+            {"cos_max", how.cos_max[0]}};
 }
 
 CachedLook look_of(const Json& json)
@@ -292,14 +292,14 @@ CachedLook look_of(const Json& json)
     how.joint_count = whole(json, "joint_count", 1, GOAL_JOINTS - 1);
     for (std::uint32_t n = 0; n < how.joint_count; ++n) how.joints[n] = n;
     get(json.at("axis"), how.axis);
-    std::ranges::fill(how.cos_most, number_of(json.at("cos_most")));
+    std::ranges::fill(how.cos_max, number_of(json.at("cos_max")));
     return look;
 }
 
 // What the rest of the program relies on, beside the ranges of numbers.
 void require_sane(const CachedCrowd& crowd)
 {
-    if (crowd.limbs.empty() || crowd.limbs.size() > kMostLimbs)
+    if (crowd.limbs.empty() || crowd.limbs.size() > kMaxLimbs)
         throw std::invalid_argument("there are no limbs, or too many");
     const auto joint_count = static_cast<int>(crowd.joints.size());
     for (int n = 0; n < joint_count; ++n)
@@ -326,7 +326,7 @@ void require_kept(const CachedCrowd& crowd)
                 std::ranges::find(kept, info.field, &ResultField::field) == kept.end())
                 throw std::invalid_argument(fmt::format("a limb carries {}, which no cache keeps", info.name));
     }
-    constexpr swivel_features kStands = SWIVEL_WITH_GROUND | SWIVEL_WITH_FIT;
+    constexpr swivel_features kStands = SWIVEL_WITH_GROUND | SWIVEL_WITH_PELVIS_FIT;
     if ((all & kStands) != (crowd.ground ? kStands : 0))
         throw std::invalid_argument("legs stand without a ground, or there is one that none stands on");
 }
@@ -390,7 +390,7 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         take(attributes, kClip, crowd);
         if (crowd.chunk.characters % SWIVEL_LANES != 0)
             throw std::invalid_argument("chunk_characters is no multiple of 16");
-        if (!(crowd.frame_seconds >= 0 && crowd.frame_seconds <= kMostLength))
+        if (!(crowd.frame_seconds >= 0 && crowd.frame_seconds <= kMaxLength))
             throw std::invalid_argument("frame_seconds is out of range");
         crowd.goals_digest = std::stoull(attributes.at("goals_digest").get<std::string>(), nullptr, 16);
         for (const Json& joint : attributes.at("joints"))
@@ -406,7 +406,7 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         throw;
     } catch (const std::exception& error) {  // the digest holds, so another program wrote it
         refuse(fmt::format("cannot be understood: {}; make the cache anew by swivel store",
-                           formats::printable(error.what(), formats::kMostQuoted)));
+                           formats::printable(error.what(), formats::kMaxQuoted)));
     }
     return crowd;
 }

@@ -6,7 +6,7 @@ namespace swivel::tools {
 bool CachedCrowd::carries_state() const
 {
     return look || std::ranges::any_of(limbs, [](const CachedLimb& limb) {
-               return limb.setup.has(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT);
+               return limb.setup.has(SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT);
            });
 }
 
@@ -30,10 +30,10 @@ ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size
 {
     constexpr std::uint32_t kLimbsInChunk = 65'536;
     const std::uint64_t blocks = (std::uint64_t{characters} + SWIVEL_LANES - 1) / SWIVEL_LANES;
-    const auto most = static_cast<std::uint32_t>(kLimbsInChunk / limb_count);
+    const auto max = static_cast<std::uint32_t>(kLimbsInChunk / limb_count);
     const auto of_chunk =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(blocks, most / 4 / SWIVEL_LANES)) * SWIVEL_LANES;
-    return {std::clamp(most / of_chunk, 1u, frames), of_chunk};
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(blocks, max / 4 / SWIVEL_LANES)) * SWIVEL_LANES;
+    return {std::clamp(max / of_chunk, 1u, frames), of_chunk};
 }
 
 std::size_t ResultField::count() const
@@ -59,7 +59,7 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
         fields.push_back({SWIVEL_WRIST, "wrist", "local rotation of the wrist joint, x y z w", {4}, {"xyzw"}});
     fields.push_back({SWIVEL_FLAGS, "flags", "bits of swivel_flag", {}, {}});
     if (has(SWIVEL_WITH_REACH)) fields.push_back({SWIVEL_STRETCH, "stretch", "factor of both bone lengths", {}, {}});
-    if (has(SWIVEL_WITH_MOST_SWIVEL))
+    if (has(SWIVEL_WITH_MAX_SWIVEL))
         fields.push_back({SWIVEL_NORMAL, "normal", "unit normal of the swivel plane, arm frame", {3}, {"xyz"}});
     if (twist_bones > 0)
         fields.push_back(
@@ -69,11 +69,14 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
              {twist_bones, 4},
              {"twist_bone", "xyzw"}});
     if (has(SWIVEL_WITH_CLAVICLE))
-        fields.push_back(
-            {SWIVEL_CLAVICLE_TURN, "clavicle_turn", "turn of the shoulder's parent joint, x y z w", {4}, {"xyzw"}});
+        fields.push_back({SWIVEL_CLAVICLE_ROTATION,
+                          "clavicle_rotation",
+                          "turn of the shoulder's parent joint, x y z w",
+                          {4},
+                          {"xyzw"}});
     if (has(SWIVEL_WITH_PLANT))
         fields.push_back({SWIVEL_PLANT, "plant", "how a foot stands, as SWIVEL_PLANT", {11}, {"part"}, true});
-    if (has(SWIVEL_WITH_FIT))
+    if (has(SWIVEL_WITH_PELVIS_FIT))
         fields.push_back({SWIVEL_SHIFT,
                           "shift",
                           "the body's, of each limb: as SWIVEL_SHIFT, then how much higher it is than its place says",

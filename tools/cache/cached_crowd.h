@@ -36,7 +36,7 @@ struct CachedLook {
     std::vector<goal_source> sources;
 };
 
-constexpr std::uint32_t kMostFramesInChunk = 65'536, kMostCharactersInChunk = 1'048'576;
+constexpr std::uint32_t kMaxFramesInChunk = 65'536, kMaxCharactersInChunk = 1'048'576;
 // Frames and characters that one file of an array holds. Characters: a multiple of SWIVEL_LANES.
 struct ChunkShape {
     std::uint32_t frames, characters;

@@ -102,7 +102,7 @@ bool PlainFolder::has(const std::string& name) const
     return false;
 }
 
-std::optional<std::string> PlainFolder::read(const std::string& name, std::size_t most) const
+std::optional<std::string> PlainFolder::read(const std::string& name, std::size_t max) const
 {
     const Descriptor folder = folder_of(name);
     if (!folder.is_open()) return std::nullopt;
@@ -117,7 +117,7 @@ std::optional<std::string> PlainFolder::read(const std::string& name, std::size_
     if (!stream) refuse(name, "cannot be opened", errno);
     file.release();
     std::string bytes;
-    formats::append_bytes(path_ / name, stream.get(), most + 1, bytes);
+    formats::append_bytes(path_ / name, stream.get(), max + 1, bytes);
     return bytes;
 }
 

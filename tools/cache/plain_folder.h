@@ -44,7 +44,7 @@ public:
     bool has(const std::string& name) const;
     // What a file holds, up to `most` bytes and one more: a longer result says that the file is longer than that.
     // Nothing: there is no such file, or no folder for it. Allocates as bytes come, not as `most` says.
-    std::optional<std::string> read(const std::string& name, std::size_t most) const;
+    std::optional<std::string> read(const std::string& name, std::size_t max) const;
     // Writes a file whole, under a name of its own, synced, renamed. A file of that name is replaced.
     void write(const std::string& name, std::string_view bytes) const;
     // Makes a folder, unless it is there. Its own folder must be there.

@@ -21,19 +21,19 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kMeaning = "long_name";  // words for people, in which no two versions must agree
 constexpr const char* kChanged = "was changed or cut; take it from a copy, or make the cache anew";
 constexpr const char *kGroup = ".zgroup", *kArray = ".zarray", *kAttributes = ".zattrs";
-constexpr std::size_t kMostDescription = 65'536;  // bytes; a description has some hundred
-constexpr int kMostDepth = 8;                     // of lists within lists; a cache's have 6. Copies recurse that deep
+constexpr std::size_t kMaxDescription = 65'536;  // bytes; a description has some hundred
+constexpr int kMaxDepth = 8;                     // of lists within lists; a cache's have 6. Copies recurse that deep
 
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Json read_json(const PlainFolder& folder, const std::string& name, std::size_t most)
+Json read_json(const PlainFolder& folder, const std::string& name, std::size_t max)
 {
     const fs::path path = folder.path() / name;
-    const std::optional<std::string> text = folder.read(name, most);
+    const std::optional<std::string> text = folder.read(name, max);
     if (!text) throw InputError(path, "is missing; take it from a copy, or make the cache anew");
-    if (text->size() > most) throw InputError(path, fmt::format("is longer than {} bytes: it {}", most, kChanged));
+    if (text->size() > max) throw InputError(path, fmt::format("is longer than {} bytes: it {}", max, kChanged));
     const auto is_shallow = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > kMostDepth) throw InputError(path, fmt::format("has too many lists within lists: it {}", kChanged));
+        if (depth > kMaxDepth) throw InputError(path, fmt::format("has too many lists within lists: it {}", kChanged));
         return true;
     };
     Json json = Json::parse(*text, is_shallow, false);
@@ -118,19 +118,19 @@ void ZarrStore::write_array(const ZarrArray& array) const
 void ZarrStore::write_attributes(const Json& attributes) const
 {
     const std::string text = text_of(attributes);
-    if (text.size() > kMostAttributes)
+    if (text.size() > kMaxAttributes)
         throw InputError(folder(), fmt::format("its attributes would take {} bytes, more than {}; take a skeleton with "
                                                "fewer joints, or shorter names",
-                                               text.size(), kMostAttributes));
+                                               text.size(), kMaxAttributes));
     folder_.write(kAttributes, text);
 }
 
-Json attributes_in(const PlainFolder& folder) { return read_json(folder, kAttributes, kMostAttributes); }
+Json attributes_in(const PlainFolder& folder) { return read_json(folder, kAttributes, kMaxAttributes); }
 
 void ZarrStore::require(const ZarrArray& array) const
 {
     for (const auto& [name, wanted] : metadata_of(array)) {
-        const Json found = read_json(folder_, name, kMostDescription);
+        const Json found = read_json(folder_, name, kMaxDescription);
         for (const auto& [key, value] : wanted.items())
             if (key != kMeaning && (!found.contains(key) || found[key] != value))
                 throw InputError(folder() / name, fmt::format("{} is {} instead of {}: it {}", key,

@@ -52,7 +52,7 @@ public:
     // Describes an array and the groups that it is in. Throws InputError if that cannot be written.
     void write_array(const ZarrArray& array) const;
     // The attributes of the whole store. Throws InputError if they cannot be written, or take more than
-    // kMostAttributes.
+    // kMaxAttributes.
     void write_attributes(const nlohmann::ordered_json& attributes) const;
     // Throws InputError unless the store describes the array and its groups in this way.
     void require(const ZarrArray& array) const;
@@ -74,7 +74,7 @@ private:
     PlainFolder folder_;
 };
 
-constexpr std::size_t kMostAttributes = std::size_t{4} << 20;  // bytes: 50,000 joints; as JSON they take 100 MiB
+constexpr std::size_t kMaxAttributes = std::size_t{4} << 20;  // bytes: 50,000 joints; as JSON they take 100 MiB
 // The attributes of the store in a folder. Throws InputError if they are missing, too long or no JSON.
 nlohmann::ordered_json attributes_in(const PlainFolder& folder);
 

@@ -18,38 +18,38 @@ CLI::Option* takes(CLI::Option* option, const OptionValue& value)
     return option->type_name(value.word)->check(CLI::Validator(value.check, ""));
 }
 
-OptionValue whole_number(std::uint64_t least, std::uint64_t most)
+OptionValue whole_number(std::uint64_t min, std::uint64_t max)
 {
-    const auto check = [least, most](const std::string& text) -> std::string {
+    const auto check = [min, max](const std::string& text) -> std::string {
         std::uint64_t value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool plain =
             error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
-        if (plain && value >= least && value <= most) return {};
-        return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+        if (plain && value >= min && value <= max) return {};
+        return fmt::format("'{}' is not a whole number from {} to {}", text, min, max);
     };
     return {"NUMBER", check};
 }
 
-OptionValue number(double least, double most)
+OptionValue number(double min, double max)
 {
-    const auto check = [least, most](const std::string& text) -> std::string {
+    const auto check = [min, max](const std::string& text) -> std::string {
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
-        return fmt::format("'{}' is not a number from {} to {}", text, least, most);
+        if (error == std::errc() && end == text.data() + text.size() && value >= min && value <= max) return {};
+        return fmt::format("'{}' is not a number from {} to {}", text, min, max);
     };
     return {"NUMBER", check};
 }
 
-OptionValue numbers(std::size_t count, double least)
+OptionValue numbers(std::size_t count, double min)
 {
-    const auto check = [count, least](const std::string& text) -> std::string {
+    const auto check = [count, min](const std::string& text) -> std::string {
         const std::vector<double> values = formats::numbers_of(text);
-        const bool fits = std::ranges::all_of(values, [&](double value) { return value > least; });
+        const bool fits = std::ranges::all_of(values, [&](double value) { return value > min; });
         if (values.size() == count && fits) return {};
         return fmt::format("'{}' is not {} numbers with commas between{}", formats::printable(text), count,
-                           fits ? "" : fmt::format(", above {}", least));
+                           fits ? "" : fmt::format(", above {}", min));
     };
     return {"NUMBERS", check};
 }

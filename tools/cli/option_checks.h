@@ -22,11 +22,11 @@ struct OptionValue {
 CLI::Option* takes(CLI::Option* option, const OptionValue& value);
 
 // Decimal digits, least to most.
-OptionValue whole_number(std::uint64_t least, std::uint64_t most);
+OptionValue whole_number(std::uint64_t min, std::uint64_t max);
 // A finite number, least to most.
-OptionValue number(double least, double most);
+OptionValue number(double min, double max);
 // As many such numbers, above `least`, with commas between; formats::numbers_of() gives them.
-OptionValue numbers(std::size_t count, double least);
+OptionValue numbers(std::size_t count, double min);
 // Anything but nothing.
 OptionValue file_name();
 // The same. advice: what to do instead of giving nothing.

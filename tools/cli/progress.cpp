@@ -35,13 +35,13 @@ std::size_t column_count()
 std::string progress_line(std::uint64_t done, std::uint64_t total, std::string_view what, double seconds,
                           std::size_t columns)
 {
-    constexpr std::size_t least_bar = 5, most_bar = 30;
+    constexpr std::size_t min_bar = 5, max_bar = 30;
     const double left = done > 0 ? seconds * static_cast<double>(total - done) / static_cast<double>(done) : 0;
     const std::string percent = fmt::format("{:3} %", 100 * done / total);
     const std::string figures = fmt::format("{}  {} of {} {}, {:.0f} s left", percent, done, total, what, left);
     const std::size_t room = columns > 0 ? columns - 1 : 0;  // the last column makes some terminals wrap
-    if (const std::size_t taken = figures.size() + 3; taken + least_bar <= room) {
-        const std::size_t width = std::min(most_bar, room - taken), filled = width * done / total;
+    if (const std::size_t taken = figures.size() + 3; taken + min_bar <= room) {
+        const std::size_t width = std::min(max_bar, room - taken), filled = width * done / total;
         return fmt::format("[{:#<{}}{:<{}}] {}", "", filled, "", width - filled, figures);
     }
     return figures.size() <= room ? figures : percent.size() <= room ? percent : "";

@@ -90,9 +90,9 @@ void make_range(double* four)
     make_turn(four);
     make_half(four + 2);
 }
-void make_shares(double* v, int count, double most)
+void make_shares(double* v, int count, double max)
 {
-    for (int n = 0; n < count; ++n) v[n] = most * size_of(v[n]);
+    for (int n = 0; n < count; ++n) v[n] = max * size_of(v[n]);
 }
 // Soft far and near, most stretch, least distance.
 void make_reach(double* v)
@@ -122,7 +122,7 @@ void shape(Field field, double* v, std::uint32_t count, double length)
             return make_reach(v);
         case Field::cap:
             return make_shares(v, 3, 0.5);
-        case Field::most_swivel:
+        case Field::max_swivel:
             return make_half(v);
         case Field::flexion_limit:
             v[0] = 0.5 + 0.5 * size_of(v[0]);

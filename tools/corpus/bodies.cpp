@@ -52,12 +52,12 @@ std::vector<JointAt> joints_at(const Skeleton& skeleton, const Body& body)
 
 // Bends an elbow to any side, so that the forearm's slope along the upper arm is of that size: straight or folded where
 // that is large.
-void bend_elbow(Random& random, int most_power, const Skeleton& skeleton, const LimbJoints& limb, Body& body)
+void bend_elbow(Random& random, int max_power, const Skeleton& skeleton, const LimbJoints& limb, Body& body)
 {
     const std::vector<JointAt> at = joints_at(skeleton, body);
     const Vector upper = unit(at[limb.elbow].place - at[limb.shoulder].place),
                  fore = at[limb.wrist].place - at[limb.elbow].place, across = random_across(random, upper);
-    const double size = random.spread(-3, most_power), slope = random.below(2) == 0 ? size : -size;
+    const double size = random.spread(-3, max_power), slope = random.below(2) == 0 ? size : -size;
     const Rotation parent = at[static_cast<std::size_t>(skeleton.parents[limb.elbow])].rotation;
     body.rotations[limb.elbow] =
         floats(reverse(parent) * turn_between(fore, across + slope * upper) * at[limb.elbow].rotation);

@@ -26,8 +26,8 @@ Holder holder_of(const Recipe& recipe, std::uint32_t n, const Body& body)
     }
     holder.ground_way = random_vector(random, 0.2);
     for (std::size_t k = 0; k < 2; ++k) {
-        holder.prop_places[k] = random_vector(random, 0.3);
-        holder.prop_turns[k] = floats(random_rotation(random, 0.5, 2));
+        holder.prop_positions[k] = random_vector(random, 0.3);
+        holder.prop_rotations[k] = floats(random_rotation(random, 0.5, 2));
     }
     return holder;
 }
@@ -135,7 +135,8 @@ void Holding::set_prop(std::uint32_t n, const Vector& root, double swing, Poses&
     Holder& holder = holders_[n];
     const bool is_far = holder.random.below(64) == 0, has_place = n % 2 == 1, has_turn = n / 2 % 2 == 1;
     const double size = (is_far ? 1000 : 1) * holder.scale;
-    const Vector way = size * between(holder.prop_places[0], holder.prop_places[1], swing), none{kNan, kNan, kNan},
+    const Vector way = size * between(holder.prop_positions[0], holder.prop_positions[1], swing),
+                 none{kNan, kNan, kNan},
                  place = !has_place                              ? none
                          : recipe_.holds == Holds::prop_at_joint ? way
                                                                  : root + way;
@@ -144,7 +145,7 @@ void Holding::set_prop(std::uint32_t n, const Vector& root, double swing, Poses&
     else
         put_vector(place, &poses.far_props[3 * n]);
     for (std::size_t c = 0; c < 4; ++c) {
-        const double from = holder.prop_turns[0][c], to = holder.prop_turns[1][c];
+        const double from = holder.prop_rotations[0][c], to = holder.prop_rotations[1][c];
         props_.turns[4 * n + c] = has_turn ? static_cast<float>(from + swing * (to - from)) : kNan;
     }
     const double shares[] = {0, 1, swing, 0.5};

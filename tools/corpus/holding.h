@@ -45,8 +45,8 @@ struct Holder {
     std::array<Vector, kGroupCount> grounds, normals;  // normals are of any length
     Vector ground_way;
     std::array<std::array<float, 7>, kGroupCount> grips;
-    std::array<Vector, 2> prop_places;
-    std::array<std::array<float, 4>, 2> prop_turns;
+    std::array<Vector, 2> prop_positions;
+    std::array<std::array<float, 4>, 2> prop_rotations;
 };
 
 class Holding {

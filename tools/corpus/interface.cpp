@@ -139,7 +139,7 @@ constexpr swivel_ground kGrounds[kGroupCount] = {
     {{0, 0, 0}, 0, 0, 0.95f, 0.2f},
     {{-0.1f, 0.02f, 0}, 0.05f, 0, 0.3f, 0},
 };
-constexpr float kMostMoves[] = {1, 0.1f};  // of props, and of those at a joint
+constexpr float kMaxMoves[] = {1, 0.1f};  // of props, and of those at a joint
 constexpr swivel_look kLooks[kLookCount] = {
     {2, {}, {0.5f, 2}, {0.9f, 0.3f}, {0.02f, 0.1f, -0.05f}, {0.6f, 0, 0.8f}, 0.5f, -0.8f, 0.4f, 2},
     {1, {}, {1}, {0.2f}, {0, 0, 0}, {0, 1, 0}, -0.5f, -1, 0, 0},
@@ -194,7 +194,7 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swi
         const bool is_at_joint = recipe.holds == Holds::prop_at_joint;
         *end = swivel_default_prop_group_def();
         // One of the trunk, which comes last.
-        end++->prop = {is_at_joint ? static_cast<std::int32_t>(own.joint_count()) - 2 : -1, kMostMoves[is_at_joint]};
+        end++->prop = {is_at_joint ? static_cast<std::int32_t>(own.joint_count()) - 2 : -1, kMaxMoves[is_at_joint]};
     }
     for (std::uint32_t n = 0; recipe.pose & corpus::kLooks && n < kLookCount; ++n) {
         *end = group(body_count, {}, SWIVEL_LOOK);
@@ -254,7 +254,7 @@ swivel_pose library_pose(Poses& poses)
     pose.space = poses.is_in_body ? SWIVEL_IN_BODY : SWIVEL_LOCAL;
     pose.translation_results = joint_values(poses, poses.translation_results, {});
     pose.joint_rotations = joint_values(poses, poses.joint_rotations, {});
-    pose.joint_places = joint_values(poses, poses.joint_places, {});
+    pose.joint_positions = joint_values(poses, poses.joint_positions, {});
     pose.root_is_double = !poses.far_roots.empty();
     pose.root_position =
         pose.root_is_double ? body_values(poses, poses.far_roots) : body_values(poses, poses.root_positions);
@@ -357,9 +357,9 @@ void write_shift_wishes(Crowd& crowd, std::span<const float> wishes)
 void write_props(Crowd& crowd, const PropRows& props)
 {
     const std::uint32_t group = group_with(crowd, SWIVEL_PROP);
-    if (!props.places.empty()) write_values(crowd, SWIVEL_PROP_PLACE, group, props.places);
-    write_values(crowd, SWIVEL_PROP_TURN, group, props.turns);
-    write_values(crowd, SWIVEL_PROP_SHARE, group, props.shares);
+    if (!props.places.empty()) write_values(crowd, SWIVEL_PROP_POSITION, group, props.places);
+    write_values(crowd, SWIVEL_PROP_ROTATION, group, props.turns);
+    write_values(crowd, SWIVEL_HAND_BLEND, group, props.shares);
 }
 
 void write_looks(Crowd& crowd, const std::array<LookRows, kLookCount>& looks)
@@ -384,10 +384,10 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     for (std::size_t g = 0; g < kGroupCount; ++g) {
         give(g, SWIVEL_TARGET, poses.far_targets[g]);
         give(g, SWIVEL_POLE, poses.far_poles[g]);
-        give(g, SWIVEL_COMING, poses.far_comings[g]);
+        give(g, SWIVEL_NEXT_TARGET, poses.far_next_targets[g]);
         give(g, SWIVEL_GROUND, poses.far_grounds[g]);
     }
-    give(prop_group(poses.has_shift), SWIVEL_PROP_PLACE, poses.far_props);
+    give(prop_group(poses.has_shift), SWIVEL_PROP_POSITION, poses.far_props);
     const std::uint32_t look = look_group(poses.has_shift, poses.has_prop);
     for (std::uint32_t n = 0; n < kLookCount; ++n) give(look + n, SWIVEL_LOOK_TARGET, poses.far_look_targets[n]);
     const std::span<Frame> given = std::span(frames).first(look + (poses.has_looks ? kLookCount : 0));

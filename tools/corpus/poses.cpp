@@ -74,7 +74,7 @@ std::array<const std::vector<float>*, 4> Poses::solved() const
 {
     static const std::vector<float> none;
     const std::vector<float>& places = translation_results.empty() ? translations : translation_results;
-    return {results.empty() ? &rotations : &results, is_in_body ? &places : &none, &joint_rotations, &joint_places};
+    return {results.empty() ? &rotations : &results, is_in_body ? &places : &none, &joint_rotations, &joint_positions};
 }
 
 Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t frame)
@@ -103,7 +103,7 @@ Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t f
     if ((recipe.pose & kApart) && poses.is_in_body) poses.translation_results.resize(poses.translations.size());
     if (recipe.pose & kAllJoints) {
         poses.joint_rotations.resize(std::size_t{4} * body_count * poses.joint_count);
-        poses.joint_places.resize(std::size_t{3} * body_count * poses.joint_count);
+        poses.joint_positions.resize(std::size_t{3} * body_count * poses.joint_count);
     }
     return poses;
 }

@@ -19,11 +19,11 @@ struct Poses {
     bool is_in_body = false;
     std::vector<float> rotations, translations, scales;  // rotations: or matrices
     std::vector<float> results, translation_results;     // empty: rotations and translations
-    std::vector<float> joint_rotations, joint_places;
+    std::vector<float> joint_rotations, joint_positions;
     std::vector<std::size_t> offsets;  // of each joint's rotation from its body's first; empty: in the joints' order
     std::vector<float> root_positions, root_rotations, root_scales;
     std::vector<double> far_roots;  // in place of root_positions
-    std::array<std::vector<double>, kGroupCount> far_targets, far_poles, far_comings,
+    std::array<std::vector<double>, kGroupCount> far_targets, far_poles, far_next_targets,
         far_grounds;  // of each group, in place of rows
 
     // For bodies that stand:

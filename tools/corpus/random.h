@@ -27,9 +27,9 @@ struct Random {
     double between(double a, double b) { return a + (b - a) * unit(); }
     double signed_unit() { return between(-1, 1); }
     // In 2^least ... 2^most, every power of two as likely as the others.
-    double spread(int least, int most)
+    double spread(int min, int max)
     {
-        const int power = least + static_cast<int>(below(static_cast<std::uint32_t>(most - least)));
+        const int power = min + static_cast<int>(below(static_cast<std::uint32_t>(max - min)));
         double size = 1 + unit();
         for (int n = 0; n < power; ++n) size *= 2;
         for (int n = 0; n > power; --n) size /= 2;

@@ -201,19 +201,19 @@ constexpr Recipe standing(const char* name, std::uint64_t seed, std::uint64_t fe
             holds, holding};
 }
 constexpr Recipe kStanding[] = {
-    standing("feet", 0x2b8f6b1ddc2f4a93u, kHand | kEffector | kYields | kPoleIncoming | kCap | kFit | kComing, 0),
+    standing("feet", 0x2b8f6b1ddc2f4a93u, kHand | kEffector | kYields | kPoleIncoming | kCap | kFit | kNextTarget, 0),
     standing("feet-by-motion", 0xe17c0e39a5b64d08u, kPoleIncoming | kByMotion | kCap | kFit, kFar | kSupports),
-    standing("palms", 0x94d3a7f0167be25cu, kHand | kEffector | kPlantTurn | kPoleIncoming | kStep | kWeights,
+    standing("palms", 0x94d3a7f0167be25cu, kHand | kEffector | kPlantRotation | kPoleIncoming | kStep | kWeights,
              kTranslations | kSupports | kRests),
-    standing("palms-by-motion", 0x5a02cf7be8913d64u, kHand | kPlantTurn | kByMotion | kPoleIncoming | kFit | kComing |
+    standing("palms-by-motion", 0x5a02cf7be8913d64u, kHand | kPlantRotation | kByMotion | kPoleIncoming | kFit | kNextTarget |
              kRecord | kFlexion | kClavicle, kBetween | kFar | kSupports | kAllJoints),
     standing("ground", 0xd10b5e3c96a2487fu, kHand | kEffector | kYields | kPoleIncoming | kCap | kFit | kGround,
              kSupports),
-    standing("ground-by-motion", 0x3a9f04c7e85d216bu, kHand | kEffector | kPlantTurn | kByMotion | kPoleIncoming |
-             kFit | kComing | kGround | kRecord, kTranslations | kFar | kSupports | kRests),
-    standing("held-hand", 0x76e1d8b30c4fa295u, kHand | kEffector | kPoleIncoming | kGround | kHandFrame | kClavicle,
+    standing("ground-by-motion", 0x3a9f04c7e85d216bu, kHand | kEffector | kPlantRotation | kByMotion | kPoleIncoming |
+             kFit | kNextTarget | kGround | kRecord, kTranslations | kFar | kSupports | kRests),
+    standing("held-hand", 0x76e1d8b30c4fa295u, kHand | kEffector | kPoleIncoming | kGround | kHandTransform | kClavicle,
              kBetween | kFar | kSupports | kAllJoints, Holds::hand, kHand | kEffector | kPoleIncoming | kWeights |
-             kLink | kHandFrame | kRecord | kClavicle),
+             kLink | kHandTransform | kRecord | kClavicle),
     standing("prop", 0x0f52c96ae7b8d341u, kHand | kPoleIncoming | kFit, kTranslations, Holds::prop, kHand | kEffector |
              kPoleIncoming | kCap | kLink | kRecord),
     standing("looks", 0x4bd27e9360fa815cu, kHand | kPoleIncoming | kFit, kTranslations | kSupports | kLooks),

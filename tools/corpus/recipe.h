@@ -28,15 +28,15 @@ inline constexpr std::uint64_t
     kWorld = SWIVEL_WORLD, kJoints = SWIVEL_JOINTS, kHand = SWIVEL_WITH_HAND, kPoleDirection = SWIVEL_POLE_DIRECTION,
     kEffector = SWIVEL_WITH_EFFECTOR, kAngle = SWIVEL_WITH_ANGLE, kPoleNormal = SWIVEL_POLE_NORMAL,
     kIncoming = SWIVEL_WITH_INCOMING, kPoleIncoming = SWIVEL_POLE_INCOMING, kWeights = SWIVEL_WITH_WEIGHTS,
-    kReach = SWIVEL_WITH_REACH, kStep = SWIVEL_WITH_MOST_SWIVEL, kFlexion = SWIVEL_WITH_FLEXION_LIMIT,
+    kReach = SWIVEL_WITH_REACH, kStep = SWIVEL_WITH_MAX_SWIVEL, kFlexion = SWIVEL_WITH_FLEXION_LIMIT,
     kShoulderCone = SWIVEL_WITH_SHOULDER_CONE, kHumeralTwist = SWIVEL_WITH_HUMERAL_TWIST,
     kShoulderBox = SWIVEL_WITH_SHOULDER_BOX, kHandCone = SWIVEL_WITH_HAND_CONE,
     kForearmTwist = SWIVEL_WITH_FOREARM_TWIST, kHandTwist = SWIVEL_WITH_HAND_TWIST,
     kWristBox = SWIVEL_WITH_WRIST_BOX, kAim = SWIVEL_WITH_AIM, kClavicle = SWIVEL_WITH_CLAVICLE,
-    kRecord = SWIVEL_WITH_RECORD, kPlant = SWIVEL_WITH_PLANT, kPlantTurn = SWIVEL_WITH_PLANT_TURN,
-    kByMotion = SWIVEL_PLANT_BY_MOTION, kCap = SWIVEL_WITH_CAP, kFit = SWIVEL_WITH_FIT, kComing = SWIVEL_WITH_COMING,
+    kRecord = SWIVEL_WITH_RECORD, kPlant = SWIVEL_WITH_PLANT, kPlantRotation = SWIVEL_WITH_PLANT_ROTATION,
+    kByMotion = SWIVEL_PLANT_BY_MOTION, kCap = SWIVEL_WITH_CAP, kFit = SWIVEL_WITH_PELVIS_FIT, kNextTarget = SWIVEL_WITH_NEXT_TARGET,
     kYields = SWIVEL_HAND_YIELDS, kGround = SWIVEL_WITH_GROUND, kLink = SWIVEL_WITH_LINK,
-    kHandFrame = SWIVEL_WITH_HAND_FRAME, kRegion = SWIVEL_WITH_REGION, kStepWins = SWIVEL_STEP_WINS,
+    kHandTransform = SWIVEL_WITH_HAND_TRANSFORM, kRegion = SWIVEL_WITH_REGION, kStepWins = SWIVEL_STEP_WINS,
     kPoleHand = SWIVEL_POLE_HAND,
     kCompact = 1ull << 63;  // the corpus's own: results are digested as they are packed
 enum class Field : std::uint16_t {
@@ -44,17 +44,17 @@ enum class Field : std::uint16_t {
     parent_rotation = SWIVEL_PARENT_ROTATION, parent_scale = SWIVEL_PARENT_SCALE, hand = SWIVEL_HAND,
     effector = SWIVEL_EFFECTOR, angle = SWIVEL_ANGLE, incoming_shoulder = SWIVEL_INCOMING_SHOULDER,
     incoming_elbow = SWIVEL_INCOMING_ELBOW, incoming_wrist = SWIVEL_INCOMING_WRIST, weights = SWIVEL_WEIGHTS,
-    reach = SWIVEL_REACH, most_swivel = SWIVEL_MOST_SWIVEL, flexion_limit = SWIVEL_FLEXION_LIMIT,
+    reach = SWIVEL_REACH, max_swivel = SWIVEL_MAX_SWIVEL, flexion_limit = SWIVEL_FLEXION_LIMIT,
     shoulder_cone = SWIVEL_SHOULDER_CONE, humeral_twist = SWIVEL_HUMERAL_TWIST, shoulder_box = SWIVEL_SHOULDER_BOX,
     hand_cone = SWIVEL_HAND_CONE, forearm_twist = SWIVEL_FOREARM_TWIST, hand_twist = SWIVEL_HAND_TWIST,
     wrist_box = SWIVEL_WRIST_BOX, aim = SWIVEL_AIM, clavicle = SWIVEL_CLAVICLE, contact = SWIVEL_CONTACT,
-    cap = SWIVEL_CAP, fit_weight = SWIVEL_FIT_WEIGHT, coming = SWIVEL_COMING, coming_time = SWIVEL_COMING_TIME,
+    cap = SWIVEL_CAP, pelvis_fit_weight = SWIVEL_PELVIS_FIT_WEIGHT, next_target = SWIVEL_NEXT_TARGET, next_time = SWIVEL_NEXT_TIME,
     ground = SWIVEL_GROUND, ground_normal = SWIVEL_GROUND_NORMAL, ground_weight = SWIVEL_GROUND_WEIGHT,
     grip = SWIVEL_GRIP, shoulder = SWIVEL_SHOULDER, elbow = SWIVEL_ELBOW, wrist = SWIVEL_WRIST, flags = SWIVEL_FLAGS,
     stretch = SWIVEL_STRETCH, normal = SWIVEL_NORMAL, twist = SWIVEL_TWIST_BONES,
-    clavicle_turn = SWIVEL_CLAVICLE_TURN, record = SWIVEL_RECORD, plant = SWIVEL_PLANT,
-    plant_turn = SWIVEL_PLANT_TURN, plant_motion = SWIVEL_MOTION, goal = SWIVEL_GOAL, probe = SWIVEL_PROBE,
-    lift = SWIVEL_LIFT, hand_frame = SWIVEL_HAND_FRAME,
+    clavicle_rotation = SWIVEL_CLAVICLE_ROTATION, record = SWIVEL_RECORD, plant = SWIVEL_PLANT,
+    plant_rotation = SWIVEL_PLANT_ROTATION, plant_motion = SWIVEL_CONTACT_STATE, goal = SWIVEL_SOLVED_GOAL, probe = SWIVEL_PROBE,
+    lift = SWIVEL_LIFT, hand_transform = SWIVEL_HAND_TRANSFORM,
     // of bodies, which have no rows of them; motion: all that changes from frame to frame
     skeleton = 0x8000, joint_rotation, joint_translation, joint_scale, bend, root_position, root_rotation, root_scale,
     motion
@@ -64,17 +64,17 @@ inline constexpr auto kDrawn = [] {
     using enum Field;
     return std::to_array({
         target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, effector, angle,
-        incoming_shoulder, incoming_elbow, incoming_wrist, weights, reach, most_swivel, flexion_limit, shoulder_cone,
+        incoming_shoulder, incoming_elbow, incoming_wrist, weights, reach, max_swivel, flexion_limit, shoulder_cone,
         humeral_twist, shoulder_box, hand_cone, forearm_twist, hand_twist, wrist_box, aim, clavicle, contact, cap,
-        fit_weight, coming, coming_time, ground, skeleton, joint_rotation, joint_translation, joint_scale, bend,
+        pelvis_fit_weight, next_target, next_time, ground, skeleton, joint_rotation, joint_translation, joint_scale, bend,
         root_position, root_rotation, root_scale, motion, ground_normal, ground_weight, grip});
 }();
 // Results, in the order in which they are digested.
 inline constexpr auto kResults = [] {
     using enum Field;
     return std::to_array({
-        shoulder, elbow, wrist, flags, stretch, normal, twist, clavicle_turn, record, plant, plant_turn, plant_motion,
-        goal, probe, lift, hand_frame});
+        shoulder, elbow, wrist, flags, stretch, normal, twist, clavicle_rotation, record, plant, plant_rotation, plant_motion,
+        goal, probe, lift, hand_transform});
 }();
 // Flags, in the order of the bits that are digested for them.
 inline constexpr std::uint32_t kFlags[] = {

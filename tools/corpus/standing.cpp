@@ -97,11 +97,11 @@ Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
     }
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
         rows_.contacts[group].resize(body_count);
-        rows_.coming_times[group].resize(body_count);
-        rows_.comings[group].resize(std::size_t{3} * body_count);
+        rows_.next_times[group].resize(body_count);
+        rows_.next_targets[group].resize(std::size_t{3} * body_count);
         rows_.targets[group].resize(std::size_t{3} * body_count);
-        if (is_far && features_of(recipe, group) & kComing)
-            poses_.far_comings[group].resize(std::size_t{3} * body_count);
+        if (is_far && features_of(recipe, group) & kNextTarget)
+            poses_.far_next_targets[group].resize(std::size_t{3} * body_count);
     }
     if (is_far) poses_.far_targets[kGroupCount - 1].resize(std::size_t{3} * body_count);
     rows_.shift_wishes.resize(body_count);
@@ -113,8 +113,8 @@ Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
 void Standing::write_constants(Crowd& crowd) const
 {
     const auto body_count = static_cast<std::uint32_t>(movers_.size());
-    for (const Field field : {Field::effector, Field::cap, Field::fit_weight, Field::clavicle, Field::ground_weight,
-                              Field::reach, Field::weights})
+    for (const Field field : {Field::effector, Field::cap, Field::pelvis_fit_weight, Field::clavicle,
+                              Field::ground_weight, Field::reach, Field::weights})
         for (std::uint32_t group = 0; group < kGroupCount; ++group) {
             const std::vector<Field> fields = inputs_of(recipe_, group);
             if (std::find(fields.begin(), fields.end(), field) == fields.end()) continue;
@@ -180,11 +180,11 @@ void Standing::set_goals(std::uint32_t n, double swing, bool rests)
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
         const bool flickers = mover.random.below(32) == 0, is_weak = mover.random.below(4) == 0;
         rows_.contacts[group][n] = is_weak ? (rests != flickers ? 0.75f : 0.25f) : (rests != flickers ? 1.0f : 0.0f);
-        rows_.coming_times[group][n] = static_cast<float>(0.5 * (1 - swing));
+        rows_.next_times[group][n] = static_cast<float>(0.5 * (1 - swing));
         const Vector goal = root + between(mover.goals[0][group], mover.goals[1][group], swing);
-        put_vector(goal, &rows_.comings[group][3 * n]);
+        put_vector(goal, &rows_.next_targets[group][3 * n]);
         put_vector(goal, &rows_.targets[group][3 * n]);
-        if (!poses_.far_comings[group].empty()) put_vector(goal, &poses_.far_comings[group][3 * n]);
+        if (!poses_.far_next_targets[group].empty()) put_vector(goal, &poses_.far_next_targets[group][3 * n]);
         if (!poses_.far_targets[group].empty()) put_vector(goal, &poses_.far_targets[group][3 * n]);
     }
     rows_.shift_wishes[n] = static_cast<float>(0.1 * (swing - 0.5));
@@ -220,7 +220,7 @@ void Standing::spoil_body(std::uint32_t n)
 {
     Random& random = movers_[n].random;
     std::vector<float>* const values[] = {&poses_.rotations,         &poses_.root_rotations,    &poses_.times,
-                                          &rows_.contacts[0],        &rows_.coming_times[1],    &rows_.comings[2],
+                                          &rows_.contacts[0],        &rows_.next_times[1],      &rows_.next_targets[2],
                                           &rows_.targets[2],         &poses_.support_rotations, &poses_.root_positions,
                                           &poses_.support_positions, &rows_.shift_wishes};
     std::vector<float>& chosen = *values[random.below(static_cast<std::uint32_t>(std::size(values)))];
@@ -289,9 +289,9 @@ void Standing::go_to(std::uint32_t frame, Crowd& crowd)
         const std::uint64_t features = features_of(recipe_, group);
         if ((features & (kPlant | kByMotion)) == kPlant)
             write_field(crowd, Field::contact, group, rows_.contacts[group]);
-        if (features & kComing) {
-            if (!is_far) write_field(crowd, Field::coming, group, rows_.comings[group]);
-            write_field(crowd, Field::coming_time, group, rows_.coming_times[group]);
+        if (features & kNextTarget) {
+            if (!is_far) write_field(crowd, Field::next_target, group, rows_.next_targets[group]);
+            write_field(crowd, Field::next_time, group, rows_.next_times[group]);
         }
     }
     if (!is_far) write_field(crowd, Field::target, kGroupCount - 1, rows_.targets[kGroupCount - 1]);

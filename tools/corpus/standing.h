@@ -47,7 +47,7 @@ public:
 
 private:
     struct Changes {  // of the crowd's rows in a frame, limb by limb of each group
-        std::array<std::vector<float>, kGroupCount> contacts, comings, targets, coming_times;
+        std::array<std::vector<float>, kGroupCount> contacts, next_targets, targets, next_times;
         std::vector<float> shift_wishes;
     };
 

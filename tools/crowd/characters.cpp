@@ -11,11 +11,11 @@ namespace {
 // Of the first kind that is solved, so that legs beside arms move no one.
 double limb_span(std::span<const Limb> limbs)
 {
-    double most = 0;
+    double max = 0;
     for (const Limb& limb : limbs)
         if (limb.name.kind == limbs[0].name.kind)
-            most = std::max(most, double{limb.bound.lengths[0]} + limb.bound.lengths[1]);
-    return 2 * most;
+            max = std::max(max, double{limb.bound.lengths[0]} + limb.bound.lengths[1]);
+    return 2 * max;
 }
 
 }  // namespace
@@ -49,8 +49,7 @@ goal_character CharacterStream::next()
                               0};
     };
     if (n == 0) return performing(0, 1, Eigen::Vector3d(0, 0, 0), 0);
-    const double size =
-        static_cast<float>(plan_.least_size + (plan_.most_size - plan_.least_size) * drawn_share(random_));
+    const double size = static_cast<float>(plan_.min_size + (plan_.max_size - plan_.min_size) * drawn_share(random_));
     const std::uint64_t drawn = random_();
     const std::size_t clip = clips_.size() == 1 ? 0 : random_() % clips_.size();
     const std::size_t start = plan_.stagger ? drawn % clips_[clip].starts : 0;

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-static_assert(formats::kMostTwistBones == SWIVEL_MOST_TWIST_BONES);  // a format knows no solver
+static_assert(formats::kMaxTwistBones == SWIVEL_MAX_TWIST_BONES);  // a format knows no solver
 
 std::vector<std::span<const goal_source>> sources_of(const ClipMotion& motion, std::size_t limb_count)
 {
@@ -173,7 +173,7 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
 Quaterniond ClipCrowd::clavicle(std::size_t limb, std::uint32_t character) const
 {
     float turn[4];
-    crowd_.read(limb, SWIVEL_CLAVICLE_TURN, character, 1, {turn, sizeof turn});
+    crowd_.read(limb, SWIVEL_CLAVICLE_ROTATION, character, 1, {turn, sizeof turn});
     return in_clip(limb, character).local_parent * Quaterniond(turn[3], turn[0], turn[1], turn[2]);
 }
 

@@ -75,7 +75,7 @@ Vector3d ClipCrowd::target_point(std::size_t limb, std::uint32_t character) cons
 {
     if (!plans_[limb].has(kSent)) return Vector3d(crowd_.input(limb, character).target);
     float goal[7];
-    crowd_.read(limb, SWIVEL_GOAL, character, 1, {goal, sizeof goal});
+    crowd_.read(limb, SWIVEL_SOLVED_GOAL, character, 1, {goal, sizeof goal});
     return Vector3d(crowd_.root(character).place) + Vector3d(goal[0], goal[1], goal[2]);
 }
 

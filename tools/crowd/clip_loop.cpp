@@ -106,7 +106,7 @@ public:
         const std::size_t frames = sums_.size() - 1, span = std::min(frames_a_second, frames);
         double sum2 = 0;
         for (std::size_t n = 0; n + span <= frames; ++n) sum2 += std::pow(mean({n, n + span}), 2);
-        min_pace_ = kLeastPace * std::sqrt(sum2 / static_cast<double>(frames - span + 1));
+        min_pace_ = kMinPace * std::sqrt(sum2 / static_cast<double>(frames - span + 1));
     }
     bool is_kept(const ClipLoop& loop) const { return mean(loop) >= min_pace_; }
 

@@ -26,11 +26,11 @@ Eigen::Quaterniond heading_of(const formats::Clip& clip, std::size_t frame, int 
 // where it was, moved along x and z and turned about y. What still differs at the seam fades in kSeam.
 formats::Clip looped(const formats::Clip& clip, int body, const ClipLoop& loop, std::size_t frame_count);
 
-inline constexpr std::size_t kMostSearched = 100'000;  // frames
-inline constexpr double kShortestLoop = 0.5;           // seconds
-inline constexpr double kLongEnough = 1;               // seconds: no loop needs to be longer
-inline constexpr double kLeastPace = 0.5;              // of a loop, as a share of the clip's
-inline constexpr double kWideGap = 0.17;               // 10 degrees: walks, jumps and boxing come back to within 9
+inline constexpr std::size_t kMaxSearched = 100'000;  // frames
+inline constexpr double kShortestLoop = 0.5;          // seconds
+inline constexpr double kLongEnough = 1;              // seconds: no loop needs to be longer
+inline constexpr double kMinPace = 0.5;               // of a loop, as a share of the clip's
+inline constexpr double kWideGap = 0.17;              // 10 degrees: walks, jumps and boxing come back to within 9
 
 struct FoundLoop {
     ClipLoop loop;
@@ -43,7 +43,7 @@ struct FoundLoop {
 // nearly differ least: a frame is compared with some thousands of those that are most like it. Pose is how joints are
 // turned, motion how they go on turning in 1/30 s. Which way the body is turned about y does not count.
 // - Far enough is half the clip, but at least kShortestLoop and kFewestLooped, and at most kLongEnough.
-// - The clip moves if joints turn at kLeastPace of its own pace or faster, in the mean. Its pace is the root of the
+// - The clip moves if joints turn at kMinPace of its own pace or faster, in the mean. Its pace is the root of the
 //   mean square of all seconds' mean speeds, so that a long rest counts little.
 // - Of loops whose gap is below 0.001 the shortest is taken.
 // Without two such frames the whole clip is the loop, and the gap infinite. body: a joint that all others move with,

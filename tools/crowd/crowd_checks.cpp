@@ -104,7 +104,7 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
                            s.pole_kind->key, s.pole_kind->line));
     if (s.step_wins && s.step_wins->value && !s.step_deg_per_frame && !s.step_deg_per_second)
         refuse(file, *s.step_wins,
-               "means nothing without most_deg_per_second or most_deg_per_frame; give that, or take this out");
+               "means nothing without max_deg_per_second or max_deg_per_frame; give that, or take this out");
 }
 
 void require_can_stand(const CrowdFile& file, const LimbSettings& s)

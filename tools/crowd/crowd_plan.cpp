@@ -97,12 +97,12 @@ struct LimitValue {
 
     void put_range(const formats::NumberRange& deg, std::size_t at)
     {
-        check(swivel_range(kRadians * deg.least, kRadians * deg.most, &value[at]));
+        check(swivel_range(kRadians * deg.min, kRadians * deg.max, &value[at]));
     }
     void operator()(const formats::NumberRange& deg)
     {
         if (field == SWIVEL_FLEXION_LIMIT)
-            check(swivel_flexion(kRadians * deg.least, kRadians * deg.most, value.data()));
+            check(swivel_flexion(kRadians * deg.min, kRadians * deg.max, value.data()));
         else
             put_range(deg, 0);
     }
@@ -196,7 +196,7 @@ struct Planner {
         if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING;
         if (plan.pole == PoleKind::hand) plan.features |= SWIVEL_POLE_HAND;
         if (from.pole_angle_deg)
-            put(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, turn(kRadians * from.pole_angle_deg->value),
+            put(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, cos_sin(kRadians * from.pole_angle_deg->value),
                 from.pole_angle_deg->mirrored);
         plan.holds_pole = from.pole_angle_deg || plan.pole == PoleKind::hand;
         plan.follows_pole = !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg &&
@@ -237,15 +237,15 @@ struct Planner {
 
     void swivel()
     {
-        double most_deg = 180;
-        if (from.step_deg_per_frame) most_deg = from.step_deg_per_frame->value;
-        if (from.step_deg_per_second) most_deg = std::min(180.0, clip.frame_time * from.step_deg_per_second->value);
+        double max_deg = 180;
+        if (from.step_deg_per_frame) max_deg = from.step_deg_per_frame->value;
+        if (from.step_deg_per_second) max_deg = std::min(180.0, clip.frame_time * from.step_deg_per_second->value);
         if (from.step_deg_per_frame || from.step_deg_per_second)
-            put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(in_a_60th(kRadians * most_deg)));
+            put(SWIVEL_WITH_MAX_SWIVEL, SWIVEL_MAX_SWIVEL, cos_sin(in_a_60th(kRadians * max_deg)));
         if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
     }
 
-    // The step of a 60th of a second that SWIVEL_MOST_SWIVEL is, of the step of a frame: its half-tangent goes with
+    // The step of a 60th of a second that SWIVEL_MAX_SWIVEL is, of the step of a frame: its half-tangent goes with
     // time.
     double in_a_60th(double in_a_frame) const
     {
@@ -324,7 +324,7 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
     if (file->characters) plan.characters = static_cast<std::uint32_t>(file->characters->value);
     if (file->seed) plan.seed = static_cast<std::uint64_t>(file->seed->value);
     if (file->spacing) plan.spacing = file->spacing->value;
-    if (file->size) plan.least_size = file->size->value.least, plan.most_size = file->size->value.most;
+    if (file->size) plan.min_size = file->size->value.min, plan.max_size = file->size->value.max;
     if (file->stagger) plan.stagger = file->stagger->value;
     if (file->budget_blocks) plan.budget_blocks = static_cast<std::uint32_t>(file->budget_blocks->value);
     for (std::size_t n = 0; n < limbs.size(); ++n) {

@@ -43,7 +43,7 @@ struct LimbPlan {
     bool has(swivel_features feature) const { return (features & feature) != 0; }
     unsigned twist_count() const
     {
-        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
+        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1));
     }
 };
 
@@ -51,7 +51,7 @@ struct CrowdPlan {
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
     double spacing = 3;                              // between neighbours, in spans of two limbs
-    double least_size = 0.85, most_size = 1.15;      // factor of all lengths; the first character's is 1
+    double min_size = 0.85, max_size = 1.15;         // factor of all lengths; the first character's is 1
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();  // in the clip: where characters of all sizes stand alike
     bool stagger = true;                             // characters start anywhere in their clip
     std::vector<ClipPart> clips;                     // each character performs one of them: a clip by a figure of one

@@ -39,11 +39,11 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         group.wrist_order = limbs[n].wrist_order;
         if (limbs[n].region) group.region = &*limbs[n].region;
         group.ground = limbs[n].ground;
-        group.ground.half = GOAL_GROUND_HALF;
-        group.plant.run = GOAL_PLANT_RUN;
+        group.ground.half_life = GOAL_GROUND_HALF;
+        group.plant.anchor_lead = GOAL_PLANT_RUN;
         if (limbs[n].goals.holds) group.link = limbs[n].goals.holds - 1;
     }
-    if (std::ranges::any_of(limbs, [](const LimbSetup& limb) { return limb.has(SWIVEL_WITH_FIT); }))
+    if (std::ranges::any_of(limbs, [](const LimbSetup& limb) { return limb.has(SWIVEL_WITH_PELVIS_FIT); }))
         groups.push_back(swivel_default_fit_group_def());
     Crowd crowd(skeleton, characters, groups);
     for (std::uint32_t n = 0; n < limbs.size(); ++n)

@@ -20,7 +20,7 @@ struct GivenPlace {
 
 class GoalCrowd {
 public:
-    // limbs: 1 to GOAL_MOST_LIMBS; the last one may be a look. sources: of each limb, one for each frame of all clips.
+    // limbs: 1 to GOAL_MAX_LIMBS; the last one may be a look. sources: of each limb, one for each frame of all clips.
     // Both must outlive the crowd. budget_blocks: blocks of 16 characters that a frame solves; 0: all. ground: what
     // legs stand on; null: nothing. It must outlive the crowd, too. frame_seconds: from frame to frame.
     GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::span<const goal_source>>& sources,

@@ -137,15 +137,15 @@ struct Standing {
 // somebody has given it another target.
 GroundPoint plane_below(const Standing& on, const goal_root& root, const goal_input& foot, double x, double z)
 {
-    constexpr double kMostRaised = 0.01;  // leg lengths: a man's centimetre, which nobody sees as a jump
+    constexpr double kMaxRaised = 0.01;  // leg lengths: a man's centimetre, which nobody sees as a jump
     const GroundPoint below = ground_at(*on.ground, on.heights, x, z);
     if (foot.target[0] != foot.plane[0] || foot.target[2] != foot.plane[2]) return below;
     const double slope_x{foot.slopes[0]}, slope_z{foot.slopes[1]};
     const double level = foot.plane[1] + slope_x * (x - foot.plane[0]) + slope_z * (z - foot.plane[2]);
     // No toe is in the ground, except where it would jump up an edge.
     const double lacks = below.height - level - double{foot.room},
-                 most = kMostRaised * double{root.size} * (length_of(foot.places[2]) + length_of(foot.places[3]));
-    return {level + (lacks < 0 ? 0 : lacks < most ? lacks : most), slope_x, slope_z};
+                 max = kMaxRaised * double{root.size} * (length_of(foot.places[2]) + length_of(foot.places[3]));
+    return {level + (lacks < 0 ? 0 : lacks < max ? lacks : max), slope_x, slope_z};
 }
 void sample(const swivel_probes* probes, void* user)
 {
@@ -236,7 +236,7 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
         const uint32_t at = swivel_goal_frame(&who, frame);
         const Vec3 root = vec3(sources[0][at].root);
         Vec3 root_w = vec3(who.place) + who.size * root;
-        Stride strides[GOAL_MOST_LIMBS];  // of limbs that stand, in their order
+        Stride strides[GOAL_MAX_LIMBS];  // of limbs that stand, in their order
         uint32_t feet = 0;
         if (ground)
             for (uint32_t limb = 0; limb < limb_count; ++limb)
@@ -270,16 +270,16 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
                                  const goal_character* characters, goal_root* roots, const goal_input* inputs,
                                  float* poses, swivel_job* job)
 {
-    constexpr size_t kMostJoints = size_t{GOAL_MOST_LIMBS} * (size_t{GOAL_JOINTS} + SWIVEL_MOST_TWIST_BONES);
+    constexpr size_t kMaxJoints = size_t{GOAL_MAX_LIMBS} * (size_t{GOAL_JOINTS} + SWIVEL_MAX_TWIST_BONES);
     constexpr size_t kRotation = 4 * sizeof(float), kPlace = 3 * sizeof(float);
     const uint32_t limb_count = limb_count_of(crowd);
-    if (limb_count > GOAL_MOST_LIMBS) return SWIVEL_INVALID_ARGUMENT;
+    if (limb_count > GOAL_MAX_LIMBS) return SWIVEL_INVALID_ARGUMENT;
     const bool has_shift = swivel_group_count(crowd) > limb_count;
     if (swivel_group_count(crowd) > limb_count + 1) return SWIVEL_INVALID_ARGUMENT;
     const size_t stride = limb_count * sizeof(goal_input);
-    size_t rotations[kMostJoints], places[kMostJoints], results[kMostJoints], joint = 0;
-    GroupInputs lists[GOAL_MOST_LIMBS];
-    swivel_frame frames[GOAL_MOST_LIMBS + 1];
+    size_t rotations[kMaxJoints], places[kMaxJoints], results[kMaxJoints], joint = 0;
+    GroupInputs lists[GOAL_MAX_LIMBS];
+    swivel_frame frames[GOAL_MAX_LIMBS + 1];
     const swivel_frame_field wish{SWIVEL_SHIFT_WISH, const_cast<float*>(&characters[0].wish), sizeof(goal_character)};
     frames[limb_count] = swivel_default_frame();
     frames[limb_count].fields = &wish;

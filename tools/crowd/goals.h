@@ -109,7 +109,7 @@ static_assert(sizeof(goal_source) == 256 && sizeof(goal_character) == 56 && size
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
 // them.
 enum { GOAL_JOINTS = 4 };
-enum { GOAL_MOST_LIMBS = 8 };  // of a character, with its look
+enum { GOAL_MAX_LIMBS = 8 };  // of a character, with its look
 
 // Of groups that stand on ground: swivel_plant's run and swivel_ground's half, where they are not as usual. Nothing is
 // eased twice: planes rise and turn as strides go.
@@ -131,7 +131,7 @@ inline bool swivel_goal_carries(const goal_source* source, const goal_character*
 goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 
 // Fills what count characters are asked for.
-// plans: of each limb, at most GOAL_MOST_LIMBS. sources: of each limb, one for each frame of all clips.
+// plans: of each limb, at most GOAL_MAX_LIMBS. sources: of each limb, one for each frame of all clips.
 // ground, heights: null, or feet that stand do so on it, and each character is raised to its lower foot's ground.
 // roots: count of them. inputs: [character][limb].
 // Any thread; no allocation.
@@ -150,7 +150,7 @@ double swivel_ground_height(const goal_ground* ground, const float* heights, dou
 // poses: become the local rotations as solved, swivel_goal_pose_size() floats for each body. A limb has x, y, z, w of
 // each of its joints. Joints that are not solved stay as they are, so start with zeros.
 // job: which bodies, and on which threads. Its frames, pose and sampling are overwritten.
-// It fails as swivel_solve() does. It also fails for more than GOAL_MOST_LIMBS limbs, and for other groups.
+// It fails as swivel_solve() does. It also fails for more than GOAL_MAX_LIMBS limbs, and for other groups.
 swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground, const float* heights, float seconds,
                                  const goal_character* characters, goal_root* roots, const goal_input* inputs,
                                  float* poses, swivel_job* job);

@@ -40,7 +40,7 @@ struct LimbSetup {
     bool has(swivel_features feature) const { return (features & feature) != 0; }
     unsigned twist_bone_count() const
     {
-        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
+        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1));
     }
 };
 
@@ -62,7 +62,7 @@ LimbSkeleton skeleton_of(std::span<const LimbSetup> limbs);
 inline std::span<char> bytes_behind_size(swivel_region& region)
 {
     return {reinterpret_cast<char*>(&region.cut_count),
-            reinterpret_cast<char*>(region.half_space + SWIVEL_MOST_HALF_SPACES)};
+            reinterpret_cast<char*>(region.half_space + SWIVEL_MAX_HALF_SPACES)};
 }
 
 }  // namespace swivel::tools

@@ -16,12 +16,12 @@ using Eigen::Vector3d;
 using formats::Clip;
 using formats::JointPose;
 
-constexpr std::size_t kMost = 3;  // joints; a goal_source has as many
+constexpr std::size_t kMax = 3;  // joints; a goal_source has as many
 
 // Of the looking joints, and of the one above them first.
 struct LookPose {
-    Quaterniond local[1 + kMost];
-    Vector3d bones[kMost - 1];  // from each joint to the next, in its own axes, of a figure of size 1
+    Quaterniond local[1 + kMax];
+    Vector3d bones[kMax - 1];  // from each joint to the next, in its own axes, of a figure of size 1
     Vector3d origin;
 };
 LookPose look_pose(const Clip& clip, std::span<const int> joints, std::span<const JointPose> pose_w)
@@ -57,7 +57,7 @@ std::vector<int> look_joints(const Clip& clip, const std::vector<BodyPart>& body
         return !at_rest[static_cast<std::size_t>(joint)].mirrored && of.rest_scale.minCoeff() > 0 && of.scale_track < 0;
     };
     std::vector<int> joints;
-    for (int joint = heads.back(); joint >= 0 && joints.size() < kMost; joint = joint_at(clip, joint).parent) {
+    for (int joint = heads.back(); joint >= 0 && joints.size() < kMax; joint = joint_at(clip, joint).parent) {
         const bool is_one = joints.empty() || std::ranges::count(necks, joint) > 0;
         if (!is_one || carries_limb(joint) || !turns_freely(joint)) break;
         joints.insert(joints.begin(), joint);
@@ -71,7 +71,7 @@ Vector3d face_of(const Clip& clip, int head, const Vector3d& faces_w)
 }
 
 LookPlan plan_look(const Clip& clip, std::vector<int> joints, const Vector3d& faces_w, const Vector3d& target_w,
-                   double most)
+                   double max)
 {
     const LookPose at_rest = look_pose(clip, joints, rest_pose(clip));
     LookPlan plan{std::move(joints), {}};
@@ -79,7 +79,7 @@ LookPlan plan_look(const Clip& clip, std::vector<int> joints, const Vector3d& fa
     setup.features = SWIVEL_LOOK;
     setup.goals.is_look = 1;
     put(target_w, setup.goals.target_offset);
-    for (std::size_t n = 0; n < kMost - 1; ++n)
+    for (std::size_t n = 0; n < kMax - 1; ++n)
         if (!at_rest.bones[n].isZero(0)) put(at_rest.bones[n].normalized(), setup.goals.bones[n]);
     put(at_rest.local[1].coeffs(), setup.chain.shoulder_rotation);
     put(at_rest.local[2].coeffs(), setup.chain.elbow_rotation);
@@ -89,7 +89,7 @@ LookPlan plan_look(const Clip& clip, std::vector<int> joints, const Vector3d& fa
     swivel_look& look = setup.look.emplace(swivel_default_look());
     look.joint_count = static_cast<std::uint32_t>(plan.joints.size());
     for (std::uint32_t n = 0; n < look.joint_count; ++n) look.joints[n] = n;
-    for (float& cosine : look.cos_most) cosine = static_cast<float>(std::cos(most));
+    for (float& cosine : look.cos_max) cosine = static_cast<float>(std::cos(max));
     put(face_of(clip, plan.joints.back(), faces_w), look.axis);
     return plan;
 }

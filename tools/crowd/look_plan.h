@@ -27,7 +27,7 @@ Eigen::Vector3d face_of(const formats::Clip& clip, int head, const Eigen::Vector
 // joints: as look_joints() has them, at least one. target_w: what all heads look at. most: radians that each joint
 // turns at most.
 LookPlan plan_look(const formats::Clip& clip, std::vector<int> joints, const Eigen::Vector3d& faces_w,
-                   const Eigen::Vector3d& target_w, double most);
+                   const Eigen::Vector3d& target_w, double max);
 
 // Of one frame. pose_w: of the clip. root: as of the limbs.
 goal_source look_source(const formats::Clip& clip, std::span<const int> joints,

@@ -28,9 +28,9 @@ struct ThreadControl {
 unsigned thread_count()
 {
     if (thread_limit == 1) return 1;
-    const auto most = static_cast<unsigned>(Control::active_value(Control::max_allowed_parallelism));
+    const auto max = static_cast<unsigned>(Control::active_value(Control::max_allowed_parallelism));
     const auto has = static_cast<unsigned>(oneapi::tbb::info::default_concurrency());
-    return most < has ? most : has;
+    return max < has ? max : has;
 }
 
 void for_ranges(std::uint32_t count, RangeWork work)
@@ -54,10 +54,10 @@ void for_ranges(std::uint32_t count, RangeWork work)
 }
 #endif
 
-ThreadLimit::ThreadLimit(unsigned most) : before_(std::exchange(thread_limit, most > 0 ? most : thread_limit))
+ThreadLimit::ThreadLimit(unsigned max) : before_(std::exchange(thread_limit, max > 0 ? max : thread_limit))
 {
 #ifdef SWIVEL_WITH_TBB
-    if (most > 1) control_.reset(new ThreadControl{Control(Control::max_allowed_parallelism, most)});
+    if (max > 1) control_.reset(new ThreadControl{Control(Control::max_allowed_parallelism, max)});
 #endif
 }
 

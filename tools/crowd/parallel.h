@@ -38,7 +38,7 @@ struct ThreadControl;  // oneTBB's
 // At most this many threads solve while it lives; 0: as many as before.
 class ThreadLimit {
 public:
-    explicit ThreadLimit(unsigned most);
+    explicit ThreadLimit(unsigned max);
     ~ThreadLimit();
     ThreadLimit(const ThreadLimit&) = delete;
     ThreadLimit& operator=(const ThreadLimit&) = delete;

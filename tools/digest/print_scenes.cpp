@@ -26,10 +26,11 @@
 #include "tools/corpus/corpus.h"
 
 // Structures of C are objects of their members. Members whose length another one says are added below.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_plant, lock, unlock, stop, blend, again, run, longest, speed, height)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_ground, heel, toe_clearance, heel_clearance, cos_most, half)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_fit, drop, rise, half, ahead)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_prop, joint, most_move)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_plant, lock_radius, unlock_radius, stop_time, release_time, relock_speed,
+                                   anchor_lead, reset_time, speed, height)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_ground, heel, toe_clearance, heel_clearance, cos_max, half_life)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_fit, drop, rise, half_life, lookahead)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_prop, joint, max_move)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_look, eye, axis, cos_full, cos_none, fade_distance, rate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_limb_joints, shoulder, elbow, wrist, bend)
 
@@ -111,7 +112,7 @@ Region region_of_calls()
 }
 Json json_of(const Region& region)
 {
-    Json made{{"corners", flat(kCorners)}, {"directions", flat(kWays)}, {"margin", kMargin}, {"most_cones", 2}};
+    Json made{{"corners", flat(kCorners)}, {"directions", flat(kWays)}, {"margin", kMargin}, {"max_cones", 2}};
     for (const auto& [axis, angle] : kCones) made["axes"].push_back(axis), made["angles"].push_back(angle);
     made["forbidden"] = {{"axis", kForbidden.axis}, {"angle", kForbidden.angle}};
     made["probes"] = flat(kProbes);
@@ -133,7 +134,7 @@ Json json_of(const swivel_group_def& group, const Region& region)
         made["look"] = group.look;
         made["look"]["joints"] = copied<std::uint32_t>(group.look.joints, count);
         made["look"]["share"] = copied<float>(group.look.share, count);
-        made["look"]["cos_most"] = copied<float>(group.look.cos_most, count);
+        made["look"]["cos_max"] = copied<float>(group.look.cos_max, count);
     } else {
         made["features"] = names_of(features);
         made["shoulder_order"] = group.shoulder_order, made["wrist_order"] = group.wrist_order;
@@ -142,7 +143,7 @@ Json json_of(const swivel_group_def& group, const Region& region)
             made["joints"]["twist_bones"] = copied<std::uint32_t>(joints->twist_bones, joints->twist_bone_count);
         } else {
             made["limb_count"] = group.limb_count;
-            made["twist_bones"] = features / SWIVEL_WITH_TWIST_BONES & SWIVEL_MOST_TWIST_BONES;
+            made["twist_bones"] = features / SWIVEL_WITH_TWIST_BONES & SWIVEL_MAX_TWIST_BONES;
         }
         if (features & SWIVEL_WITH_PLANT) made["plant"] = group.plant;
         if (features & SWIVEL_WITH_GROUND) made["ground"] = group.ground;
@@ -179,7 +180,7 @@ Json outputs_of(const Poses& poses)
     Json names = Json::array();
     if (!poses.results.empty()) names.push_back("results");
     if (!poses.translation_results.empty()) names.push_back("translation_results");
-    if (!poses.joint_rotations.empty()) names.insert(names.end(), {"joint_rotations", "joint_places"});
+    if (!poses.joint_rotations.empty()) names.insert(names.end(), {"joint_rotations", "joint_positions"});
     return names;
 }
 // FNV-1a of words, 32 bits at a time, in all of which NaN is one and the same.
@@ -229,7 +230,7 @@ private:
         made_["name"] = full_name(recipe_);
         for (swivel_group_def& group : groups_) {
             if (group.features & SWIVEL_WITH_REGION) group.region = &region_.get();
-            group.fit.ahead = 0.4375f;  // not as by default
+            group.fit.lookahead = 0.4375f;  // not as by default
             made_["groups"].push_back(json_of(group, region_));
         }
         def.groups = groups_.data();
@@ -269,7 +270,7 @@ private:
         make_writable(poses);
         poses.offsets.clear();  // languages take joints in their order alone
         for (std::vector<float>* const results :
-             {&poses.results, &poses.translation_results, &poses.joint_rotations, &poses.joint_places})
+             {&poses.results, &poses.translation_results, &poses.joint_rotations, &poses.joint_positions})
             std::fill(results->begin(), results->end(), 0.0f);  // bodies that are not solved keep it
         for (std::uint32_t group = 0; group < groups_.size(); ++group) made["inputs"].push_back(bring(group));
         with_job(poses, [&](Job job) {

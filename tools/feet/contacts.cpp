@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 // How many frames on either side lie within a time: 1 at least, and at most the clip's.
 std::size_t frames_within(const LegMotion& motion, double seconds)
 {
-    const auto most = static_cast<double>(motion.frame_count());
-    return static_cast<std::size_t>(std::clamp(std::round(seconds / motion.frame_time), 1.0, most));
+    const auto max = static_cast<double>(motion.frame_count());
+    return static_cast<std::size_t>(std::clamp(std::round(seconds / motion.frame_time), 1.0, max));
 }
 
 // Of each leg: the height that a fiftieth of its toe's frames are not above.
@@ -67,12 +67,12 @@ std::vector<bool> find_of_leg(const LegMotion& motion, const LegPath& leg, std::
     };
     std::ptrdiff_t standing = 0;  // of the frames around one
     for (std::ptrdiff_t n = -half; n <= half; ++n) standing += stands_at(n);
-    std::vector<bool> most;
+    std::vector<bool> max;
     for (std::ptrdiff_t frame = 0; frame < std::ssize(stands); ++frame) {
-        most.push_back(standing > half);
+        max.push_back(standing > half);
         standing += stands_at(frame + half + 1) - stands_at(frame - half);
     }
-    return most;
+    return max;
 }
 
 // The grid's own axes in the world: x goes along the world's x, where that is level, and z to the viewer's side.

@@ -11,7 +11,7 @@ namespace swivel::tools {
 
 // What skates, and what keeps feet from it costs. Lengths are in leg lengths.
 struct Skating {
-    double mean_speed = 0, most_speed = 0;  // of toes in contact over the ground, a second
+    double mean_speed = 0, max_speed = 0;  // of toes in contact over the ground, a second
     double step = 0;   // the way of a toe in contact over the ground, a step; a step's contact begins within the clip
     double drift = 0;  // the most that a toe is from where its contact began, over the ground
     double off_ground = 0;  // the most that a toe in contact is over or under where it would stand

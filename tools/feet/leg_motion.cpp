@@ -64,10 +64,10 @@ double LegMotion::leg_length() const
 
 double largest_jump(std::span<const Vector3d> places_w)
 {
-    double most = 0;
+    double max = 0;
     for (std::size_t n = 2; n < places_w.size(); ++n)
-        most = std::max(most, (places_w[n - 2] - 2 * places_w[n - 1] + places_w[n]).norm());
-    return most;
+        max = std::max(max, (places_w[n - 2] - 2 * places_w[n - 1] + places_w[n]).norm());
+    return max;
 }
 
 int toe_of(const Clip& clip, const Limb& leg)

@@ -23,7 +23,7 @@ constexpr double kSmooth = 20, kTogether = 0.005, kHome = 0.02, kAsBent = 1, kRe
                  kClear = 30;
 constexpr double kStraightest = 0.995;  // share of both bones: a knee bent by 11 degrees
 constexpr double kJumpShare = 0.995;    // of the clip's largest jump: a weight leaves a little of what it forbids
-constexpr int kMostRounds = 30;
+constexpr int kMaxRounds = 30;
 constexpr double kSettled = 1e-5;  // leg lengths
 
 // A place or a difference of places: a sum of unknowns, three numbers each, and of what is known.
@@ -132,7 +132,7 @@ public:
         const Squares lasting = linear_part();
         const Eigen::SparseMatrix<double> matrix = lasting.matrix();
         VectorXd values = VectorXd::Zero(3 * unknown_count_);
-        for (int round = 0; round < kMostRounds; ++round) {
+        for (int round = 0; round < kMaxRounds; ++round) {
             const Squares now = part_about(values);
             const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factored(matrix + now.matrix());
             const VectorXd next = factored.solve(lasting.right + now.right);
@@ -263,19 +263,19 @@ private:
         const Vector3d now = leg.at(values);
         const double bones = (path.knee_w[frame] - path.hip_w[frame]).norm() +
                              (path.ankle_w[frame] - path.knee_w[frame]).norm(),
-                     most = kStraightest * bones, own = (path.ankle_w[frame] - path.hip_w[frame]).norm();
-        squares.want(leg, now.normalized(), std::min(own, most), kAsBent * pace_);
-        if (now.norm() > most) squares.want(leg, now.normalized(), most, kReach * pace_);
+                     max = kStraightest * bones, own = (path.ankle_w[frame] - path.hip_w[frame]).norm();
+        squares.want(leg, now.normalized(), std::min(own, max), kAsBent * pace_);
+        if (now.norm() > max) squares.want(leg, now.normalized(), max, kReach * pace_);
     }
 
     // A velocity jumps no more than it does in the clip.
-    void add_jumps(const std::vector<Sum>& places, double most, const VectorXd& values, Squares& squares) const
+    void add_jumps(const std::vector<Sum>& places, double max, const VectorXd& values, Squares& squares) const
     {
         for (std::size_t frame = 1; frame + 1 < places.size(); ++frame) {
             const Sum change = second_difference(places, frame);
             const Vector3d now = change.at(values);
-            if (now.norm() > kJumpShare * most)
-                squares.want(change, now.normalized(), kJumpShare * most, kJump / (pace_ * pace_ * pace_));
+            if (now.norm() > kJumpShare * max)
+                squares.want(change, now.normalized(), kJumpShare * max, kJump / (pace_ * pace_ * pace_));
         }
     }
 

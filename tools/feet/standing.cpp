@@ -148,7 +148,7 @@ void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, 
             to.fields.push_back(effector);
         }
         to.features |= SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP |
-                       SWIVEL_WITH_FIT | SWIVEL_HAND_YIELDS;
+                       SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS;
         to.fields.push_back(kCap);
         to.contact = contact;
         const auto clearance = [&](const Vector3d& point, double share) {

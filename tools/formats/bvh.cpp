@@ -17,7 +17,7 @@
 namespace swivel::formats {
 namespace {
 
-constexpr double kMostDegrees = 1e9;                     // of which a double's last digit is 1e-7 degrees
+constexpr double kMaxDegrees = 1e9;                      // of which a double's last digit is 1e-7 degrees
 constexpr std::size_t kMaxPoses = std::size_t{1} << 28;  // frames times joints: 8 GiB of quaternions
 
 // Returns how many frames are announced.
@@ -47,8 +47,8 @@ std::size_t read_motion_header(Scanner& scan, BvhFile& file)
 void reserve_frames(const Scanner& scan, BvhFile& file, std::size_t announced)
 {
     Clip& clip = file.clip;
-    const std::size_t most = (scan.text.size() - scan.at) / (2 * file.channel_count) + 1;
-    const std::size_t frame_count = std::min(announced, most);
+    const std::size_t max = (scan.text.size() - scan.at) / (2 * file.channel_count) + 1;
+    const std::size_t frame_count = std::min(announced, max);
     if (frame_count > kMaxPoses / clip.joints.size()) {
         fail(scan, fmt::format("{} frames of {} joints need more than 8 GiB; cut the clip into pieces", frame_count,
                                clip.joints.size()));
@@ -80,11 +80,11 @@ NamedChannel named_channel(const BvhFile& file, std::size_t channel)
 // does not hold.
 void require_held(const Scanner& scan, const BvhFile& file, std::size_t channel, double number)
 {
-    if (std::abs(number) <= kMostDegrees) return;
+    if (std::abs(number) <= kMaxDegrees) return;
     const NamedChannel at = named_channel(file, channel);
     if (at.is_position && std::abs(number) <= kMaxNorm) return;
     fail(scan, fmt::format("value {} ({}): {:g} is more than {:g}{}; correct it", channel + 1, at.name, number,
-                           at.is_position ? kMaxNorm : kMostDegrees, at.is_position ? "" : " degrees"));
+                           at.is_position ? kMaxNorm : kMaxDegrees, at.is_position ? "" : " degrees"));
 }
 
 void parse_values(const Scanner& scan, const BvhFile& file, std::string_view line, std::span<double> values)

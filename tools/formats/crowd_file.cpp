@@ -51,10 +51,10 @@ T needed(const TomlTable& table, std::string_view key, const Maybe<T>& value)
 
 const Eigen::Vector3d kAlong = {0, 0, 1};  // the resting limb
 
-Maybe<ConeLimit> read_cone(TomlTable table, double least = 0, double most = 180)
+Maybe<ConeLimit> read_cone(TomlTable table, double min = 0, double max = 180)
 {
     const auto axis = table.axis("axis");
-    const auto opening_deg = table.number("opening_deg", least, most);
+    const auto opening_deg = table.number("opening_deg", min, max);
     table.finish();
     return given_by(table, ConeLimit{axis ? axis->value : kAlong, needed(table, "opening_deg", opening_deg)});
 }
@@ -144,7 +144,7 @@ void read_weights(TomlTable table, LimbSettings& to)
 void read_reach(TomlTable table, LimbSettings& to)
 {
     for (std::size_t n = 0; n < kReachKeys.size(); ++n) {
-        const bool is_stretch = kReachKeys[n] == "most_stretch";
+        const bool is_stretch = kReachKeys[n] == "max_stretch";
         to.reach[n] = table.number(kReachKeys[n], is_stretch ? 1 : 0, is_stretch ? 1000 : 1);
     }
     table.finish();
@@ -152,10 +152,10 @@ void read_reach(TomlTable table, LimbSettings& to)
 
 void read_swivel(TomlTable table, LimbSettings& to)
 {
-    to.step_deg_per_frame = table.number("most_deg_per_frame", 0, 180);
-    to.step_deg_per_second = table.number("most_deg_per_second", 0, 1e6);
+    to.step_deg_per_frame = table.number("max_deg_per_frame", 0, 180);
+    to.step_deg_per_second = table.number("max_deg_per_second", 0, 1e6);
     if (to.step_deg_per_frame && to.step_deg_per_second)
-        table.fail("most_deg_per_second", "most_deg_per_frame is given, too; keep one of them");
+        table.fail("max_deg_per_second", "max_deg_per_frame is given, too; keep one of them");
     to.step_wins = table.flag("step_wins");
     table.finish();
 }
@@ -205,7 +205,7 @@ LimbSettings read_limb(TomlTable table, bool is_one)
     read_reach(table.table("reach"), to);
     read_swivel(table.table("swivel"), to);
     read_limits(table.table("limits"), to);
-    to.twist_bones = table.whole("twist_bones", 0, kMostTwistBones);
+    to.twist_bones = table.whole("twist_bones", 0, kMaxTwistBones);
     table.finish();
     return to;
 }
@@ -221,8 +221,8 @@ Maybe<LoopFrames> read_loop(TomlTable& table)
     if (!table.is_list(kKey))
         return converted<LoopFrames>(table.word(kKey, kAuto), [](std::size_t) { return LoopFrames(); });
     return converted<LoopFrames>(table.range(kKey, 0, UINT32_MAX, UINT32_MAX), [&](const NumberRange& frames) {
-        const std::array ends{static_cast<std::size_t>(frames.least), static_cast<std::size_t>(frames.most)};
-        if (static_cast<double>(ends[0]) != frames.least || static_cast<double>(ends[1]) != frames.most)
+        const std::array ends{static_cast<std::size_t>(frames.min), static_cast<std::size_t>(frames.max)};
+        if (static_cast<double>(ends[0]) != frames.min || static_cast<double>(ends[1]) != frames.max)
             table.fail(kKey, "frames are counted; write whole numbers");
         return LoopFrames(ends);
     });
@@ -273,12 +273,12 @@ void read_ground(TomlTable table, CrowdFile& to)
 void read_look(TomlTable table, CrowdFile& to)
 {
     const Maybe<Eigen::Vector3d> target = table.vector("target");
-    const Maybe<double> most_deg = table.number("most_deg", 0, 180);
+    const Maybe<double> max_deg = table.number("max_deg", 0, 180);
     Maybe<std::string> head = table.text("head");
     table.finish();
     if (!table.is_there()) return;
     if (!target) table.fail("target", "is missing; write what heads look at: [x, y, z]");
-    to.look = {table.line(), target->value, most_deg ? most_deg->value : LookSettings().most_deg, std::move(head)};
+    to.look = {table.line(), target->value, max_deg ? max_deg->value : LookSettings().max_deg, std::move(head)};
 }
 
 void read_carry(TomlTable table, CrowdFile& to)

@@ -38,7 +38,7 @@ using Limit = std::variant<NumberRange, ConeLimit, TwistLimit, BoxLimit>;
 constexpr std::array<std::string_view, 8> kLimitKeys = {"flexion_deg",  "shoulder_cone", "humeral_twist_deg",
                                                         "shoulder_box", "hand_cone",     "forearm_twist_deg",
                                                         "hand_twist",   "wrist_box"};
-constexpr std::array<std::string_view, 4> kReachKeys = {"soft_far", "soft_near", "most_stretch", "least_distance"};
+constexpr std::array<std::string_view, 4> kReachKeys = {"soft_far", "soft_near", "max_stretch", "min_distance"};
 
 // Where an upper bone may point, in the frame of the resting limb.
 struct RegionLimit {
@@ -105,7 +105,7 @@ struct GroundSettings {
 struct LookSettings {
     std::size_t line = 0;
     Eigen::Vector3d target;   // world axes
-    double most_deg = 45;     // that each joint turns at most, 0 to 180
+    double max_deg = 45;      // that each joint turns at most, 0 to 180
     Maybe<std::string> head;  // a joint by name, path or number
 };
 

@@ -13,7 +13,7 @@ namespace swivel::formats {
 
 struct InputError : std::runtime_error {
     // `line` counts from 1; 0 means the error belongs to no line, and none is printed.
-    // Both become printable(), so that the message is one line. What `cause` quotes of a file is kMostQuoted characters
+    // Both become printable(), so that the message is one line. What `cause` quotes of a file is kMaxQuoted characters
     // long at most: its author cuts it.
     InputError(const std::filesystem::path& path, std::size_t line, std::string_view cause);
     InputError(const std::filesystem::path& path, std::string_view cause) : InputError(path, 0, cause) {}

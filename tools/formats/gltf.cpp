@@ -185,7 +185,7 @@ int choose_animation(const GltfFile& file, const std::string& wanted)
     refuse(file, named > 1 ? fmt::format("{} animations are called '{}'; give the index", named, printable(wanted))
                  : names.empty() ? std::string("it has no animation; leave out --clip to use its rest pose")
                                  : fmt::format("it has no animation '{}'; it has {}", printable(wanted),
-                                               printable(all, kMostQuoted)));
+                                               printable(all, kMaxQuoted)));
 }
 
 Interpolation interpolation_of(const GltfFile& file, const Json& from)
@@ -226,7 +226,7 @@ GltfSampler read_sampler(const GltfFile& file, const Json& document, const Json&
 // channels may share one, and many samplers the same accessors.
 class Samplers {
 public:
-    explicit Samplers(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+    explicit Samplers(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
     // Its place in file.samplers.
     std::size_t place(GltfFile& file, const Json& document, const Json& from, bool is_rotation)
@@ -238,16 +238,16 @@ public:
         const GltfSampler& sampler = file.samplers.emplace_back(read_sampler(file, document, from, is_rotation));
         // Times and a half: sample() has them all in one list, as floats.
         bytes_ += 3 * sampler.time.size() * sizeof(float) + sampler.value.size() * sizeof(Vector4d);
-        if (bytes_ > most_bytes_)
+        if (bytes_ > max_bytes_)
             refuse(file, fmt::format("the keys of animation {} come to more than {:g} GiB; cut it", file.animation,
-                                     gibibytes(most_bytes_)));
+                                     gibibytes(max_bytes_)));
         return at->second;
     }
 
 private:
     std::map<std::tuple<int, int, Interpolation, bool>, std::size_t> places_;
     std::size_t bytes_ = 0;
-    std::size_t most_bytes_;
+    std::size_t max_bytes_;
 };
 
 // Channels of KHR_animation_pointer may move nodes, too.
@@ -267,7 +267,7 @@ void read_channels(GltfFile& file, const Json& document, const std::vector<int>&
 {
     const Json& animation = list_in(document, "animations")[static_cast<std::size_t>(file.animation)];
     std::set<std::pair<int, GltfPath>> seen;
-    Samplers samplers(file.choice.most_pose_bytes);
+    Samplers samplers(file.choice.max_pose_bytes);
     for (const Json& from : list_in(animation, "channels")) {
         refuse_pointer_to_node(file, from);
         const Json& target = from.at("target");

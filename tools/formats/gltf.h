@@ -57,7 +57,7 @@ struct GltfChoice {
     std::string animation = {};  // name or, counted from 0, index; empty: the first
     double rate = 0;             // frames a second, 0: see above
     // Decoded keys and sampled poses may each take so much.
-    std::size_t most_pose_bytes = std::size_t{8} << 30;
+    std::size_t max_pose_bytes = std::size_t{8} << 30;
 };
 
 struct GltfFile {

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;  // of all buffers
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{8} << 30;  // of all buffers
 
 // A buffer on its way in, and how messages call it.
 struct Buffer {
@@ -98,7 +98,7 @@ std::map<std::string, std::uintmax_t> sizes_of_files(const fs::path& path, const
     }
     std::uintmax_t total = 0;
     for (const auto& [uri, size] : sizes) {
-        if (size > kMostBytes - total) throw InputError(path, "its buffers come to more than 8 GiB; split it");
+        if (size > kMaxBytes - total) throw InputError(path, "its buffers come to more than 8 GiB; split it");
         total += size;
     }
     return sizes;

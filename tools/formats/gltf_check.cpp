@@ -26,10 +26,10 @@ struct Kind {
 };
 
 // glTF has whole numbers without a fraction, be it .0; a reader that wants them so takes others for missing.
-bool is_whole(const Json& value, std::uint64_t most)
+bool is_whole(const Json& value, std::uint64_t max)
 {
     return value.is_number_integer() && (value.is_number_unsigned() || value.get<std::int64_t>() >= 0) &&
-           value.get<std::uint64_t>() <= most;
+           value.get<std::uint64_t>() <= max;
 }
 bool is_index(const Json& value) { return is_whole(value, INT32_MAX); }
 

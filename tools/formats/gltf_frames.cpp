@@ -78,10 +78,10 @@ void require_room(const GltfFile& file, double frames)
     const Clip& clip = file.clip;
     const std::size_t bytes = clip.joints.size() * sizeof(Eigen::Quaterniond) +
                               (clip.track_count + clip.scale_track_count) * sizeof(Eigen::Vector3d);
-    if (frames * static_cast<double>(bytes) <= static_cast<double>(file.choice.most_pose_bytes)) return;
+    if (frames * static_cast<double>(bytes) <= static_cast<double>(file.choice.max_pose_bytes)) return;
     throw InputError(file.path, fmt::format("the animation has {:.0f} frames of {} joints, more than {:g} GiB; cut it "
                                             "or give a lower --fps",
-                                            frames, clip.joints.size(), gibibytes(file.choice.most_pose_bytes)));
+                                            frames, clip.joints.size(), gibibytes(file.choice.max_pose_bytes)));
 }
 
 // Every time at which one of these joints has a key, each once.

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kMostLevels = 500;  // whoever walks the document recurses
+constexpr int kMaxLevels = 500;  // whoever walks the document recurses
 
 bool is_within(const Json& value, int levels)
 {
@@ -51,10 +51,10 @@ Json gltf_document(const fs::path& path, std::string_view json)
 {
     Json document = parse(path, json);
     if (!document.is_object()) throw InputError(path, "is not glTF: its JSON is no object; export the file again");
-    if (!is_within(document, kMostLevels))
+    if (!is_within(document, kMaxLevels))
         throw InputError(path, fmt::format("its JSON is nested deeper than {} levels, as no exporter does; export the "
                                            "file again",
-                                           kMostLevels));
+                                           kMaxLevels));
     refuse_compression(path, document);
     check_members(path, document);
     return document;

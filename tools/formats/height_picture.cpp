@@ -15,7 +15,7 @@
 namespace swivel::formats {
 namespace {
 
-constexpr png_uint_32 kMostSide = 16'384, kMostPixels = 1 << 26;  // pixels; in all
+constexpr png_uint_32 kMaxSide = 16'384, kMaxPixels = 1 << 26;  // pixels; in all
 
 struct Source {
     std::string bytes;
@@ -45,7 +45,7 @@ bool read_picture(png_structp png, png_infop info, Source& source)
 {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_read_fn(png, &source, take);
-    png_set_user_limits(png, kMostSide, kMostSide);
+    png_set_user_limits(png, kMaxSide, kMaxSide);
     png_read_png(png, info, PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_STRIP_ALPHA | PNG_TRANSFORM_EXPAND_16, nullptr);
     return true;
 }
@@ -61,9 +61,9 @@ HeightPicture read_height_picture(const std::filesystem::path& path)
         throw InputError(path, "is no PNG; write the picture of heights as a PNG of 8 or 16 bits");
     if (source.bytes.size() >= 24) {  // a PNG begins with its size, which tells what reading it takes
         const png_uint_32 columns = png_get_uint_32(begin + 16), rows = png_get_uint_32(begin + 20);
-        if (columns > kMostSide || rows > kMostSide || std::uint64_t{columns} * rows > kMostPixels)
+        if (columns > kMaxSide || rows > kMaxSide || std::uint64_t{columns} * rows > kMaxPixels)
             throw InputError(path, fmt::format("has {} x {} pixels; make it smaller: at most {} a side, and {} in all",
-                                               columns, rows, kMostSide, kMostPixels));
+                                               columns, rows, kMaxSide, kMaxPixels));
     }
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, note_problem, ignore_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;

@@ -9,6 +9,6 @@ namespace swivel::formats {
 constexpr double kMaxNorm = 1e15;
 
 // The most twist bones of one limb.
-constexpr unsigned kMostTwistBones = 7;
+constexpr unsigned kMaxTwistBones = 7;
 
 }  // namespace swivel::formats

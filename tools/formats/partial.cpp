@@ -16,7 +16,7 @@ namespace {
 
 std::mutex list_mutex;
 Partial* all_partials = nullptr;
-constexpr int kMostRounds = 100;
+constexpr int kMaxRounds = 100;
 
 // Nothing takes memory while it is held, and no signal comes between: a handler never waits for its own thread.
 sigset_t lock_list() noexcept
@@ -45,7 +45,7 @@ void empty_folder(int folder) noexcept
     alignas(dirent64) std::array<char, 4096> entries;
     bool is_going_on = true;
     // Removing may move entries past the place of reading. A listing that lags behind must not keep the process.
-    for (int round = 0; is_going_on && round < kMostRounds; ++round) {
+    for (int round = 0; is_going_on && round < kMaxRounds; ++round) {
         is_going_on = false;
         ::lseek(folder, 0, SEEK_SET);
         for (ssize_t size; (size = ::getdents64(folder, entries.data(), entries.size())) > 0;)

@@ -33,7 +33,7 @@ struct PoseExtra {
     bool has_clavicle = false;
     std::array<float, 4> clavicle{};  // local rotation of the joint above, x y z w
     unsigned twist_count = 0;         // bones of those below that there are; the others' cells stay empty
-    std::array<std::array<float, 4>, kMostTwistBones> twist{};  // x y z w
+    std::array<std::array<float, 4>, kMaxTwistBones> twist{};  // x y z w
 };
 
 // The columns for it, after those that every table has.

@@ -50,11 +50,11 @@ std::string_view take_printable(std::string_view& rest, EscapeRoom& room) noexce
     return {room.data(), 2 + digit_count};
 }
 
-std::string printable(std::string_view text, std::size_t most)
+std::string printable(std::string_view text, std::size_t max)
 {
     std::string out;
     EscapeRoom room;
-    for (; !text.empty() && most > 0; --most) out += take_printable(text, room);
+    for (; !text.empty() && max > 0; --max) out += take_printable(text, room);
     return text.empty() ? out : out + "...";
 }
 

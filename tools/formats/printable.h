@@ -13,7 +13,7 @@
 namespace swivel::formats {
 
 // The most characters of a file that a message quotes: about two lines.
-constexpr std::size_t kMostQuoted = 200;
+constexpr std::size_t kMaxQuoted = 200;
 
 // Takes the next character off the front of `rest`, which is not empty, and returns what a terminal may have of it: the
 // character, or its escape in `room`. Takes no memory.
@@ -21,7 +21,7 @@ using EscapeRoom = std::array<char, 8>;
 std::string_view take_printable(std::string_view& rest, EscapeRoom& room) noexcept;
 
 // `text` as a part of a message's one line, cut to `most` characters with "..." after them.
-std::string printable(std::string_view text, std::size_t most = 40);
+std::string printable(std::string_view text, std::size_t max = 40);
 
 // `text` as lines: their ends stay.
 std::string printable_lines(std::string_view text);

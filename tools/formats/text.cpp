@@ -17,7 +17,7 @@
 namespace swivel::formats {
 namespace {
 
-constexpr std::size_t kChunkBytes = 1 << 20, kMostBytes = std::size_t{2} << 30;
+constexpr std::size_t kChunkBytes = 1 << 20, kMaxBytes = std::size_t{2} << 30;
 
 // from_chars takes no plus sign, files do.
 std::string_view without_plus(std::string_view text)
@@ -54,15 +54,15 @@ std::size_t size_beyond(std::FILE* file)
 
 // read: one of the two that read a part.
 template <class Read>
-void append(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes, Read read)
+void append(const std::filesystem::path& path, std::FILE* file, std::size_t max, std::string& bytes, Read read)
 {
-    bytes.reserve(bytes.size() + std::min(most, size_beyond(file)));
+    bytes.reserve(bytes.size() + std::min(max, size_beyond(file)));
     const auto chunk = std::make_unique_for_overwrite<char[]>(kChunkBytes);
-    while (most > 0) {
-        const std::size_t count = read(path, file, chunk.get(), std::min(most, kChunkBytes));
+    while (max > 0) {
+        const std::size_t count = read(path, file, chunk.get(), std::min(max, kChunkBytes));
         if (count == 0) return;
         bytes.append(chunk.get(), count);
-        most -= count;
+        max -= count;
     }
 }
 
@@ -72,10 +72,10 @@ void append_all(const std::filesystem::path& path, std::FILE* file, std::string&
                 Read read)
 {
     const auto require = [&](std::size_t size) {
-        if (size > kMostBytes) throw InputError(path, fmt::format("is longer than 2 GiB; {}", advice));
+        if (size > kMaxBytes) throw InputError(path, fmt::format("is longer than 2 GiB; {}", advice));
     };
     require(bytes.size() + size_beyond(file));  // a plain file need not be read for this
-    append(path, file, kMostBytes + 1 - bytes.size(), bytes, read);
+    append(path, file, kMaxBytes + 1 - bytes.size(), bytes, read);
     require(bytes.size());
 }
 
@@ -127,9 +127,9 @@ std::string read_text(const std::filesystem::path& path, std::FILE* file, std::s
     return begin;
 }
 
-void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes)
+void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t max, std::string& bytes)
 {
-    append(path, file, most, bytes, read_some);
+    append(path, file, max, bytes, read_some);
 }
 
 void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes, std::string_view advice)

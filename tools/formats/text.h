@@ -40,7 +40,7 @@ std::string read_text(const std::filesystem::path& path, std::FILE* file, std::s
 
 // Appends what comes next of any file, text or binary: `most` bytes, or fewer where it ends. Throws InputError on a
 // read error. Allocates as bytes come, not as `most` says.
-void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes);
+void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t max, std::string& bytes);
 
 // Appends the rest of any file, with the limit of read_text(). advice: what to do about a longer one.
 void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes,

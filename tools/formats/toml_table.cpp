@@ -17,7 +17,7 @@
 namespace swivel::formats {
 namespace {
 
-constexpr std::size_t kMostBytes = 1'000'000, kMostDots = 64;  // in a file, in a line
+constexpr std::size_t kMaxBytes = 1'000'000, kMaxDots = 64;  // in a file, in a line
 
 // By toml::node_type.
 constexpr std::array kTypeNames = {"nothing",  "a table",       "a list",         "text",           "a whole number",
@@ -31,9 +31,9 @@ void require_flat(const std::filesystem::path& path, std::string_view text)
     for (std::size_t n = 0; n < text.size(); ++n) {
         if (text[n] == '\n') ++line, dots = 0;
         if (text[n] == '.' && (n == 0 || text[n - 1] != '.')) ++dots;
-        if (dots > kMostDots)
+        if (dots > kMaxDots)
             throw InputError(path, line,
-                             fmt::format("the line has more than {} dots; no key has so many parts", kMostDots));
+                             fmt::format("the line has more than {} dots; no key has so many parts", kMaxDots));
     }
 }
 
@@ -44,15 +44,15 @@ toml::table read_toml(const std::filesystem::path& path)
     const std::string text = read_text(path);
     if (is_bvh_text(text))
         throw InputError(path, "is a BVH file, and a TOML file is needed here; give the clip as FILE");
-    if (text.size() > kMostBytes)
-        throw InputError(path, fmt::format("has {} bytes; a file of settings has at most {}", text.size(), kMostBytes));
+    if (text.size() > kMaxBytes)
+        throw InputError(path, fmt::format("has {} bytes; a file of settings has at most {}", text.size(), kMaxBytes));
     require_flat(path, text);
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {
         throw InputError(path, error.source().begin.line,
                          fmt::format("column {}: is no TOML: {}", error.source().begin.column,
-                                     printable(error.description(), kMostQuoted)));
+                                     printable(error.description(), kMaxQuoted)));
     }
 }
 
@@ -97,20 +97,20 @@ Maybe<bool> TomlTable::flag(std::string_view key)
 }
 
 template <class Number>
-void TomlTable::require_within(std::string_view key, Number value, Number least, Number most,
+void TomlTable::require_within(std::string_view key, Number value, Number min, Number max,
                                std::string_view wanted) const
 {
-    if (value < least) fail(key, fmt::format("{} is less than {}; write {}", value, least, wanted));
-    if (value > most) fail(key, fmt::format("{} is more than {}; write {}", value, most, wanted));
+    if (value < min) fail(key, fmt::format("{} is less than {}; write {}", value, min, wanted));
+    if (value > max) fail(key, fmt::format("{} is more than {}; write {}", value, max, wanted));
 }
 
-Maybe<std::int64_t> TomlTable::whole(std::string_view key, std::int64_t least, std::int64_t most)
+Maybe<std::int64_t> TomlTable::whole(std::string_view key, std::int64_t min, std::int64_t max)
 {
     const toml::node* const node = find(key);
     if (!node) return std::nullopt;
-    const std::string wanted = fmt::format("a whole number from {} to {}", least, most);
+    const std::string wanted = fmt::format("a whole number from {} to {}", min, max);
     if (!node->is_integer()) fail_type(key, *node, wanted);
-    require_within(key, node->as_integer()->get(), least, most, wanted);
+    require_within(key, node->as_integer()->get(), min, max, wanted);
     return given(key, node->as_integer()->get());
 }
 
@@ -139,13 +139,13 @@ std::vector<double> TomlTable::numbers_of(std::string_view key, const toml::node
     return values;
 }
 
-Maybe<double> TomlTable::number(std::string_view key, double least, double most)
+Maybe<double> TomlTable::number(std::string_view key, double min, double max)
 {
     const toml::node* const node = find(key);
     if (!node) return std::nullopt;
-    const std::string wanted = fmt::format("a number from {} to {}", least, most);
+    const std::string wanted = fmt::format("a number from {} to {}", min, max);
     const double value = number_of(key, *node, wanted);
-    require_within(key, value, least, most, wanted);
+    require_within(key, value, min, max, wanted);
     return given(key, value);
 }
 
@@ -181,13 +181,13 @@ Maybe<std::size_t> TomlTable::word(std::string_view key, std::span<const std::st
     fail(key, fmt::format("there is no '{}'; {}", printable(value->value), suggestion(value->value, known)));
 }
 
-Maybe<NumberRange> TomlTable::range(std::string_view key, double least, double most, double widest)
+Maybe<NumberRange> TomlTable::range(std::string_view key, double min, double max, double widest)
 {
     const toml::node* const node = find(key);
     if (!node) return std::nullopt;
-    const std::string wanted = fmt::format("[least, most], two numbers from {} to {}", least, most);
+    const std::string wanted = fmt::format("[least, most], two numbers from {} to {}", min, max);
     const std::vector<double> ends = numbers_of(key, *node, 2, wanted);
-    for (const double end : ends) require_within(key, end, least, most, wanted);
+    for (const double end : ends) require_within(key, end, min, max, wanted);
     if (ends[0] > ends[1])
         fail(key, fmt::format("the least, {}, is more than the most, {}; write {}", ends[0], ends[1], wanted));
     if (ends[1] - ends[0] > widest)

@@ -29,7 +29,7 @@ template <class T>
 using Maybe = std::optional<Given<T>>;
 
 struct NumberRange {
-    double least = 0, most = 0;
+    double min = 0, max = 0;
 };
 
 // Parses a file. Throws InputError for what is no TOML, is too large or too deep for it, or cannot be read.
@@ -43,13 +43,13 @@ public:
     // The value of a key, or nothing where it is not there. They throw InputError for another type, and for values out
     // of the range given, ends included.
     Maybe<bool> flag(std::string_view key);
-    Maybe<std::int64_t> whole(std::string_view key, std::int64_t least, std::int64_t most);
-    Maybe<double> number(std::string_view key, double least, double most);  // whole numbers will do, too
+    Maybe<std::int64_t> whole(std::string_view key, std::int64_t min, std::int64_t max);
+    Maybe<double> number(std::string_view key, double min, double max);  // whole numbers will do, too
     Maybe<std::string> text(std::string_view key);
     Maybe<std::vector<std::string>> texts(std::string_view key, std::size_t count);
     Maybe<std::size_t> word(std::string_view key, std::span<const std::string_view> words);  // which of them
     // [least, most], least <= most and no wider than widest.
-    Maybe<NumberRange> range(std::string_view key, double least, double most, double widest);
+    Maybe<NumberRange> range(std::string_view key, double min, double max, double widest);
     Maybe<Eigen::Vector3d> vector(std::string_view key);  // of a length up to 1e15
     Maybe<Eigen::Vector3d> axis(std::string_view key);    // the same, made unit; zero is refused
 
@@ -82,7 +82,7 @@ private:
     [[noreturn]] void fail_type(std::string_view key, const toml::node& node, std::string_view wanted) const;
     double number_of(std::string_view key, const toml::node& node, std::string_view wanted) const;
     template <class Number>
-    void require_within(std::string_view key, Number value, Number least, Number most, std::string_view wanted) const;
+    void require_within(std::string_view key, Number value, Number min, Number max, std::string_view wanted) const;
     const toml::array& array_of(std::string_view key, const toml::node& node, std::size_t count,
                                 std::string_view wanted) const;
     Eigen::Vector3d vector_of(std::string_view key, const toml::node& node, std::string_view wanted) const;

@@ -39,7 +39,7 @@ constexpr Member kQuaternions[] = {
 
 struct TwistMember {
     const char* name;
-    float (swivel_binding::*quaternions)[SWIVEL_MOST_TWIST_BONES][4];
+    float (swivel_binding::*quaternions)[SWIVEL_MAX_TWIST_BONES][4];
     const char* text;
 };
 constexpr TwistMember kTwistFrames[] = {
@@ -79,9 +79,9 @@ swivel_binding make_binding(const py::object& parent_from_arm, const py::object&
         copy(kQuaternions[n].name, *given[n], binding.*kQuaternions[n].quaternion);
     copy("lengths", lengths, binding.lengths);
     const std::size_t bones = length_of("twist_from_arm", twist_from_arm);
-    if (bones > SWIVEL_MOST_TWIST_BONES)
+    if (bones > SWIVEL_MAX_TWIST_BONES)
         throw py::value_error("twist_from_arm: there are " + std::to_string(bones) +
-                              " twist bones; a limb has at most " + std::to_string(SWIVEL_MOST_TWIST_BONES));
+                              " twist bones; a limb has at most " + std::to_string(SWIVEL_MAX_TWIST_BONES));
     binding.twist_bone_count = static_cast<std::uint32_t>(bones);
     copy_frames(kTwistFrames[0], twist_parent_from_arm, binding);
     copy_frames(kTwistFrames[1], twist_from_arm, binding);

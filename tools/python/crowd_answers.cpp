@@ -118,7 +118,8 @@ void add_copies(CrowdClass& crowd)
         "write", &write, py::arg("field"), py::arg("values"), py::arg("group") = 0, py::arg("first") = 0,
         py::arg("count") = py::none(),
         "Copies an input field in, of `count` limbs of a group from `first` on; None: to the group's end.\n"
-        "Or sets back what read() gave of a field that is carried: NORMAL, PLANT, PLANT_TURN, MOTION, SHIFT, LIFT.\n\n"
+        "Or sets back what read() gave of a field that is carried: NORMAL, PLANT, PLANT_ROTATION, MOTION, SHIFT, "
+        "LIFT.\n\n"
         "values has shape (count, k), or (count,) for fields of one number, or is one value (k,) for all of\n"
         "them; k is component_count(field, group). float32 whose k numbers lie side by side is read where it is,\n"
         "with any stride from limb to limb, read-only or not; everything else that NumPy takes for real\n"
@@ -127,7 +128,7 @@ void add_copies(CrowdClass& crowd)
     crowd.def("write_doubles", &write_doubles, py::arg("field"), py::arg("values"), py::arg("origins") = py::none(),
               py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
               "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.SHOULDER_POSITION, "
-              "Field.COMING, Field.GROUND, Field.PROP_PLACE.\n\n"
+              "Field.NEXT_TARGET, Field.GROUND, Field.PROP_POSITION.\n\n"
               "values and origins have shape (count, 3), or (3,) for all limbs, float64. origins are subtracted in\n"
               "double, then the difference is rounded once to float32; None subtracts nothing. All positions of a\n"
               "limb must come from the same origin.");

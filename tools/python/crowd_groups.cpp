@@ -111,7 +111,7 @@ swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, 
     def.plant = plant_of(entry.attr("plant"));
     def.ground = ground_of(entry.attr("ground"));
     // Who names twist bones wants them to turn. Too many are for the library to refuse.
-    constexpr swivel_features kAnyBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+    constexpr swivel_features kAnyBones = SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
     if (!(def.features & kAnyBones))
         def.features |= std::min(joints.twist_bones.size() * SWIVEL_WITH_TWIST_BONES, kAnyBones);
     return def;

@@ -161,7 +161,7 @@ void* workspace_of(const HeldCrowd& held)
 }
 
 std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups, const py::object& mask,
-                    const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> most_blocks,
+                    const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> max_blocks,
                     const py::object& urgency, const py::object& frames, const py::object& pose, bool on_this_thread,
                     bool probes_only)
 {
@@ -176,9 +176,9 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     const auto inputs = priorities.is_none() ? std::vector<Input>() : priorities_of(held, priorities);
     const std::vector<swivel_in> pointers = pointers_of(inputs);
     if (!priorities.is_none()) job.priorities = pointers;
-    if (most_blocks.has_value() == priorities.is_none())
-        throw py::type_error("solve() takes priorities and most_blocks together");
-    if (most_blocks) job.most_blocks = count_of("most_blocks", *most_blocks);
+    if (max_blocks.has_value() == priorities.is_none())
+        throw py::type_error("solve() takes priorities and max_blocks together");
+    if (max_blocks) job.max_blocks = count_of("max_blocks", *max_blocks);
     job.urgency = urgency_of(held, urgency);
     const PoseArrays poses = pose.is_none() ? PoseArrays() : pose_of(held, pose);
     if (!pose.is_none()) job.pose = &poses.view;
@@ -196,13 +196,13 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     return solved;
 }
 
-py::array choose(HeldCrowd& held, const py::object& priorities, std::int64_t most_blocks, const py::object& urgency)
+py::array choose(HeldCrowd& held, const py::object& priorities, std::int64_t max_blocks, const py::object& urgency)
 {
     const std::vector<Input> given = priorities_of(held, priorities);
-    const std::uint32_t most = count_of("most_blocks", most_blocks);
+    const std::uint32_t max = count_of("max_blocks", max_blocks);
     const std::span<float> kept = urgency_of(held, urgency);
     std::vector<std::uint32_t> words = no_words(held);
-    run(held, Way::kAlone, [&] { held.crowd.choose(pointers_of(given), kept, most, words); });
+    run(held, Way::kAlone, [&] { held.crowd.choose(pointers_of(given), kept, max, words); });
     return lanes_of(held, words);
 }
 
@@ -228,14 +228,14 @@ void add_solving(CrowdClass& crowd)
     crowd.def(
         "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("groups") = py::none(),
         py::arg("mask") = py::none(), py::arg("limbs") = py::none(), py::arg("priorities") = py::none(),
-        py::arg("most_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("frames") = py::none(),
+        py::arg("max_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("frames") = py::none(),
         py::arg("pose") = py::none(), py::arg("on_this_thread") = false, py::arg("probes_only") = false,
         "Solves limbs, all of them if nothing is given, and gives how many. Equal inputs give equal bits on every "
         "CPU.\n\n"
         "blocks is (first, count), of LANES limbs each. groups: numbers of groups; others are neither read nor\n"
         "written. Of mask, limbs and priorities at most one is given. mask: bool of shape (lane_count,), True for\n"
         "limbs to solve; lanes of padding mean nothing. limbs: whole numbers of shape (count,) in any order, as\n"
-        "limbs(group) gives them. priorities, most_blocks and urgency: as choose() has them. Limbs that are not\n"
+        "limbs(group) gives them. priorities, max_blocks and urgency: as choose() has them. Limbs that are not\n"
         "chosen keep their results bit for bit.\n\n"
         "frames solves from and to your own arrays. It takes a run of blocks of each group in turn, while they are in\n"
         "the nearest cache. Give a dict for each group, or one dict if there is one group; with groups, for each of\n"
@@ -256,8 +256,8 @@ void add_solving(CrowdClass& crowd)
         "solve blocks that do not overlap at once, with the same mask and frames. Lists and priorities are for the\n"
         "whole crowd and exclude both, and priorities exclude groups. ValueError for limbs that do not exist or are\n"
         "padding.");
-    crowd.def("choose", &choose, py::arg("priorities"), py::arg("most_blocks"), py::arg("urgency") = py::none(),
-              "Picks at most most_blocks blocks, the most urgent ones; solves nothing.\n\n"
+    crowd.def("choose", &choose, py::arg("priorities"), py::arg("max_blocks"), py::arg("urgency") = py::none(),
+              "Picks at most max_blocks blocks, the most urgent ones; solves nothing.\n\n"
               "priorities has one entry for each group, of bodies one alone: (n,) float32, one number for each limb,\n"
               "or () for the whole group, in any unit. urgency (block_count,) float32 is yours: start it as np.zeros "
               "and give it to\n"

@@ -24,7 +24,7 @@ py::array array_of(const std::array<float, N>& numbers)
     return py::array_t<float>(static_cast<py::ssize_t>(N), numbers.data());
 }
 
-py::array cone_array(const py::object& axis, double most) { return array_of(cone(vector_of("axis", axis), most)); }
+py::array cone_array(const py::object& axis, double max) { return array_of(cone(vector_of("axis", axis), max)); }
 
 py::array aim(const py::object& axis, double flexion)
 {
@@ -114,8 +114,7 @@ py::object rooms(const Region& region, const py::object& directions)
 void add_limits(py::module_& module)
 {
     module.def(
-        "range", [](double least, double most) { return array_of(range(least, most)); }, py::arg("least"),
-        py::arg("most"),
+        "range", [](double min, double max) { return array_of(range(min, max)); }, py::arg("min"), py::arg("max"),
         "A range of angles in radians, least <= most, no wider than 2 pi: (4,) float32, cos and sin of its\n"
         "middle, cos and sin of half its width. A twist's, or one of the three that np.concatenate makes a\n"
         "box of.");
@@ -124,14 +123,14 @@ void add_limits(py::module_& module)
                "direction (3,): in the world of the rest pose, of any length. parent_rotation (4,): of the shoulder's\n"
                "parent joint there, x, y, z, w. cone(arm_axis(binding, rotation, (0, -1, 1)), math.radians(80)) keeps\n"
                "an arm within 80 degrees of forwards and down.");
-    module.def("cone", &cone_array, py::arg("axis"), py::arg("most"),
+    module.def("cone", &cone_array, py::arg("axis"), py::arg("max"),
                "A cone about an axis (3,) of any length, open by `most` radians from it, 0 to pi: (4,) float32.");
     module.def(
-        "flexion", [](double least, double most) { return array_of(flexion(least, most)); }, py::arg("least"),
-        py::arg("most"), "The elbow's least and largest flexion in radians, 0 <= least <= most <= pi: (2,) float32.");
+        "flexion", [](double min, double max) { return array_of(flexion(min, max)); }, py::arg("min"), py::arg("max"),
+        "The elbow's least and largest flexion in radians, 0 <= least <= most <= pi: (2,) float32.");
     module.def(
-        "turn", [](double angle) { return array_of(turn(angle)); }, py::arg("angle"),
-        "Cosine and sine of an angle in radians, for Field.ANGLE and Field.MOST_SWIVEL: (2,) float32.");
+        "cos_sin", [](double angle) { return array_of(cos_sin(angle)); }, py::arg("angle"),
+        "Cosine and sine of an angle in radians, for Field.ANGLE and Field.MAX_SWIVEL: (2,) float32.");
     module.def("aim", &aim, py::arg("axis"), py::arg("flexion"),
                "An aim for Field.AIM: the hand's axis (3,), of any length, and the elbow's flexion in radians, 0 to\n"
                "pi: (5,) float32.");
@@ -164,12 +163,12 @@ void add_regions(py::module_& module)
         py::arg("corners"), "Adds a convex polygon. corners: (n, 3), counter-clockwise as seen from outside.");
     region.def(
         "add_directions",
-        [](Region& to, const py::object& directions, float margin, std::uint32_t most_cones) {
-            to.add_directions(directions_of("directions", directions), margin, most_cones);
+        [](Region& to, const py::object& directions, float margin, std::uint32_t max_cones) {
+            to.add_directions(directions_of("directions", directions), margin, max_cones);
         },
-        py::arg("directions"), py::arg("margin"), py::arg("most_cones") = 4,
+        py::arg("directions"), py::arg("margin"), py::arg("max_cones") = 4,
         "Adds cones in order that hold all these directions, each with `margin` radians, 0.01 to 1, around it: what a\n"
-        "clip does, and a little more. directions: (n, 3). most_cones: 1 to 6; as many are taken as allow least.");
+        "clip does, and a little more. directions: (n, 3). max_cones: 1 to 6; as many are taken as allow least.");
     region.def(
         "forbid",
         [](Region& from, const py::object& axis, float angle) {

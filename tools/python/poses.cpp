@@ -118,7 +118,7 @@ constexpr JointMember kJointMembers[] = {{"translations", &swivel_pose::translat
                                          {"scales", &swivel_pose::scales, 3, false},
                                          {"out_translations", &swivel_pose::translation_results, 3, true},
                                          {"joint_rotations", &swivel_pose::joint_rotations, 4, true},
-                                         {"joint_places", &swivel_pose::joint_places, 3, true}};
+                                         {"joint_positions", &swivel_pose::joint_positions, 3, true}};
 struct BodyMember {
     const char* name;
     swivel_in swivel_pose::*values;

@@ -118,7 +118,7 @@ swivel_fit fit_of(const py::handle& group) { return floats_of<swivel_fit>("fit",
 
 swivel_prop prop_of(const py::handle& group)
 {
-    return {number_of<std::int32_t>("prop", "joint", group), number_of("prop", "most_move", group)};
+    return {number_of<std::int32_t>("prop", "joint", group), number_of("prop", "max_move", group)};
 }
 
 swivel_look look_of(const py::handle& group)
@@ -133,10 +133,10 @@ swivel_look look_of(const py::handle& group)
                              std::string(py::repr(group.attr("joints"))));
     }
     made.joint_count = static_cast<std::uint32_t>(joints.size());
-    const std::size_t count = std::min<std::size_t>(joints.size(), SWIVEL_MOST_LOOK_JOINTS);
+    const std::size_t count = std::min<std::size_t>(joints.size(), SWIVEL_MAX_LOOK_JOINTS);
     for (std::size_t n = 0; n < count; ++n) made.joints[n] = count_of("look.joints", joints[n]);
     copy_each("look.share", group.attr("share"), std::span(made.share).first(count));
-    copy_each("look.cos_most", group.attr("cos_most"), std::span(made.cos_most).first(count));
+    copy_each("look.cos_max", group.attr("cos_max"), std::span(made.cos_max).first(count));
     copy("look.eye", group.attr("eye"), made.eye);
     copy("look.axis", group.attr("axis"), made.axis);
     made.cos_full = number("cos_full"), made.cos_none = number("cos_none");

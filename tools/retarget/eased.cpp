@@ -7,22 +7,22 @@ namespace swivel::tools {
 
 namespace {
 
-// The lowest course above the values that never falls or rises faster than by most_step.
-std::vector<double> course_above(std::vector<double> values, double most_step)
+// The lowest course above the values that never falls or rises faster than by max_step.
+std::vector<double> course_above(std::vector<double> values, double max_step)
 {
-    for (std::size_t n = 1; n < values.size(); ++n) values[n] = std::max(values[n], values[n - 1] - most_step);
-    for (std::size_t n = values.size(); n-- > 1;) values[n - 1] = std::max(values[n - 1], values[n] - most_step);
+    for (std::size_t n = 1; n < values.size(); ++n) values[n] = std::max(values[n], values[n - 1] - max_step);
+    for (std::size_t n = values.size(); n-- > 1;) values[n - 1] = std::max(values[n - 1], values[n] - max_step);
     return values;
 }
 
 }  // namespace
 
-std::vector<double> eased(const std::vector<double>& values, double most_step)
+std::vector<double> eased(const std::vector<double>& values, double max_step)
 {
     std::vector<double> turned = values;
     for (double& value : turned) value = -value;
-    std::vector<double> above = course_above(values, most_step);
-    const std::vector<double> below = course_above(std::move(turned), most_step);
+    std::vector<double> above = course_above(values, max_step);
+    const std::vector<double> below = course_above(std::move(turned), max_step);
     for (std::size_t n = 0; n < above.size(); ++n)
         if (above[n] != -below[n]) above[n] = (above[n] - below[n]) / 2;
     return above;

@@ -7,8 +7,8 @@
 
 namespace swivel::tools {
 
-// The values, each moved as far as it takes that none differs from the next by more than most_step: halfway between the
+// The values, each moved as far as it takes that none differs from the next by more than max_step: halfway between the
 // lowest such course above all of them and the highest one below. Values far enough from a jump stay as they are.
-std::vector<double> eased(const std::vector<double>& values, double most_step);
+std::vector<double> eased(const std::vector<double>& values, double max_step);
 
 }  // namespace swivel::tools

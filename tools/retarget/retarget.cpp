@@ -20,8 +20,8 @@ using formats::JointPose;
 using formats::LimbKind;
 using Poses = std::vector<JointPose>;
 
-constexpr double kMostWay = 0.1;  // leg lengths that hips move for knees: legs in a split would ask for any
-constexpr double kMostExtra = 2 * std::numbers::pi;  // radians a second, 3 degrees a frame at 120 frames a second
+constexpr double kMaxWay = 0.1;  // leg lengths that hips move for knees: legs in a split would ask for any
+constexpr double kMaxExtra = 2 * std::numbers::pi;  // radians a second, 3 degrees a frame at 120 frames a second
 constexpr double kWayWeight = 5;  // of the hips' way in leg lengths, beside the knees' angles in radians
 
 const JointPose& at(const Poses& pose_w, int joint) { return pose_w[static_cast<std::size_t>(joint)]; }
@@ -240,8 +240,8 @@ private:
             }
             more_w += normal.ldlt().solve(right);
         }
-        const double most = kMostWay * target_.leg;
-        return more_w.norm() > most ? Vector3d(more_w * (most / more_w.norm())) : more_w;
+        const double max = kMaxWay * target_.leg;
+        return more_w.norm() > max ? Vector3d(more_w * (max / more_w.norm())) : more_w;
     }
 
     // From shoulder to wrist, of a pose of the target.
@@ -282,7 +282,7 @@ private:
         for (const std::size_t leg : legs_) add(leg, ankle_goal(leg, source_w, pose_w));
     }
 
-    // Knees and elbows turn faster than the source's by no more than its own fastest turn, or kMostExtra: near its full
+    // Knees and elbows turn faster than the source's by no more than its own fastest turn, or kMaxExtra: near its full
     // reach a limb would snap straight, or bend, for a goal that moves a little.
     void ease_goals()
     {
@@ -291,7 +291,7 @@ private:
         for (std::size_t n = 0; n < count; ++n) {
             const Bones bones = bones_of(target_, n < arms_.size() ? arms_[n] : legs_[n - arms_.size()]);
             std::vector<double> extra;
-            double fastest = kMostExtra * source_clip_.frame_time;
+            double fastest = kMaxExtra * source_clip_.frame_time;
             for (std::size_t at = n; at < bends_.size(); at += count) {
                 extra.push_back(bones.flexion((out_.goals[at].position - bends_[at].start_w).norm()) -
                                 bends_[at].source);

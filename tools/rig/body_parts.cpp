@@ -73,12 +73,12 @@ struct Body {
     int head(int chest) const
     {
         if (const int joint = said("head"); joint >= 0) return joint;
-        std::optional<int> least;
+        std::optional<int> min;
         int head = -1;
         for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint) {
             const std::optional<int> doubt = doubt_of_head(joint);
-            if (!doubt || (least && *least <= *doubt) || (chest >= 0 && !is_above(clip, chest, joint))) continue;
-            least = doubt;
+            if (!doubt || (min && *min <= *doubt) || (chest >= 0 && !is_above(clip, chest, joint))) continue;
+            min = doubt;
             head = joint;
         }
         return head;

@@ -110,7 +110,7 @@ private:
     }
     void judge_pops()
     {
-        double most = 0;
+        double max = 0;
         std::size_t worst_frame = 0;
         int worst = -1;
         for (const BodyPart& part : parts_)
@@ -118,56 +118,56 @@ private:
                 for (std::size_t frame = 2; frame + 1 < body_.count(); ++frame) {
                     const auto at = static_cast<std::size_t>(joint);
                     const double out = out_of_middle_deg(at, frame);
-                    if (out < kPop_deg || out <= most) continue;
+                    if (out < kPop_deg || out <= max) continue;
                     if (turn_deg(at, frame - 1, frame + 1) > out) continue;  // it goes there alone
                     if (out < kPopRatio * std::max(out_of_middle_deg(at, frame - 2), out_of_middle_deg(at, frame + 2)))
                         continue;
-                    most = out;
+                    max = out;
                     worst = joint;
                     worst_frame = frame;
                 }
         if (worst >= 0)
             doubt("'{}' turns there and back, by {:.0f} degrees in frame {}",
-                  printable_name(joint_at(body_.clip(), worst)), most, worst_frame);
+                  printable_name(joint_at(body_.clip(), worst)), max, worst_frame);
     }
     // Many files begin with a T-pose.
     void judge_first_frame()
     {
         if (body_.count() < 3) return;
-        double most = 0, after = 0;
+        double max = 0, after = 0;
         for (const BodyPart& part : parts_)
             for (const int joint : part.joints) {
-                most = std::max(most, turn_deg(static_cast<std::size_t>(joint), 0, 1));
+                max = std::max(max, turn_deg(static_cast<std::size_t>(joint), 0, 1));
                 after = std::max(after, turn_deg(static_cast<std::size_t>(joint), 1, 2));
             }
-        if (most > 2 * kPop_deg && most > kPopRatio * after)
-            doubt("frame 0 is a pose of its own: joints turn by up to {:.0f} degrees to frame 1, then by {:.1f}", most,
+        if (max > 2 * kPop_deg && max > kPopRatio * after)
+            doubt("frame 0 is a pose of its own: joints turn by up to {:.0f} degrees to frame 1, then by {:.1f}", max,
                   after);
     }
     // A body has weight: it gains speed over some frames.
     void judge_jumps()
     {
         if (body_.hips() < 0 || (!body_.limbs()[2] && !body_.limbs()[3])) return;
-        double most = body_.leg_length() * std::max(kSeen, kJump * body_.clip().frame_time * body_.clip().frame_time);
+        double max = body_.leg_length() * std::max(kSeen, kJump * body_.clip().frame_time * body_.clip().frame_time);
         std::size_t worst_frame = 0;
         for (std::size_t frame = 2; frame + 1 < body_.count(); ++frame) {
             const auto hips_w = [&](std::size_t at) { return body_.place(body_.frames_w()[at], body_.hips()); };
             const double change = (hips_w(frame + 1) - 2 * hips_w(frame) + hips_w(frame - 1)).norm();
-            if (change <= most) continue;
-            most = change;
+            if (change <= max) continue;
+            max = change;
             worst_frame = frame;
         }
         if (worst_frame > 0)
-            doubt("the body jumps by {:.2f} leg lengths beside frame {}", most / body_.leg_length(), worst_frame);
+            doubt("the body jumps by {:.2f} leg lengths beside frame {}", max / body_.leg_length(), worst_frame);
     }
     // The most that a limb's joints turn away from the first frame, in degrees.
     double movement_deg(std::size_t limb) const
     {
-        double most = 0;
+        double max = 0;
         for (const int joint : *body_.limbs()[limb])
             for (std::size_t frame = 1; frame < body_.count(); ++frame)
-                most = std::max(most, turn_deg(static_cast<std::size_t>(joint), 0, frame));
-        return most;
+                max = std::max(max, turn_deg(static_cast<std::size_t>(joint), 0, frame));
+        return max;
     }
     void judge_stillness()
     {

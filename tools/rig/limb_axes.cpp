@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 
 void take(AngleRange& range, double angle)
 {
-    range.least = std::min(range.least, angle);
-    range.most = std::max(range.most, angle);
+    range.min = std::min(range.min, angle);
+    range.max = std::max(range.max, angle);
 }
 
 // To the next tenth. 0.002 covers what floats add in a solve: a cosine is off by some 1e-7 there, which is less than
@@ -77,10 +77,10 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
     double opening = 0;
     for (const Vector3d& bone : upper) opening = std::max(opening, degrees_between(bone, range.axis));
     range.opening_deg = tenth_above(opening);
-    range.flexion = {tenth_below(range.flexion.least), tenth_above(range.flexion.most)};
+    range.flexion = {tenth_below(range.flexion.min), tenth_above(range.flexion.max)};
     // A limb that never moves tells no limits. All is rounded to tenths.
     constexpr double kTenth = 0.100001;
-    if (range.opening_deg <= kTenth && range.flexion.most - range.flexion.least <= kTenth) return std::nullopt;
+    if (range.opening_deg <= kTenth && range.flexion.max - range.flexion.min <= kTenth) return std::nullopt;
     return range;
 }
 

@@ -17,7 +17,7 @@ std::string direction_words(const Eigen::Vector3d& direction_w, const Facing& fa
 
 // The least and the most of an angle, in degrees.
 struct AngleRange {
-    double least = 180, most = 0;
+    double min = 180, max = 0;
 };
 
 // Where all of a clip lies, as a crowd file's limits say it. All frames fit into them, if the limb is bound with this

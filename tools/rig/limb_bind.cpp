@@ -148,20 +148,20 @@ std::string clip_against(const Clip& clip, LimbName limb, const LimbChain& chain
 {
     const Vector3d upper = rest.upper_bone().normalized(), mean = mean_of(frame_axes(clip, chain, upper));
     if (!(bend_of_hinge(upper, mean).dot(bend) < 0)) return "";
-    double most = 0;
+    double max = 0;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const ChainPose pose = chain_pose(clip, frame, chain);
         if (bend_of_hinge(upper, axis_of(pose, upper)).dot(bend) < 0)
-            most = std::max(most, degrees_between(pose.turn[0] * pose.upper_bone(), pose.turn[1] * pose.lower_bone()));
+            max = std::max(max, degrees_between(pose.turn[0] * pose.upper_bone(), pose.turn[1] * pose.lower_bone()));
     }
-    if (!(most > 30)) return "";
+    if (!(max > 30)) return "";
     return fmt::format(
         "the clip bends it to the other side, by up to {:.0f} degrees; to follow the clip, write bend = {} under "
         "[limb.{}] in a crowd file",
-        most, toml_row(bend_of_hinge(upper, mean)), limb_word(limb));
+        max, toml_row(bend_of_hinge(upper, mean)), limb_word(limb));
 }
 
-constexpr double kMostUneven = 1e-3;
+constexpr double kMaxUneven = 1e-3;
 
 // A frame of the clip, or the rest pose.
 struct Moment {
@@ -212,18 +212,18 @@ double distance_off(const Moment& at, const std::vector<int>& joints, int end)
 {
     const std::vector<JointPose> pose_w = at.world();
     const auto place = [&](int joint) { return pose_w[static_cast<std::size_t>(joint)].position; };
-    double off = 0, sum = 0, most = 0;
+    double off = 0, sum = 0, max = 0;
     int worst = end;
     for (const int joint : joints) {
         const double uneven = at.local(joint).unevenness;
         sum += uneven;
         off += uneven * (place(end) - place(joint)).norm();
-        if (uneven > most) most = uneven, worst = joint;
+        if (uneven > max) max = uneven, worst = joint;
     }
-    if (sum > kMostUneven)
+    if (sum > kMaxUneven)
         throw CannotBind(fmt::format("the joints above its end are scaled unevenly {}, by {:.2g} in all and most at "
                                      "'{}', so bones change shape as they turn; at most {} can be solved",
-                                     at.words(), sum, printable_name(joint_at(at.clip, worst)), kMostUneven),
+                                     at.words(), sum, printable_name(joint_at(at.clip, worst)), kMaxUneven),
                          "apply the scale where the rig was made");
     return off;
 }
@@ -245,12 +245,12 @@ double scale_error(const Clip& clip, const LimbChain& chain)
         }
     }
     if (is_even) return 0;
-    double most = distance_off({clip, {}}, joints, chain.end());
+    double max = distance_off({clip, {}}, joints, chain.end());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
-        most = std::max(most, distance_off({clip, frame}, joints, chain.end()));
+        max = std::max(max, distance_off({clip, frame}, joints, chain.end()));
     const JointPose parent_w = parent_at_rest(clip, chain.upper());
     const ChainPose rest = rest_pose(clip, chain);
-    return most / (parent_w.scale * (rest.upper_bone().norm() + rest.lower_bone().norm()));
+    return max / (parent_w.scale * (rest.upper_bone().norm() + rest.lower_bone().norm()));
 }
 
 using Eigen::Quaterniond;
@@ -328,20 +328,20 @@ const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
 // hardly move the later one.
 void require_still_between(const Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last)
 {
-    constexpr double kMost = 1e-3;  // of the bone
-    double most = 0;
+    constexpr double kMax = 1e-3;  // of the bone
+    double max = 0;
     std::size_t worst = 0;
     for (std::size_t frame = 0; frame < clip.frame_count && last - first > 1; ++frame)
-        if (const double moved = moved_between(clip, frame, chain, first, last); !(moved <= most))
-            most = moved, worst = frame;
-    if (most <= kMost) return;
+        if (const double moved = moved_between(clip, frame, chain, first, last); !(moved <= max))
+            max = moved, worst = frame;
+    if (max <= kMax) return;
     const auto name = [&](std::size_t n) { return printable_name(joint_at(clip, chain.joints[n])); };
     std::string between;
     for (std::size_t n = first + 1; n < last; ++n) between += fmt::format("{}'{}'", n > first + 1 ? ", " : "", name(n));
     throw CannotBind(
         fmt::format("{} between '{}' and '{}' {} the latter by {:.2g} of the bone in frame {}, more than {}",
-                    formats::printable(between, formats::kMostQuoted), name(first), name(last),
-                    last - first > 2 ? "move" : "moves", most, worst, kMost),
+                    formats::printable(between, formats::kMaxQuoted), name(first), name(last),
+                    last - first > 2 ? "move" : "moves", max, worst, kMax),
         "name other joints, or use a clip that does not move it");
 }
 

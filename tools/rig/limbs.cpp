@@ -43,7 +43,7 @@ int named_joint(const Clip& clip, const std::filesystem::path& file, const Named
     if (found.size() > 1)
         refuse(named.source, file, fmt::format("{} joints are called '{}'", found.size(), shown),
                fmt::format("; name one by its path or number, such as {} or #{}",
-                           formats::printable(formats::joint_path(clip, found[0]), formats::kMostQuoted),
+                           formats::printable(formats::joint_path(clip, found[0]), formats::kMaxQuoted),
                            formats::joint_at(clip, found[0]).number));
     return found[0];
 }
@@ -62,7 +62,7 @@ struct NameReader {
     int joint(std::size_t n) const { return named_joint(clip, file, {from.joints[n], from.source}); }
     LimbJoints joints() const
     {
-        const std::string text = formats::printable(formats::joined(from.joints, ","), formats::kMostQuoted);
+        const std::string text = formats::printable(formats::joined(from.joints, ","), formats::kMaxQuoted);
         if (from.joints.size() != 3)
             refuse(fmt::format("'{}' does not name three joints", text), fmt::format("; write {}", words.joints));
         const LimbJoints named{joint(0), joint(1), joint(2)};

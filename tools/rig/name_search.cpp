@@ -20,7 +20,7 @@ namespace {
 using formats::Clip;
 using formats::LimbName;
 
-constexpr std::size_t kMostCandidates = 4;  // that a message lists
+constexpr std::size_t kMaxCandidates = 4;  // that a message lists
 
 // One row with one side: who bears its three names.
 struct Attempt {
@@ -46,7 +46,7 @@ std::vector<bool> have_above(const Clip& clip, const std::vector<int>& which, co
     return has;
 }
 
-// All chains of an upper, a lower and an end joint, up to kMostCandidates. It walks up only from joints that have such
+// All chains of an upper, a lower and an end joint, up to kMaxCandidates. It walks up only from joints that have such
 // chains above them.
 std::vector<LimbJoints> chains(const Clip& clip, const std::array<std::vector<int>, 3>& bearers)
 {
@@ -62,7 +62,7 @@ std::vector<LimbJoints> chains(const Clip& clip, const std::array<std::vector<in
             if (!is_in(bearers[1], lower) || !have_upper[static_cast<std::size_t>(lower)]) continue;
             for (int upper = joint_at(clip, lower).parent; upper >= 0; upper = joint_at(clip, upper).parent) {
                 if (is_in(bearers[0], upper)) found.push_back({upper, lower, end});
-                if (found.size() == kMostCandidates) return found;
+                if (found.size() == kMaxCandidates) return found;
             }
         }
     }
@@ -123,9 +123,9 @@ struct NameSearch {
     {
         const std::vector<formats::JointPose> rest_w = formats::rest_pose(joints.clip);
         const auto place = [&](int joint) { return rest_w[static_cast<std::size_t>(joint)].position; };
-        const double most = 1e-3 * (place(end) - place(lower)).norm();
+        const double max = 1e-3 * (place(end) - place(lower)).norm();
         for (int joint = lower + 1; joint < static_cast<int>(joints.clip.joints.size()); ++joint)
-            if (is_above(joints.clip, lower, joint) && (place(joint) - place(end)).norm() <= most) return joint;
+            if (is_above(joints.clip, lower, joint) && (place(joint) - place(end)).norm() <= max) return joint;
         return -1;
     }
     // n: of the joint that is not below the one before.
@@ -165,7 +165,7 @@ struct NameSearch {
                                 shown(at[2]), numbers(at));
         return {{},
                 {},
-                "more than one fits: " + formats::printable(list, formats::kMostQuoted),
+                "more than one fits: " + formats::printable(list, formats::kMaxQuoted),
                 "name one, such as " + option(limbs[0])};
     }
 };

@@ -54,14 +54,14 @@ public:
     double uprightness(const Poses& pose_w, const Vector3d& up_w) const
     {
         if (legs_.empty()) return -1;
-        double least = 1;
-        const auto add = [&](const Vector3d& way_w) { least = std::min(least, way_w.normalized().dot(up_w)); };
+        double min = 1;
+        const auto add = [&](const Vector3d& way_w) { min = std::min(min, way_w.normalized().dot(up_w)); };
         if (!tops_.empty()) add(top_w(pose_w) - middle_w(pose_w, 0));
         for (const LimbJoints& leg : legs_) {
             add(position_of(pose_w, leg[0]) - position_of(pose_w, leg[1]));
             add(position_of(pose_w, leg[1]) - position_of(pose_w, leg[2]));
         }
-        return least;
+        return min;
     }
     // Why a pose cannot stand; empty if it can.
     std::string problem(const Poses& pose_w, const Vector3d& up_w) const
@@ -132,12 +132,12 @@ std::string problem_of_up(const Vector3d& axis_w, const Vector3d& height_w)
 // The number of frames where none is upright.
 std::size_t most_upright_frame(const Clip& clip, const UprightParts& body, const Vector3d& up_w)
 {
-    double most = kLeaning;
+    double max = kLeaning;
     std::size_t best = clip.frame_count;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const double uprightness = body.uprightness(formats::world_pose(clip, frame), up_w);
-        if (uprightness <= most) continue;
-        most = uprightness;
+        if (uprightness <= max) continue;
+        max = uprightness;
         best = frame;
     }
     return best;

@@ -70,7 +70,7 @@ def leg(thigh, features):
 def solved(crowd, pose, time, root=(0, 0, 0)):
     """The pose of one figure after a solve, and the places of its joints."""
     rotations, places = pose.copy(), np.zeros((1, 7, 3), np.float32)
-    crowd.solve(pose=Pose(rotations, joint_places=places, root_position=np.float32(root), time=time))
+    crowd.solve(pose=Pose(rotations, joint_positions=places, root_position=np.float32(root), time=time))
     return rotations, places[0]
 
 
@@ -94,7 +94,7 @@ def foot_over_time(knots, is_down):
         animated.append(v * v * (1 + 2 * u) * a + u * u * (3 - 2 * u) * b + (end - t) * u * v * (v * speed - u * end_speed))
         crowd.write(Field.CONTACT, float(is_down(time)))
         solved(crowd, standing(), 0.01, (0, 0, animated[-1]))
-        sent.append(crowd.read(Field.GOAL)[0, 2])
+        sent.append(crowd.read(Field.SOLVED_GOAL)[0, 2])
         flags.append(int(crowd.read(Field.FLAGS)[0]))
     return times, np.array(animated), np.array(sent) - sent[0] + animated[0], np.array(flags)
 
@@ -135,7 +135,7 @@ def feet_plant():
     seen = (times >= 0.3) & (times <= 1.4)
     figure, axes = chart(times[seen], animated[seen], sent[seen], (down, up), 0.25, 0.75)
     upright(axes, locked, "locks"), upright(axes, free, "is released")
-    stretch(axes, locked, locked + Plant().stop, "stop", 0.345), stretch(axes, free, free + Plant().blend, "blend", 0.345)
+    stretch(axes, locked, locked + Plant().stop_time, "stop", 0.345), stretch(axes, free, free + Plant().release_time, "blend", 0.345)
     axes.text(0.8, 0.17, "the label says: in contact", color=GREEN, ha="center")
     axes.text(0.82, 0.57, "stands: it moves by no bit", color=ORANGE, ha="center")
     axes.text(0.86, 0.435, "as animated: it slides", color=GREY, ha="center")
@@ -146,13 +146,13 @@ def feet_break():
     times, animated, sent, flags = foot_over_time([(0, 0, 0), (0.3, 0, 0), (0.5, 0.05, 0.45), (1.0, 0.275, 0.45), (1.3, 0.34, 0), (2, 0.34, 0)], lambda time: time >= 0.1)
     broke = first(times, flags, Flag.BROKE_AWAY)
     anew = first(times, flags, Flag.PLANTED, broke + 0.02)
-    seen, unlock = (times >= 0.05) & (times <= 1.8), 2 * BONE * Plant().unlock
+    seen, unlock = (times >= 0.05) & (times <= 1.8), 2 * BONE * Plant().unlock_radius
     figure, axes = chart(times[seen], animated[seen], sent[seen], (0.1, 1.8), -0.06, 0.4)
     axes.fill_between([0.1, broke], -0.06, unlock, color=ORANGE, alpha=0.09, lw=0)
     axes.plot([0.1, broke], [unlock, unlock], color=PALE, lw=1, ls=(0, (3, 4)))
     axes.text(0.12, unlock + 0.014, "unlock", color=GREY)
-    upright(axes, broke, "breaks away", "right"), upright(axes, anew, "slower than again: locks anew", "left")
-    stretch(axes, broke, broke + Plant().blend, "blend", -0.007)
+    upright(axes, broke, "breaks away", "right"), upright(axes, anew, "slower than relock_speed: locks anew", "left")
+    stretch(axes, broke, broke + Plant().release_time, "blend", -0.007)
     axes.text(0.9, -0.134, "the label says: in contact, all the time", color=GREEN, ha="center")
     axes.text(0.3, 0.02, "stands", color=ORANGE, ha="center")
     axes.text(0.58, 0.13, "as animated", color=GREY, ha="right")
@@ -162,7 +162,7 @@ def feet_break():
 # ---- legs from the side
 def stepping(features, animated, ahead):
     """Joints of legs whose points go where they are written, in place of where the animation has them; and the new pose."""
-    fits = [FitGroup()] * bool(features & Feature.WITH_FIT)
+    fits = [FitGroup()] * bool(features & Feature.WITH_PELVIS_FIT)
     crowd = swivel.Crowd([leg(1, features), leg(4, features), *fits], skeleton=SKELETON, body_count=1)
     for group, place in enumerate(((0.1, ANKLE, -0.2), (-0.1, *ahead))):
         crowd.write(Field.TARGET, place, group), crowd.write(Field.CONTACT, 1.0, group)
@@ -184,7 +184,7 @@ def feet_reach():
     animated, places = stepping(Feature(0), standing(), (ANKLE, 0.22))
     lower, farther, step = (ANKLE - 0.19, 0.22), (ANKLE, 0.38), 0.19
     panels = [("as animated,\non flat ground", places, 0), ("a step down:\none leg is too short", stepping(Feature(0), animated, lower)[1], step),
-              ("with a shift\nboth legs reach", stepping(Feature.WITH_FIT, animated, lower)[1], step),
+              ("with a shift\nboth legs reach", stepping(Feature.WITH_PELVIS_FIT, animated, lower)[1], step),
               ("a step too long: with a\ncap the knee stays bent", stepping(Feature.WITH_CAP, animated, farther)[1], 0)]
     for n, (words, joints, down) in enumerate(panels):
         middle = 0.97 * n
@@ -203,8 +203,8 @@ def feet_reach():
 # ---- a look: how far each joint turns
 def look_round():
     joints = ("spine", PALE, 1, 0.99), ("chest", GREEN, 1, 0.98), ("neck", RED, 2, 0.85), ("head", ORANGE, 4, 0.5)
-    names, colours, shares, most = zip(*joints)
-    look = LookGroup([0, 1, 2, 3], share=shares, cos_most=most, rate=0)
+    names, colours, shares, max = zip(*joints)
+    look = LookGroup([0, 1, 2, 3], share=shares, cos_max=max, rate=0)
     degrees = np.arange(181)
     angles = np.radians(degrees)
     crowd = swivel.Crowd(look, skeleton=Skeleton([-1, 0, 1, 2], np.float32([(0, 1, 0), (0, 0.2, 0), (0, 0.25, 0), (0, 0.1, 0)])), body_count=181)
@@ -247,9 +247,9 @@ def region():
     axes.set(xlim=(-1.2, 3.6), ylim=(-1.2, 1.2))
     axes.axis("off")
     shares = []
-    for most_cones, colour in ((1, PALE), (6, GREEN)):
+    for max_cones, colour in ((1, PALE), (6, GREEN)):
         around = swivel.Region()
-        around.add_directions(direction(x, y), np.radians(5), most_cones)
+        around.add_directions(direction(x, y), np.radians(5), max_cones)
         rooms = np.reshape(around.room(direction(across, up).reshape(-1, 3)), across.shape)
         axes.contourf(grid, grid, rooms, levels=(0, 2), colors=colour, alpha=0.5)
         shares.append(100 * np.sum(is_on & (rooms >= 0)) / np.sum(is_on))

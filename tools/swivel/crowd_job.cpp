@@ -70,9 +70,9 @@ FoundLoop loop_of(const formats::CrowdFile& file, const std::string& name, const
         if (last - first < kFewestLooped) refuse("needs two frames or more to loop; write [first, last]");
         return {{first, last}, 0};
     }
-    if (clip.frame_count > kMostSearched)
+    if (clip.frame_count > kMaxSearched)
         refuse(
-            fmt::format("has {} frames, and \"auto\" compares up to {}; {}", clip.frame_count, kMostSearched, advice));
+            fmt::format("has {} frames, and \"auto\" compares up to {}; {}", clip.frame_count, kMaxSearched, advice));
     const FoundLoop found = find_loop(clip, body);
     if (!std::isfinite(found.gap)) refuse(fmt::format("is shorter than half a second; {}", advice));
     return found;
@@ -88,7 +88,7 @@ LookPlan look_of(const formats::CrowdFile& file, const formats::Clip& clip, cons
     if (job.plan.budget_blocks > 0) refuse("heads that look are solved in every frame; take this or [budget] out");
     std::vector<int> joints = look_joints(clip, job.body, job.limbs);
     if (joints.empty()) refuse("no head of the clip is known that can turn; name one by look.head, or take this out");
-    return plan_look(clip, std::move(joints), job.faces_w, file.look->target, kRadians * file.look->most_deg);
+    return plan_look(clip, std::move(joints), job.faces_w, file.look->target, kRadians * file.look->max_deg);
 }
 
 CarryPlan carry_of(const formats::CrowdFile& file, const formats::Clip& clip, const Eigen::Vector3d& up_w,
@@ -130,8 +130,8 @@ formats::Clip further_clip(const SolveOptions& options, const formats::FurtherCl
         throw fault(fmt::format("{}: {}; put it on this skeleton by swivel retarget", name, difference));
     reading([&] { file.sample(joints); });
     // A rate that is asked for fits each clip's length, so they differ a little.
-    const double most = options.motion.rate > 0 ? 0.1 : 1e-3;
-    if (std::abs(file.clip().frame_time - first.frame_time) > most * first.frame_time)
+    const double max = options.motion.rate > 0 ? 0.1 : 1e-3;
+    if (std::abs(file.clip().frame_time - first.frame_time) > max * first.frame_time)
         throw fault(name + ": its frames come at another rate than the clip's; give --fps");
     job.further.push_back({path, fmt::format("{}: {}", formats::printable(title_of(path.string())), file.describe())});
     return file.clip();
@@ -174,7 +174,7 @@ std::vector<Proportions> builds_of(const SolveOptions& options, const formats::C
     std::mt19937_64 random(own), speeds(~own);                                // so that speeds change no build
     const auto drawn = [](std::mt19937_64& from, const formats::Maybe<formats::NumberRange>& range) {
         const double share = drawn_share(from);
-        return range ? range->value.least + (range->value.most - range->value.least) * share : 1;
+        return range ? range->value.min + (range->value.max - range->value.min) * share : 1;
     };
     for (std::size_t n = 1; n < kBuilds; ++n) {
         const double legs = drawn(random, file.legs), arms = drawn(random, file.arms),
@@ -200,10 +200,10 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
     std::vector<ClipPart> parts;
     // A clip as it goes on, for as many frames as are solved, wherever in the loop one starts; or its first frames.
     const auto add = [&](const std::string& name, const formats::Clip& from) {
-        const std::size_t most = options.frames > 0 ? options.frames : from.frame_count;
+        const std::size_t max = options.frames > 0 ? options.frames : from.frame_count;
         const ClipLoop loop = is_loop ? job.loops.emplace_back(loop_of(*job.crowd, name, from, body)).loop : ClipLoop();
         const std::size_t first = parts.empty() ? 0 : parts.back().first + parts.back().count,
-                          count = is_loop ? goes_on + loop.length() : std::min(most, from.frame_count),
+                          count = is_loop ? goes_on + loop.length() : std::min(max, from.frame_count),
                           all = static_cast<std::size_t>(static_cast<double>(job.builds.size() * (first + count)) /
                                                          slowest);
         parts.push_back({first, count, is_loop ? loop.length() : count});

@@ -61,24 +61,24 @@ struct Measure {
 };
 constexpr Measure kMeasures[] = {
     {"toe speed in contact, mean", "leg lengths/s", "contact_speed_mean", &Skating::mean_speed},
-    {"toe speed in contact, most", "leg lengths/s", "contact_speed_most", &Skating::most_speed},
+    {"toe speed in contact, most", "leg lengths/s", "contact_speed_max", &Skating::max_speed},
     {"skate a step", "leg lengths", "skate_a_step", &Skating::step},
-    {"drift in a contact, most", "leg lengths", "drift_most", &Skating::drift},
-    {"off the ground in contact, most", "leg lengths", "off_ground_most", &Skating::off_ground},
-    {"a toe's tip in the ground, most", "leg lengths", "tip_depth_most", &Skating::tip_depth},
-    {"a knee's turn in a frame, most", "degrees", "knee_degrees_a_frame_most", &Skating::knee_deg},
-    {"a toe's jump in velocity, most", "leg lengths/s", "velocity_jump_most", &Skating::jump},
-    {"the body's jump in velocity, most", "leg lengths/s", "body_velocity_jump_most", &Skating::body_jump},
+    {"drift in a contact, most", "leg lengths", "drift_max", &Skating::drift},
+    {"off the ground in contact, most", "leg lengths", "off_ground_max", &Skating::off_ground},
+    {"a toe's tip in the ground, most", "leg lengths", "tip_depth_max", &Skating::tip_depth},
+    {"a knee's turn in a frame, most", "degrees", "knee_degrees_a_frame_max", &Skating::knee_deg},
+    {"a toe's jump in velocity, most", "leg lengths/s", "velocity_jump_max", &Skating::jump},
+    {"the body's jump in velocity, most", "leg lengths/s", "body_velocity_jump_max", &Skating::body_jump},
 };
 
 // How far the body moved, in leg lengths: at most, and downwards.
 struct BodyMove {
-    double most = 0, down = 0;
+    double max = 0, down = 0;
 
     explicit BodyMove(const FeetRun& run)
     {
         for (const Vector3d& shift_w : run.placed.shift_w) {
-            most = std::max(most, shift_w.norm() / run.motion.leg_length());
+            max = std::max(max, shift_w.norm() / run.motion.leg_length());
             down = std::max(down, -shift_w.dot(run.motion.up_w) / run.motion.leg_length());
         }
     }
@@ -100,8 +100,8 @@ std::string doubt_text(const FeetRun& run, const FeetDoubt& doubt)
 }
 nlohmann::ordered_json doubt_json(const FeetRun& run, const FeetDoubt& doubt)
 {
-    constexpr const char* kKeys[] = {"off_ground_most", "knee_degrees_a_frame_most", "velocity_jump_most",
-                                     "body_velocity_jump_most"};
+    constexpr const char* kKeys[] = {"off_ground_max", "knee_degrees_a_frame_max", "velocity_jump_max",
+                                     "body_velocity_jump_max"};
     const Vector3d& place_w = doubt.place_w;
     nlohmann::ordered_json out = {{"measure", kKeys[doubt.kind]},
                                   {"first_frame", doubt.first},
@@ -154,7 +154,7 @@ void print_feet(const FeetRun& run, std::FILE* to)
     for (const Measure& each : kMeasures)
         say(to, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value, each.unit);
     const BodyMove body(run);
-    say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.most, body.down);
+    say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.max, body.down);
     for (const std::string& doubt : run.clip_doubts) say(to, "look     FILE: {}\n", doubt);
     for (const FeetDoubt& doubt : run.doubts) say(to, "look     {}\n", doubt_text(run, doubt));
     for (const std::string& name : {run.out, run.export_contacts})
@@ -196,8 +196,8 @@ nlohmann::ordered_json json_of(const FeetRun& run)
         out["after"][each.key] = run.after.*each.value;
     }
     const BodyMove body(run);
-    out["after"]["body_moved_most"] = body.most;
-    out["after"]["body_moved_down_most"] = body.down;
+    out["after"]["body_moved_max"] = body.max;
+    out["after"]["body_moved_down_max"] = body.down;
     for (const FeetDoubt& doubt : run.doubts) out["look"].push_back(doubt_json(run, doubt));
     if (!run.clip_doubts.empty()) out["doubts"] = run.clip_doubts;
     if (!run.out.empty()) out["out"] = run.out;

@@ -77,13 +77,13 @@ void MotionKeys::require_can_write(const std::filesystem::path& out, const Motio
 {
     const double bytes = static_cast<double>(characters_) * static_cast<double>(frame_count) *
                          static_cast<double>(16 * turning_.size() + 12 * moving_.size());
-    if (characters_ > kMostInFile)
+    if (characters_ > kMaxInFile)
         throw formats::InputError(
             out, fmt::format("a file holds {} characters at most; {} would take {:.0f} MB; give --characters {}, or "
                              "write a .csv",
-                             kMostInFile, characters_, std::ceil(bytes / 1e6), kMostInFile));
-    constexpr double kMostBytes = 3e9;  // of 4 GiB that a GLB may have, also beside its meshes
-    if (bytes > kMostBytes)
+                             kMaxInFile, characters_, std::ceil(bytes / 1e6), kMaxInFile));
+    constexpr double kMaxBytes = 3e9;  // of 4 GiB that a GLB may have, also beside its meshes
+    if (bytes > kMaxBytes)
         throw formats::InputError(
             out, fmt::format("{} frames of {} characters would take {:.1f} GB; give fewer, or write a .csv",
                              frame_count, characters_, bytes / 1e9));

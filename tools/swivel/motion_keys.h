@@ -14,7 +14,7 @@
 
 namespace swivel::tools {
 
-inline constexpr std::uint32_t kMostInFile = 200;  // characters
+inline constexpr std::uint32_t kMaxInFile = 200;  // characters
 
 class MotionKeys {
 public:
@@ -23,7 +23,7 @@ public:
     MotionKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan, bool has_new_frames);
 
     // Throws, before any work is done, for what write() could not hold: joints that cannot have keys; with new frames
-    // also joints that change their size, more than kMostInFile characters and more than 3 GB of keys, with the size
+    // also joints that change their size, more than kMaxInFile characters and more than 3 GB of keys, with the size
     // that the file would have.
     void require_can_write(const std::filesystem::path& out, const MotionFile& file, std::size_t frame_count) const;
 

@@ -292,8 +292,8 @@ void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& fi
     for (const std::string& note : ground_notes(clip, job)) say(to, "note     {}\n", note);
     if (job.builds.size() > 1) {
         const auto factors = [&](double Proportions::*of) {
-            const auto [least, most] = std::ranges::minmax(job.builds, {}, of);
-            return fmt::format("{:.3g} to {:.3g}", least.*of, most.*of);
+            const auto [min, max] = std::ranges::minmax(job.builds, {}, of);
+            return fmt::format("{:.3g} to {:.3g}", min.*of, max.*of);
         };
         say(to, "builds   {}: legs {}, arms {}, spine {}, speed {} times the clip's own\n", job.builds.size(),
             factors(&Proportions::legs), factors(&Proportions::arms), factors(&Proportions::spine),

@@ -51,7 +51,7 @@ std::optional<std::string_view> about(BodySide side, const char* option, std::st
         return text.substr(prefix.size());
     }
     throw CommandError(2, fmt::format("{} {}: does not say whose; write source: or target: in front", option,
-                                      formats::printable(text, formats::kMostQuoted)));
+                                      formats::printable(text, formats::kMaxQuoted)));
 }
 
 std::size_t frame_of_option(std::string_view said)
@@ -60,7 +60,7 @@ std::size_t frame_of_option(std::string_view said)
     const auto [end, error] = std::from_chars(said.data(), said.data() + said.size(), frame);
     if (error == std::errc() && end == said.data() + said.size()) return frame;
     throw CommandError(2, fmt::format("--rest: {} is not a frame; give a whole number, counted from 0",
-                                      formats::printable(said, formats::kMostQuoted)));
+                                      formats::printable(said, formats::kMaxQuoted)));
 }
 
 Eigen::Vector3d axis_of_option(std::string_view said)
@@ -68,7 +68,7 @@ Eigen::Vector3d axis_of_option(std::string_view said)
     const auto axis = axis_of(said);
     if (!axis)
         throw CommandError(2, fmt::format("--up: {} is not an axis; give x, y, z, -x, -y or -z",
-                                          formats::printable(said, formats::kMostQuoted)));
+                                          formats::printable(said, formats::kMaxQuoted)));
     return *axis;
 }
 
@@ -119,7 +119,7 @@ PartedBody parted_body(const formats::Clip& clip, const std::string& file, const
 using formats::Clip;
 using formats::position_of;
 
-constexpr double kLeastBone = 1e-6;  // of its limb
+constexpr double kMinBone = 1e-6;  // of its limb
 
 std::vector<int> all_bones(const Clip& clip)
 {
@@ -133,7 +133,7 @@ std::string names_of(const Clip& clip, const std::vector<int>& joints)
 {
     std::string names;
     for (std::size_t n = 0; n < joints.size(); ++n) {
-        if (names.size() > formats::kMostQuoted) return names + fmt::format(" and {} more", joints.size() - n);
+        if (names.size() > formats::kMaxQuoted) return names + fmt::format(" and {} more", joints.size() - n);
         names += (names.empty() ? "" : ", ") + printable_name(joint_at(clip, joints[n]));
     }
     return names.empty() ? "none" : names;
@@ -147,7 +147,7 @@ void require_bones(const std::string& file, const Clip& clip, const LimbJoints& 
         return (position_of(pose_w, joints[n + 1]) - position_of(pose_w, joints[n])).norm();
     };
     for (std::size_t n = 0; n < 2; ++n)
-        if (!(length(n) > kLeastBone * (length(0) + length(1))))
+        if (!(length(n) > kMinBone * (length(0) + length(1))))
             throw formats::InputError(
                 file,
                 fmt::format("the bone from {} to {} has no length at rest; leave its limb out, or give other "

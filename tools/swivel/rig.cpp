@@ -38,7 +38,7 @@ nlohmann::ordered_json number_of(const Clip& clip, int joint)
 
 std::vector<double> vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-nlohmann::ordered_json json_of(const AngleRange& range) { return {range.least, range.most}; }
+nlohmann::ordered_json json_of(const AngleRange& range) { return {range.min, range.max}; }
 
 nlohmann::ordered_json json_of_frame(const Clip& clip, const Limb& limb, const Facing& facing)
 {
@@ -166,7 +166,7 @@ void print_range(const Clip& clip, const Limb& limb)
     if (!range) return;
     const std::string_view word = limb_word(limb.name);
     say(stdout, "           in the clip the {} is {:.1f} to {:.1f} degrees from z; all its frames fit into\n",
-        words_of(limb.name.kind).upper, range->from_z.least, range->from_z.most);
+        words_of(limb.name.kind).upper, range->from_z.min, range->from_z.max);
     say(stdout, "           [limb.{}]\n", word);
     say(stdout, "           joints = [{}, {}, {}]\n", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
         toml_name(clip, limb.end()));
@@ -174,7 +174,7 @@ void print_range(const Clip& clip, const Limb& limb)
     say(stdout, "           [limb.{}.limits]\n", word);
     say(stdout, "           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", toml_row(range->axis),
         range->opening_deg);
-    say(stdout, "           flexion_deg = [{:.1f}, {:.1f}]\n", range->flexion.least, range->flexion.most);
+    say(stdout, "           flexion_deg = [{:.1f}, {:.1f}]\n", range->flexion.min, range->flexion.max);
 }
 
 void print_limb(const Clip& clip, const Limb& limb, const Facing& facing)
@@ -201,7 +201,7 @@ std::string shown_path(const Clip& clip, int joint)
         path = (path.size() < 200 ? joint_at(clip, up).name : "...") + '/' + path;
         if (path.starts_with("...")) break;
     }
-    return printable(path, formats::kMostQuoted);
+    return printable(path, formats::kMaxQuoted);
 }
 
 // The parts that are no joints of limbs.
@@ -212,7 +212,7 @@ void print_body(const Clip& clip, const std::vector<BodyPart>& body)
         if (is_limb_part(part)) continue;
         std::string names;
         for (const int joint : part.joints) names += (names.empty() ? "" : " > ") + name_of(clip, joint);
-        say(stdout, "{:<10} {}: {}\n", heading, part.name, formats::printable(names, formats::kMostQuoted));
+        say(stdout, "{:<10} {}: {}\n", heading, part.name, formats::printable(names, formats::kMaxQuoted));
         heading = "";
     }
     if (!joints_of(body, "spine").empty() && joints_of(body, "head").empty())

@@ -71,12 +71,12 @@ StepsArm given_arm(const StepsOptions& options)
 // sums of a few products make where they should be 0.
 std::string text_of(const swivel_entity& entity)
 {
-    double most = 0;
-    for (const double c : entity.coefficients) most = std::max(most, std::fabs(c));
+    double max = 0;
+    for (const double c : entity.coefficients) max = std::max(max, std::fabs(c));
     std::string text;
     for (const std::uint32_t blade : kBladeOrder) {
         const double c = entity.coefficients[blade];
-        if (std::fabs(c) <= 1e-14 * most) continue;
+        if (std::fabs(c) <= 1e-14 * max) continue;
         const std::string unit = blade == 0 ? "" : fmt::format(" {}", swivel_blade_name(blade));
         text += text.empty() ? fmt::format("{:.9g}{}", c, unit)
                              : fmt::format(" {} {:.9g}{}", c < 0 ? '-' : '+', std::fabs(c), unit);

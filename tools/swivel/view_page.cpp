@@ -85,7 +85,7 @@ Json json_of_look(const CachedLook& look)
             {"sources", base64_of(std::span<const goal_source>(look.sources))},
             {"joint_count", how.joint_count},
             {"axis", how.axis},
-            {"cos_most", how.cos_most[0]}};
+            {"cos_max", how.cos_max[0]}};
 }
 
 // Appends it as a script may hold it: without the sign that could end it. Bytes that are no UTF-8 are replaced.

@@ -104,7 +104,7 @@ static void print_camel(const char* name)
 static void print_values(const char* name, enum kind kind, const void* values, size_t count)
 {
     if (kind == NO_VALUE) return;
-    if (count == SWIVEL_MOST_LOOK_JOINTS) count = 1;
+    if (count == SWIVEL_MAX_LOOK_JOINTS) count = 1;
     printf("    "), print_camel(name), printf(count > 1 ? ": [" : ": ");
     for (size_t n = 0; n < count; ++n) {
         if (n > 0) printf(", ");
@@ -128,9 +128,9 @@ static void print_structures(void)
 {
     printf("\n// In bytes: the size of each structure, and where its members start.\nexport const layout = {\n");
 #include "structures.inc"
-    printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
-           SWIVEL_MOST_TWIST_BONES);
-    printf("export const MOST_LOOK_JOINTS = %d;\n", SWIVEL_MOST_LOOK_JOINTS);
+    printf("} as const;\n\nexport const LANES = %d;\nexport const MAX_TWIST_BONES = %d;\n", SWIVEL_LANES,
+           SWIVEL_MAX_TWIST_BONES);
+    printf("export const MAX_LOOK_JOINTS = %d;\n", SWIVEL_MAX_LOOK_JOINTS);
     printf("export const ENTITY_COUNT = %d;\n", SWIVEL_ENTITY_COUNT);
     printf("export const RESULT_END = %d;\n", SWIVEL_RESULT_END);
     printf("export const EXPLANATION_BYTES = %d;\n", SWIVEL_EXPLANATION_BYTES);

@@ -68,7 +68,7 @@ static void bodies(void)
     groups[ARM].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK;
     groups[ARM].link = THING;
     groups[LEG] = swivel_default_body_group_def(&leg);
-    groups[LEG].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_FIT;
+    groups[LEG].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT;
     groups[SHIFT] = swivel_default_fit_group_def();
     groups[THING] = swivel_default_prop_group_def();
     groups[HEAD] = swivel_default_look_group_def();
@@ -86,7 +86,7 @@ static void bodies(void)
     job.pose = &pose, job.solved_count = &solved;
     check(swivel_write(crowd, SWIVEL_GRIP, ARM, 0, 3, (swivel_in){grip, 0}) == SWIVEL_OK, "grips");
     check(swivel_write(crowd, SWIVEL_CONTACT, LEG, 0, 3, (swivel_in){&contact, 0}) == SWIVEL_OK, "contacts");
-    check(swivel_write(crowd, SWIVEL_PROP_PLACE, THING, 0, 3, (swivel_in){thing, 0}) == SWIVEL_OK, "places");
+    check(swivel_write(crowd, SWIVEL_PROP_POSITION, THING, 0, 3, (swivel_in){thing, 0}) == SWIVEL_OK, "places");
     check(swivel_write(crowd, SWIVEL_LOOK_TARGET, HEAD, 0, 3, (swivel_in){ball, 0}) == SWIVEL_OK, "balls");
     check(swivel_solve(crowd, &job) == SWIVEL_INVALID_ARGUMENT, "a pose without time is refused");
     pose.time.data = &time;

@@ -34,7 +34,7 @@ test('explanations of many bad inputs are whole', () => {
 
 test('angles become what fields take', () => {
   close([...swivel.range(-0.5, 1.5)], [Math.cos(0.5), Math.sin(0.5), Math.cos(1), Math.sin(1)], 1e-7);
-  close([...swivel.turn(0.3)], [Math.cos(0.3), Math.sin(0.3)], 1e-7);
+  close([...swivel.cosSin(0.3)], [Math.cos(0.3), Math.sin(0.3)], 1e-7);
   close([...swivel.aim([0, 0, 2], 0.5)].slice(0, 3), [0, 0, 1], 1e-7);
   const straight = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] });
   close(swivel.armAxis(straight, [0, 0, Math.SQRT1_2, Math.SQRT1_2], [0, 3, 0]), [1, 0, 0], 1e-7);
@@ -64,16 +64,16 @@ test('some limbs: blocks, masks, lists and budgets', () => {
   assert.equal(crowd.solve({ mask: [1, 0, 0] }), 1);
   assert.deepEqual(solved(), ['0:0', '0:2', '1:3']);
   assert.equal(crowd.solve({ blocks: { first: 2, count: 1 } }), 8);
-  assert.equal(crowd.solve({ priorities: [[1], new Float32Array(20).fill(2)], mostBlocks: 1 }), 16);
+  assert.equal(crowd.solve({ priorities: [[1], new Float32Array(20).fill(2)], maxBlocks: 1 }), 16);
   assert.equal(solved().filter((name) => name.startsWith('1:')).length, 16);
   // One priority for all of a group, and one for each limb: the block of the most urgent limb is picked.
   const urgent = new Float32Array(40);
   urgent[20] = 100;
   const before = solved();
-  assert.equal(crowd.solve({ priorities: [urgent, [0]], mostBlocks: 1 }), 16);
+  assert.equal(crowd.solve({ priorities: [urgent, [0]], maxBlocks: 1 }), 16);
   assert.deepEqual(solved().filter((name) => !before.includes(name)).slice(0, 2), ['0:16', '0:17']);
   // Blocks take turns while their urgency is kept. The blocks have 16, 16, 8, 16 and 4 limbs.
-  const urgency = new Float32Array(crowd.blockCount), two = { priorities: [[1], [1]], mostBlocks: 2 };
+  const urgency = new Float32Array(crowd.blockCount), two = { priorities: [[1], [1]], maxBlocks: 2 };
   assert.deepEqual([1, 2, 3].map(() => crowd.solve({ ...two, urgency })), [16 + 16, 8 + 16, 4 + 16]);
   assert.deepEqual([...urgency], [0, 2, 1, 1, 0]);
   assert.deepEqual([1, 2].map(() => crowd.solve(two)), [16 + 16, 16 + 16]);
@@ -82,12 +82,12 @@ test('some limbs: blocks, masks, lists and budgets', () => {
   refuses(() => crowd.solve({ ...two, urgency: new Float32Array(4) }), 'urgency has 4 numbers; give 5');
   refuses(() => crowd.solve({ ...two, urgency, groups: [0] }), 'leave groups out');
   assert.deepEqual([...urgency], [0, 2, 1, 1, 0]);
-  refuses(() => crowd.solve({ priorities: [[1], [1]] }), 'priorities and mostBlocks together');
-  refuses(() => crowd.solve({ limb: [0] }), 'solve() takes blocks, groups, mask, limbs, priorities, mostBlocks, urgency, probesOnly, not limb');
+  refuses(() => crowd.solve({ priorities: [[1], [1]] }), 'priorities and maxBlocks together');
+  refuses(() => crowd.solve({ limb: [0] }), 'solve() takes blocks, groups, mask, limbs, priorities, maxBlocks, urgency, probesOnly, not limb');
   refuses(() => crowd.solve([0]), 'not 0');
   refuses(() => crowd.solve({ limbs: [0.5] }), 'limbs is 0.5');
-  refuses(() => crowd.solve({ priorities: [[1]], mostBlocks: 1 }), '1 priorities for 2 groups');
-  refuses(() => crowd.solve({ priorities: [[1], [1, 2]], mostBlocks: 1 }), '2 priorities for the 20 limbs of group 1');
+  refuses(() => crowd.solve({ priorities: [[1]], maxBlocks: 1 }), '1 priorities for 2 groups');
+  refuses(() => crowd.solve({ priorities: [[1], [1, 2]], maxBlocks: 1 }), '2 priorities for the 20 limbs of group 1');
   refuses(() => crowd.solve({ limbs: [40] }), '40');
   crowd.dispose();
 });

@@ -9,14 +9,14 @@ import { chain, refuses, swivel } from './common.mjs';
 const features = Feature.WITH_SHOULDER_CONE | Feature.WITH_HUMERAL_TWIST | Feature.WITH_SHOULDER_BOX;
 // A solved crowd of two groups: 5 plain limbs, and 6 with hands.
 function limbs() {
-  const crowd = swivel.crowd([{ limbCount: 5, features }, { limbCount: 6, features: features | Feature.WITH_HAND | Feature.WITH_MOST_SWIVEL }]);
+  const crowd = swivel.crowd([{ limbCount: 5, features }, { limbCount: 6, features: features | Feature.WITH_HAND | Feature.WITH_MAX_SWIVEL }]);
   [5, 6].forEach((count, group) => {
     const many = (make) => Array.from({ length: count }, (_, n) => [...make(n)]).flat();
     crowd.write(Field.LENGTHS, [1, 0.75], { group }), crowd.write(Field.POLE, many((n) => [0.3 * n, -1, 0.2]), { group });
     crowd.write(Field.TARGET, many((n) => [0.2 * n + 0.1 * group, 0.4, 0.8 + 0.1 * n]), { group });
     crowd.write(Field.SHOULDER_CONE, many((n) => swivel.cone([1, n, 0.5], 1 + 0.2 * n)), { group });
   });
-  crowd.write(Field.MOST_SWIVEL, swivel.turn(0.1), { group: 1 }), crowd.write(Field.HAND, [0.1, 0.2, 0.3, 1], { group: 1 });
+  crowd.write(Field.MAX_SWIVEL, swivel.cosSin(0.1), { group: 1 }), crowd.write(Field.HAND, [0.1, 0.2, 0.3, 1], { group: 1 });
   crowd.write(Field.TARGET, [9, 9, 9], { group: 1, first: 3, count: 1 });
   crowd.solve();
   return crowd;
@@ -101,17 +101,17 @@ const skeleton = { parents: [-1, 0, 1, 2, 3, 1, 5, 6, 5], translations: [0, 1, 0
 const [SPINE, NECK, HEAD] = [5, 6, 7], arm = { joints: { shoulder: 2, elbow: 3, wrist: 4, bend: [0, 0, 1] }, features: Feature.POLE_INCOMING }, look = { joints: [SPINE, NECK, HEAD] };
 const make = (groups, options = {}) => swivel.bodies({ skeleton, bodyCount: 1, groups, ...options });
 const hand = arm.features | Feature.WITH_HAND, plants = arm.features | Feature.WITH_PLANT;
-const fits = { ...arm, features: plants | Feature.WITH_FIT }, holds = { ...arm, features: hand | Feature.WITH_LINK, link: 1 };
+const fits = { ...arm, features: plants | Feature.WITH_PELVIS_FIT }, holds = { ...arm, features: hand | Feature.WITH_LINK, link: 1 };
 const foot = (ground) => [{ ...arm, features: hand | plants | Feature.WITH_EFFECTOR | Feature.WITH_GROUND, ground }];
 const plant = (given) => [{ ...arm, features: plants, plant: given }], prop = (given) => [holds, { prop: given }], looks = (given) => [{ look: given }];
 const wrong = [
   [plant(0.1), 'plant takes lock, unlock, stop, blend, again, run, longest, speed, height, not 0.1'],
   [[fits, { fit: {}, joints: arm.joints }], 'a group of shifts takes fit, onBadInput, not joints'],
-  [foot(0.1), 'ground takes heel, toeClearance, heelClearance, cosMost, half, not 0.1'],
-  [prop({ wrist: 1 }), 'prop takes joint, mostMove, not wrist'],
+  [foot(0.1), 'ground takes heel, toeClearance, heelClearance, cosMax, half, not 0.1'],
+  [prop({ wrist: 1 }), 'prop takes joint, maxMove, not wrist'],
   [[{ ...holds, link: -1 }, { prop: {} }], 'link is -1; give a whole number'],
   [[{ prop: {}, link: 0 }], "a prop's group takes prop, onBadInput, not link"],
-  [looks(1), 'look takes joints, share, cosMost, eye, axis, cosFull, cosNone, fadeDistance, rate, not 1'],
+  [looks(1), 'look takes joints, share, cosMax, eye, axis, cosFull, cosNone, fadeDistance, rate, not 1'],
   [looks({ joints: [-1] }), 'look.joints is -1; give a whole number'],
   [[{ look, link: 0 }], 'a group that looks takes look, onBadInput, not link'],
 ];
@@ -123,11 +123,11 @@ test('what bodies cannot be made of is refused in one line', () => {
   refuses(() => crowd.changeSupport({}, { place: [0, 0, 0] }), 'now takes position, rotation, not place');
   refuses(() => crowd.changeSupport({ position: [1, 2] }, {}), '2 numbers for was.position of 1 bodies; give 3, or 3 for each body');
   refuses(() => crowd.changeSupport({}, {}, { group: 1 }), 'group 1 does not plant');
-  refuses(() => crowd.write(Field.GOAL, [0]), 'goal');
+  refuses(() => crowd.write(Field.SOLVED_GOAL, [0]), 'solved_goal');
   refuses(() => holding.solve({ groups: [0] }), 'name both');
   refuses(() => holding.solve({ probesOnly: true }), 'names no group that is SWIVEL_WITH_GROUND');
   refuses(() => holding.solve({ sample: () => undefined }), 'not sample');
-  assert.deepEqual([holding.features(1) & Feature.PROP, holding.componentCount(Field.PROP_FRAME, 1), holding.componentCount(Field.TARGET, 1)], [Feature.PROP, 7, 0]);
+  assert.deepEqual([holding.features(1) & Feature.PROP, holding.componentCount(Field.PROP_TRANSFORM, 1), holding.componentCount(Field.TARGET, 1)], [Feature.PROP, 7, 0]);
   crowd.dispose(), holding.dispose();
 });
 
@@ -137,7 +137,7 @@ test('regions that cannot be are refused, and stay as they were', () => {
   refuses(() => region.addCones([{ axis: [1, 0, 0], opening: 1 }]), 'a cone takes axis, angle, not opening');
   refuses(() => region.addCones({ axis: [1, 0, 0], angle: 1 }), 'give a list of { axis, angle }');
   refuses(() => region.addPolygon([1, 0, 0, 0, 1]), 'corners has 5 numbers; give 6');
-  refuses(() => region.addDirections([1, 0, 0], 0.1, -1), 'mostCones is -1');
+  refuses(() => region.addDirections([1, 0, 0], 0.1, -1), 'maxCones is -1');
   assert.equal(region.room([0, 0, 1]), room);
   refuses(() => swivel.crowd([{ limbCount: 1, region: {} }]), 'give what region() made');
   refuses(() => swivel.crowd([{ limbCount: 1, region: swivel.region() }]), 'the region allows nothing');

@@ -8,7 +8,7 @@ import { close, refuses, swivel, unit } from './common.mjs';
 
 // A body: hips, an arm with a joint in the upper arm, and a leg. Joints are turned at rest.
 const random = (() => { let seed = 7; return () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) / 2 ** 32 - 0.5; })();
-const some = (count, most) => Array.from({ length: count }, () => Math.fround(most * random()));
+const some = (count, max) => Array.from({ length: count }, () => Math.fround(max * random()));
 const parents = [-1, 0, 1, 2, 3, 0, 5, 6], translations = [0, 1, 0, 0.2, 0.4, 0, 0.1, 0, 0, 0.2, 0, 0, 0.26, 0, 0, -0.1, 0, 0, 0, -0.45, 0, 0, -0.4, 0];
 const skeleton = { parents, translations, rotations: parents.flatMap(() => unit([...some(3, 0.2), 1])) };
 const arm = { shoulder: 1, elbow: 3, wrist: 4, bend: [0, 0, 1] }, leg = { shoulder: 5, elbow: 6, wrist: 7, bend: [0, 0, -1] };
@@ -32,7 +32,7 @@ test('roots in doubles: positions are views of doubles, and those of other field
 
 test('parts start at rest, in every form and space', () => {
   const solved = (parts, options = {}) => {
-    const crowd = swivel.bodies({ skeleton, bodyCount, groups, ...options }), places = crowd.pose('jointPlaces');
+    const crowd = swivel.bodies({ skeleton, bodyCount, groups, ...options }), places = crowd.pose('jointPositions');
     for (const part of parts) crowd.pose(part);
     limbs.forEach((_, group) => crowd.write(Field.TARGET, [0.5, 0.7, 0.3], { group })), crowd.solve();
     const found = [bitsOf(crowd.pose('rotations')), [...places.slice(0, 24)]];
@@ -64,8 +64,8 @@ test('what is wrong with bodies is refused in one line', () => {
   refuses(() => bodies({ skeleton: { ...skeleton, translations: [0] } }), 'translations has 1 numbers; give 24');
   refuses(() => swivel.crowd([{ limbCount: 1, joints: arm }]), 'not joints');
   const crowd = bodies();
-  refuses(() => crowd.solve({ priorities: [[1], [1]], mostBlocks: 1 }), '2 priorities for bodies; give one list');
-  refuses(() => crowd.pose('rotation'), 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPlaces, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, weight, not "rotation"');
+  refuses(() => crowd.solve({ priorities: [[1], [1]], maxBlocks: 1 }), '2 priorities for bodies; give one list');
+  refuses(() => crowd.pose('rotation'), 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPositions, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, weight, not "rotation"');
   refuses(() => crowd.pose('translationResults'), "only translations in the body's space change");
   crowd.dispose();
   for (const call of [() => crowd.pose('rotations'), () => crowd.pose('scales'), () => crowd.solve()]) refuses(call, 'this crowd is disposed of');
@@ -75,7 +75,7 @@ test('what is wrong with bodies is refused in one line', () => {
 });
 
 test('a pose is compared with where an engine has a limb', () => {
-  const crowd = swivel.bodies({ skeleton, bodyCount: 1, groups }), all = crowd.pose('jointPlaces');
+  const crowd = swivel.bodies({ skeleton, bodyCount: 1, groups }), all = crowd.pose('jointPositions');
   crowd.pose('weight').fill(0);  // so the places after the solve are those of the pose as it comes
   limbs.forEach((_, group) => crowd.write(Field.TARGET, [0.5, 0.7, 0.3], { group })), crowd.solve();
   const places = (factor = 1) => Object.fromEntries(['shoulder', 'elbow', 'wrist'].map((name) => [name, at(all, 3, leg[name]).map((x) => factor * x)]));

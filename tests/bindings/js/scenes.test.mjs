@@ -14,9 +14,9 @@ const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase(
 // An object with names as the package has them. The fields of a structure's own members, too.
 const named = (given) => (given?.constructor === Object ? Object.fromEntries(Object.entries(given).map(([name, value]) => [camel(name), named(value)])) : given);
 
-function regionOf({ axes, angles, corners, directions, margin, most_cones, forbidden }) {
+function regionOf({ axes, angles, corners, directions, margin, max_cones, forbidden }) {
   const cones = axes.map((axis, n) => ({ axis, angle: angles[n] }));
-  return swivel.region().addCones(cones, true).addPolygon(corners).addDirections(directions, margin, most_cones).forbid(forbidden).mirrored();
+  return swivel.region().addCones(cones, true).addPolygon(corners).addDirections(directions, margin, max_cones).forbid(forbidden).mirrored();
 }
 function groupOf({ features, region, twist_bones, ...given }) {
   const options = named(given);
@@ -54,7 +54,7 @@ function digestOf(parts) {
 }
 function writtenParts({ space, outputs, frames }) {
   const has = (part) => outputs.includes(part) || part in frames[0].pose;
-  const chosen = [['results', 'rotations'], space ? ['translation_results', 'translations'] : [], ['joint_rotations'], ['joint_places']];
+  const chosen = [['results', 'rotations'], space ? ['translation_results', 'translations'] : [], ['joint_rotations'], ['joint_positions']];
   return chosen.map((parts) => parts.find(has)).filter(Boolean).map(camel);
 }
 
@@ -108,7 +108,7 @@ test('views of every field have the same bits, in and out', () => {
 });
 
 test('what is carried can be saved and set back in another crowd, views too, and is reset for some', () => {
-  const carried = ['NORMAL', 'PLANT', 'PLANT_TURN', 'MOTION', 'SHIFT', 'LIFT', 'LOOK_TURNS'].map((name) => Field[name]), seen = new Set();
+  const carried = ['NORMAL', 'PLANT', 'PLANT_ROTATION', 'MOTION', 'SHIFT', 'LIFT', 'LOOK_TURNS'].map((name) => Field[name]), seen = new Set();
   for (const scene of scenes.filter(({ name }) => name.startsWith('standing'))) {
     const [crowd, other] = [crowdOf(scene), crowdOf(scene)];
     for (const _ of play(scene, crowd));
@@ -206,6 +206,6 @@ test('every feature, input and part of a pose is in some scene', () => {
   }
   assert.deepEqual(Object.keys(Feature).filter((name) => !(features & Feature[name])), ['JOINTS']);  // bindings' own: answers.test.mjs
   assert.deepEqual(Object.keys(Field).filter((name) => Field[name] < Field.SHOULDER && !fields.has(name)), []);
-  const has = 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPlaces, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, weight';
+  const has = 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPositions, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, weight';
   assert.deepEqual([...parts].sort(), has.replace('poses have ', '').split(', ').sort());
 });

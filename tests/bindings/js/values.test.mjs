@@ -39,7 +39,7 @@ test('values are views of memory, which solves read and write', () => {
 });
 
 test('calls beside solves see what views hold now', () => {
-  const crowd = swivel.crowd([2], Feature.WITH_MOST_SWIVEL);
+  const crowd = swivel.crowd([2], Feature.WITH_MAX_SWIVEL);
   crowd.write(Field.LENGTHS, [1, 1]);
   const target = crowd.values(Field.TARGET), normal = crowd.values(Field.NORMAL);
   target.set([0, 0.5, 1, 0, 0.5, 1]);
@@ -87,17 +87,17 @@ test('memory beyond two gigabytes', async () => {
 test('calls and crowds that are disposed of leave nothing behind', async () => {
   const small = await load({ megabytes: 4, wasm });
   const largest = () => {  // the limbs of the largest crowd that memory has room for
-    let [least, most] = [1, 100000];
-    while (most - least > 16) {
-      const limbs = (least + most) >> 1;
+    let [min, max] = [1, 100000];
+    while (max - min > 16) {
+      const limbs = (min + max) >> 1;
       try {
         small.crowd([limbs]).dispose();
-        least = limbs;
+        min = limbs;
       } catch {
-        most = limbs;
+        max = limbs;
       }
     }
-    return least;
+    return min;
   };
   const parents = Array.from({ length: 300 }, (_, n) => n - 1), translations = parents.flatMap((n) => [1, n % 2, 0]);
   const bodies = { skeleton: { parents, translations }, groups: [{ joints: { shoulder: 0, elbow: 1, wrist: 2 } }], rootIsDouble: true };

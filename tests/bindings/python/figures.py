@@ -45,7 +45,7 @@ LIMBS = [(UPPER_ARM, FOREARM, HAND), (THIGH, SHIN, FOOT)]
 def crowd_of(n, features=0):
     """An arm and a leg of n bodies, and their shift if they fit."""
     groups = [swivel.BodyGroup(*limb, bend=(0, 0, side)) for limb, side in zip(LIMBS, (1, -1))]
-    shifts = [swivel.FitGroup()] * bool(features & Feature.WITH_FIT)
+    shifts = [swivel.FitGroup()] * bool(features & Feature.WITH_PELVIS_FIT)
     return swivel.Crowd([*groups, *shifts], features, skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=n)
 
 
@@ -70,7 +70,7 @@ class Bodies:
         crowd, places, turned = crowd_of(n, Feature.POLE_INCOMING), np.zeros((n, 8, 3), np.float32), np.zeros((n, 8, 4), np.float32)
         for group in range(len(LIMBS)):
             crowd.write(Field.TARGET, (0, 0, 0), group)
-        crowd.solve(pose=Pose(rotations.copy(), joint_places=places, joint_rotations=turned, weight=0.0, **self.members()))
+        crowd.solve(pose=Pose(rotations.copy(), joint_positions=places, joint_rotations=turned, weight=0.0, **self.members()))
         axis, cosine = self.root_rotation[:, None, :3], self.root_rotation[:, None, 3:]
         in_world = places + 2 * np.cross(axis, np.cross(axis, places) + cosine * places)
         return self.root_position[:, None] + self.root_scale[:, None, None] * in_world, turned

@@ -29,7 +29,7 @@ class Limbs:
 
     def __init__(self):
         features = Feature.WITH_ANGLE | Feature.WITH_SHOULDER_CONE | Feature.WITH_HUMERAL_TWIST
-        self.crowd = swivel.Crowd([Group(5, features=features), Group(6, features=features | Feature.WITH_HAND | Feature.WITH_MOST_SWIVEL)])
+        self.crowd = swivel.Crowd([Group(5, features=features), Group(6, features=features | Feature.WITH_HAND | Feature.WITH_MAX_SWIVEL)])
         for group, count in enumerate((5, 6)):
             sample = Sample(count, seed=group)
             for field, values in ((Field.TARGET, sample.targets), (Field.POLE, sample.poles), (Field.LENGTHS, sample.lengths)):
@@ -37,7 +37,7 @@ class Limbs:
             cone = [swivel.cone((1, n, 0.5), 1 + 0.2 * n) for n in range(count)]
             self.crowd.write(Field.SHOULDER_CONE, cone, group)
         self.crowd.write(Field.HAND, quaternions(np.random.default_rng(1), 6), 1)
-        self.crowd.write(Field.MOST_SWIVEL, swivel.turn(0.1), 1)
+        self.crowd.write(Field.MAX_SWIVEL, swivel.cos_sin(0.1), 1)
         self.crowd.write(Field.TARGET, (9, 9, 9), 1, 3, 1)
         self.crowd.solve()
 
@@ -54,10 +54,10 @@ PLACE, SOME = {"group": 1}, {"group": 1, "first": 2, "count": 2}
 OTHERS = {"group": 0, "first": 1, "count": 1}
 # Of each call: arguments, and others, each of which alone must change what it answers or what it leaves.
 FUNCTIONS = {
-    "range": ({"least": 0, "most": 1}, {"least": 0.1, "most": 1.1}),
-    "cone": ({"axis": (0, 0, 1), "most": 1}, {"axis": (0, 1, 1), "most": 0.5}),
-    "flexion": ({"least": 0, "most": 2}, {"least": 0.1, "most": 1.5}),
-    "turn": ({"angle": 1}, {"angle": 2}),
+    "range": ({"min": 0, "max": 1}, {"min": 0.1, "max": 1.1}),
+    "cone": ({"axis": (0, 0, 1), "max": 1}, {"axis": (0, 1, 1), "max": 0.5}),
+    "flexion": ({"min": 0, "max": 2}, {"min": 0.1, "max": 1.5}),
+    "cos_sin": ({"angle": 1}, {"angle": 2}),
     "aim": ({"axis": (0, 0, 1), "flexion": 1}, {"axis": (0, 1, 0), "flexion": 2}),
     "mirror": ({"field": Field.SHOULDER_BOX, "values": np.concatenate([swivel.range(-0.2, 0.3 + n) for n in (0.0, 0.1, 0.2)])},
                {"field": Field.SHOULDER_CONE, "values": np.concatenate([swivel.range(-0.1, 0.3)] * 3), "order": EulerOrder.ZXY}),
@@ -135,7 +135,7 @@ class Counts(unittest.TestCase):
         self.check(of("add_polygon"), {"corners": np.eye(3)}, {"corners": np.diag((-1, -1, 1))})
         self.check(of("forbid"), {"axis": (0, 0, 1), "angle": 0.2}, {"axis": (1, 0, 0.2), "angle": 0.4})
         arc = [(-1, 0, 0), (-1, 0, 1), (-0.3, 1, 0)]
-        self.check(of("add_directions"), {"directions": arc, "margin": 0.1}, {"directions": arc[:2], "margin": 0.2, "most_cones": 1})
+        self.check(of("add_directions"), {"directions": arc, "margin": 0.1}, {"directions": arc[:2], "margin": 0.2, "max_cones": 1})
         region = cones(axes=CONE, angles=0.5)
         self.assertEqual(region.room((0, 0.1, 1)), region.room([(0, 0.1, 1)])[0])
         self.assertIsInstance(region.room((0, 0.1, 1)), float)
@@ -149,7 +149,7 @@ PLACES = np.float32([(0, 1, 0), (0, 0.5, 0), (0.2, 0, 0), (0.3, 0, 0), (0.25, 0,
 SHOULDER, ELBOW, WRIST, SPINE, NECK, HEAD = 2, 3, 4, 5, 6, 7
 ARM = BodyGroup(SHOULDER, ELBOW, WRIST, bend=(0, 0, 1), features=Feature.POLE_INCOMING)
 FOOT = ARM._replace(features=ARM.features | Feature.WITH_HAND | Feature.WITH_EFFECTOR | Feature.WITH_PLANT | Feature.WITH_GROUND)
-FITS = ARM._replace(features=ARM.features | Feature.WITH_PLANT | Feature.WITH_FIT)
+FITS = ARM._replace(features=ARM.features | Feature.WITH_PLANT | Feature.WITH_PELVIS_FIT)
 HOLDS = ARM._replace(features=ARM.features | Feature.WITH_HAND | Feature.WITH_LINK, link=1)
 HAND = ARM._replace(features=ARM.features | Feature.WITH_HAND)
 LOOK = LookGroup([SPINE, NECK, HEAD])
@@ -194,7 +194,7 @@ class Refused(Refusals):
         self.refuses(TypeError, "was: expected a Support, got None", crowd.change_support, None, Support())
         self.refuses(ValueError, "now.position: expected shape (1, 3), or (3,) for all bodies, got (2,)", crowd.change_support, Support(), Support((1, 2)))
         self.refuses(ValueError, "change_support: group 1 does not plant; create it with Feature.WITH_PLANT", crowd.change_support, Support(), Support(), 1)
-        self.refuses(ValueError, "goal is a result; write takes inputs and what is carried", crowd.write, Field.GOAL, np.zeros(7))
+        self.refuses(ValueError, "solved_goal is a result; write takes inputs and what is carried", crowd.write, Field.SOLVED_GOAL, np.zeros(7))
         self.refuses(ValueError, "name both", holding.solve, pose=pose, groups=[0])
         self.refuses(ValueError, "the job is for probes_only, but names no group that is Feature.WITH_GROUND; leave it out", holding.solve, pose=pose, probes_only=True)
 

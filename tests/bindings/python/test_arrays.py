@@ -173,8 +173,8 @@ class Mistakes(Refusals):
                    frames={"tagret": 0})
         self.refuses(ValueError, "frames: expected one for each of 1 groups, got 2", crowd.solve, frames=[{}, {}])
         self.refuses(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve, priorities=[1, 1],
-                   most_blocks=1)
-        self.refuses(TypeError, "takes priorities and most_blocks together", crowd.solve, most_blocks=1)
+                   max_blocks=1)
+        self.refuses(TypeError, "takes priorities and max_blocks together", crowd.solve, max_blocks=1)
         self.refuses(ValueError, "urgency: expected shape (7,), got (6,)", crowd.choose, [1], 1, np.zeros(6, np.float32))
         self.refuses(TypeError, "urgency: expected dtype float32, got float64", crowd.choose, [1], 1, np.zeros(7))
         self.refuses(ValueError, "urgency: its numbers must lie side by side", crowd.choose, [1], 1, np.zeros(14, np.float32)[::2])

@@ -132,7 +132,7 @@ class Mistakes(Refusals):
         fails(TypeError, "translations: expected an array to write to, got list", good, space=space, translations=places.tolist())
         fails(ValueError, "the pose has out_translations, but only translations in the body's space change", good, out_translations=places)
         fails(ValueError, "the pose has out, but no out_translations, and", good, space=space, translations=places, out=good.copy())
-        fails(ValueError, "joint_places: expected shape (2, 8, 3), got (2, 8, 4)", good, joint_places=good.copy())
+        fails(ValueError, "joint_positions: expected shape (2, 8, 3), got (2, 8, 4)", good, joint_positions=good.copy())
         fails(TypeError, "joint_rotations: expected an array to write to, got bool", good, joint_rotations=True)
 
     def test_crowds(self):

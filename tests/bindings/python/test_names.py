@@ -48,7 +48,7 @@ def header_enum(name):
 def crowd_with(features):
     """Of one limb, or of one body for what bodies alone have; and the number of the group with these features."""
     if features & Feature.FIT:
-        return crowd_of(1, Feature.WITH_FIT), 2
+        return crowd_of(1, Feature.WITH_PELVIS_FIT), 2
     if features & (Feature.PROP | Feature.WITH_LINK):
         hand = swivel.BodyGroup(*LIMBS[0], bend=(0, 0, 1), features=features & ~Feature.PROP | Feature.WITH_HAND | Feature.WITH_LINK, link=1)
         return swivel.Crowd([hand, swivel.PropGroup()], skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=1), int(bool(features & Feature.PROP))

@@ -124,7 +124,7 @@ class Groups(unittest.TestCase):
             self.assertEqual(picked(crowd.choose([1, 3, 1], 1)), [False, True, False])
         crowd.choose([1, 2, 4], 1, others)
         np.testing.assert_array_equal(abs(others), (1, 2, 0))
-        crowd.solve(priorities=[1, 1, 1], most_blocks=1, urgency=others)
+        crowd.solve(priorities=[1, 1, 1], max_blocks=1, urgency=others)
         np.testing.assert_array_equal(abs(others), (2, 0, 1))
 
 
@@ -161,7 +161,7 @@ class Bits(Refusals):
             ([{"frames": [inputs], "blocks": (first, 9), **here} for first in range(0, count, 9)], [9 * 16] * 6 + [N - 6 * 9 * 16]),
             ([{"limbs": whole.limbs()[1::2], "frames": {"target": sample.targets, **some}}, {"limbs": whole.limbs()[::2]}], [N // 2, N // 2]),
             ([choose] * 4, [16 * 16] * 3 + [N - 3 * 16 * 16 + 16]),
-            ([{"priorities": [1.0], "most_blocks": 20, "urgency": urgency[1]}] * 4, [320, 320, 320, 312]),
+            ([{"priorities": [1.0], "max_blocks": 20, "urgency": urgency[1]}] * 4, [320, 320, 320, 312]),
         ]
         for jobs, solved in ways:
             crowd = crowd_of(sample)

@@ -15,10 +15,10 @@ import swivel
 from swivel import (BodyGroup, EulerOrder, Feature, Field, FitGroup, Ground, Group, LookGroup, OnBadInput, Plant, Pose, PoseSpace, PropGroup, Region,
                     Support)
 
-COMPONENTS = {"rotations": 4, "translations": 3, "scales": 3, "results": 4, "translation_results": 3, "joint_rotations": 4, "joint_places": 3}
+COMPONENTS = {"rotations": 4, "translations": 3, "scales": 3, "results": 4, "translation_results": 3, "joint_rotations": 4, "joint_positions": 3}
 OUTPUTS = {"results": "out", "translation_results": "out_translations"}  # as a Pose names them
 SHAPES = [(4,), (3, 4), (4, 4), (4, 3)]  # of a joint by the pose's form; columns are turned below
-CARRIED = [Field.NORMAL, Field.PLANT, Field.PLANT_TURN, Field.MOTION, Field.SHIFT, Field.LIFT, Field.LOOK_TURNS]
+CARRIED = [Field.NORMAL, Field.PLANT, Field.PLANT_ROTATION, Field.CONTACT_STATE, Field.SHIFT, Field.LIFT, Field.LOOK_TURNS]
 STRUCTURES = ("plant", "ground", "fit", "prop", "look", "joints")  # of a group
 KINDS = {"on_bad_input": OnBadInput, "shoulder_order": EulerOrder, "wrist_order": EulerOrder}
 
@@ -36,7 +36,7 @@ def region_of(given):
     region = Region()
     region.add_cones(given["axes"], given["angles"], closed=True)
     region.add_polygon(array(given["corners"]).reshape(-1, 3))
-    region.add_directions(array(given["directions"]).reshape(-1, 3), given["margin"], given["most_cones"])
+    region.add_directions(array(given["directions"]).reshape(-1, 3), given["margin"], given["max_cones"])
     region.forbid(**given["forbidden"])
     return region.mirrored()
 
@@ -95,7 +95,7 @@ class Player:
         given = {OUTPUTS.get(name, "matrices" if form and name == "rotations" else name): values for name, values in turned.items()}
         moved = ("translation_results", "translations") if scene["space"] else ()
         chosen = [next((name for name in names if name in arrays), None) for names in (("results", "rotations"), moved)]
-        order = [name for name in (*chosen, "joint_rotations", "joint_places") if name in arrays]
+        order = [name for name in (*chosen, "joint_rotations", "joint_positions") if name in arrays]
         return Pose(space=PoseSpace(scene["space"]), **given), [arrays[name] for name in order]
 
     def solve(self, frame):

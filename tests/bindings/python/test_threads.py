@@ -56,7 +56,7 @@ class Threads(unittest.TestCase):
         blocks = (0, crowd.block_count)
         bodies, pose = crowd_of(20000, swivel.Feature.POLE_INCOMING), swivel.Pose(Bodies(20000).rotations)
         for call in (crowd.solve, lambda: crowd.solve(blocks=blocks, on_this_thread=True), lambda: crowd.solve(mask=active),
-                     lambda: crowd.solve(limbs=lanes), lambda: crowd.solve(priorities=[ones], most_blocks=1000),
+                     lambda: crowd.solve(limbs=lanes), lambda: crowd.solve(priorities=[ones], max_blocks=1000),
                      lambda: crowd.choose([ones], 1000), crowd.reset,
                      lambda: crowd.solve(frames={"target": target, "shoulder": out}),
                      lambda: crowd.solve(frames={"target": target}, blocks=blocks, on_this_thread=True),

@@ -26,24 +26,24 @@ class Plant(NamedTuple):
 
     Lengths are in limb lengths: both bones of the skeleton at rest, times the root's scale. Times are in seconds.
 
-    lock     a point locks only within this of where it is animated
-    unlock   a locked point is released if the animation has it further away
-    stop     a point that locks is at rest after this time
-    blend    a point that is released is with the animation again after this time
-    again    lengths a second: after a release by distance a slower point locks anew; 0: none does
-    run      0: it is anchored where it locks, 1: where it would come to rest by itself; 0.5 slides least
-    longest  a body that was not solved for longer than this starts anew; 0: none does
-    speed    with Feature.PLANT_BY_MOTION: lengths a second below which a contact begins, and goes on
-    height   the same of the height over the root, along the crowd's `up`
+    lock_radius    a point locks only within this of where it is animated
+    unlock_radius  a locked point is released if the animation has it further away
+    stop_time      a point that locks is at rest after this time
+    release_time   a point that is released is with the animation again after this time
+    relock_speed   lengths a second: after a release by distance a slower point locks anew; 0: none does
+    anchor_lead    0: it is anchored where it locks, 1: where it would come to rest by itself; 0.5 slides least
+    reset_time     a body that was not solved for longer than this starts anew; 0: none does
+    speed          with Feature.PLANT_BY_MOTION: lengths a second below which a contact begins, and goes on
+    height         the same of the height over the root, along the crowd's `up`
     """
 
-    lock: float = 0.12
-    unlock: float = 0.24
-    stop: float = 0.1
-    blend: float = 0.2
-    again: float = 0.06
-    run: float = 0.5
-    longest: float = 0
+    lock_radius: float = 0.12
+    unlock_radius: float = 0.24
+    stop_time: float = 0.1
+    release_time: float = 0.2
+    relock_speed: float = 0.06
+    anchor_lead: float = 0.5
+    reset_time: float = 0
     speed: Sequence[float] = (0.6, 0.8)
     height: Sequence[float] = (0.08, 0.1)
 
@@ -56,15 +56,15 @@ class Ground(NamedTuple):
     heel            (3,) a point of the sole in the wrist joint's frame, in the bones' unit; zeros: the wrist itself
     toe_clearance   of the effector where it stands
     heel_clearance  of the heel where it stands; 0 for both if both are on the sole
-    cos_most        cosine of the angle that the foot turns at most, 0 to 1
-    half            seconds in which about half of a lift is made up
+    cos_max         cosine of the angle that the foot turns at most, 0 to 1
+    half_life       seconds in which about half of a lift is made up
     """
 
     heel: npt.ArrayLike = (0, 0, 0)
     toe_clearance: float = 0
     heel_clearance: float = 0
-    cos_most: float = 0.8
-    half: float = 0.05
+    cos_max: float = 0.8
+    half_life: float = 0.05
 
 
 class BodyGroup(NamedTuple):
@@ -101,37 +101,37 @@ class BodyGroup(NamedTuple):
 
 
 class FitGroup(NamedTuple):
-    """The shift of each body along the crowd's `up`, so that its limbs with Feature.WITH_FIT reach. One of a Crowd's groups.
+    """The shift of each body along the crowd's `up`, so that its limbs with Feature.WITH_PELVIS_FIT reach. One of a Crowd's groups.
 
     It names no joints, and its one feature is Feature.FIT. Field.SHIFT[0] is by how much the root, or the pelvis, moves.
 
-    drop          the most down, in lengths of the first limb with Feature.WITH_FIT (see Plant)
+    drop          the most down, in lengths of the first limb with Feature.WITH_PELVIS_FIT (see Plant)
     rise          the most up
-    half          seconds in which about half of a distance is made up
-    ahead         seconds from when on Field.COMING counts; at 0 seconds it counts whole
+    half_life     seconds in which about half of a distance is made up
+    lookahead     seconds from when on Field.NEXT_TARGET counts; at 0 seconds it counts whole
     on_bad_input  what a body with bad input gets; None: as the crowd says
     """
 
     drop: float = 0.1
     rise: float = 0.05
-    half: float = 0.1
-    ahead: float = 0.3
+    half_life: float = 0.1
+    lookahead: float = 0.3
     on_bad_input: Optional[OnBadInput] = None
 
 
 class PropGroup(NamedTuple):
     """A thing that one hand or two of each body hold, such as a rifle or a ladder: BodyGroups with Feature.WITH_LINK. One of a Crowd's groups.
 
-    It names no limb, and its one feature is Feature.PROP. Field.PROP_PLACE and Field.PROP_TURN say where it is, or else its joint, or else the
-    hands of the incoming pose. It moves as little as it must so that all hands reach. Field.PROP_FRAME is where it then is.
+    It names no limb, and its one feature is Feature.PROP. Field.PROP_POSITION and Field.PROP_ROTATION say where it is, or else its joint, or else the
+    hands of the incoming pose. It moves as little as it must so that all hands reach. Field.PROP_TRANSFORM is where it then is.
 
     joint         of the skeleton, which no limb turns; -1: none
-    most_move     the most that it moves, in lengths of the first limb that is linked to it; 0: it stays, as a ladder does
+    max_move      the most that it moves, in lengths of the first limb that is linked to it; 0: it stays, as a ladder does
     on_bad_input  what a body with bad input gets; None: as the crowd says
     """
 
     joint: int = -1
-    most_move: float = 1
+    max_move: float = 1
     on_bad_input: Optional[OnBadInput] = None
 
 
@@ -143,7 +143,7 @@ class LookGroup(NamedTuple):
 
     joints        1 to 8 of the skeleton, each below the one before, such as spine, neck and head
     share         (joints,) of what is left of the turn, against those after it; a number: the same of all
-    cos_most      (joints,) cosine of the angle that each turns at most, -1 to 1; a number: the same of all
+    cos_max      (joints,) cosine of the angle that each turns at most, -1 to 1; a number: the same of all
     eye           (3,) where the line starts, in the last joint's frame, in its unit
     axis          (3,) where it points, in the last joint's frame, of any length but 0
     cos_full      the look fades as the target goes behind: from this cosine between line and target
@@ -155,7 +155,7 @@ class LookGroup(NamedTuple):
 
     joints: Sequence[int]
     share: npt.ArrayLike = 1
-    cos_most: npt.ArrayLike = 0.7
+    cos_max: npt.ArrayLike = 0.7
     eye: npt.ArrayLike = (0, 0, 0)
     axis: npt.ArrayLike = (0, 0, 1)
     cos_full: float = -0.1
@@ -190,7 +190,7 @@ class Pose(NamedTuple):
     space             PoseSpace.IN_BODY: rotations, translations, scales and matrices are relative to the root, not to parents
     out_translations  in the body's space: where translations of moved joints go; None: back to translations
     joint_rotations   (bodies, joints, 4) to write: how joints are turned after the solve, relative to the root
-    joint_places      (bodies, joints, 3) to write: where they are then
+    joint_positions      (bodies, joints, 3) to write: where they are then
     time              (bodies,) seconds since the body's last solve; planted limbs, shifts and looks with a rate need it
     support_position  (bodies, 3) of what planted points stand on, in the world; None: the origin
     support_rotation  (bodies, 4) None: not turned
@@ -202,7 +202,7 @@ class Pose(NamedTuple):
     anything that NumPy makes an array of, which is copied first if it lies differently.
 
     In the body's space all joints below a limb's move with it, and are written, too, translations among them. joint_rotations
-    and joint_places get the joints that some limb needs: its own, those in between, and all above. Others keep their numbers.
+    and joint_positions get the joints that some limb needs: its own, those in between, and all above. Others keep their numbers.
 
     A root_position that is an array of float64 makes support_position and all positions in frames float64. The root is subtracted in double, for
     crowds kilometres from the origin. Positions that frames leave out, and places among results, are then counted from the root.
@@ -219,7 +219,7 @@ class Pose(NamedTuple):
     space: PoseSpace = PoseSpace.LOCAL
     out_translations: Optional[npt.NDArray[np.float32]] = None
     joint_rotations: Optional[npt.NDArray[np.float32]] = None
-    joint_places: Optional[npt.NDArray[np.float32]] = None
+    joint_positions: Optional[npt.NDArray[np.float32]] = None
     time: Optional[npt.ArrayLike] = None
     support_position: Optional[npt.ArrayLike] = None
     support_rotation: Optional[npt.ArrayLike] = None

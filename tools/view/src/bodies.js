@@ -17,7 +17,7 @@ import limbGlsl from "./limb.glsl";
 import limbVertex from "./limb.vert.glsl";
 import { floatTexture, LimbRows } from "./rows.js";
 import { withShadow } from "./shaded.js";
-import { MOST_SKINS, Skins } from "./skins.js";
+import { MAX_SKINS, Skins } from "./skins.js";
 
 export const SKIN = -1;  // in place of limbs' colours
 const SUN = new Vector3(0.45, 1, 0.35);
@@ -54,11 +54,11 @@ function handFromArm({ swivel, skeleton }, { chain }) {
 }
 
 export class Bodies {
-    /** scale: metres of the scene for a unit of the clip. mostTexels: of a side of a texture. ground: its uniforms. */
-    constructor(stage, figure, scale, mostTexels, ground) {
+    /** scale: metres of the scene for a unit of the clip. maxTexels: of a side of a texture. ground: its uniforms. */
+    constructor(stage, figure, scale, maxTexels, ground) {
         this.stage = stage;
         this.figure = figure;
-        this.mostTexels = mostTexels;
+        this.maxTexels = maxTexels;
         this.meshes = [];
         this.drawnCount = 1;  // until show() says it
         this.extra = null;  // the character that is drawn beside the first ones, or null
@@ -66,14 +66,14 @@ export class Bodies {
         const positions = new Float32Array(figure.positions.length / 3 * 4);
         for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
         this.shared = {
-            uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start, first, count }) => [...place, size, start, first, count, 0]), mostTexels),
-            uPositions: floatTexture("the clip's positions", positions, mostTexels),
-            uRoots: floatTexture("the clip's roots", Array.from({ length: frameCount }, (_, n) => [...sources.root(n), 0]).flat(), mostTexels),
+            uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start, first, count }) => [...place, size, start, first, count, 0]), maxTexels),
+            uPositions: floatTexture("the clip's positions", positions, maxTexels),
+            uRoots: floatTexture("the clip's roots", Array.from({ length: frameCount }, (_, n) => [...sources.root(n), 0]).flat(), maxTexels),
             uFrame: 0, uJointCount: jointCount,
             uDrawn: 1, uExtra: 0, uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
             uSky: rgb("#ffffff"), uEarth: rgb("#888888"), uBackground: rgb("#ffffff"), uShade: rgb("#cccccc"),
         };
-        this.shared.uRises = floatTexture("the characters' heights", new Float32Array(4 * characters.length), mostTexels);
+        this.shared.uRises = floatTexture("the characters' heights", new Float32Array(4 * characters.length), maxTexels);
         for (const name of Object.keys(this.shared)) this.shared[name] = { value: this.shared[name] };
         Object.assign(this.shared, ground);
         this.addBody();
@@ -86,14 +86,14 @@ export class Bodies {
     }
     /** Draws the figure's own skin from now on, as long as limbs have no colours. Arguments: as Skins has them. */
     addSkin(skin, made) {
-        this.skins = new Skins(this.stage, this.figure, skin, made, this.shared, this.mostTexels);
+        this.skins = new Skins(this.stage, this.figure, skin, made, this.shared, this.maxTexels);
         this.meshes.push(...this.skins.meshes);
         this.colouredBy = SKIN;
     }
 
     addBody() {
         const bones = this.figure.bodyBones();
-        const texels = floatTexture("the bones", bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]), this.mostTexels);
+        const texels = floatTexture("the bones", bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]), this.maxTexels);
         this.bodyColour = { value: rgb("#888888") };
         const uniforms = { uBones: { value: texels }, uColour: this.bodyColour };
         this.add(bones.length, uniforms, [capsule, bodyVertex], bodyFragment);
@@ -119,7 +119,7 @@ export class Bodies {
         if (drawn.crowd === crowd && drawn.rows.blocks === blocks && drawn.rows.extra === extra) return drawn.rows.update();
         drawn.rows?.dispose();
         drawn.crowd = crowd;
-        drawn.rows = new LimbRows(crowd, drawn.limb, blocks, extra, this.mostTexels);
+        drawn.rows = new LimbRows(crowd, drawn.limb, blocks, extra, this.maxTexels);
         for (const [name, value] of Object.entries(drawn.rows.uniforms)) {
             drawn.uniforms[name] ??= { value };
             drawn.uniforms[name].value = value;
@@ -139,7 +139,7 @@ export class Bodies {
         this.takeRises();
         for (const drawn of this.limbs) this.takeRows(drawn);
         for (const mesh of this.capsules) mesh.geometry.instanceCount = drawnCount + (this.extra === null ? 0 : 1);
-        this.isInSkins = this.colouredBy === SKIN && drawnCount <= MOST_SKINS;
+        this.isInSkins = this.colouredBy === SKIN && drawnCount <= MAX_SKINS;
         this.isPosed = false;
         for (const mesh of this.capsules) mesh.visible = !this.isInSkins;
         for (const mesh of this.skins?.meshes ?? []) mesh.visible = this.isInSkins;

@@ -9,7 +9,7 @@ import { kindOf, saidOf, saidOfAll } from "./words.js";
 const RADIANS = Math.PI / 180;
 const degreesOfHalf = (cos) => 2 * Math.acos(cos) / RADIANS;
 const middle = ([cos, sin]) => Math.atan2(sin, cos) / RADIANS;
-const angle = (text, least, most, value) => ({ text, min: least, max: most, step: 1, value, unit: "°" });
+const angle = (text, min, max, value) => ({ text, min: min, max: max, step: 1, value, unit: "°" });
 const share = (text, value, max = 1) => ({ text, min: 0, max, step: 0.01, value });
 
 /** Numbers of a range as the solver has it: its ends in degrees, and back. Twists of the other side turn the other way. */
@@ -17,8 +17,8 @@ const rangeEnds = (range, { isOther }) => {
     const [from, to] = [middle(range) - middle(range.slice(2)), middle(range) + middle(range.slice(2))];
     return isOther ? [-to, -from] : [from, to];
 };
-const range = (swivel, [least, most], { isOther }) => {
-    const [from, to] = [Math.min(least, most) * RADIANS, Math.max(least, most) * RADIANS];
+const range = (swivel, [min, max], { isOther }) => {
+    const [from, to] = [Math.min(min, max) * RADIANS, Math.max(min, max) * RADIANS];
     return isOther ? swivel.range(-to, -from) : swivel.range(from, to);
 };
 
@@ -36,7 +36,7 @@ const boxEnds = (value, { isOther, order }) => AXES[order].reduce((ends, axis, n
 const axisOf = ({ given }) => (given ? Array.from(given).slice(0, 3) : [0, 0, 1]);
 const cone = (opening) => ({
     sliders: [angle("Opening", 0, 180, opening)],
-    value: (swivel, [most], limb) => swivel.cone(axisOf(limb), most * RADIANS), numbers: (value) => [Math.acos(value[3]) / RADIANS],
+    value: (swivel, [max], limb) => swivel.cone(axisOf(limb), max * RADIANS), numbers: (value) => [Math.acos(value[3]) / RADIANS],
 });
 
 /**
@@ -47,7 +47,7 @@ const FIELDS = [
     { name: "FLEXION_LIMIT", title: "Flexion",
         hint: "How far the elbow may bend, from straight on",
         sliders: [angle("Least", 0, 180, 10), angle("Most", 0, 180, 140)],
-        value: (swivel, [least, most]) => swivel.flexion(Math.min(least, most) * RADIANS, Math.max(least, most) * RADIANS),
+        value: (swivel, [min, max]) => swivel.flexion(Math.min(min, max) * RADIANS, Math.max(min, max) * RADIANS),
         numbers: (value) => [degreesOfHalf(value[0]), degreesOfHalf(value[1])] },
     { name: "SHOULDER_CONE", title: "Shoulder cone",
         hint: "How far the upper arm may turn from the cone's axis",
@@ -82,10 +82,10 @@ const FIELDS = [
         sliders: [share("Soft, far", 0.05, 0.5), share("Soft, near", 0, 0.5), { text: "Stretch", min: 1, max: 2, step: 0.01, value: 1 },
             share("Least distance", 0)],
         value: (swivel, numbers) => numbers, numbers: (value) => value },
-    { name: "MOST_SWIVEL", title: "Step",
+    { name: "MAX_SWIVEL", title: "Step",
         hint: "How far the elbow may swing about the line from shoulder to wrist, in a 60th of a second",
         sliders: [angle("Most, a 60th of a second", 0, 90, 5)],
-        value: (swivel, [most]) => swivel.turn(most * RADIANS), numbers: (value) => [middle(value)] },
+        value: (swivel, [max]) => swivel.cosSin(max * RADIANS), numbers: (value) => [middle(value)] },
 ];
 
 /** Why a field cannot be added to a limb; nothing if it can. */

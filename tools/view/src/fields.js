@@ -50,10 +50,10 @@ export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
     const groups = limbs.map((limb) => {
         const { chain: joints, shoulderOrder, wristOrder, region, ground, held } = limb;
         const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
-        return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { ground: { ...ground, half: GROUND_HALF }, plant: { run: PLANT_RUN } }) };
+        return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { ground: { ...ground, halfLife: GROUND_HALF }, plant: { anchorLead: PLANT_RUN } }) };
     });
     if (look) groups.push({ look });
-    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_FIT)) groups.push({ fit: {} });
+    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_PELVIS_FIT)) groups.push({ fit: {} });
     const crowd = swivel.bodies({ skeleton, bodyCount, groups });
     try {
         limbs.forEach((limb) => writeFields(crowd, limb));

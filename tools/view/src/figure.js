@@ -28,15 +28,15 @@ export class Figure {
 
     /** The largest extent of the first frame: what all else is measured by. The ground is the lowest of the first character's frames. */
     extent({ first, count }) {
-        const least = new Vector3(Infinity, Infinity, Infinity), most = new Vector3(-Infinity, -Infinity, -Infinity);
+        const min = new Vector3(Infinity, Infinity, Infinity), max = new Vector3(-Infinity, -Infinity, -Infinity);
         for (let joint = 0; joint < this.jointCount; ++joint) {
-            least.min(this.at(joint));
-            most.max(this.at(joint));
+            min.min(this.at(joint));
+            max.max(this.at(joint));
         }
         this.ground = Infinity;
         const heights = this.positions.subarray(3 * first * this.jointCount, 3 * (first + count) * this.jointCount);
         for (let n = 1; n < heights.length; n += 3) this.ground = Math.min(this.ground, heights[n]);
-        const size = most.sub(least);
+        const size = max.sub(min);
         return Math.max(size.x, size.y, size.z) || 1;
     }
     /** Of each joint: the lengths of its own bone and of all below it. */

@@ -7,7 +7,7 @@ import { Matrix4, Quaternion } from "three";
 import { Field } from "./stage.js";
 
 const GOAL_JOINTS = 4;  // as tools/crowd/goals.h has it
-const MOST_TURN = Math.cos(70 * Math.PI / 180);  // of each joint of neck and head
+const MAX_TURN = Math.cos(70 * Math.PI / 180);  // of each joint of neck and head
 
 export class Heads {
     /** skin: as the command writes it. poses: of the characters, whose bodies stay as they are. count: of characters, at most. */
@@ -24,7 +24,7 @@ export class Heads {
         const skeleton = {
             parents: this.chain.map((_, n) => n - 1), translations: [0, 0, 0, ...head.flatMap((_, n) => inParent(n))], rotations: this.chain.flatMap(() => [0, 0, 0, 1]),
         };
-        this.crowd = stage.swivel.bodies({ skeleton, bodyCount: count, groups: [{ look: { joints: head.map((_, n) => n + 1), axis: face, cosMost: MOST_TURN, rate: 0 } }] });
+        this.crowd = stage.swivel.bodies({ skeleton, bodyCount: count, groups: [{ look: { joints: head.map((_, n) => n + 1), axis: face, cosMax: MAX_TURN, rate: 0 } }] });
         this.rotations = this.crowd.pose("rotations");
         this.roots = this.crowd.pose("rootPosition");
         this.sizes = this.crowd.pose("rootScale");

@@ -4,10 +4,10 @@
 import { SKIN } from "./bodies.js";
 import { COLOUR_BY, LIMB_COLOURS } from "./colours.js";
 import { element, section } from "./dom.js";
-import { MOST_SKINS } from "./skins.js";
+import { MAX_SKINS } from "./skins.js";
 import { limbName } from "./words.js";
 
-const SKINS = { legend: [], unit: `of the file, up to ${MOST_SKINS} characters; more are drawn as capsules` };
+const SKINS = { legend: [], unit: `of the file, up to ${MAX_SKINS} characters; more are drawn as capsules` };
 
 export function makeLegend(page) {
     const { stage, view } = page, option = (value, name) => element("option", { value }, name);

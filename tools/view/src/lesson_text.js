@@ -24,8 +24,8 @@ const BLADES = [0, 8, 16, 24].flatMap((nulls) => [0, 1, 2, 4, 6, 5, 3, 7].map((e
 
 /** An entity as text, with what is not rounding beside its largest coefficient. */
 export function textOf(swivel, { coefficients }) {
-    const most = Math.max(...coefficients.map(Math.abs));
-    const terms = BLADES.filter((blade) => Math.abs(coefficients[blade]) > 1e-12 * most).map((blade, n) => {
+    const max = Math.max(...coefficients.map(Math.abs));
+    const terms = BLADES.filter((blade) => Math.abs(coefficients[blade]) > 1e-12 * max).map((blade, n) => {
         const number = coefficients[blade], sign = number < 0 ? "−" : n > 0 ? "+" : "";
         const unit = swivel.bladeName(blade);
         return `${n > 0 ? ` ${sign} ` : sign}${Math.abs(number).toPrecision(5)}${blade === 0 ? "" : ` ${unit}`}`;

@@ -23,8 +23,8 @@ function limbOf(stage, hash, wrong) {
 function drawFirst(page, hash, wrong) {
     if (!hash.has("drawn")) return;
     const text = hash.get("drawn");
-    if (!/^[1-9]\d*$/.test(text)) return wrong.push(`${text} characters cannot be drawn (1 to ${page.mostDrawn}).`);
-    page.drawFirst(Math.min(Number(text), page.mostDrawn));
+    if (!/^[1-9]\d*$/.test(text)) return wrong.push(`${text} characters cannot be drawn (1 to ${page.maxDrawn}).`);
+    page.drawFirst(Math.min(Number(text), page.maxDrawn));
     page.home();
 }
 

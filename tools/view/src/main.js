@@ -21,17 +21,17 @@ import { makeOverlays } from "./overlays.js";
 import { Picker } from "./pick.js";
 import { Player } from "./player.js";
 import { readback } from "./readback.js";
-import { mostDrawn } from "./rows.js";
+import { maxDrawn } from "./rows.js";
 import { View } from "./scene.js";
 import { readSkin } from "./skin_file.js";
-import { MOST_SKINS } from "./skins.js";
+import { MAX_SKINS } from "./skins.js";
 import { makeStatus } from "./status.js";
 import { Undo } from "./undo.js";
 import { isWhole } from "./whole.js";
 import css from "./style.css";
 
 const DRAWN = 1000;  // characters at most, unless asked for more
-const MOST_DRAWN = 65536;
+const MAX_DRAWN = 65536;
 
 /** What this browser lacks; nothing if it has all. */
 function lack() {
@@ -55,8 +55,8 @@ class Page {
         this.chosen = 0;  // the character that was chosen last
         this.dragsEveryone = false;
         this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs, stage.characters[0]));
-        this.mostDrawn = Math.min(stage.characterCount, MOST_DRAWN, mostDrawn(this.view.bodies.mostTexels));
-        this.drawnCount = Math.min(this.mostDrawn, DRAWN);
+        this.maxDrawn = Math.min(stage.characterCount, MAX_DRAWN, maxDrawn(this.view.bodies.maxTexels));
+        this.drawnCount = Math.min(this.maxDrawn, DRAWN);
         this.view.controls.addEventListener("change", () => this.redraw());
         this.picker = new Picker(this);
         this.undo = new Undo(this);
@@ -191,7 +191,7 @@ function build(page, data) {
     const head = element("header", {}, element("div", {}, title, clip, makeStatus(page)), element("nav", {},
         button("Light or dark", () => page.toggleTheme()), button("Help", () => page.help.showModal()),
         button("Panel", () => page.togglePanel(), { class: "panel-button" })));
-    const drawn = slider("Drawn", { min: 1, max: page.mostDrawn, step: 1, value: page.drawnCount }, (count) => {
+    const drawn = slider("Drawn", { min: 1, max: page.maxDrawn, step: 1, value: page.drawnCount }, (count) => {
         page.drawFirst(count);
         page.home();
     });
@@ -214,7 +214,7 @@ async function dress(page, { skin }) {
     if (!skin) return "";
     try {
         page.view.addSkin(skin, await readSkin(skin));
-        page.drawnCount = Math.min(page.drawnCount, MOST_SKINS);
+        page.drawnCount = Math.min(page.drawnCount, MAX_SKINS);
         return "";
     } catch (error) {
         return `The figure's skin cannot be drawn: ${error.message.replace(/\.$/, "")}.`;

@@ -8,7 +8,7 @@ import wasm from "view.wasm";
 import { byteCountOf, SIZE } from "./bytes.js";
 import { askedOf, Stage } from "./stage.js";
 
-const MOST_MEGABYTES = 4096;  // that WebAssembly can address
+const MAX_MEGABYTES = 4096;  // that WebAssembly can address
 
 /** Frames of the clip, by the positions of its joints. The crowd may have been solved for fewer. */
 const clipFramesOf = (data) => byteCountOf(data.positions) / (12 * data.joints.length);
@@ -35,8 +35,8 @@ function megabytesFor(data) {
     const clip = askedOf(data).reduce((sum, { sources }) => sum + byteCountOf(sources), start);
     const limbs = askedOf(data).length * data.character_count * (2048 + SIZE.input);
     const megabytes = 48 + Math.ceil((clip + limbs) / 2 ** 20);
-    if (megabytes > MOST_MEGABYTES)
-        throw new Error(`this crowd takes ${megabytes} MB of memory, and a page can have ${MOST_MEGABYTES}. Take fewer --frames or --characters`);
+    if (megabytes > MAX_MEGABYTES)
+        throw new Error(`this crowd takes ${megabytes} MB of memory, and a page can have ${MAX_MEGABYTES}. Take fewer --frames or --characters`);
     return megabytes;
 }
 

@@ -22,7 +22,7 @@ const OVERLAYS = [
     { name: "cones", text: "Limit cones: shoulder, hand", colours: [CONE, HAND_CONE], isOn: true },
     { name: "trail", text: "Trail of the wrist, through frames in order", colours: [TRAIL], isOn: false },
 ];
-const MOST_TRAIL = 240;  // frames
+const MAX_TRAIL = 240;  // frames
 
 /** The chosen limb as it is solved: vectors relative to the shoulder as the clavicle moves it, the arm frame's axes, and what arm() has. */
 export function geometryOf(stage, { limb, character }) {
@@ -102,7 +102,7 @@ class Trail {
         const goesOn = this.limb === limb && this.character === character && (stage.frame === this.frame || stage.frame === this.frame + 1);
         if (!goesOn) this.points = [];
         if (stage.frame === this.frame) this.points.pop();
-        this.points = [...this.points, new Vector3(...stage.pose(limb, character).wrist)].slice(-MOST_TRAIL);
+        this.points = [...this.points, new Vector3(...stage.pose(limb, character).wrist)].slice(-MAX_TRAIL);
         Object.assign(this, { limb, character, frame: stage.frame });
     }
 }

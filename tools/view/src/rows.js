@@ -8,19 +8,19 @@ import { Field } from "./stage.js";
 const WIDTH = 2048;  // of textures that are only long
 
 /** Refuses what a browser's textures cannot hold. most: how many texels a side of them has at most. */
-function checkSides(what, width, height, most) {
+function checkSides(what, width, height, max) {
     const side = Math.max(width, height);
-    if (side <= most) return;
+    if (side <= max) return;
     const why = `a texture has ${most} texels a side, and they take ${side}`;
     throw new Error(`this browser's graphics cannot hold ${what}: ${why}. Take fewer --frames or --characters`);
 }
 /** How many characters fit: a texture has a line for a block of 16, and one for the block of an extra character. */
-export const mostDrawn = (most) => 16 * (most - 1);
+export const maxDrawn = (max) => 16 * (max - 1);
 
 /** A texture of four floats a texel, one after the other. */
-export function floatTexture(what, texels, most) {
+export function floatTexture(what, texels, max) {
     const height = Math.max(1, Math.ceil(texels.length / (4 * WIDTH)));
-    checkSides(what, WIDTH, height, most);
+    checkSides(what, WIDTH, height, max);
     const padded = new Float32Array(4 * WIDTH * height);
     padded.set(texels);
     const texture = new DataTexture(padded, WIDTH, height, RGBAFormat, FloatType);
@@ -39,8 +39,8 @@ function blockTexture(words, rowCount) {
 
 /** The rows of one limb: the first blocks of 16 characters, and one more block unless extra is null. */
 export class LimbRows {
-    constructor(crowd, limb, blocks, extra, most) {
-        this.most = most;
+    constructor(crowd, limb, blocks, extra, max) {
+        this.max = max;
         this.blocks = blocks;
         this.extra = extra;
         this.copies = [];  // of rows, into textures that are no part of the solver's memory
@@ -59,7 +59,7 @@ export class LimbRows {
         const perBlock = rows.length / blockCount;
         const from = (block, count) => new Uint32Array(rows.buffer, rows.byteOffset + 4 * perBlock * block, perBlock * count);
         const lines = this.blocks + (this.extra === null ? 0 : 1), first = from(0, this.blocks);
-        checkSides("the limbs' numbers", perBlock, lines, this.most);
+        checkSides("the limbs' numbers", perBlock, lines, this.max);
         if (this.extra === null) return blockTexture(first, perBlock / 16);
         const words = new Uint32Array(perBlock * lines), extra = from(this.extra, 1);
         this.copies.push(() => {

@@ -10,15 +10,15 @@ import { withShadow } from "./shaded.js";
 import skinFragment from "./skin.frag.glsl";
 import skinVertex from "./skin.vert.glsl";
 
-export const MOST_SKINS = 300;  // characters; more are drawn as capsules
+export const MAX_SKINS = 300;  // characters; more are drawn as capsules
 
 export class Skins {
     /** skin: as the command writes it; meshes, bones: as readSkin() makes them of it. shared: uniforms of all that is drawn. */
-    constructor(stage, figure, skin, { meshes, bones }, shared, mostTexels) {
+    constructor(stage, figure, skin, { meshes, bones }, shared, maxTexels) {
         this.bones = bones;
-        const count = Math.min(MOST_SKINS, stage.characterCount) + 1;  // one that is drawn beside the first ones
+        const count = Math.min(MAX_SKINS, stage.characterCount) + 1;  // one that is drawn beside the first ones
         this.poses = new Poses(stage, figure, skin, count);
-        this.texture = floatTexture("the poses", new Float32Array(12 * bones.length * count), mostTexels);
+        this.texture = floatTexture("the poses", new Float32Array(12 * bones.length * count), maxTexels);
         this.uniforms = {
             uPoses: { value: this.texture }, uBoneCount: { value: bones.length },
             uChosen: { value: -1 }, uChosenLimb: { value: -1 }, uChosenColour: { value: rgb(CHOSEN) },

@@ -15,7 +15,7 @@ import { dragHips, dropHips, legsOf, putHips } from "./hips.js";
 import { dragMound, putMounds } from "./mounds.js";
 
 const KEPT = 64;  // frames from one state that is kept to the next, at least
-const MOST_KEPT = 2 ** 28;  // bytes of them
+const MAX_KEPT = 2 ** 28;  // bytes of them
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
@@ -88,9 +88,9 @@ export class Stage {
         };
     }
 
-    makeLook({ sources, joint_count: count, axis, cos_most: cosMost }) {
+    makeLook({ sources, joint_count: count, axis, cos_max: cosMax }) {
         const first = this.skeleton.parents.length - 3;  // in the crowd's skeleton, whose last joints are a shoulder, elbow and wrist
-        return { sourcesAt: this.keep(bytesOf(sources)), how: { joints: Array.from({ length: count }, (_, n) => first + n), axis, cosMost } };
+        return { sourcesAt: this.keep(bytesOf(sources)), how: { joints: Array.from({ length: count }, (_, n) => first + n), axis, cosMax } };
     }
 
     /** Makes the crowd, with the features that the user's fields need. The old one stays if that fails. */
@@ -145,7 +145,7 @@ export class Stage {
     /** Keeps what this frame's solve starts from; every other one goes where they take too much. */
     keepState() {
         const bytes = this.groups.reduce((sum, group) => sum + this.crowd.resultRows(group).byteLength, this.poses.byteLength);
-        if (this.states.size * bytes > MOST_KEPT) {
+        if (this.states.size * bytes > MAX_KEPT) {
             this.kept *= 2;
             for (const frame of this.states.keys()) if (frame % this.kept > 0) this.states.delete(frame);
         }
@@ -197,7 +197,7 @@ export class Stage {
         const job = borrowed.structure("swivel_job");
         if (this.data.budget_blocks === 0 || !this.hasSolved) return job;
         const alike = borrowed.words([borrowed.floats([1]), 0]);
-        return job.words("priorities", alike).words("urgency", this.urgency.byteOffset).words("most_blocks", this.data.budget_blocks);
+        return job.words("priorities", alike).words("urgency", this.urgency.byteOffset).words("max_blocks", this.data.budget_blocks);
     }
     /** From the clip's end to its start is no motion. */
     forgetEnds() {

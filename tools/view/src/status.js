@@ -11,8 +11,8 @@ const DIGEST_WORDS = {
     none: "Not compared: the command solved no such frame",
 };
 
-const MOST_SOLVES = 60;  // that a rate is the mean of
-const LEAST_SECONDS = 1e-3;  // of all of them: browsers' clocks go by a tenth of that
+const MAX_SOLVES = 60;  // that a rate is the mean of
+const MIN_SECONDS = 1e-3;  // of all of them: browsers' clocks go by a tenth of that
 
 /** So many a second, by the unit that suits. */
 function rateText(rate) {
@@ -24,7 +24,7 @@ function rateText(rate) {
 export function speedText(limbCount, all) {
     const [first, ...others] = all, sum = others.reduce((total, seconds) => total + seconds, 0);
     const mean = others.length > 0 ? sum / others.length : first, milliseconds = mean >= 1e-4 ? `${(1000 * mean).toFixed(1)} ms` : "less than 0.1 ms";
-    const rate = sum >= LEAST_SECONDS ? `: ${rateText(limbCount / mean)}` : "";
+    const rate = sum >= MIN_SECONDS ? `: ${rateText(limbCount / mean)}` : "";
     return `${limbCount.toLocaleString("en")} limbs solved in ${milliseconds}${rate}`;
 }
 
@@ -33,7 +33,7 @@ export function makeStatus(page) {
     const digest = element("details", { class: "digest" }, words, numbers), all = [];
     digest.addEventListener("toggle", () => page.resize());
     page.on("frame", () => {
-        if (all.push(stage.seconds) > MOST_SOLVES + 1) all.splice(1, 1);
+        if (all.push(stage.seconds) > MAX_SOLVES + 1) all.splice(1, 1);
         speed.textContent = speedText(stage.limbCount, all);
         const state = stage.digestState();
         digest.dataset.state = state;

@@ -3,7 +3,7 @@
 // The goals that the user has moved, as a table that `swivel solve --targets` reads (docs/tables.md), in all frames.
 import { element } from "./dom.js";
 
-const MOST_ROWS = 2e6;
+const MAX_ROWS = 2e6;
 
 /** What the user sees and the table does not hold: a sentence, or nothing. The crowd file's own pole comes before a table's. */
 export function lackOf(stage) {
@@ -27,8 +27,8 @@ export function saveTable(page) {
     const { stage } = page;
     const all = stage.limbs.flatMap((limb) => stage.characters.map((_, character) => ({ limb, character, parts: stage.movedParts(limb, character) })));
     const moved = all.filter(({ parts }) => parts.length > 0), rows = moved.length * stage.frameCount, count = (number) => number.toLocaleString("en");
-    if (rows > MOST_ROWS)
-        return page.say(`This table would have ${count(rows)} rows, and ${count(MOST_ROWS)} are the most: move fewer characters' goals, or take fewer --frames.`);
+    if (rows > MAX_ROWS)
+        return page.say(`This table would have ${count(rows)} rows, and ${count(MAX_ROWS)} are the most: move fewer characters' goals, or take fewer --frames.`);
     const { frame: shown } = stage, lines = ["frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n"];
     for (let frame = 0; frame < stage.frameCount; ++frame) {
         stage.askMovedGoals(frame);

@@ -3,7 +3,7 @@
 // Takes back what the user has changed, step by step: goals that were moved or let go, and fields.
 import { SwivelError } from "./stage.js";
 
-const MOST_STEPS = 64;
+const MAX_STEPS = 64;
 
 export class Undo {
     constructor(page) {
@@ -19,7 +19,7 @@ export class Undo {
         if (gesture !== null && gesture === this.gesture) return;
         this.gesture = gesture;
         this.before.push(changes);
-        if (this.before.length > MOST_STEPS) this.before.shift();
+        if (this.before.length > MAX_STEPS) this.before.shift();
     }
     get canTakeBack() { return this.before.length > 0; }
     takeBack() {

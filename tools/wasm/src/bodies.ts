@@ -55,7 +55,7 @@ const parts = named({
     results: { member: "results", start: rotationOf },
     translationResults: { member: "translation_results", start: translationOf, inMatrices: true },
     jointRotations: { member: "joint_rotations", start: () => [NaN, NaN, NaN, NaN] },
-    jointPlaces: { member: "joint_places", start: () => [NaN, NaN, NaN] },
+    jointPositions: { member: "joint_positions", start: () => [NaN, NaN, NaN] },
     rootPosition: { member: "root_position", start: () => [0, 0, 0], isBodys: true, isPlace: true },
     rootRotation: { member: "root_rotation", start: () => [0, 0, 0, 1], isBodys: true },
     rootScale: { member: "root_scale", start: () => [1], isBodys: true },
@@ -68,7 +68,7 @@ const parts = named({
  * A part of poses, as swivel_pose. Each joint has a rotation relative to its parent: x, y, z, w, or by the form 12 numbers of a matrix, of
  * MATRIX_COLUMNS 16; three numbers of translation; three of scale. The root has a position, a rotation and one number of scale.
  *
- * Solves write jointRotations, x, y, z, w, and jointPlaces: where the joints that some limb needs are then, relative to the root. Those of
+ * Solves write jointRotations, x, y, z, w, and jointPositions: where the joints that some limb needs are then, relative to the root. Those of
  * others stay NaN. In the body's space they also write translations, or translationResults if these are asked for.
  *
  * Planted limbs, shifts and looks with a rate need time: the seconds since each body's last solve. supportPosition and supportRotation are of what planted

@@ -19,9 +19,9 @@ export interface Job {
     mask?: Numbers;
     /** Limbs as firstLimb(group) + n. */
     limbs?: Numbers;
-    /** For each group, or once for bodies: one number for each limb, or one for all. The mostBlocks most urgent blocks are solved. */
+    /** For each group, or once for bodies: one number for each limb, or one for all. The maxBlocks most urgent blocks are solved. */
     priorities?: readonly Numbers[];
-    mostBlocks?: number;
+    maxBlocks?: number;
     /**
      * How long blocks have waited: blockCount numbers, zeros at first. Give the same array each time; each solve changes it, so that
      * blocks take turns. Left out: priorities alone decide.
@@ -63,7 +63,7 @@ export class Crowd extends CrowdRows {
         return memory.borrow((borrowed) => {
             const solved = borrowed.bytes(4);
             const to = borrowed.structure("swivel_job").words("solved_count", solved).words("pose", this.posed);
-            const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "mostBlocks", "urgency", "probesOnly");
+            const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "maxBlocks", "urgency", "probesOnly");
             this.name(chosen.groups, to, borrowed);
             const urgency = this.wait(chosen.urgency, to, borrowed);
             this.choose(chosen, to, borrowed);
@@ -95,7 +95,7 @@ export class Crowd extends CrowdRows {
         to.words("urgency", at);
         return this.memory.floats(at, urgency.length);
     }
-    private choose({ blocks, mask, limbs, priorities, mostBlocks }: Job, to: Structure<"swivel_job">, borrowed: Borrowed): void {
+    private choose({ blocks, mask, limbs, priorities, maxBlocks }: Job, to: Structure<"swivel_job">, borrowed: Borrowed): void {
         const indices = (name: string, values: Numbers): number => {
             if (!(values instanceof Uint32Array)) for (const value of Array.from(numbers(name, values))) whole(name, value);
             return borrowed.words(values);
@@ -103,7 +103,7 @@ export class Crowd extends CrowdRows {
         if (blocks) to.words("blocks", indices("blocks", [blocks.first, blocks.count]));
         if (mask) to.words("mask", indices("mask", mask)).words("mask_word_count", mask.length);
         if (limbs) to.words("limbs", borrowed.words([indices("limbs", limbs), limbs.length]));
-        if ((priorities === undefined) !== (mostBlocks === undefined)) refuse("solve() takes priorities and mostBlocks together");
+        if ((priorities === undefined) !== (maxBlocks === undefined)) refuse("solve() takes priorities and maxBlocks together");
         if (!priorities) return;
         const [count, of] = this.posed ? [1, "bodies; give one list"] : [this.groupCount, `${this.groupCount} groups; give one list for each`];
         if (priorities.length !== count) refuse(`${priorities.length} priorities for ${of}`);
@@ -113,7 +113,7 @@ export class Crowd extends CrowdRows {
                 refuse(`${length} priorities for the ${this.limbCount(group)} limbs of group ${group}; give one for each, or one for all`);
             return [borrowed.floats(values), length === 1 ? 0 : 4];
         });
-        to.words("priorities", borrowed.words(streams.flat())).words("most_blocks", whole("mostBlocks", mostBlocks as number));
+        to.words("priorities", borrowed.words(streams.flat())).words("max_blocks", whole("maxBlocks", maxBlocks as number));
     }
 
     /** Forgets what limbs carry from solve to solve: swivels, planted points, shifts and lifts. */
@@ -184,7 +184,7 @@ export class Crowd extends CrowdRows {
 
     /** A value of Field.ANGLE or of a limit that this crowd has, for the same limb on the body's other side. order: a box's. */
     mirror(field: FieldNumber, value: Numbers, order = 0): Float32Array {
-        const components = this.held.reduce((most, _, group) => Math.max(most, this.componentCount(field, group)), 0);
+        const components = this.held.reduce((max, _, group) => Math.max(max, this.componentCount(field, group)), 0);
         if (components === 0) refuse(`this crowd has no ${nameOf(field)}; give its feature to crowd()`);
         const given = numbers(nameOf(field), value, components);
         return this.memory.result(components, (out, borrowed) =>

@@ -3,7 +3,7 @@
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
 import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, layout, MOST_LOOK_JOINTS, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
+import { defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, layout, MAX_LOOK_JOINTS, MAX_TWIST_BONES, OnBadInput } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
 import { Region } from "./region.js";
 
@@ -33,19 +33,19 @@ export type Group = number | GroupOptions;
  */
 export interface Plant {
     /** A point locks only within this of where it is animated. */
-    lock?: number;
+    lockRadius?: number;
     /** A locked point is released if the animation has it further away. */
-    unlock?: number;
+    unlockRadius?: number;
     /** A point that locks is at rest after this time. */
-    stop?: number;
+    stopTime?: number;
     /** A point that is released is with the animation again after this time. */
-    blend?: number;
+    releaseTime?: number;
     /** Lengths a second: after a release by distance a slower point locks anew. 0: none does. */
-    again?: number;
+    relockSpeed?: number;
     /** 0: it is anchored where it locks. 1: where it would come to rest by itself. 0.5 slides least. */
-    run?: number;
+    anchorLead?: number;
     /** A body that was not solved for longer than this starts anew. 0: none does. */
-    longest?: number;
+    resetTime?: number;
     /** With Feature.PLANT_BY_MOTION: lengths a second below which a contact begins, and goes on. */
     speed?: Numbers;
     /** The same of the height over the root, along `up`. */
@@ -53,13 +53,13 @@ export interface Plant {
 }
 /** How bodies are shifted along `up`, as swivel_fit. What is left out is as defaultFit has it. */
 export interface Fit {
-    /** The most down and up, in lengths of the first limb with Feature.WITH_FIT: see Plant. */
+    /** The most down and up, in lengths of the first limb with Feature.WITH_PELVIS_FIT: see Plant. */
     drop?: number;
     rise?: number;
     /** Seconds in which about half of a distance is made up. */
-    half?: number;
-    /** Seconds from when on Field.COMING counts. At 0 seconds it counts whole. */
-    ahead?: number;
+    halfLife?: number;
+    /** Seconds from when on Field.NEXT_TARGET counts. At 0 seconds it counts whole. */
+    lookahead?: number;
 }
 /**
  * How feet of a group with Feature.WITH_GROUND stand on ground as it lies, as swivel_ground. Their effectors are the toes. What is left out is
@@ -72,16 +72,16 @@ export interface Ground {
     toeClearance?: number;
     heelClearance?: number;
     /** The cosine of the angle that the foot turns at most, 0 to 1. */
-    cosMost?: number;
+    cosMax?: number;
     /** Seconds in which about half of a lift is made up. */
-    half?: number;
+    halfLife?: number;
 }
 /** How a thing lies that hands hold, as swivel_prop. What is left out is as defaultProp has it. */
 export interface Prop {
     /** Of the skeleton, which no limb turns. -1: none. */
     joint?: number;
     /** The most that it moves, in lengths of the first limb that is linked to it. 0: it stays, as a ladder does. */
-    mostMove?: number;
+    maxMove?: number;
 }
 /** How a chain of joints looks, as swivel_look. What is left out is as defaultLook has it. */
 export interface Look {
@@ -90,7 +90,7 @@ export interface Look {
     /** Of what is left of the turn, against those after it: of each joint, or one for all. */
     share?: number | Numbers;
     /** The cosine of the angle that each turns at most, -1 to 1: of each joint, or one for all. */
-    cosMost?: number | Numbers;
+    cosMax?: number | Numbers;
     /** Where the line of sight starts, and where it points: in the last joint's frame. */
     eye?: Numbers;
     axis?: Numbers;
@@ -115,7 +115,7 @@ export interface BodyGroup extends LimbOptions {
     /** With Feature.WITH_LINK: the number of the group that it holds, a prop or an earlier limb. Left out: 0. */
     link?: number;
 }
-/** The shift of each body, so that its limbs with Feature.WITH_FIT reach. It has Feature.FIT and no other, and no joints. */
+/** The shift of each body, so that its limbs with Feature.WITH_PELVIS_FIT reach. It has Feature.FIT and no other, and no joints. */
 export interface FitGroup {
     fit: Fit;
     /** As BodyGroup's. */
@@ -181,9 +181,9 @@ export function freeGroups(groups: readonly Group[], features: bigint): CheckedG
 }
 /** Who names twist bones wants them to turn. Too many are for the library to refuse. */
 function withTwistBones(group: CheckedGroup): CheckedGroup {
-    const most = BigInt(MOST_TWIST_BONES), count = BigInt(group.joints?.twistBones?.length ?? 0);
-    if (group.features & (most * Feature.WITH_TWIST_BONES)) return group;
-    return { ...group, features: group.features | (count < most ? count : most) * Feature.WITH_TWIST_BONES };
+    const max = BigInt(MAX_TWIST_BONES), count = BigInt(group.joints?.twistBones?.length ?? 0);
+    if (group.features & (max * Feature.WITH_TWIST_BONES)) return group;
+    return { ...group, features: group.features | (count < max ? count : max) * Feature.WITH_TWIST_BONES };
 }
 /** A group of bodies: a limb of each, their shift, a thing that they hold, or a chain that looks. */
 export type BodiesGroup = BodyGroup | FitGroup | PropGroup | LookGroup;
@@ -213,9 +213,9 @@ function constants(of: string, given: Plant | Fit | Ground | Prop, start: Record
 
 /** A swivel_prop's bytes: a joint, and a float. */
 function propBytes(given: Prop): Uint8Array {
-    const [joint, mostMove] = constants("prop", given, defaultProp), bytes = new DataView(new ArrayBuffer(8));
+    const [joint, maxMove] = constants("prop", given, defaultProp), bytes = new DataView(new ArrayBuffer(8));
     if (!Number.isInteger(joint) || Math.abs(joint) > 0x7fffffff) refuse(`prop.joint is ${shown(joint)}; give the number of a joint, or -1`);
-    bytes.setInt32(0, joint, true), bytes.setFloat32(4, mostMove, true);
+    bytes.setInt32(0, joint, true), bytes.setFloat32(4, maxMove, true);
     return new Uint8Array(bytes.buffer);
 }
 
@@ -223,13 +223,13 @@ function propBytes(given: Prop): Uint8Array {
 function lookBytes(given: Look): Uint8Array {
     const look = { ...defaultLook, ...options("look", given as Look & Record<string, unknown>, "joints", ...Object.keys(defaultLook) as (keyof typeof defaultLook)[]) };
     if (!Array.isArray(look.joints)) refuse(`look.joints is ${shown(look.joints)}; give numbers of joints`);
-    const joints = look.joints.slice(0, MOST_LOOK_JOINTS), bytes = new DataView(new ArrayBuffer(layout.swivel_look.bytes));
+    const joints = look.joints.slice(0, MAX_LOOK_JOINTS), bytes = new DataView(new ArrayBuffer(layout.swivel_look.bytes));
     const each = (name: string, value: number | Numbers) =>
         typeof value === "object" ? Array.from(numbers(name, value, joints.length)) : Array(joints.length).fill(real(name, value));
     const put = (at: number, values: ArrayLike<number>) => Array.from(values).forEach((x, n) => bytes.setFloat32(at + 4 * n, x, true));
     bytes.setUint32(0, look.joints.length, true);
     joints.forEach((joint, n) => bytes.setUint32(layout.swivel_look.joints + 4 * n, whole("look.joints", joint), true));
-    put(layout.swivel_look.share, each("look.share", look.share)), put(layout.swivel_look.cos_most, each("look.cosMost", look.cosMost));
+    put(layout.swivel_look.share, each("look.share", look.share)), put(layout.swivel_look.cos_max, each("look.cosMax", look.cosMax));
     put(layout.swivel_look.eye, numbers("look.eye", look.eye, 3)), put(layout.swivel_look.axis, numbers("look.axis", look.axis, 3));
     const { cosFull, cosNone, fadeDistance, rate } = look;
     put(layout.swivel_look.cos_full, Object.entries({ cosFull, cosNone, fadeDistance, rate }).map(([name, value]) => real(`look.${name}`, value)));

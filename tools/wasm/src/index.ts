@@ -12,7 +12,7 @@ export type {
     Arc, BodiesGroup, BodyGroup, Crowd, Fit, FitGroup, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Place, Plant, Prop, PropGroup,
 } from "./crowd.js";
 export {
-    defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm,
+    defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, featureRules, Field, Flag, LANES, MAX_TWIST_BONES, OnBadInput, Order, PoseForm,
     PoseSpace, Status, VERSION,
 } from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";

@@ -49,12 +49,12 @@ export class Region {
     }
     /**
      * Adds cones in order that hold all these directions, each with `margin` radians, 0.01 to 1, around it: what a clip does, and a little more.
-     * directions: x, y, z of each. mostCones: 1 to 6. As many are taken as allow least.
+     * directions: x, y, z of each. maxCones: 1 to 6. As many are taken as allow least.
      */
-    addDirections(directions: Numbers, margin: number, mostCones = 4): this {
-        const most = whole("mostCones", mostCones), around = real("margin", margin);
+    addDirections(directions: Numbers, margin: number, maxCones = 4): this {
+        const max = whole("maxCones", maxCones), around = real("margin", margin);
         return this.change((region, borrowed) =>
-            this.memory.calls.swivel_region_add_directions(region, ...putDirections("directions", directions, borrowed), around, most));
+            this.memory.calls.swivel_region_add_directions(region, ...putDirections("directions", directions, borrowed), around, max));
     }
     /** Cuts a cone out of all that is there and will be added. */
     forbid(cone: RegionCone): this {

@@ -36,26 +36,26 @@ export class Swivel {
     region(behindSize?: Uint8Array): Region { return new Region(this.memory, behindSize); }
 
     /** A range of angles in radians, for twists and, three at a time, boxes. */
-    range(least: number, most: number): Float32Array {
-        return this.memory.result(4, (out) => this.memory.calls.swivel_range(least, most, out));
+    range(min: number, max: number): Float32Array {
+        return this.memory.result(4, (out) => this.memory.calls.swivel_range(min, max, out));
     }
     /** An axis and the largest angle to it. */
-    cone(axis: Numbers, most: number): Float32Array {
-        return this.memory.result(4, (out, borrowed) => this.memory.calls.swivel_cone(vector("axis", axis, borrowed), most, out));
+    cone(axis: Numbers, max: number): Float32Array {
+        return this.memory.result(4, (out, borrowed) => this.memory.calls.swivel_cone(vector("axis", axis, borrowed), max, out));
     }
     /** The elbow's least and largest flexion. */
-    flexion(least: number, most: number): Float32Array {
-        return this.memory.result(2, (out) => this.memory.calls.swivel_flexion(least, most, out));
+    flexion(min: number, max: number): Float32Array {
+        return this.memory.result(2, (out) => this.memory.calls.swivel_flexion(min, max, out));
     }
     /** For Field.AIM: an axis of the hand, and the elbow's flexion. */
     aim(axis: Numbers, flexion: number): Float32Array {
         return this.memory.result(5, (out, borrowed) => this.memory.calls.swivel_aim(vector("axis", axis, borrowed), flexion, out));
     }
-    /** Cosine and sine of an angle, for Field.ANGLE and Field.MOST_SWIVEL. */
-    turn(angle: number): Float32Array {
+    /** Cosine and sine of an angle, for Field.ANGLE and Field.MAX_SWIVEL. */
+    cosSin(angle: number): Float32Array {
         if (!Number.isFinite(angle)) refuse(`the angle is ${shown(angle)}; give radians`);
         return this.memory.result(2, (out) => {
-            this.memory.calls.swivel_turn(angle, out);
+            this.memory.calls.swivel_cos_sin(angle, out);
             return 0;
         });
     }

@@ -32,8 +32,8 @@ SWIVEL_INLINE constexpr Rotor<T> from_half_tangent(const Vector<T>& g)
 // The rotation that goes with plant()'s target. animated: in the support's frame, of unit length. locked: after the
 // step.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> plant_turn(TurnState<T>& s, const PlantStep<T>& step, const Mask<T>& locked,
-                                            const Rotor<T>& animated, const PlantRules& rules)
+SWIVEL_INLINE constexpr Rotor<T> plant_rotation(TurnState<T>& s, const PlantStep<T>& step, const Mask<T>& locked,
+                                                const Rotor<T>& animated, const PlantRules& rules)
 {
     const Vector<T> none = vector(T(0), T(0), T(0));
     const Mask<T> was_locked = (locked & !step.locks) | step.releases;
