@@ -24,7 +24,7 @@ public:
         pose_.root_rotation = {bodies[0].root_rotation, sizeof(BodyCharacter)};
     }
     swivel::Crowd& crowd() { return crowd_; }
-    swivel::Job job() const { return {.frames = frames_, .on_this_thread = true, .pose = &pose_}; }
+    swivel::Job job() const { return {.streams = frames_, .on_this_thread = true, .pose = &pose_}; }
 
     std::vector<BodyCharacter> bodies;
 
@@ -39,7 +39,7 @@ private:
             BodyGoal& goal = bodies[0].goals[limb];
             fields_[limb] = {
                 {{SWIVEL_TARGET, goal.target, sizeof(BodyCharacter)}, {SWIVEL_HAND, goal.hand, sizeof(BodyCharacter)}}};
-            frames_[limb] = swivel_default_frame();
+            frames_[limb] = swivel_default_streams();
             frames_[limb].fields = fields_[limb].data();
             frames_[limb].field_count = static_cast<std::uint32_t>(fields_[limb].size());
         }
@@ -52,8 +52,8 @@ private:
         return swivel::Crowd(def);
     }
 
-    std::array<std::array<swivel_frame_field, 2>, kBodyLimbs> fields_;
-    std::array<swivel_frame, kBodyLimbs> frames_;
+    std::array<std::array<swivel_stream, 2>, kBodyLimbs> fields_;
+    std::array<swivel_streams, kBodyLimbs> frames_;
     swivel_pose pose_ = swivel_default_pose();
     swivel::Crowd crowd_;
 };
@@ -81,8 +81,8 @@ void add_swivel(const Suite& suite, const SharedCrowd& crowd)
     // Without the other limbs; and with goals that lie in rows, where earlier jobs have left them.
     swivel::Job one_limb = crowd->job(), from_rows = crowd->job();
     one_limb.groups = {0};
-    one_limb.frames = (*one_limb.frames).first(1);
-    from_rows.frames = swivel::everything;
+    one_limb.streams = (*one_limb.streams).first(1);
+    from_rows.streams = swivel::everything;
     add_job("bodies_one_limb/" + suite.best_isa(), suite.best_isa(), crowd, one_limb);
     add_job("bodies_from_rows/" + suite.best_isa(), suite.best_isa(), crowd, from_rows);
 }

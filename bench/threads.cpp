@@ -89,7 +89,7 @@ void add_threads(Suite& suite)
                    [&suite, arm_count](int threads) { return solve_on(threads, suite.crowds.get(0, arm_count), {}); });
         const auto frame = std::make_shared<WholeFrame>(arm_count / kArms);
         add_family(suite, "frame_threads", arms, arm_count, [frame](int threads) {
-            return solve_on(threads, frame->framed().crowd(), {.frames = frame->framed().frames()});
+            return solve_on(threads, frame->framed().crowd(), {.streams = frame->framed().frames()});
         });
     }
     add_memory(suite, "P", 0);

@@ -23,7 +23,7 @@ struct AllowedArcs {
     int count = 0;
 };
 
-// Of the turn from a to b. In double, products of floats are exact, so the sign is right for close turns, too.
+// The sine of the turn from a to b. In double, products of floats are exact, so the sign is right for close turns, too.
 template <class T>
 constexpr double sine_between(const Turned<T>& a, const Turned<T>& b)
 {
@@ -68,7 +68,7 @@ void for_each_edge(const LimitsInRegion<T, kMaxBoxes>& both, const Take& take)
         if (region.half_space[n].is_edge != 0) take(both.region.line(n));
 }
 
-// Of a group's limits, with its region or without one.
+// The arcs by a group's limits, with its region or without one.
 template <class T, template <class, int> class Bounds>
 AllowedArcs<T> allowed_arcs(const Bounds<T, kMaxBoxes>& limits)
 {

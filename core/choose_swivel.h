@@ -68,7 +68,7 @@ SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
 // Rooms and cosines that differ by less than this count as equal, so rounding seldom decides.
 inline constexpr double kTie = 1e-6;
 
-// Of candidates, the swivel with the most room. Of equal ones it is the one nearest to the wish, then the first. Each
+// The candidate with the most room; among equal ones the one nearest to the wish, then the first. Each
 // is compared with the best so far: of three, where each is equal to the next one only, the order decides.
 template <class T>
 struct MaxRoom {

@@ -35,6 +35,13 @@ SWIVEL_INLINE constexpr Rotor<T> with_one_nan(const Rotor<T>& q)
                  with_one_nan(q.template at<kK>()), with_one_nan(q.template at<kScalar>()));
 }
 
+// Whether a rotation is unit but for rounding, as kinematics leaves those of good poses.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_almost_unit(const Rotor<T>& q)
+{
+    return is_within(len2(q), 0.99, 1.01);
+}
+
 // A rotation made unit. Most are unit but for rounding. For these one step of Newton's method on
 // 1 / sqrt(length^2) does: it leaves 3/8 of the squared error, less than rounding. Others take the root and the
 // quotient. Zero and what is not finite becomes NaN.
@@ -45,6 +52,14 @@ SWIVEL_INLINE constexpr Rotor<T> unit_rotation(const Rotor<T>& q)
     const Mask<T> off = !is_within(length2, 1 - 1e-4, 1 + 1e-4);
     const Rotor<T> unit = (T(1.5) - T(0.5) * length2) * q;
     return any(off) ? select(off, normalise(q), unit) : unit;
+}
+
+// A value where it is valid, else NaN.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> or_nan(const Mask<T>& valid, const Vector<T>& v)
+{
+    const T nan = T(__builtin_nan(""));
+    return select(valid, v, vector(nan, nan, nan));
 }
 
 // A vector turned by a rotor of unit length: v + 2 w (u x v) + 2 u x (u x v), where w is the scalar and u the axis.

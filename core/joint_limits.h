@@ -76,7 +76,7 @@ SWIVEL_INLINE constexpr Vector<T> in_line(const SwivellingArm<T, Lift>& arm, con
     return vector(scalar_product(arm.normal, v), scalar_product(cross(arm.line, arm.normal), v),
                   scalar_product(arm.line, v));
 }
-// What moves with the arm is as much longer as to_arm's square.
+// A vector that moves with the arm is as much longer as to_arm's square.
 template <class T, class Lift>
 SWIVEL_INLINE constexpr T per_size(const SwivellingArm<T, Lift>& arm)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a goal may ask of a limb beyond its wrist, its pole and its bones, and which parts of it a group uses.
+// A goal may ask more of a limb than its wrist, its pole and its bones; a group says which parts of that it uses.
 // Everything is in the arm frame. Parts that a group does not use may hold anything.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 enum class Wish { pole, normal, incoming, hand };  // what says where the elbow goes
 
-// What a group uses.
+// The parts that a group uses.
 struct LimbUse {
     bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false, cap = false,
          continuity = false, step_wins = false, aim = false, yields = false;
@@ -117,7 +117,7 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ArmGoal<T>& arm)
 {
     return (len2(arm.wrist) <= T(kHuge2)) & (len2(arm.pole) <= T(kHuge2)) & is_length(arm.upper) & is_length(arm.fore);
 }
-// Of any length, as angles are given and as turns are stored.
+// A pair of any length, as angles are given and as turns are stored.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Turned<T>& turned)
 {

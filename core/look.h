@@ -39,14 +39,14 @@ struct LookTurn {
     Rotor<T> turn;  // of unit length
     Mask<T> held;   // by the cone
 };
-// Of unit vectors that are not opposite.
+// The vectors are unit, and not opposite.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> turn_between(const Vector<T>& from, const Vector<T>& to)
 {
     return normalise(one<T>() + to * from);
 }
 // The shortest turn from one direction to another. Their lengths are any whose product is more than kTiny. Two that are
-// opposite turn about any axis across them; to or from nothing there is no turn. Of a turn by 160 degrees or more,
+// opposite turn about any axis across them; to or from nothing there is no turn. From a turn by 160 degrees or more,
 // rounding leaves less of the axis. So that goes by way of a direction between, by two turns that are well known.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vector<T>& to)

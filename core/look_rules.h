@@ -7,7 +7,7 @@
 
 namespace swivel {
 
-// Of a joint. The turn is held by halves of angles.
+// The rules of a joint. The turn is held by halves of angles.
 struct LookJoint {
     float share;                       // of what is left of the turn
     float cos_half_max, sin_half_max;  // of the cone

@@ -12,7 +12,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// All that the steps make, under the lecture's names. What a product makes has the type of that product.
+// All that the steps make, under the lecture's names. The result of a product has the type of that product.
 template <class T>
 struct PipelineSteps {
     using Origin = decltype(unit<T, kE0>());

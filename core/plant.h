@@ -29,7 +29,7 @@ struct PlantInput {
     T time;           // since the last step, 0 or more
     T length;         // of the limb: the unit of the rules' lengths
 };
-// What happened in a step. A rotation that locks with the point takes part in it (plant_rotation.h).
+// The events of a step. A rotation that locks with the point takes part in it (plant_rotation.h).
 template <class T>
 struct PlantStep {
     Mask<T> fresh, moves, fades, locks, releases;  // fades: a release of the last step begins to

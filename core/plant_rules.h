@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the limbs of a group that plants share, made from its swivel_plant; and how the shift of a body is eased.
+// The constants of a group that plants, made from its swivel_plant; and how the shift of a body is eased.
 #pragma once
 
 namespace swivel {
@@ -14,7 +14,7 @@ struct PlantRules {
     float turn_in, turn_out;        // the same of half-tangents, 1/s
     float speed_on, speed_off, height_on, height_off;
 };
-inline constexpr double kShortestTime = 1e-6;  // s: a shorter one to stop or to fade is none
+inline constexpr double kShortestTime = 1e-6;  // s: shorter times to stop or to fade count as 0
 
 inline constexpr double kShortestHalf = 1e-4;  // s
 inline constexpr double kSettled = 60;         // stiffness times time, after which a spring rests, but for rounding

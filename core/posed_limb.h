@@ -13,7 +13,7 @@ namespace swivel::inline SWIVEL_ISA {
 // Which of a limb's normals its incoming frames take. chosen: lane by lane, its own or the steady one.
 enum class BendNormal { own, chosen };
 
-// What of a limb's joints its bones need, in one space.
+// The part of a limb's joints that its bones need, in one space.
 template <class T>
 struct PosedLimb {
     Rotor<T> parent, shoulder;

@@ -62,10 +62,10 @@ struct ReachingMoves {
         return way * middle;
     }
 };
-// The shortest move that is both arms'. Where there is none, the one from which the worse of both misses least.
+// The shortest move that both arms can reach. Where there is none, the one from which the worse of both misses least.
 //
 // It is one arm's shortest if that is the other's, too. Else it is the point nearest to 0 on the circle in which their
-// spheres meet. Of spheres about one middle, the slack lets one have the other's.
+// spheres meet. For spheres about one middle, the slack lets one have the other's.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> min_move(const ReachingMoves<T>& a, const ReachingMoves<T>& b)
 {

@@ -34,7 +34,7 @@ SWIVEL_INLINE constexpr T room_of_parts(const swivel_region& region, const RoomO
     for (std::uint32_t n = 0; n < region.cut_count; ++n) max = lo(room_of(n), max);
     return max;
 }
-// Of a unit direction.
+// The room of a unit direction.
 template <class T>
 SWIVEL_INLINE constexpr T room(const swivel_region& region, const Vector<T>& direction)
 {

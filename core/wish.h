@@ -25,7 +25,7 @@ SWIVEL_INLINE constexpr Mv<T, S> scaled(const Mv<T, S>& m)
 
 // From a hand that its wrist does not bend, the direction back along the forearm: it serves as a pole. Source: our own.
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> behind(const Rotor<T>& hand)
+SWIVEL_INLINE constexpr Vector<T> pole_from_hand(const Rotor<T>& hand)
 {
     return -sandwich(scaled(hand), unit<T, kE3>());
 }
@@ -35,8 +35,8 @@ inline constexpr double kSureHand = 0.342;
 // With an incoming normal, which exists in some lanes: a normal by the hand, and so much of the incoming one as it
 // lacks.
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> faded(const Vector<T>& by_hand, const Vector<T>& incoming_normal,
-                                        const Mask<T>& exists, const T& hand_length)
+SWIVEL_INLINE constexpr Vector<T> blend_with_incoming(const Vector<T>& by_hand, const Vector<T>& incoming_normal,
+                                                      const Mask<T>& exists, const T& hand_length)
 {
     const T lacks = hi(T(kSureHand) * hand_length - sqrt(len2(by_hand)), T(0));
     return by_hand + select(exists, lacks / sqrt(select(exists, len2(incoming_normal), T(1))), T(0)) * incoming_normal;
@@ -58,40 +58,41 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
     const auto is_off = [](const Vector<T>& normal, const T& of2)
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
     Vector<T> incoming_normal = vector(T(0), T(0), T(0));
-    Mask<T> was_off = no_lanes<T>();
+    Mask<T> incoming_is_defined = no_lanes<T>();
     if (use.incoming) {
         const T length2 = len2(goal.incoming.shoulder);
         incoming_normal = across(sandwich(goal.incoming.shoulder, unit<T, kE1>()), line);
-        was_off = is_off(incoming_normal, length2 * length2);
+        incoming_is_defined = is_off(incoming_normal, length2 * length2);
     }
 
     Vector<T> normal = incoming_normal;  // of any length until the end
-    Mask<T> says = was_off, kept = was_off;
+    Mask<T> is_defined = incoming_is_defined, keeps_incoming = incoming_is_defined;
     if (use.wish != Wish::incoming) {
-        const Vector<T> given = use.wish == Wish::hand ? behind(hand) : goal.arm.pole, pole = scaled(given);
+        const Vector<T> given = use.wish == Wish::hand ? pole_from_hand(hand) : goal.arm.pole, pole = scaled(given);
         normal = across(use.wish == Wish::normal ? pole : cross(line, pole), line);
-        if (use.wish == Wish::hand && use.incoming) normal = faded(normal, incoming_normal, was_off, sqrt(len2(pole)));
-        says = is_off(normal, len2(pole)) & (len2(given) >= T(kTiny2));
+        if (use.wish == Wish::hand && use.incoming)
+            normal = blend_with_incoming(normal, incoming_normal, incoming_is_defined, sqrt(len2(pole)));
+        is_defined = is_off(normal, len2(pole)) & (len2(given) >= T(kTiny2));
     }
-    const Mask<T> undefined = !says;
+    const Mask<T> undefined = !is_defined;
     if (any(undefined)) {  // the stand-ins, the best last
         const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
         Vector<T> instead = select(is_off(across(hinge, line), T(1)), across(hinge, line), across(other, line));
-        if (use.incoming) instead = select(was_off, incoming_normal, instead);
+        if (use.incoming) instead = select(incoming_is_defined, incoming_normal, instead);
         if (use.continuity) {
             const Vector<T> previous = across(goal.continuity.previous_normal, line);
             const Mask<T> off = is_off(previous, T(1));
-            kept = kept | off;
+            keeps_incoming = keeps_incoming | off;
             instead = select(off, previous, instead);
         }
         normal = select(undefined, across(instead, line), normal);
     }
     if (use.angle) {  // where the elbow stays as it was, the angle is in that already
         const Vector<T> turned = scaled(goal.angle.cos * normal + goal.angle.sin * cross(line, normal));
-        normal = select(undefined & kept, normal, turned);
+        normal = select(undefined & keeps_incoming, normal, turned);
     }
     if (use.weights) {
-        const Vector<T> from = select(was_off, incoming_normal, normal);
+        const Vector<T> from = select(incoming_is_defined, incoming_normal, normal);
         const T from2 = len2(from);
         const Vector<T> to = sqrt(from2 / len2(normal)) * normal, between = from + goal.weights.pole * (to - from);
         normal = select(is_off(between, from2), between, from);
@@ -187,7 +188,7 @@ SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const Limb
         const SteppedNormal<T> step = stepped_normal(goal.continuity, limb.normal, line);
         limb = {step.normal, limb.flags | word_where(step.limited, SWIVEL_LIMITED_STEP)};
     }
-    // Once more: of a wish close to the line, rounding has left some of the line. What this shortens is less than
+    // Once more: rounding has left some of the line in a wish close to it. This shortens the normal by less than
     // rounding.
     limb.normal = across(limb.normal, line);
     return limb;

@@ -156,15 +156,15 @@ void solve(swivel::Crowd& crowd, std::vector<Character>& crew, const float& seco
     pose.root_position = {first.place, step};
     pose.root_rotation = {first.turn, step};
     pose.time = {&seconds, 0};
-    std::array<swivel::Frame, 6> frames;
+    std::array<swivel::Streams, 6> streams;
     for (std::size_t side = 0; side < 2; ++side) {
-        frames[RIGHT_LEG + side].in(SWIVEL_CONTACT, {&first.contact[side], step});
-        frames[RIGHT_LEG + side].out(SWIVEL_HAND_TRANSFORM, {&first.foot[side], step});
-        frames[RIGHT_LEG + side].out(SWIVEL_FLAGS, {&first.flags[side], step});
+        streams[RIGHT_LEG + side].in(SWIVEL_CONTACT, {&first.contact[side], step});
+        streams[RIGHT_LEG + side].out(SWIVEL_HAND_TRANSFORM, {&first.foot[side], step});
+        streams[RIGHT_LEG + side].out(SWIVEL_FLAGS, {&first.flags[side], step});
     }
-    frames[RIFLE].out(SWIVEL_PROP_TRANSFORM, {&first.rifle, step}).out(SWIVEL_FLAGS, {&first.flags[3], step});
-    frames[LEFT].out(SWIVEL_FLAGS, {&first.flags[4], step});
-    crowd.solve({.frames = frames, .pose = &pose, .sample = sample});
+    streams[RIFLE].out(SWIVEL_PROP_TRANSFORM, {&first.rifle, step}).out(SWIVEL_FLAGS, {&first.flags[3], step});
+    streams[LEFT].out(SWIVEL_FLAGS, {&first.flags[4], step});
+    crowd.solve({.streams = streams, .pose = &pose, .sample = sample});
 }
 
 // ..................................................................................................................

@@ -145,10 +145,10 @@ void solve_bodies(Game& game)
     pose.rotations = {&game.characters[0].pose, sizeof(Character), sizeof(Float4), nullptr};
     pose.results = {&game.characters[0].solved, sizeof(Character), sizeof(Float4), nullptr};
     pose.root_position = swivel::stream(game.characters, &Character::place);
-    std::array<swivel::Frame, kLimbs> frames;
+    std::array<swivel::Streams, kLimbs> streams;
     for (std::size_t n = 0; n < kLimbs; ++n)
-        frames[n].in(SWIVEL_TARGET, swivel::stream(game.characters, &Character::targets, n));
-    game.crowd.solve({.mask = game.turns, .frames = frames, .pose = &pose});
+        streams[n].in(SWIVEL_TARGET, swivel::stream(game.characters, &Character::targets, n));
+    game.crowd.solve({.mask = game.turns, .streams = streams, .pose = &pose});
 }
 
 void run(Game& game)

@@ -80,16 +80,16 @@ static swivel_status limit_arms(swivel_crowd* crowd)
 
 static swivel_status solve(swivel_crowd* crowd)
 {
-    // [frames]
+    // [streams]
     const size_t stride = sizeof characters[0];
-    const swivel_frame_field leg[] = {
+    const swivel_stream leg[] = {
         {SWIVEL_SHOULDER_POSITION, characters[0].hip, stride},
         {SWIVEL_TARGET, characters[0].ankle, stride},
         {SWIVEL_POLE, characters[0].knee_hint, stride},
         {SWIVEL_SHOULDER, characters[0].thigh, stride},
         {SWIVEL_ELBOW, characters[0].shin, stride},
     };
-    const swivel_frame_field arm[] = {
+    const swivel_stream arm[] = {
         {SWIVEL_SHOULDER_POSITION, characters[0].shoulder, stride},
         {SWIVEL_TARGET, characters[0].grip, stride},
         {SWIVEL_POLE, characters[0].elbow_hint, stride},
@@ -99,13 +99,13 @@ static swivel_status solve(swivel_crowd* crowd)
         {SWIVEL_WRIST, characters[0].hand, stride},
         {SWIVEL_FLAGS, &characters[0].arm_flags, stride},
     };
-    swivel_frame frames[GROUP_COUNT];
+    swivel_streams streams[GROUP_COUNT];
     swivel_job job = swivel_default_job();
-    frames[LEGS] = swivel_default_frame();
-    frames[LEGS].fields = leg, frames[LEGS].field_count = sizeof leg / sizeof leg[0];
-    frames[ARMS] = swivel_default_frame();
-    frames[ARMS].fields = arm, frames[ARMS].field_count = sizeof arm / sizeof arm[0];
-    job.frames = frames;  // one for each group
+    streams[LEGS] = swivel_default_streams();
+    streams[LEGS].fields = leg, streams[LEGS].field_count = sizeof leg / sizeof leg[0];
+    streams[ARMS] = swivel_default_streams();
+    streams[ARMS].fields = arm, streams[ARMS].field_count = sizeof arm / sizeof arm[0];
+    job.streams = streams;  // one for each group
     // [end]
     return swivel_solve(crowd, &job);
 }

@@ -117,13 +117,13 @@ std::vector<Character> make_characters()
     return characters;
 }
 
-swivel::Frame frame_of(std::span<Character> characters)
+swivel::Streams streams_of(std::span<Character> characters)
 {
-    swivel::Frame frame;
-    frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
-    frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::shoulder));
-    frame.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::elbow));
-    return frame;
+    swivel::Streams streams;
+    streams.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+    streams.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::shoulder));
+    streams.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::elbow));
+    return streams;
 }
 
 bool equal_results(swivel::Crowd& a, swivel::Crowd& b)
@@ -157,15 +157,15 @@ int compare()
                 rows_equal ? "the same" : "OTHER");
 
     // The host's own structures in and out, in the same way: each job copies in, solves and copies out its own blocks.
-    const swivel::Frame frame = frame_of(characters), other_frame = frame_of(as_well);
-    const std::array<swivel_frame, 1> frames = {frame};
+    const swivel::Streams streams = streams_of(characters), other_streams = streams_of(as_well);
+    const std::array<swivel_streams, 1> views = {streams};
     on_all_blocks(jobs, ours, [&](std::uint32_t first, std::uint32_t count) {
-        ours.solve({.blocks = swivel_blocks{first, count}, .frames = frames, .on_this_thread = true});
+        ours.solve({.blocks = swivel_blocks{first, count}, .streams = views, .on_this_thread = true});
     });
-    theirs.solve({.frames = {other_frame}});
-    const bool frames_equal = characters == as_well;
-    std::printf("whole frames: %s bits as swivel_solve\n", frames_equal ? "the same" : "OTHER");
-    return rows_equal && frames_equal ? 0 : 1;
+    theirs.solve({.streams = {other_streams}});
+    const bool streams_equal = characters == as_well;
+    std::printf("streams: %s bits as swivel_solve\n", streams_equal ? "the same" : "OTHER");
+    return rows_equal && streams_equal ? 0 : 1;
 }
 
 }  // namespace

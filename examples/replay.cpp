@@ -129,19 +129,19 @@ void set_lengths(std::vector<BodyArm>& arms, const std::vector<Body>& bodies, co
     }
 }
 
-swivel::Frame frame_of(std::vector<BodyArm>& arms)
+swivel::Streams streams_of(std::vector<BodyArm>& arms)
 {
-    swivel::Frame frame;
-    frame.in(SWIVEL_TARGET, swivel::stream(arms, &BodyArm::target));
-    frame.in(SWIVEL_POLE, swivel::stream(arms, &BodyArm::pole));
-    frame.in(SWIVEL_SHOULDER_POSITION, swivel::stream(arms, &BodyArm::shoulder_place));
-    frame.in(SWIVEL_PARENT_ROTATION, swivel::stream(arms, &BodyArm::parent));
-    frame.in(SWIVEL_HAND, swivel::stream(arms, &BodyArm::hand));
-    frame.in(SWIVEL_LENGTHS, swivel::stream(arms, &BodyArm::lengths));
-    frame.out(SWIVEL_SHOULDER, swivel::stream(arms, &BodyArm::shoulder));
-    frame.out(SWIVEL_ELBOW, swivel::stream(arms, &BodyArm::elbow));
-    frame.out(SWIVEL_WRIST, swivel::stream(arms, &BodyArm::wrist));
-    return frame;
+    swivel::Streams streams;
+    streams.in(SWIVEL_TARGET, swivel::stream(arms, &BodyArm::target));
+    streams.in(SWIVEL_POLE, swivel::stream(arms, &BodyArm::pole));
+    streams.in(SWIVEL_SHOULDER_POSITION, swivel::stream(arms, &BodyArm::shoulder_place));
+    streams.in(SWIVEL_PARENT_ROTATION, swivel::stream(arms, &BodyArm::parent));
+    streams.in(SWIVEL_HAND, swivel::stream(arms, &BodyArm::hand));
+    streams.in(SWIVEL_LENGTHS, swivel::stream(arms, &BodyArm::lengths));
+    streams.out(SWIVEL_SHOULDER, swivel::stream(arms, &BodyArm::shoulder));
+    streams.out(SWIVEL_ELBOW, swivel::stream(arms, &BodyArm::elbow));
+    streams.out(SWIVEL_WRIST, swivel::stream(arms, &BodyArm::wrist));
+    return streams;
 }
 
 struct Errors {
@@ -182,8 +182,8 @@ int replay(const char* path, std::size_t body_count)
         set_lengths(arms[side], bodies, limb.lengths);
     }
     swivel::Crowd crowd(groups);
-    const swivel::Frame left = frame_of(arms[0]), right = frame_of(arms[1]);
-    const std::array<swivel_frame, 2> frames = {left, right};
+    const swivel::Streams left = streams_of(arms[0]), right = streams_of(arms[1]);
+    const std::array<swivel_streams, 2> streams = {left, right};
 
     const auto step = static_cast<std::size_t>(std::max(1.0, std::round(1 / (30 * clip.frame_time))));  // 30 a second
     std::size_t played = 0;
@@ -192,7 +192,7 @@ int replay(const char* path, std::size_t body_count)
     for (std::size_t frame = 0; frame < clip.frame_count; frame += step, ++played) {
         for (std::size_t side = 0; side < 2; ++side) set_frame(arms[side], bodies, sources[side], frame);
         const auto start = std::chrono::steady_clock::now();
-        crowd.solve({.frames = frames});
+        crowd.solve({.streams = streams});
         seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         measure(crowd, arms, errors);
     }

@@ -21,11 +21,11 @@ enum JointRow : std::uint32_t {
     kLocalRow = kScaleRow + 1,   // its rotation, relative to its parent: as it comes, later as it goes
     kAxesRow = kLocalRow + 4,    // of local matrices: the axes in the order of the caller's memory
     kMotionRow = kAxesRow,       // once these are written: the turn that a solve gave it and all below it,
-    kShiftRow = kMotionRow + 4,  // and the place that the root's goes to in it; both in the body's space. Of a limb
-                                 // from where looks above it have moved it, of a look from the incoming pose
+    kShiftRow = kMotionRow + 4,  // and the place that the root's goes to in it; both in the body's space. A limb's
+                                 // count from where looks above it have moved it, a look's from the incoming pose
     kJointRows = kAxesRow + 9
 };
-// What a group's limb hands on from stage to stage, besides the rows of its strip.
+// The values that a group's limb hands on from stage to stage, besides the rows of its strip.
 enum PosedRow : std::uint32_t {
     kLengthsRow,                         // of the bones, in the parent's unit
     kUpperFromArmRow = kLengthsRow + 2,  // as in a binding
@@ -35,7 +35,7 @@ enum PosedRow : std::uint32_t {
     kTwistInRow = kWristParentFromArmRow + 4,  // the incoming hand's twist about the forearm: cos and sin of its half
     kKeptRow = kTwistInRow + 2,                // 1 where the limb keeps its pose, else 0
     kReachRow = kKeptRow + 1,                  // from shoulder to wrist as it comes, in the parent's unit
-    // Of the body itself:
+    // The body itself:
     kRootRow,                 // the root's place in the world, as shifted; 0 where positions in rows are from the root
     kTimeRow = kRootRow + 3,  // since the last solve
     kWeightRow,               // how much of its corrections counts, where the pose says so
@@ -45,8 +45,8 @@ enum PosedRow : std::uint32_t {
     kShiftedRow = kSpanRow + 3,             // by what the root is shifted, in the world
     kPosedRows = kShiftedRow + 3
 };
-// Behind the rows of all joints lies what stages hand on from group to group, or from pass to pass. Of a limb that is
-// sent (SWIVEL_SENT):
+// Behind the rows of all joints lie the values that stages hand on from group to group, or from pass to pass. A limb
+// whose goal the library makes (SWIVEL_SENT) has:
 enum GoalRow : std::uint32_t {
     kGoalPlaceRow,  // from the root's place before it is shifted; where it is linked, after that
     kGoalHandRow = kGoalPlaceRow + 3,
@@ -74,7 +74,7 @@ enum HolderRow : std::uint32_t {
     kHolderNearRow = kHolderReachRow + 1,  // and no nearer than this
     kHolderRows = kHolderNearRow + 1
 };
-inline constexpr std::uint32_t kSayerRow = kHeldRows, kHoldersRow = kSayerRow + 1,
+inline constexpr std::uint32_t kLeadHandRow = kHeldRows, kHoldersRow = kLeadHandRow + 1,
                                kPropRows = kHoldersRow + kMaxHolders * kHolderRows;
 // A block has the rows of the group that is being solved, then those of all joints: first the root's.
 inline constexpr std::uint32_t kRootJoint = kPosedRows;
@@ -109,7 +109,24 @@ struct TurnedJoint {
 };
 inline constexpr std::uint32_t kMaxTurned = 4 + SWIVEL_MAX_TWIST_BONES;
 static_assert(kMaxLookJoints == SWIVEL_MAX_LOOK_JOINTS && kMaxLookJoints <= kMaxTurned);
-// The joints of a group's limb or look, by their first rows.
+// A limb is linked to a prop, or to another limb's hand.
+struct LinkPlan {
+    std::uint32_t row;     // the first row of its frame
+    std::uint32_t group;   // its group
+    bool is_prop;          // if so:
+    std::uint32_t holder;  // the first row of what the limb asks of it
+    std::uint32_t number;  // the limb's place among its holders
+};
+struct PropPlan {
+    std::uint32_t joint;  // the first row of its joint; 0: none
+    std::uint32_t holder_count;
+    float max_move;  // in limb lengths of its first holder
+};
+struct ShiftPlan {
+    float drop, rise;  // in limb lengths of the first limb that is to fit
+    SpringRule spring;
+};
+// A group of bodies: the joints of its limb or look, by their first rows, and its constants.
 struct BodyLimb {
     std::uint32_t parent, shoulder, elbow_parent, elbow, wrist_parent, wrist;
     std::uint32_t twist_bones[SWIVEL_MAX_TWIST_BONES], twist_parents[SWIVEL_MAX_TWIST_BONES];
@@ -124,24 +141,17 @@ struct BodyLimb {
     const FollowingJoint* following;  // of a look: the needed joints that move with it, but its own
     std::uint32_t following_count;
     bool is_look;
-    LookRules look;               // where it is one
-    std::uint32_t goal;           // the first row of its goal, where it is sent
-    std::uint32_t frame;          // the first row of its frame, where others are linked to it
-    std::uint32_t link;           // the first row of the frame that it is linked to
-    std::uint32_t linked_group;   // the group of that
-    bool holds_prop;              // it is a prop
-    std::uint32_t holder;         // the first row of what it asks of that
-    std::uint32_t holder_number;  // its place among the prop's holders
-    std::uint32_t holder_count;   // of a prop
-    std::uint32_t joint;          // of a prop: the first row of its joint; 0: none
-    float max_move;               // of a prop: in limb lengths of its first holder
-    GroundRules ground;           // where it stands on ground
-    float up[3];                  // the crowd's, of unit length
-    float rest_length;  // of both bones at rest, where rules have shares of it; of no limb that of the first it serves
-    float per_ahead;    // 1/s, of the crowd's fit
-    PlantRules rules;   // where it is planted
-    float drop, rise;   // where it is a shift: in limb lengths
-    SpringRule spring;  // the same
+    std::uint32_t goal;   // the first row of its goal, where the library makes it
+    std::uint32_t frame;  // the first row of its frame, where others are linked to it
+    float up[3];          // the crowd's, of unit length
+    float rest_length;    // of both bones at rest, where rules are shares of it; of no limb that of the first it serves
+    float per_ahead;      // 1/s, of the crowd's shift
+    PlantRules rules;     // where it is planted
+    GroundRules ground;   // where it stands on ground
+    LinkPlan link;        // where it is linked
+    PropPlan prop;        // of these kinds
+    ShiftPlan shift;
+    LookRules look;
 
     // The rows of what carries the arm frame to the parents of elbow and wrist.
     std::uint32_t elbow_parent_row() const
@@ -170,7 +180,7 @@ struct BodyBlock {
     std::uint32_t first;  // its first body
     std::uint32_t lanes;  // bits of those that are chosen; at least one
 };
-// What forward kinematics needs of a crowd and a pose.
+// The part of a crowd and a pose that forward kinematics needs.
 struct BodyPlan {
     const BodyJoint* joints;
     std::uint32_t joint_count;

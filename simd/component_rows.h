@@ -45,4 +45,21 @@ SWIVEL_ALWAYS_INLINE void store_rows(float* first, const Rotor<T>& q, const How&
     store_lanes(first + 3 * kLanes, q.template at<kScalar>(), how...);
 }
 
+// Rows of a block that lie one after the other, from the lanes of a slice on: those of a strip, a body or a joint.
+template <class T>
+struct RowView {
+    float* first;
+
+    SWIVEL_ALWAYS_INLINE float* at(std::uint32_t row) const { return first + row * kLanes; }
+    SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(at(row)); }
+    SWIVEL_ALWAYS_INLINE Word<T> word(std::uint32_t row) const { return load_lane_word<T>(at(row)); }
+    SWIVEL_ALWAYS_INLINE Vector<T> vector(std::uint32_t row) const { return load_vector_rows<T>(at(row)); }
+    SWIVEL_ALWAYS_INLINE Rotor<T> rotor(std::uint32_t row) const { return load_rotor_rows<T>(at(row)); }
+    template <class Value>
+    SWIVEL_ALWAYS_INLINE void set(std::uint32_t row, const Value& value) const
+    {
+        store_rows(at(row), value);
+    }
+};
+
 }  // namespace swivel::inline SWIVEL_ISA

@@ -17,10 +17,10 @@ inline constexpr std::uint32_t kLanes = SWIVEL_LANES;  // limbs in a block
 inline constexpr swivel_features kTwistBones = SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES,
                                  kHandLimits = SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                                SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
-// What every group of bodies has, and what makes one no limb.
+// The features that every group of bodies has, and those that make one no limb.
 inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
                                  kNoLimb = SWIVEL_NO_LIMB;
-// What says where elbows go, of which a group has one; a pole that is a point has none of these.
+// These say where elbows go; a group has one of them, or a pole that is a point.
 inline constexpr swivel_features kPoles =
     SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND;
 struct FeatureRow {
@@ -100,6 +100,22 @@ constexpr const char* feature_name(swivel_features features)
 }
 
 // ---- fields, in the order of their rows: inputs, then results
+// A part of a value, whose bounds explanations check. The kernels check theirs where they use it.
+enum class ValuePart : std::uint8_t { none, position, direction, quaternion, share, time, offset };
+struct PartBounds {
+    std::uint32_t count;  // numbers; their length counts if they are several
+    double min, max;
+};
+constexpr PartBounds bounds_of(ValuePart part)
+{
+    constexpr PartBounds bounds[] = {{0, 0, 0}, {3, 0, 1e15}, {3, 1e-9, 1e9},  {4, 1e-9, 1e9},
+                                     {1, 0, 1}, {1, 0, 1e15}, {1, -1e15, 1e15}};
+    return bounds[static_cast<std::size_t>(part)];
+}
+struct ValueRange {
+    const char* text;  // what a value must be to be in its range
+    ValuePart parts[2] = {};
+};
 struct UnitParts {  // the numbers of a value that are a unit axis, and pairs of cosine and sine that follow
     std::uint32_t axis_size = 0, pair_count = 0;
 };
@@ -124,7 +140,7 @@ struct FieldRow {
     std::uint32_t component_count;  // see field_row_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
-    const char* range = "";            // what a value must be to be in its range
+    ValueRange range = {""};
     float start[kMaxComponents] = {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
     Start starts = Start::neutral;
     Place place = Place::no;
@@ -134,9 +150,11 @@ struct FieldRow {
     constexpr float start_of(std::uint32_t c) const { return start[c % component_count]; }
 };
 constexpr swivel_field_kind kInput = SWIVEL_FIELD_INPUT, kResult = SWIVEL_FIELD_RESULT, kCarried = SWIVEL_FIELD_CARRIED;
-constexpr const char kPlace[] = "no further than 1e15", kQuaternion[] = "a quaternion of length 1e-9 to 1e9",
-                     kCone[] = "a unit axis and a cosine; swivel_cone() makes them",
-                     kRanges[] = "ranges of angles; swivel_range() makes them";
+constexpr ValueRange kPlace = {"no further than 1e15", {ValuePart::position}},
+                     kQuaternion = {"a quaternion of length 1e-9 to 1e9", {ValuePart::quaternion}},
+                     kShareRange = {"0 to 1", {ValuePart::share}}, kSharesRange = {"0 to 1 each"},
+                     kCone = {"a unit axis and a cosine; swivel_cone() makes them"},
+                     kRanges = {"ranges of angles; swivel_range() makes them"};
 // A value that is a position.
 constexpr FieldRow place(swivel_field field, const char* name, swivel_features needs, swivel_features excludes,
                          const float (&start)[3], Start starts)
@@ -145,7 +163,7 @@ constexpr FieldRow place(swivel_field field, const char* name, swivel_features n
 }
 // Any other input.
 template <std::size_t count>
-constexpr FieldRow input(swivel_field field, const char* name, swivel_features needs, const char* range,
+constexpr FieldRow input(swivel_field field, const char* name, swivel_features needs, const ValueRange& range,
                          const float (&start)[count], UnitParts unit = {}, Start starts = Start::neutral)
 {
     FieldRow row{field, name, count, kInput, needs, 0, range, {}, starts, Place::no, unit};
@@ -165,73 +183,76 @@ constexpr float kAnyRanges[] = {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0};
 constexpr FieldRow kFields[] = {
     place(SWIVEL_TARGET, "target", 0, 0, {0, 0, 2}, Start::unknown),
     place(SWIVEL_POLE, "pole", 0, SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND, {0, -1, 0}, Start::neutral),
-    input(SWIVEL_LENGTHS, "lengths", 0, "0 or 1e-15 to 1e15 each", {1, 1}, {}, Start::unknown),
+    input(SWIVEL_LENGTHS, "lengths", 0, {"0 or 1e-15 to 1e15 each"}, {1, 1}, {}, Start::unknown),
     place(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, SWIVEL_BODY, {0, 0, 0}, Start::unknown),
     unless_posed(input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion, kIdentity)),
-    unless_posed(input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, "1e-15 to 1e15", {1})),
+    unless_posed(input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, {"1e-15 to 1e15"}, {1})),
     input(SWIVEL_HAND, "hand", SWIVEL_WITH_HAND, kQuaternion, kIdentity),
     input(SWIVEL_EFFECTOR, "effector", SWIVEL_WITH_EFFECTOR, kPlace, {0, 0, 0}),
-    input(SWIVEL_ANGLE, "angle", SWIVEL_WITH_ANGLE, "cos and sin, 1e-9 to 1e9 long; swivel_cos_sin() makes them",
+    input(SWIVEL_ANGLE, "angle", SWIVEL_WITH_ANGLE, {"cos and sin, 1e-9 to 1e9 long; swivel_cos_sin() makes them"},
           {1, 0}),
     unless_posed(input(SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
     unless_posed(input(SWIVEL_INCOMING_ELBOW, "incoming_elbow", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
     unless_posed(input(SWIVEL_INCOMING_WRIST, "incoming_wrist", SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND, kQuaternion,
                        kIdentity)),
-    input(SWIVEL_WEIGHTS, "weights", SWIVEL_WITH_WEIGHTS, "0 to 1 each", {1, 1, 1}),
-    input(SWIVEL_REACH, "reach", SWIVEL_WITH_REACH, "0 to 1 each, the stretch 1 to 1000", {0, 0, 1, 0}),
+    input(SWIVEL_WEIGHTS, "weights", SWIVEL_WITH_WEIGHTS, kSharesRange, {1, 1, 1}),
+    input(SWIVEL_REACH, "reach", SWIVEL_WITH_REACH, {"0 to 1 each, the stretch 1 to 1000"}, {0, 0, 1, 0}),
     input(SWIVEL_MAX_SWIVEL, "max_swivel", SWIVEL_WITH_MAX_SWIVEL,
-          "cos and sin of 0 to pi; swivel_cos_sin() makes them", {-1, 0}, {0, 1}),
+          {"cos and sin of 0 to pi; swivel_cos_sin() makes them"}, {-1, 0}, {0, 1}),
     input(SWIVEL_FLEXION_LIMIT, "flexion_limit", SWIVEL_WITH_FLEXION_LIMIT,
-          "cosines of half angles; swivel_flexion() makes them", {1, 0}),
+          {"cosines of half angles; swivel_flexion() makes them"}, {1, 0}),
     input(SWIVEL_SHOULDER_CONE, "shoulder_cone", SWIVEL_WITH_SHOULDER_CONE, kCone, kAnyCone, {3, 0}),
     input(SWIVEL_HUMERAL_TWIST, "humeral_twist", SWIVEL_WITH_HUMERAL_TWIST, kRanges, kAnyRange, {0, 2}),
     input(SWIVEL_SHOULDER_BOX, "shoulder_box", SWIVEL_WITH_SHOULDER_BOX, kRanges, kAnyRanges, {0, 6}),
     input(SWIVEL_HAND_CONE, "hand_cone", SWIVEL_WITH_HAND_CONE, kCone, kAnyCone, {3, 0}),
     input(SWIVEL_FOREARM_TWIST, "forearm_twist", SWIVEL_WITH_FOREARM_TWIST, kRanges, kAnyRange, {0, 2}),
     input(SWIVEL_HAND_TWIST, "hand_twist", SWIVEL_WITH_HAND_TWIST,
-          "a unit axis and a range of angles; swivel_range() makes it", {0, 0, 1, 1, 0, -1, 0}, {3, 2}),
+          {"a unit axis and a range of angles; swivel_range() makes it"}, {0, 0, 1, 1, 0, -1, 0}, {3, 2}),
     input(SWIVEL_WRIST_BOX, "wrist_box", SWIVEL_WITH_WRIST_BOX, kRanges, kAnyRanges, {0, 6}),
-    input(SWIVEL_AIM, "aim", SWIVEL_WITH_AIM, "a unit axis, cos and sin; swivel_aim() makes them", {0, 0, 1, 1, 0},
+    input(SWIVEL_AIM, "aim", SWIVEL_WITH_AIM, {"a unit axis, cos and sin; swivel_aim() makes them"}, {0, 0, 1, 1, 0},
           {3, 1}),
-    input(SWIVEL_CLAVICLE, "clavicle", SWIVEL_WITH_CLAVICLE, "a place no further than 1e15 and a share of 0 to 1",
-          {0, 0, 0, 0}),
-    but_not(SWIVEL_PLANT_BY_MOTION, input(SWIVEL_CONTACT, "contact", SWIVEL_WITH_PLANT, "0 to 1", {0})),
-    input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, "0 to 1 each", {0.01f, 0.9f, 0}),
-    input(SWIVEL_PELVIS_FIT_WEIGHT, "pelvis_fit_weight", SWIVEL_WITH_PELVIS_FIT, "0 to 1", {1}),
+    input(SWIVEL_CLAVICLE, "clavicle", SWIVEL_WITH_CLAVICLE,
+          {"a place no further than 1e15 and a share of 0 to 1", {ValuePart::share}}, {0, 0, 0, 0}),
+    but_not(SWIVEL_PLANT_BY_MOTION, input(SWIVEL_CONTACT, "contact", SWIVEL_WITH_PLANT, kShareRange, {0})),
+    input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, kSharesRange, {0.01f, 0.9f, 0}),
+    input(SWIVEL_PELVIS_FIT_WEIGHT, "pelvis_fit_weight", SWIVEL_WITH_PELVIS_FIT, kShareRange, {1}),
     place(SWIVEL_NEXT_TARGET, "next_target", SWIVEL_WITH_NEXT_TARGET, 0, {0, 0, 0}, Start::neutral),
-    input(SWIVEL_NEXT_TIME, "next_time", SWIVEL_WITH_NEXT_TARGET, "0 to 1e15", {1e15f}),
-    input(SWIVEL_SHIFT_WISH, "shift_wish", SWIVEL_FIT, "no further than 1e15 from 0", {0}),
+    input(SWIVEL_NEXT_TIME, "next_time", SWIVEL_WITH_NEXT_TARGET, {"0 to 1e15", {ValuePart::time}}, {1e15f}),
+    input(SWIVEL_SHIFT_WISH, "shift_wish", SWIVEL_FIT, {"no further than 1e15 from 0", {ValuePart::offset}}, {0}),
     place(SWIVEL_GROUND, "ground", SWIVEL_WITH_GROUND, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_GROUND_NORMAL, "ground_normal", SWIVEL_WITH_GROUND, "of length 1e-9 to 1e9", {0, 1, 0}),
-    input(SWIVEL_GROUND_WEIGHT, "ground_weight", SWIVEL_WITH_GROUND, "0 to 1", {1}),
-    input(SWIVEL_GRIP, "grip", SWIVEL_WITH_LINK, "a place no further than 1e15 and a quaternion of length 1e-9 to 1e9",
+    input(SWIVEL_GROUND_NORMAL, "ground_normal", SWIVEL_WITH_GROUND, {"of length 1e-9 to 1e9", {ValuePart::direction}},
+          {0, 1, 0}),
+    input(SWIVEL_GROUND_WEIGHT, "ground_weight", SWIVEL_WITH_GROUND, kShareRange, {1}),
+    input(SWIVEL_GRIP, "grip", SWIVEL_WITH_LINK,
+          {"a place no further than 1e15 and a quaternion of length 1e-9 to 1e9",
+           {ValuePart::position, ValuePart::quaternion}},
           {0, 0, 0, 0, 0, 0, 1}),
     place(SWIVEL_PROP_POSITION, "prop_position", SWIVEL_PROP, 0, {0, 0, 0}, Start::unknown),
     input(SWIVEL_PROP_ROTATION, "prop_rotation", SWIVEL_PROP, kQuaternion, kIdentity, {}, Start::unknown),
-    input(SWIVEL_HAND_BLEND, "hand_blend", SWIVEL_PROP, "0 to 1", {0}),
-    input(SWIVEL_PROP_WEIGHT, "prop_weight", SWIVEL_PROP, "0 to 1", {1}),
+    input(SWIVEL_HAND_BLEND, "hand_blend", SWIVEL_PROP, kShareRange, {0}),
+    input(SWIVEL_PROP_WEIGHT, "prop_weight", SWIVEL_PROP, kShareRange, {1}),
     place(SWIVEL_LOOK_TARGET, "look_target", SWIVEL_LOOK, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_LOOK_WEIGHT, "look_weight", SWIVEL_LOOK, "0 to 1", {1}),
-    {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, "", {0, 0, 0, 1}},
-    {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, "", {1, 0}},
-    {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, "", {0, 0, 0, 1}},
+    input(SWIVEL_LOOK_WEIGHT, "look_weight", SWIVEL_LOOK, kShareRange, {1}),
+    {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, {""}, {0, 0, 0, 1}},
+    {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, {""}, {1, 0}},
+    {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, {""}, {0, 0, 0, 1}},
     {SWIVEL_FLAGS, "flags", 1, kResult},
-    {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH, 0, "", {1}},
+    {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH, 0, {""}, {1}},
     {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MAX_SWIVEL},
-    {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES, 0, "", {0, 0, 0, 1}},
-    {SWIVEL_CLAVICLE_ROTATION, "clavicle_rotation", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, "", {0, 0, 0, 1}},
-    {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0,
-                                                                                0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}},
+    {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES, 0, {""}, {0, 0, 0, 1}},
+    {SWIVEL_CLAVICLE_ROTATION, "clavicle_rotation", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, {""}, {0, 0, 0, 1}},
+    {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD, 0, {""}, {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0,
+                                                                                  0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}},
     {SWIVEL_PLANT, "plant", 11, kCarried, SWIVEL_WITH_PLANT},
     {SWIVEL_PLANT_ROTATION, "plant_rotation", 10, kCarried, SWIVEL_WITH_PLANT_ROTATION},
     {SWIVEL_CONTACT_STATE, "contact_state", 4, kCarried, SWIVEL_PLANT_BY_MOTION},
-    {SWIVEL_SOLVED_GOAL, "solved_goal", 7, kResult, SWIVEL_SENT | SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_SOLVED_GOAL, "solved_goal", 7, kResult, SWIVEL_SENT | SWIVEL_WITH_RECORD, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
     {SWIVEL_SHIFT, "shift", 3, kCarried, SWIVEL_FIT},
     {SWIVEL_PROBE, "probe", 3, kResult, SWIVEL_WITH_GROUND},
     {SWIVEL_LIFT, "lift", 9, kCarried, SWIVEL_WITH_GROUND},
-    {SWIVEL_HAND_TRANSFORM, "hand_transform", 7, kResult, SWIVEL_WITH_HAND_TRANSFORM, 0, "", {0, 0, 0, 0, 0, 0, 1}},
-    {SWIVEL_PROP_TRANSFORM, "prop_transform", 7, kResult, SWIVEL_PROP, 0, "", {0, 0, 0, 0, 0, 0, 1}},
-    {SWIVEL_SIGHT, "sight", 6, kResult, SWIVEL_LOOK, 0, "", {0, 0, 0, 0, 0, 1}},
+    {SWIVEL_HAND_TRANSFORM, "hand_transform", 7, kResult, SWIVEL_WITH_HAND_TRANSFORM, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_PROP_TRANSFORM, "prop_transform", 7, kResult, SWIVEL_PROP, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_SIGHT, "sight", 6, kResult, SWIVEL_LOOK, 0, {""}, {0, 0, 0, 0, 0, 1}},
     {SWIVEL_LOOK_TURNS, "look_turns", 1 + 3 * SWIVEL_MAX_LOOK_JOINTS, kCarried, SWIVEL_LOOK},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
@@ -262,6 +283,9 @@ static_assert([] {
             return false;
     return true;
 }());
+
+// Whether NaN stands for a value that is not given, which the library or the pose then gives.
+constexpr bool may_be_missing(const FieldRow& row) { return row.starts == Start::unknown || row.field == SWIVEL_HAND; }
 
 // The features with which limbs carry something from solve to solve.
 inline constexpr swivel_features kCarryingFeatures = [] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The functions that a build for one instruction set gives. Of plain arms it is one for each set of features, of whole
+// The functions that a build for one instruction set gives. Plain arms have one for each set of features, whole
 // limbs one that takes a list of stages. Nothing here knows lanes.
 #pragma once
 
@@ -73,7 +73,7 @@ struct PackRun {
 inline constexpr swivel_features kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
 static_assert(kFormulaFeatures == 7);
 
-// Of plain arms, and packing: simd/kernels/arm_kernels.cpp.
+// Plain arms, and packing: simd/kernels/arm_kernels.cpp.
 struct ArmKernels {
     void (*solve[8])(const SolveRun& run);
     void (*pack)(const PackRun& run);  // of any group
@@ -86,7 +86,7 @@ struct ArcEnds {
     float from[2], to[2];
 };
 
-// Of whole limbs: simd/kernels/limb_kernels.cpp.
+// Whole limbs: simd/kernels/limb_kernels.cpp.
 struct LimbKernels {
     void (*solve)(const SolveRun& run);
     // For one limb of a run: stores its arcs and returns how many there are. Null but in the build for single limbs
@@ -94,7 +94,7 @@ struct LimbKernels {
     std::uint32_t (*allowed_arcs)(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMaxArcs]);
 };
 
-// Of bodies: simd/kernels/body_kernels.cpp.
+// Bodies: simd/kernels/body_kernels.cpp.
 struct BodyKernels {
     // Fills in the rows of all joints of a block from what the pose says of each.
     void (*forward)(const BodyPlan& plan, const BodyBlock& block);

@@ -13,8 +13,8 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A kernel is compiled for one set of features, or is told the features with each run.
-inline constexpr swivel_features kTold = ~swivel_features{0};
+// A kernel is compiled for one set of features, or for those that each run has.
+inline constexpr swivel_features kRuntimeFeatures = ~swivel_features{0};
 
 template <swivel_features Features>
 inline constexpr RowPlan kPlan{Features};
@@ -22,7 +22,7 @@ inline constexpr RowPlan kPlan{Features};
 template <swivel_features Features>
 SWIVEL_ALWAYS_INLINE constexpr swivel_features features_of(const SolveRun& run)
 {
-    return Features == kTold ? run.features : Features;
+    return Features == kRuntimeFeatures ? run.features : Features;
 }
 
 // Where the lanes of a slice lie in blocks of so many rows.
@@ -32,11 +32,11 @@ SWIVEL_ALWAYS_INLINE constexpr LaneBlocks blocks_of(std::uint32_t row_count)
 }
 
 // The rows of one slice of T's lanes: the places of its first lane in the first input row and in the first result row.
-// A slice covers whole blocks or lies in one. So every other place is a constant away. A slice whose features are told
-// lies in one.
+// A slice covers whole blocks or lies in one. So every other place is a constant away. A slice of runtime
+// features lies in one.
 template <class T, swivel_features Features>
 struct Rows {
-    static_assert(Features != kTold || lane_count<T> <= kLanes);
+    static_assert(Features != kRuntimeFeatures || lane_count<T> <= kLanes);
     const SolveRun& run;
     const float* input;
     float* results;
@@ -45,7 +45,7 @@ struct Rows {
     SWIVEL_ALWAYS_INLINE std::uint32_t row(swivel_field field, int component) const
     {
         const std::uint32_t first =
-            Features == kTold ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
+            Features == kRuntimeFeatures ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
         return first + static_cast<std::uint32_t>(component);
     }
     SWIVEL_ALWAYS_INLINE const float* input_at(swivel_field field, int component) const

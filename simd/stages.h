@@ -16,21 +16,21 @@ namespace swivel {
 
 // In the order in which they run. place is bones and wish in one, for limbs that ask nothing special of either.
 enum class Stage : std::uint8_t {
-    probe,     // where a foot is about to be, whatever the ground there is
-    plant,     // where a body's planted point goes
-    ground,    // the same on ground as it lies
-    span,      // how a body's limb asks it to shift
-    fit,       // the shift
-    look,      // how a chain of joints turns to a target
-    grasp,     // where a hand has the prop that it holds
-    prop,      // where the prop goes
-    link,      // the goal on a prop or on another limb's hand
-    see,       // the goal, as the parent sees it
-    posed,     // the same of a body's limb, with the incoming pose, its bones and how its joints lie to them
-    clavicle,  // turned by its share, and the goal turned back
-    incoming,  // the incoming pose, in the arm frame
-    record,    // what of it free limbs are given
-    goal,      // the hand's orientation and the wrist's place
+    probe,           // where a foot is about to be, whatever the ground there is
+    plant,           // where a body's planted point goes
+    ground,          // the same on ground as it lies
+    span,            // how a body's limb asks it to shift
+    fit,             // the shift
+    look,            // how a chain of joints turns to a target
+    grasp,           // where a hand has the prop that it holds
+    prop,            // where the prop goes
+    link,            // the goal on a prop or on another limb's hand
+    goal_to_parent,  // the goal, as the parent sees it
+    posed,           // the same of a body's limb, with the incoming pose, its bones and how its joints lie to them
+    clavicle,        // turned by its share, and the goal turned back
+    incoming,        // the incoming pose, in the arm frame
+    record,          // what of it free limbs are given
+    goal,            // the hand's orientation and the wrist's place
     place,
     bones,   // the line to the wrist, the flexion and the lift
     capped,  // the same, of limbs that a cap keeps from reaching farther
@@ -53,7 +53,7 @@ enum class Stage : std::uint8_t {
     twist_bones,
     correct,         // a body's joints
     hand_transform,  // where the hand is then
-    stand,           // how a planted limb stands, and where a limb was sent
+    commit,          // stores what waited until all input is known to be good
     count
 };
 
@@ -65,18 +65,18 @@ inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVE
 // All limits of the swivel.
 inline constexpr swivel_features kSwivelLimits = kLineFeatures | kBoxFeatures | SWIVEL_WITH_REGION;
 
-// What moves a limb even where its weights ask for nothing.
+// These move a limb even where its weights ask for nothing.
 inline constexpr swivel_features kBoundingFeatures =
     kSwivelLimits | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MAX_SWIVEL;
 
 // All groups of a body go through a pass before the first goes through the next one.
 enum class Pass : std::uint8_t {
-    probe,  // of jobs that sample the ground
-    ask,    // what limbs ask of the body
-    shift,  // the body's answer
-    look,   // what turns before limbs that hang below it
-    grasp,  // what hands ask of props
-    hold,   // where these go
+    probe,   // of jobs that sample the ground
+    gather,  // what limbs ask of the body
+    shift,   // the body's answer
+    look,    // what turns before limbs that hang below it
+    grasp,   // what hands ask of props
+    hold,    // where these go
     solve,
     count
 };
@@ -94,15 +94,15 @@ inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWI
                                  kSpecial = kSpecialBones | kSpecialWish;
 inline constexpr StageRow kStages[] = {
     {Stage::probe, 0, SWIVEL_WITH_GROUND, 0, Pass::probe},
-    {Stage::plant, 0, SWIVEL_WITH_PLANT, 0, Pass::ask},
-    {Stage::ground, 0, SWIVEL_WITH_GROUND, 0, Pass::ask},
-    {Stage::span, 0, SWIVEL_WITH_PELVIS_FIT, 0, Pass::ask},
+    {Stage::plant, 0, SWIVEL_WITH_PLANT, 0, Pass::gather},
+    {Stage::ground, 0, SWIVEL_WITH_GROUND, 0, Pass::gather},
+    {Stage::span, 0, SWIVEL_WITH_PELVIS_FIT, 0, Pass::gather},
     {Stage::fit, 0, SWIVEL_FIT, 0, Pass::shift},
     {Stage::look, 0, SWIVEL_LOOK, 0, Pass::look},
     {Stage::grasp, 0, SWIVEL_WITH_LINK, 0, Pass::grasp},
     {Stage::prop, 0, SWIVEL_PROP, 0, Pass::hold},
     {Stage::link, 0, SWIVEL_WITH_LINK, 0},
-    {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_WORLD, SWIVEL_BODY},
+    {Stage::goal_to_parent, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_WORLD, SWIVEL_BODY},
     {Stage::posed, SWIVEL_POLE_INCOMING, SWIVEL_BODY, 0},
     {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
     {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, SWIVEL_BODY},
@@ -130,7 +130,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, 0, SWIVEL_BODY, 0},
     {Stage::hand_transform, 0, SWIVEL_WITH_HAND_TRANSFORM, 0},
-    {Stage::stand, 0, SWIVEL_SENT, 0},
+    {Stage::commit, 0, SWIVEL_SENT, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 constexpr bool needs(swivel_features features, const StageRow& row)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the stages of the whole limb hand on to each other (strip.h), and the memory that it takes.
+// The values that the stages of the whole limb hand on to each other (strip.h), and the memory that they take.
 #pragma once
 
 #include <cstddef>

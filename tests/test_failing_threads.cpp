@@ -187,16 +187,16 @@ struct Stage {
     }
     swivel_status solve(bool on_this_thread)
     {
-        const swivel_frame_field fields[] = {{SWIVEL_INCOMING_SHOULDER, &poses[0].shoulder, sizeof(Pose)},
-                                             {SWIVEL_INCOMING_ELBOW, &poses[0].elbow, sizeof(Pose)},
-                                             {SWIVEL_SHOULDER, &poses[0].shoulder, sizeof(Pose)},
-                                             {SWIVEL_ELBOW, &poses[0].elbow, sizeof(Pose)}};
-        swivel_frame frame = swivel_default_frame();
+        const swivel_stream fields[] = {{SWIVEL_INCOMING_SHOULDER, &poses[0].shoulder, sizeof(Pose)},
+                                        {SWIVEL_INCOMING_ELBOW, &poses[0].elbow, sizeof(Pose)},
+                                        {SWIVEL_SHOULDER, &poses[0].shoulder, sizeof(Pose)},
+                                        {SWIVEL_ELBOW, &poses[0].elbow, sizeof(Pose)}};
+        swivel_streams frame = swivel_default_streams();
         frame.fields = fields;
         frame.field_count = std::size(fields);
         swivel_job job = swivel_default_job();
         job.on_this_thread = on_this_thread;
-        if (is_in_place) job.frames = &frame;
+        if (is_in_place) job.streams = &frame;
         return swivel_solve(crowd.get(), &job);
     }
     bool operator==(const Stage& other) const

@@ -74,7 +74,7 @@ public:
         : crowd(crowd_for(scene, limbs)), from_(from), from_job_(from_job), limbs_(limbs), way_(way)
     {
         for (std::uint32_t g = 0; g < limbs.size(); ++g) copy_rows(g);
-        if (from_job.frames || way.has_frames || way.is_far) take_frames();
+        if (from_job.streams || way.has_frames || way.is_far) take_frames();
         if (!from_job.pose) return;
         take_pose(scene.joint_count);
         job.pose = &pose_;
@@ -158,23 +158,23 @@ private:
             for (const swivel_field_info& field : fields_of(crowd, g)) {
                 if (field.kind != SWIVEL_FIELD_INPUT) continue;
                 const bool is_double = is_far_already && field.is_position;
-                if (const swivel_frame_field* const given = given_field(g, field.field))
+                if (const swivel_stream* const given = given_field(g, field.field))
                     take_given(g, *given, is_double ? 24 : 4 * size_of(crowd, g, field.field));
                 else if (way_.is_far || (way_.has_frames && !is_double))
                     take_from_rows(g, field);
             }
         }
-        job.frames = frames_;
+        job.streams = frames_;
     }
-    const swivel_frame_field* given_field(std::uint32_t g, swivel_field field) const
+    const swivel_stream* given_field(std::uint32_t g, swivel_field field) const
     {
-        if (!from_job_.frames) return nullptr;
-        const swivel_frame& frame = (*from_job_.frames)[g];
+        if (!from_job_.streams) return nullptr;
+        const swivel_streams& frame = (*from_job_.streams)[g];
         for (std::uint32_t n = 0; n < frame.field_count; ++n)
             if (frame.fields[n].data && frame.fields[n].field == field) return &frame.fields[n];
         return nullptr;
     }
-    void take_given(std::uint32_t g, const swivel_frame_field& given, std::size_t size)
+    void take_given(std::uint32_t g, const swivel_stream& given, std::size_t size)
     {
         Values& made = add(g, 1, size);
         for (std::size_t n = 0; n < limbs_[g].size(); ++n)
@@ -297,7 +297,7 @@ private:
     const Way& way_;
     std::list<Values> values_;
     std::vector<const Values*> written_;  // those that a solve writes
-    std::vector<Frame> frames_;
+    std::vector<Streams> frames_;
     swivel_pose pose_;
 };
 

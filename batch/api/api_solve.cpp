@@ -133,7 +133,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
                     .blocks = blocks,
                     .groups = job.groups,
                     .mask = job.limbs || job.priorities ? crowd->chosen : job.mask,
-                    .frames = job.frames,
+                    .streams = job.streams,
                     .from_memory = is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks)),
                     .strip = workspace.strip,
                     .pose = job.pose,

@@ -8,9 +8,9 @@
 #include "batch/api/use.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/frame.h"
 #include "batch/solve/pose.h"
 #include "batch/solve/solve.h"
+#include "batch/solve/streams_of.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -47,16 +47,16 @@ swivel_status check_groups(const swivel_crowd& crowd, const swivel_job& job)
                     job.group_word_count, crowd.group_count, needed);
     return SWIVEL_OK;
 }
-// What limbs are linked to is solved with them.
+// Limbs are solved together with what they are linked to.
 swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
 {
     for (std::uint32_t g = 0; job.groups && g < crowd.group_count; ++g) {
         if (!(crowd.groups[g].features & SWIVEL_WITH_LINK)) continue;
         const BodyLimb& limb = crowd.groups[g].limb;
         if (const bool is_named_here = is_named(job.groups, g);
-            is_named_here != is_named(job.groups, limb.linked_group) && (is_named_here || limb.holds_prop))
+            is_named_here != is_named(job.groups, limb.link.group) && (is_named_here || limb.link.is_prop))
             return fail(SWIVEL_INVALID_ARGUMENT, "the job names group %u, but not group %u; they are linked, name both",
-                        is_named_here ? g : limb.linked_group, is_named_here ? limb.linked_group : g);
+                        is_named_here ? g : limb.link.group, is_named_here ? limb.link.group : g);
     }
     return SWIVEL_OK;
 }
@@ -79,66 +79,66 @@ swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
                 "the job is for probes_only, but names no group that is SWIVEL_WITH_GROUND; leave it out");
 }
 
-// Whether the numbers of a frame's positions are what they are read as. The frame has its origin.
-swivel_status check_positions(std::uint32_t g, const swivel_frame& frame, const swivel_pose* pose)
+// Whether the numbers of a group's positions are what they are read as. The streams have their origin.
+swivel_status check_positions(std::uint32_t g, const swivel_streams& streams, const swivel_pose* pose)
 {
-    if (frame.positions > SWIVEL_DOUBLES)
-        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: positions is %u; it is a swivel_numbers, 0 to 2", g,
-                    frame.positions);
-    const bool is_double = frame.origin.data != nullptr;
-    if (frame.positions == SWIVEL_NUMBERS_UNSPECIFIED || is_double == (frame.positions == SWIVEL_DOUBLES))
+    if (streams.positions > SWIVEL_DOUBLES)
+        return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u: positions is %u; it is a swivel_numbers, 0 to 2", g,
+                    streams.positions);
+    const bool is_double = streams.origin.data != nullptr;
+    if (streams.positions == SWIVEL_NUMBERS_UNSPECIFIED || is_double == (streams.positions == SWIVEL_DOUBLES))
         return SWIVEL_OK;
-    for (const swivel_frame_field& each : fields_of(frame))
+    for (const swivel_stream& each : fields_of(streams))
         if (each.data && is_input(each.field) && is_position(each.field))
-            return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: %s is in %s, but %s; %s", g, name_of(each.field),
+            return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u: %s is in %s, but %s; %s", g, name_of(each.field),
                         is_double ? "floats" : "doubles",
                         !is_double ? "floats are read without an origin"
                         : pose     ? "the pose has root_is_double"
-                                   : "the frame has an origin",
+                                   : "the streams have an origin",
                         is_double ? "give doubles"
                         : pose    ? "give floats, or a root in doubles and root_is_double"
                                   : "give floats, or an origin");
     return SWIVEL_OK;
 }
 
-swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, swivel_frame frame, const swivel_pose* pose)
+swivel_status check_streams(const swivel_crowd& crowd, std::uint32_t g, swivel_streams streams, const swivel_pose* pose)
 {
-    const swivel_in origin = pose ? origin_of(full_pose(pose)) : frame.origin;
-    if (frame.origin.data && (frame.origin.data != origin.data || frame.origin.stride != origin.stride))
+    const swivel_in origin = pose ? origin_of(full_pose(pose)) : streams.origin;
+    if (streams.origin.data && (streams.origin.data != origin.data || streams.origin.stride != origin.stride))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "frame of group %u: a body's origin is its root in doubles; give that, or leave origin out", g);
-    frame.origin = origin;
-    if (!frame.fields && frame.field_count > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: its %u fields are null", g, frame.field_count);
-    swivel_status status = check_positions(g, frame, pose);
-    if (status == SWIVEL_OK && frame.origin.data)
-        status = check_stride(g, "origin", 1, frame.origin.data, frame.origin.stride, 3 * sizeof(double), true);
+                    "streams of group %u: a body's origin is its root in doubles; give that, or leave origin out", g);
+    streams.origin = origin;
+    if (!streams.fields && streams.field_count > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u: its %u fields are null", g, streams.field_count);
+    swivel_status status = check_positions(g, streams, pose);
+    if (status == SWIVEL_OK && streams.origin.data)
+        status = check_stride(g, "origin", 1, streams.origin.data, streams.origin.stride, 3 * sizeof(double), true);
     std::uint64_t seen = 0;
     static_assert(kFieldCount <= 64, "a bit for each");
-    for (const swivel_frame_field& each : fields_of(frame)) {
+    for (const swivel_stream& each : fields_of(streams)) {
         if (status == SWIVEL_OK) status = check_field(each.field);
         if (status != SWIVEL_OK) return status;
         if (!each.data) continue;
         const std::uint64_t bit = std::uint64_t{1} << index_of(each.field);
         if (seen & bit)
-            return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u lists %s twice; list it once", g,
+            return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u list %s twice; list it once", g,
                         name_of(each.field));
         seen |= bit;
-        const bool is_double = frame.origin.data && is_position(each.field);
+        const bool is_double = streams.origin.data && is_position(each.field);
         status = check_values(crowd, g, each.field, 1, each.data, each.stride, is_input(each.field),
                               is_double ? sizeof(double) : sizeof(float));
     }
     return status;
 }
 
-// Checks the frames of the groups that the blocks touch, and not those of other groups.
-swivel_status check_frames(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
+// Checks the streams of the groups that the blocks touch, and not those of other groups.
+swivel_status check_all_streams(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
 {
-    swivel_status status = check_size<swivel_frame>("the first frame", size_of(job.frames));
+    swivel_status status = check_size<swivel_streams>("the first streams", size_of(job.streams));
     for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
-        if (status == SWIVEL_OK) status = check_element("frame", job.frames, n);
+        if (status == SWIVEL_OK) status = check_element("streams", job.streams, n);
         const auto g = static_cast<std::uint32_t>(&group - crowd.groups);
-        if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(job.frames, n), job.pose);
+        if (status == SWIVEL_OK) status = check_streams(crowd, g, streams_at(job.streams, n), job.pose);
     });
     if (kChecksUse && status == SWIVEL_OK) status = check_overlap(crowd, job, blocks);
     return status;
@@ -176,7 +176,7 @@ swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel
     if (status == SWIVEL_OK) status = check_pose(crowd, job.groups, job.pose);
     if (status == SWIVEL_OK) status = check_links(crowd, job);
     if (status == SWIVEL_OK) status = check_sampling(crowd, job);
-    if (status == SWIVEL_OK && job.frames) status = check_frames(crowd, job, blocks);
+    if (status == SWIVEL_OK && job.streams) status = check_all_streams(crowd, job, blocks);
     return status;
 }
 

@@ -7,7 +7,7 @@
 
 namespace swivel {
 
-// What swivel_solve() promises of a job whose members are all there: a job that can be solved, or a refusal. blocks:
+// Checks what swivel_solve() promises of a job whose members are all there: it can be solved, or is refused. blocks:
 // the job's, or all.
 swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks);
 
@@ -15,7 +15,7 @@ swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel
 swivel_status check_mask(const swivel_crowd& crowd, const std::uint32_t* mask, std::uint32_t word_count);
 swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* priorities);
 
-// The frames of a job, each of which is right. For builds with SWIVEL_CHECK_USE.
+// The streams of a job, each of which is right. For builds with SWIVEL_CHECK_USE.
 swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks);
 
 }  // namespace swivel

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Finds results in frames that overlap inputs of other limbs, for builds with SWIVEL_CHECK_USE. It knows strides that
+// Finds results in streams that overlap inputs of other limbs, for builds with SWIVEL_CHECK_USE. It knows strides that
 // are equal, and values that all limbs share.
 #include <cstdint>
 
 #include "batch/api/job_check.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/frame.h"
 #include "batch/solve/pose.h"
 #include "batch/solve/solve.h"
+#include "batch/solve/streams_of.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -38,13 +38,13 @@ bool overlaps(const FrameValue& out, const FrameValue& in)
     return false;
 }
 
-// Calls take(value, is_input) for all values of a job's frames.
+// Calls take(value, is_input) for all values of a job's streams.
 template <class Take>
 void for_each_value(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks, const Take& take)
 {
     for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
-        swivel_frame frame = frame_at(job.frames, n);
-        if (job.pose) frame.origin = origin_of(full_pose(job.pose));
+        swivel_streams streams = streams_at(job.streams, n);
+        if (job.pose) streams.origin = origin_of(full_pose(job.pose));
         const auto value = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name) {
             return FrameValue{static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(data)),
                               // The stride of one value alone may be anything.
@@ -52,9 +52,10 @@ void for_each_value(const swivel_crowd& crowd, const swivel_job& job, swivel_blo
                               static_cast<std::int64_t>(bytes), group.limb_count,
                               static_cast<std::uint32_t>(&group - crowd.groups), name};
         };
-        if (frame.origin.data) take(value(frame.origin.data, frame.origin.stride, 3 * sizeof(double), "origin"), true);
-        for (const swivel_frame_field& each : fields_of(frame)) {
-            const bool is_double = frame.origin.data && is_position(each.field);
+        if (streams.origin.data)
+            take(value(streams.origin.data, streams.origin.stride, 3 * sizeof(double), "origin"), true);
+        for (const swivel_stream& each : fields_of(streams)) {
+            const bool is_double = streams.origin.data && is_position(each.field);
             const std::size_t bytes =
                 field_row_count(group.features, each.field) * (is_double ? sizeof(double) : sizeof(float));
             if (each.data) take(value(each.data, each.stride, bytes, name_of(each.field)), is_input(each.field));
@@ -72,7 +73,7 @@ swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, sw
         for_each_value(crowd, job, blocks, [&](const FrameValue& in, bool is_also_input) {
             if (is_also_input && status == SWIVEL_OK && overlaps(out, in))
                 status = fail(SWIVEL_INVALID_ARGUMENT,
-                              "frames: group %u's %s overlaps another limb's input, group %u's %s; give it a place of "
+                              "streams: group %u's %s overlaps another limb's input, group %u's %s; give it a place of "
                               "its own",
                               out.group, out.name, in.group, in.name);
         });

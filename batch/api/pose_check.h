@@ -7,8 +7,8 @@
 
 namespace swivel {
 
-// What swivel_solve() promises of a pose, which may be null, for the groups that a job names; and what does not depend
-// on groups.
+// Checks what swivel_solve() promises of a pose, which may be null, for the groups that a job names; and what does not
+// depend on groups.
 swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given);
 swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given);
 

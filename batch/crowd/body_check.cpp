@@ -23,7 +23,7 @@ swivel_status fail_in(const char* what, swivel_status status)
     return fail(status, "%s: %s", what, line + (names_call ? sizeof call - 1 : 0));
 }
 
-// What the features ask of the joints.
+// Checks what the features ask of the joints.
 swivel_status check_turned(const swivel_skeleton& skeleton, const swivel_group_def& group)
 {
     const swivel_limb_joints limb = joints_of(group);
@@ -124,7 +124,7 @@ swivel_status check_ground(std::uint32_t g, const swivel_ground& ground)
                             {"half_life", ground.half_life, 1000}});
 }
 
-// What a limb is linked to, and how many hold each prop.
+// Checks what a limb is linked to, and how many hold each prop.
 swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 {
     const swivel_group_def group = group_at(def, g);

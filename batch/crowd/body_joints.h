@@ -59,7 +59,7 @@ void for_each_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleto
 {
     const auto is_needed = [&](std::uint32_t joint) {
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
-            const swivel_group_def group = group_at(def, g);
+            const swivel_group_def group = unlinked_group(def, g);
             if (group.joints && is_above(skeleton, joint, joints_of(group).wrist)) return true;
             if (group.features & SWIVEL_PROP && group.prop.joint >= 0 &&
                 is_above(skeleton, joint, static_cast<std::uint32_t>(group.prop.joint)))

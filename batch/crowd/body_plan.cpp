@@ -28,7 +28,7 @@ Mover mover_of(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std
 {
     for (; joint >= 0; joint = parent_of(skeleton, static_cast<std::uint32_t>(joint)))
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
-            const swivel_group_def group = group_at(def, g);
+            const swivel_group_def group = unlinked_group(def, g);
             if (TurnedJoints(skeleton, group).has(joint)) return {joint, (group.features & SWIVEL_LOOK) != 0, g};
         }
     return {};
@@ -267,8 +267,7 @@ void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, Body
     const Vector<double> up = normalise(vector<double>(def.up[0], def.up[1], def.up[2]));
     for (std::size_t c = 0; c < 3; ++c) limb.up[c] = static_cast<float>(up.c[c]);
     limb.rules = plant_rules(group.plant);
-    limb.drop = group.fit.drop, limb.rise = group.fit.rise;
-    limb.spring = spring_rule(group.fit.half_life);
+    limb.shift = {group.fit.drop, group.fit.rise, spring_rule(group.fit.half_life)};
     if (group.features & SWIVEL_WITH_NEXT_TARGET) {
         const float ahead = first_with(def, SWIVEL_FIT).fit.lookahead;
         limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
@@ -277,7 +276,7 @@ void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, Body
         limb.rest_length =
             rest_length(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_PELVIS_FIT) : group);
     if (group.features & SWIVEL_WITH_GROUND) limb.ground = ground_rules(group.ground);
-    limb.max_move = group.prop.max_move;
+    limb.prop.max_move = group.prop.max_move;
     if (group.features & SWIVEL_LOOK) limb.look = look_rules(group.look);
 }
 
@@ -296,16 +295,16 @@ void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd)
         const swivel_group_def group = group_at(def, g);
         BodyLimb& limb = crowd.groups[g].limb;
         if (group.features & SWIVEL_PROP && group.prop.joint >= 0)
-            limb.joint = row_of({crowd.joints, crowd.joint_count}, group.prop.joint);
+            limb.prop.joint = row_of({crowd.joints, crowd.joint_count}, group.prop.joint);
         if (!(group.features & SWIVEL_WITH_LINK)) continue;
         BodyLimb& to = crowd.groups[group.link].limb;
-        limb.link = to.frame;
-        limb.linked_group = group.link;
-        limb.holds_prop = group_at(def, group.link).features & SWIVEL_PROP;
-        if (!limb.holds_prop) continue;
-        if (to.holder_count == 0) to.rest_length = rest_length(def, group);
-        limb.holder_number = to.holder_count++;
-        limb.holder = to.frame + kHoldersRow + limb.holder_number * kHolderRows;
+        limb.link.row = to.frame;
+        limb.link.group = group.link;
+        limb.link.is_prop = group_at(def, group.link).features & SWIVEL_PROP;
+        if (!limb.link.is_prop) continue;
+        if (to.prop.holder_count == 0) to.rest_length = rest_length(def, group);
+        limb.link.number = to.prop.holder_count++;
+        limb.link.holder = to.frame + kHoldersRow + limb.link.number * kHolderRows;
     }
 }
 

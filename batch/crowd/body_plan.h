@@ -8,7 +8,8 @@
 
 namespace swivel {
 
-// What swivel_crowd_create() promises of a def with a skeleton, whose groups are otherwise right (body_check.cpp).
+// Checks what swivel_crowd_create() promises of a def with a skeleton, whose groups are otherwise right
+// (body_check.cpp).
 swivel_status check_bodies(const swivel_crowd_def& def);
 
 // These take a def that is right.

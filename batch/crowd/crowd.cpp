@@ -54,7 +54,7 @@ private:
     std::uint64_t bytes_ = 0;  // also of a crowd that is too large for any memory
 };
 
-// What a crowd has in its arena.
+// The places of a crowd's parts in its arena.
 struct Layout {
     std::uint32_t block_count = 0, strip_blocks = 0;
     BodySize bodies{};
@@ -170,18 +170,23 @@ bool is_linked_to(const swivel_crowd_def& def, std::uint32_t g)
 
 }  // namespace
 
-swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
+swivel_group_def unlinked_group(const swivel_crowd_def& def, std::uint32_t g)
 {
     swivel_group_def group = element(def.groups, g, swivel_default_group_def(0));
-    if (def.skeleton) {
-        group.features |= SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
-        if (group.joints && !(group.features & kTwistBones))
-            group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MAX_TWIST_BONES) *
-                              SWIVEL_WITH_TWIST_BONES;
-        group.features = with_sent(group.features);
-        if (is_linked_to(def, g) && group.features & SWIVEL_WITH_HAND) group.features |= SWIVEL_WITH_HAND_TRANSFORM;
-        if (group.limb_count == 0) group.limb_count = def.body_count;
-    }
+    if (!def.skeleton) return group;
+    group.features |= SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
+    if (group.joints && !(group.features & kTwistBones))
+        group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MAX_TWIST_BONES) *
+                          SWIVEL_WITH_TWIST_BONES;
+    group.features = with_sent(group.features);
+    if (group.limb_count == 0) group.limb_count = def.body_count;
+    return group;
+}
+swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
+{
+    swivel_group_def group = unlinked_group(def, g);
+    if (def.skeleton && group.features & SWIVEL_WITH_HAND && is_linked_to(def, g))
+        group.features |= SWIVEL_WITH_HAND_TRANSFORM;
     return group;
 }
 

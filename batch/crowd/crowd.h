@@ -34,7 +34,7 @@ struct Group {
 // Whether a group counts a position from an origin. A prop on a joint has its place in the joint's frame.
 inline bool has_origin(const Group& group, swivel_field field)
 {
-    return has_origin(group.features, field) && !(field == SWIVEL_PROP_POSITION && group.limb.joint != 0);
+    return has_origin(group.features, field) && !(field == SWIVEL_PROP_POSITION && group.limb.prop.joint != 0);
 }
 
 }  // namespace swivel
@@ -98,8 +98,10 @@ inline std::uint32_t lane_group_count(const swivel_crowd& crowd)
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }
 inline std::uint32_t group_word_count(std::uint32_t group_count) { return (group_count + 31) / 32; }
 
-// A group of a def that full_def() has filled.
+// A group of a def that full_def() has filled; and the same without what other groups bring, which is found without
+// them.
 swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g);
+swivel_group_def unlinked_group(const swivel_crowd_def& def, std::uint32_t g);
 // Bytes of the arena. The def must be valid, and full_def() must have filled it.
 std::uint64_t crowd_bytes(const swivel_crowd_def& def);
 // Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long: inputs as swivel_crowd_create() says.

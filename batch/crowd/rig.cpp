@@ -44,14 +44,14 @@ bool is_along(const Vector<double>& a, const Vector<double>& b)
     return !(len2(cross(a, b)) > 1e-6 * len2(a) * len2(b));  // sin 1e-3, as for poles
 }
 
-// What carries the arm frame into a joint's parent, of what carries it into the joint above.
+// The rotor that carries the arm frame into a joint's parent, from that which carries it into the joint above.
 Rotor<double> parent_from(const RestJoint& joint, const Rotor<double>& above_from_arm)
 {
     return joint.between ? ~*joint.between * above_from_arm : above_from_arm;
 }
 
-// What the elbow turns about, in the shoulder joint's frame, as are the bones and the bend. Flexion turns from the
-// upper arm, e3, towards the bend, e2: about -e1, the opposite of this.
+// The axis that the elbow turns about, in the shoulder joint's frame, as are the bones and the bend. Flexion turns from
+// the upper arm, e3, towards the bend, e2: about -e1, the opposite of this.
 swivel_status find_hinge(const char* call, const Vector<double>& upper, const Vector<double>& fore,
                          const Vector<double>& given, Vector<double>& hinge)
 {

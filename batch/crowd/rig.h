@@ -11,7 +11,7 @@
 
 namespace swivel {
 
-// A joint at rest, below another of its skeleton. What lies between them rests rigid.
+// A joint at rest, below another of its skeleton. The joints between them rest rigid.
 struct RestJoint {
     Rotor<double> rotation;                // relative to its parent, of any usable length
     std::optional<Rotor<double>> between;  // its parent's, unit, relative to the joint above; none if they are the same
@@ -26,12 +26,13 @@ struct RestLimb {
     RestJoint twist_bones[SWIVEL_MAX_TWIST_BONES];  // below the elbow
 };
 
-// What swivel_bind() promises of a limb whose rotations are usable. call: named in the line that a refusal leaves.
+// Does what swivel_bind() promises, for a limb whose rotations are usable. call: named in the line that a refusal
+// leaves.
 swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& binding);
 // The chain as a limb, or a refusal.
 swivel_status rest_limb(const swivel_chain& chain, RestLimb& limb);
 
-// What swivel_arm_axis() promises, arguments already checked for null.
+// Does what swivel_arm_axis() promises; arguments are already checked for null.
 swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],
                        double (&axis)[3]);
 // Whether its quaternions are of unit length, and its twist bones not too many.

@@ -7,7 +7,7 @@
 
 namespace swivel {
 
-// What swivel_bind_joints() promises of the joints: the limb, or a refusal.
+// Gives the limb of these joints as swivel_bind_joints() promises, or a refusal.
 swivel_status rest_limb(const swivel_skeleton& skeleton, const swivel_limb_joints& joints, RestLimb& limb);
 
 // Whether a joint is in the skeleton, and its parents lead to a root. name: what the line calls it.

@@ -88,7 +88,7 @@ void copy_doubles(const Stream& stream, std::size_t first, std::size_t limb_coun
     }
 }
 
-// Of the field with the most components.
+// The field with the most components has so many.
 constexpr std::uint32_t kMaxFieldStreams = stream_count(field_row_count(kEveryFeature, SWIVEL_TWIST_BONES));
 
 // Streams in only read the caller's values.

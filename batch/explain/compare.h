@@ -16,8 +16,8 @@ struct LimbPlaces {
     Vector<double> at[3];  // shoulder, elbow, wrist
 };
 
-// What swivel_compare() promises: whether they agree. The pose must be right, and whole; the group has limbs. text: a
-// byte at least.
+// Compares as swivel_compare() promises, and says whether they agree. The pose must be right, and whole; the group has
+// limbs. text: a byte at least.
 bool compare(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t body, const swivel_pose& pose,
              const LimbPlaces& places, std::span<char> text);
 

@@ -41,7 +41,7 @@ struct ComparedLimb {
     // The joint's number in the skeleton; part: 0 to 2.
     std::uint32_t named(int part) const { return body.skeleton_joint(joints.at[part]); }
 
-    // Of three places, how far the worst is from the caller's; NaN if one is.
+    // How far the worst of three places is from the caller's; NaN if one is.
     double worst(const LimbPlaces& ours) const;
     // How far one may be off. Floats in the world are rounded, by engines too.
     double allowed(const LimbPlaces& ours) const;

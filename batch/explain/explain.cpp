@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "batch/explain/bad_value.h"
 #include "batch/explain/explain_doubts.h"
 #include "batch/explain/explain_ground.h"
 #include "batch/explain/explain_hold.h"
@@ -48,7 +49,7 @@ void explain_bad_value(const Probe& probe, swivel_field field, Text& text)
         is_given = is_given || !std::isnan(x);
     }
     if (is_number) {
-        text.add(") is out of its range, %s", row_of(field).range);
+        text.add(") is out of its range, %s", row_of(field).range.text);
         explain_lengths(probe, field, text);
     } else {
         text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
@@ -69,7 +70,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
         const swivel_field field = row.field;
         if (row.kind != SWIVEL_FIELD_INPUT) continue;
         if (is_bad_in_body(group, limb, field)) found(field);
-        // What a limb that is sent goes to is no input.
+        // The goal that the library makes for a limb is no input.
         const bool is_goal = field == SWIVEL_TARGET || field == SWIVEL_HAND;
         if (probe.component_count(field) == 0 || (is_goal && group.features & SWIVEL_SENT)) continue;
         probe.take();
@@ -79,7 +80,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
         if (!probe.is_posed(field)) found(field);
     }
     if (holds_bad(crowd, group, limb)) {
-        text.add("%sgroup %u, which it holds, has bad input", is_found ? "; " : "", group.limb.linked_group);
+        text.add("%sgroup %u, which it holds, has bad input", is_found ? "; " : "", group.limb.link.group);
         is_found = true;
     }
     const bool is_planted = group.features & SWIVEL_WITH_PLANT;
@@ -100,7 +101,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
                                                     : "keeps the pose it had");
 }
 
-// What goes to the target.
+// The end of the limb that goes to the target.
 const char* end_of(const Probe& solved)
 {
     const bool has_effector = solved.component_count(SWIVEL_EFFECTOR) > 0 && !solved.is(SWIVEL_EFFECTOR, {0, 0, 0});
@@ -128,7 +129,7 @@ void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reac
              double{solved.value(SWIVEL_WEIGHTS, 0)}, end_of(solved), solved.missed());
 }
 
-// What keeps the wrist so far from the shoulder, or so near.
+// Names what keeps the wrist so far from the shoulder, or so near.
 const char* bound_of(const Probe& solved, std::uint32_t flags, double reached)
 {
     if (solved.is(SWIVEL_LENGTHS, {0, 0})) return "bones of no length";
@@ -172,7 +173,7 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
         if (solved.is(field, {0, 0, 0, 1})) text.add(" Its %s is the identity, as limbs start.", name_of(field));
 }
 
-// Of a body's limb, which is solved from a record, so that its last digits differ: whether these are one pose. The
+// Whether these are one pose. A body's limb is solved from a record, so that its last digits differ. The
 // share of the limb is a thousand times rounding, and less than anyone sees. The elbow of a straight limb is only known
 // to the root of rounding.
 bool is_near(const LimbPose& a, const LimbPose& b)

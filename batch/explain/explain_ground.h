@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the ground does to a planted foot, in words and numbers. It reads what a solve left in rows, and solves nothing.
+// Says what the ground does to a planted foot, in words and numbers. It reads what a solve left in rows, and solves
+// nothing.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "batch/explain/explain_plant.h"
+#include "batch/explain/bad_value.h"
 #include "batch/explain/limb_value.h"
 #include "batch/query/forward.h"
 #include "batch/query/one_limb.h"
@@ -40,7 +40,7 @@ struct Holder {
         one.take(limb);
         return distance_missed(one.group(), 0);
     }
-    // Of its arm, in the unit of the targets, from its record.
+    // The reach of its arm, in the unit of the targets, from its record.
     double length() const
     {
         const LimbValue record(group, limb, SWIVEL_RECORD);
@@ -83,22 +83,22 @@ struct HeldProp {
     std::uint32_t limb;
     LimbValue place{group, limb, SWIVEL_PROP_POSITION}, turn{group, limb, SWIVEL_PROP_ROTATION};
 
-    bool has_joint() const { return group.limb.joint != 0; }
-    bool is_pair() const { return group.limb.holder_count > 1; }
+    bool has_joint() const { return group.limb.prop.joint != 0; }
+    bool is_pair() const { return group.limb.prop.holder_count > 1; }
     double share() const { return is_pair() ? LimbValue(group, limb, SWIVEL_HAND_BLEND)[0] : 0; }
     double weight() const { return LimbValue(group, limb, SWIVEL_PROP_WEIGHT)[0]; }
     Holder holder(std::uint32_t n) const
     {
         std::uint32_t g = 0;
-        while (!(crowd.groups[g].limb.holds_prop && &crowd.groups[crowd.groups[g].limb.linked_group] == &group &&
-                 crowd.groups[g].limb.holder_number == n))
+        while (!(crowd.groups[g].limb.link.is_prop && &crowd.groups[crowd.groups[g].limb.link.group] == &group &&
+                 crowd.groups[g].limb.link.number == n))
             ++g;
         return {crowd.groups[g], g, limb};
     }
     template <class Take>
     void for_each_holder(const Take& take) const
     {
-        for (std::uint32_t n = 0; n < group.limb.holder_count; ++n) take(holder(n));
+        for (std::uint32_t n = 0; n < group.limb.prop.holder_count; ++n) take(holder(n));
     }
     // Whether it is known where it would lie if it never moved.
     bool is_known() const
@@ -110,7 +110,7 @@ struct HeldProp {
     {
         const double given = is_given(place, 3) ? weight() : 0;
         if (given == 1) return vector_of(place);
-        const auto hands = between(holder(0).held(), holder(group.limb.holder_count - 1).held(), share()).place;
+        const auto hands = between(holder(0).held(), holder(group.limb.prop.holder_count - 1).held(), share()).place;
         return given == 0 ? hands : (1 - given) * hands + given * vector_of(place);
     }
     double moved() const
@@ -121,20 +121,7 @@ struct HeldProp {
     void explain_bad(Text& text) const
     {
         text.add("Bad input: ");
-        bool is_found = false;
-        for (const swivel_field field :
-             {SWIVEL_PROP_POSITION, SWIVEL_PROP_ROTATION, SWIVEL_HAND_BLEND, SWIVEL_PROP_WEIGHT}) {
-            if (!is_bad_in_body(group, limb, field)) continue;
-            const LimbValue value(group, limb, field);
-            text.add("%s%s (", is_found ? "; " : "", name_of(field));
-            for (std::uint32_t c = 0; c < field_row_count(group.features, field); ++c)
-                text.add("%s%g", c == 0 ? "" : ", ", value[c]);
-            if (std::isnan(value[0]))
-                text.add(") is not a number");
-            else
-                text.add(") is out of its range, %s", row_of(field).range);
-            is_found = true;
-        }
+        bool is_found = explain_bad_in_body(group, limb, text);
         for_each_holder([&](const Holder& hand) {
             if (!hand.is_bad()) return;
             text.add("%sthe hand of group %u has some", is_found ? "; " : "", hand.number);
@@ -147,7 +134,7 @@ struct HeldProp {
     void explain_hands(const char* what, Text& text) const
     {
         const double at = share();
-        const Holder first = holder(0), last = holder(group.limb.holder_count - 1);
+        const Holder first = holder(0), last = holder(group.limb.prop.holder_count - 1);
         if (at == 0 || at == 1)
             text.add("%s as the hand of group %u has it", what, at == 0 ? first.number : last.number);
         else
@@ -183,7 +170,7 @@ struct HeldProp {
         constexpr double kNone = 1e-5;  // what rounding leaves, in shares of the first arm
         const Holder first = holder(0);
         const double arm = first.has_record() ? first.length() : double{group.limb.rest_length};
-        const double way = is_known() ? moved() : 0, max = double{group.limb.max_move};
+        const double way = is_known() ? moved() : 0, max = double{group.limb.prop.max_move};
         const bool moves = way > kNone * arm;
         if (moves) text.add("It moved by %.4g. ", way);
         if (flags & SWIVEL_REACHED)
@@ -211,7 +198,7 @@ private:
     std::uint32_t skeleton_joint() const
     {
         std::uint32_t n = 0;
-        while (crowd.joints[n].row != group.limb.joint) ++n;
+        while (crowd.joints[n].row != group.limb.prop.joint) ++n;
         return crowd.joints[n].skeleton_joint;
     }
 };
@@ -220,16 +207,15 @@ private:
 
 bool holds_bad(const swivel_crowd& crowd, const Group& group, std::uint32_t limb)
 {
-    return group.features & SWIVEL_WITH_LINK &&
-           flags_of(crowd.groups[group.limb.linked_group], limb) & SWIVEL_BAD_INPUT;
+    return group.features & SWIVEL_WITH_LINK && flags_of(crowd.groups[group.limb.link.group], limb) & SWIVEL_BAD_INPUT;
 }
 
 void explain_link(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
-    const std::uint32_t g = group.limb.linked_group;
+    const std::uint32_t g = group.limb.link.group;
     const Group& held = crowd.groups[g];
     const std::uint32_t flags = flags_of(held, limb);
-    if (group.limb.holds_prop) {
+    if (group.limb.link.is_prop) {
         text.add("It holds the prop of group %u%s. ", g,
                  flags & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR) ? ", which not all hands reach" : "");
         return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a hand holds, and why a prop lies where it does, in words and numbers. It reads what a solve left in rows, and
-// solves nothing but single limbs.
+// Says what a hand holds, and why a prop lies where it does, in words and numbers. It reads what a solve left in rows,
+// and solves nothing but single limbs.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace swivel {
 // Whether a limb is linked to what has bad input.
 bool holds_bad(const swivel_crowd& crowd, const Group& group, std::uint32_t limb);
 
-// What a limb holds that is linked.
+// Says what a linked limb holds.
 void explain_link(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
 // A prop, of a group that is SWIVEL_PROP.

@@ -85,7 +85,7 @@ struct Broken {
     const char* impossible() const { return alone.is_empty() ? room[0] : room[1]; }
 };
 
-// Of an elbow whose step is smaller than its way: where it goes, and what it violates meanwhile.
+// Says where an elbow goes whose step is smaller than its way, and what it violates meanwhile.
 void explain_way(Probe& probe, std::uint32_t flags, const Broken& broken, Text& text)
 {
     if (broken.all.is_empty())
@@ -102,7 +102,7 @@ void explain_way(Probe& probe, std::uint32_t flags, const Broken& broken, Text& 
     text.add(" The next solve goes one step further.");
 }
 
-// Of an elbow that is where its limits let it.
+// The elbow is where its limits let it.
 void explain_place(Probe& probe, std::uint32_t flags, const Broken& broken, Text& text)
 {
     const bool step_wins = probe.has(SWIVEL_STEP_WINS);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What joint limits and the step did to an elbow, in words and degrees.
+// Says what joint limits and the step did to an elbow, in words and degrees.
 #pragma once
 
 #include "batch/explain/explain_probe.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "batch/explain/explain_plant.h"
+#include "batch/explain/bad_value.h"
 #include "batch/explain/limb_value.h"
 #include "core/bit_cast.h"
 #include "core/conformal.h"
@@ -62,17 +62,7 @@ struct LookOfBody {
     void explain_bad(Text& text) const
     {
         text.add("Bad input: ");
-        bool is_found = false;
-        for (const swivel_field field : {SWIVEL_LOOK_TARGET, SWIVEL_LOOK_WEIGHT}) {
-            if (!is_bad_in_body(group, limb, field)) continue;
-            text.add("%s%s (", is_found ? "; " : "", name_of(field));
-            const LimbValue value(group, limb, field);
-            for (std::uint32_t c = 0; c < field_row_count(group.features, field); ++c)
-                text.add("%s%g", c == 0 ? "" : ", ", value[c]);
-            text.add(") is out of its range, %s", row_of(field).range);
-            is_found = true;
-        }
-        if (!is_found)
+        if (!explain_bad_in_body(group, limb, text))
             text.add(
                 "in the pose, its time, or a rotation, place or scale of the chain or the root was not a number or out "
                 "of its range, unless an input has been written since");

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/explain/explain_plant.h"
 
-#include <algorithm>
-#include <iterator>
-
+#include "batch/explain/bad_value.h"
 #include "batch/explain/limb_value.h"
 #include "core/bit_cast.h"
 #include "core/plant_rules.h"
@@ -11,62 +9,6 @@
 namespace swivel {
 
 namespace {
-
-bool is_within(double x, double min, double max) { return x >= min && x <= max; }
-
-// Whether a value is bad. What NaN leaves out is none: targets and hands of limbs that are sent, and where props lie.
-bool is_bad(const LimbValue& value, swivel_field field)
-{
-    constexpr double kMax = 1e15;
-    switch (field) {
-        case SWIVEL_TARGET:
-        case SWIVEL_PROP_POSITION:
-        case SWIVEL_LOOK_TARGET:
-            return value.length(0, 3) > kMax;
-        case SWIVEL_HAND:
-        case SWIVEL_PROP_ROTATION:
-            return value.length(0, 4) < 1e-9 || value.length(0, 4) > 1e9;
-        case SWIVEL_GRIP:
-            return !is_within(value.length(0, 3), 0, kMax) || !is_within(value.length(3, 4), 1e-9, 1e9);
-        case SWIVEL_NEXT_TARGET:
-            return !is_within(value.length(0, 3), 0, kMax);
-        case SWIVEL_NEXT_TIME:
-            return !is_within(value[0], 0, kMax);
-        case SWIVEL_GROUND_NORMAL:
-            return !is_within(value.length(0, 3), 1e-9, 1e9);
-        case SWIVEL_SHIFT_WISH:
-            return !is_within(value[0], -kMax, kMax);
-        default:
-            return !is_within(value[0], 0, 1);
-    }
-}
-// Whether only a stage of whole bodies reads a field.
-bool is_of_whole_bodies(const Group& group, swivel_field field)
-{
-    switch (field) {
-        case SWIVEL_TARGET:
-        case SWIVEL_HAND:
-            return group.features & SWIVEL_WITH_PLANT || group.limb.holds_prop;
-        case SWIVEL_CLAVICLE:
-            return group.features & SWIVEL_BODY;
-        case SWIVEL_CONTACT:
-        case SWIVEL_PELVIS_FIT_WEIGHT:
-        case SWIVEL_NEXT_TARGET:
-        case SWIVEL_NEXT_TIME:
-        case SWIVEL_SHIFT_WISH:
-        case SWIVEL_GROUND_NORMAL:
-        case SWIVEL_GROUND_WEIGHT:
-        case SWIVEL_GRIP:
-        case SWIVEL_PROP_POSITION:
-        case SWIVEL_PROP_ROTATION:
-        case SWIVEL_HAND_BLEND:
-        case SWIVEL_LOOK_TARGET:
-        case SWIVEL_LOOK_WEIGHT:
-            return true;
-        default:
-            return false;
-    }
-}
 
 // The state that a planted limb carries: the numbers of SWIVEL_PLANT.
 struct CarriedPlant {
@@ -174,18 +116,6 @@ struct PlantedLimb {
 
 }  // namespace
 
-bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field)
-{
-    return is_of_whole_bodies(group, field) && field_row_count(group.features, field) > 0 &&
-           is_bad(LimbValue(group, limb, field), field);
-}
-bool is_bad_in_body(const Group& group, std::uint32_t limb)
-{
-    return std::any_of(std::begin(kFields), std::end(kFields), [&](const FieldRow& row) {
-        return row.kind == SWIVEL_FIELD_INPUT && is_bad_in_body(group, limb, row.field);
-    });
-}
-
 void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text)
 {
     const PlantedLimb planted{group, limb};
@@ -206,9 +136,11 @@ void explain_shift(const Group& group, std::uint32_t limb, Text& text)
 {
     const auto flags = bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
     const LimbValue shift(group, limb, SWIVEL_SHIFT), wish(group, limb, SWIVEL_SHIFT_WISH);
-    if (is_bad_in_body(group, limb, SWIVEL_SHIFT_WISH))
-        return text.add("Bad input: shift_wish (%g) is out of its range, %s. The shift stays as it was.", wish[0],
-                        row_of(SWIVEL_SHIFT_WISH).range);
+    if (is_bad_in_body(group, limb)) {
+        text.add("Bad input: ");
+        explain_bad_in_body(group, limb, text);
+        return text.add(". The shift stays as it was.");
+    }
     if (flags == 0) return text.add("It was never solved, so it has no shift.");
     if (flags & SWIVEL_BAD_INPUT)
         return text.add(
@@ -220,7 +152,7 @@ void explain_shift(const Group& group, std::uint32_t limb, Text& text)
         text.add(" All limbs that count reach from where it goes.");
     else
         text.add(" No shift from %.3g limb lengths down to %.3g up lets all limbs that count reach.",
-                 double{group.limb.drop}, double{group.limb.rise});
+                 double{group.limb.shift.drop}, double{group.limb.shift.rise});
     if (wish[0] != 0) text.add(" The wish is %.4g.", wish[0]);
 }
 

@@ -11,10 +11,6 @@
 
 namespace swivel {
 
-// Whether an input, or any, is bad, of those that only stages of whole bodies read.
-bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field);
-bool is_bad_in_body(const Group& group, std::uint32_t limb);
-
 // Where the target of a planted limb comes from. flags: as the last solve left them.
 void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text);
 

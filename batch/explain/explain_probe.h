@@ -27,11 +27,11 @@ public:
     std::uint32_t flags() const;
     double missed() const { return distance_missed(group(), 0); }
     double missed_share() const { return residual(group(), 0); }
-    // Of both bones, as they count.
+    // The length of both bones, as they count.
     double length() const { return length_of(group(), 0); }
     // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
     double violation(const FlagRow& limit) const;
-    // Of shoulder_box, in radians.
+    // The angles of shoulder_box, in radians.
     double middle_angle() const;
     // Whether these are the results that the limb has.
     bool has_bits_of_limb() const;

@@ -60,7 +60,7 @@ double outside_cone(const Vector<double>& a, const Vector<double>& b, double cos
     return std::atan2(std::sqrt(len2(cross(a, b))), scalar_product(a, b)) -
            std::acos(std::clamp(cos_opening, -1.0, 1.0));
 }
-// Of the two triples of angles the one that is nearer counts.
+// The nearer one of the two triples of angles counts.
 double outside_box(const Rotor<double>& q, const float* ranges, const EulerOrder& order)
 {
     double outside[2];

@@ -23,7 +23,7 @@ void store_turn(double angle, float* turn)
     turn[0] = static_cast<float>(std::cos(angle));
     turn[1] = static_cast<float>(std::sin(angle));
 }
-// Of 0 to pi: neither end may round to a sine below 0.
+// An angle of 0 to pi: neither end may round to a sine below 0.
 void store_half_turn(double angle, float* turn)
 {
     store_turn(std::fmin(std::fmax(angle, 0), kPi), turn);

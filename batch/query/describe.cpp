@@ -20,7 +20,7 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
 {
     if (index >= std::size(kFields) || !info) return 0;
     const FieldRow& row = kFields[index];
-    *info = {row.field, row.kind, row.name, row.range, row.needs, excludes_of(row), is_position(row.field), 0};
+    *info = {row.field, row.kind, row.name, row.range.text, row.needs, excludes_of(row), is_position(row.field), 0};
     return 1;
 }
 

@@ -20,7 +20,8 @@ struct LimbPose {
 
 LimbPose forward(const Group& group, std::size_t limb);
 
-// What the joints add to the rest pose, in the arm frame: of unit length, the elbow and the wrist with w >= 0.
+// The rotations that the joints add to the rest pose, in the arm frame: of unit length, the elbow and the wrist with w
+// >= 0.
 struct ArmRotors {
     Rotor<double> shoulder, elbow, wrist;
 };

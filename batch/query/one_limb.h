@@ -9,13 +9,13 @@
 
 namespace swivel {
 
-// Of bodies: the hand joint's own frame when the arm lies in the arm frame at rest. Of free limbs no rotation.
+// For bodies the hand joint's own frame when the arm lies in the arm frame at rest; for free limbs no rotation.
 Rotor<double> hand_from_arm(const Group& group);
 
 class OneLimb {
 public:
     explicit OneLimb(const Group& group);
-    // Takes a limb, its results too. Of a body it must have SWIVEL_WITH_RECORD.
+    // Takes a limb, its results too. A body's limb must have SWIVEL_WITH_RECORD.
     void take(std::uint32_t limb);
     const Group& group() const { return crowd_->groups[0]; }
     // From now on, where the upper arm may point.

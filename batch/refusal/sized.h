@@ -33,7 +33,7 @@ swivel_status check_size(const char* name, std::size_t size)
     return SWIVEL_OK;
 }
 
-// What is kept for later releases must be 0 until then.
+// Members that are kept for later releases must be 0 until then.
 template <class Struct>
 swivel_status check_reserved(const char* name, const Struct& given)
 {

@@ -14,7 +14,7 @@ struct HalfSpace {
     bool is_edge;
 };
 
-// A region as it grows. What does not fit is left out, and is_full() then says so.
+// A region as it grows. Parts that do not fit are left out, and is_full() then says so.
 class RegionBuilder {
 public:
     explicit RegionBuilder(const swivel_region& from) : region_(from) {}

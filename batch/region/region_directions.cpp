@@ -78,7 +78,7 @@ void move_to_middles(const Directions& directions, Centres& centres)
         for (std::uint32_t n = 0; n < centres.count; ++n) centres.at[n] = unit_or(sum[n], centres.at[n]);
     }
 }
-// Of each centre's directions, the one that is farthest from the middle.
+// The direction of each centre that is farthest from the middle.
 struct Farthest {
     Vector<double> at[kMaxCones] = {};
     double cos[kMaxCones] = {2, 2, 2, 2, 2, 2};  // 2: the centre has no direction

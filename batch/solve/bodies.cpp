@@ -41,19 +41,19 @@ struct Runs {
         if (!is_any_named) return;
         const BodyPlan plan{crowd.joints, crowd.joint_count, &pose};
         for_each_block(run, [&](const BodyBlock& block) { work.kernels.bodies.forward(plan, block); });
-        if (work.frames)
+        if (work.streams)
             for_each_named(run, [&](const Group& group, std::uint32_t n) {
                 share(group, run, n, [&](const Share& part) { part.copy_in(work.mask, run); });
             });
         if (work.probes_only || work.sample) prepare(run, Pass::probe);
         if (work.probes_only) return give_probes(run);
         if (work.sample) for_each_named(run, [&](const Group& group, std::uint32_t) { sample(group, run); });
-        for (const Pass pass : {Pass::ask, Pass::shift}) prepare(run, pass);
+        for (const Pass pass : {Pass::gather, Pass::shift}) prepare(run, pass);
         look(run, plan);
         for (const Pass pass : {Pass::grasp, Pass::hold}) prepare(run, pass);
         for_each_named(run, [&](const Group& group, std::uint32_t n) {
             solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
-            if (work.frames) share(group, run, n, [&](const Share& part) { part.copy_out(work.mask, run); });
+            if (work.streams) share(group, run, n, [&](const Share& part) { part.copy_out(work.mask, run); });
             if (group.limb.is_look) return;
             for_each_block(run,
                            [&](const BodyBlock& block) { pose_out(work.kernels.bodies, plan, group.limb, block); });
@@ -102,16 +102,16 @@ private:
         if (limb.above == 0) return false;
         return is_named(work.groups, limb.above_group) || hangs_on_solved(work.crowd.groups[limb.above_group].limb);
     }
-    // Of the results only the probes go out.
+    // Only the probes go out of the results.
     void give_probes(GroupBlocks run) const
     {
-        if (!work.frames) return;
+        if (!work.streams) return;
         for_each_named(run, [&](const Group& group, std::uint32_t n) {
-            swivel_frame frame = frame_at(work.frames, n);
-            for (const swivel_frame_field& each : fields_of(frame))
+            swivel_streams given = streams_at(work.streams, n);
+            for (const swivel_stream& each : fields_of(given))
                 if (each.field == SWIVEL_PROBE && each.data) {
-                    frame.fields = &each, frame.field_count = 1;
-                    share(group, run, frame, [&](Share part) {
+                    given.fields = &each, given.field_count = 1;
+                    share(group, run, given, [&](Share part) {
                         part.kept_end = part.in_end;  // also where the last solve kept the pose
                         part.copy_out(work.mask, run);
                     });
@@ -163,19 +163,19 @@ private:
         for_each_group(work.crowd, work.groups, {run.first, run.count},
                        [&](const Group& group, GroupBlocks, std::uint32_t n) { take(group, n); });
     }
-    // Calls copy(share) with the nth frame's part of a run.
+    // Calls copy(share) with the nth group's part of a run.
     template <class Copy>
     void share(const Group& group, GroupBlocks run, std::uint32_t n, const Copy& copy) const
     {
-        share(group, run, frame_at(work.frames, n), copy);
+        share(group, run, streams_at(work.streams, n), copy);
     }
     template <class Copy>
-    void share(const Group& group, GroupBlocks run, swivel_frame frame, const Copy& copy) const
+    void share(const Group& group, GroupBlocks run, swivel_streams given, const Copy& copy) const
     {
-        frame.origin = origin_of(pose);
+        given.origin = origin_of(pose);
         Stream streams[kMaxStreams];
         Share part;
-        part.set({&group, run, frame}, run.count, streams);
+        part.set({&group, run, given}, run.count, streams);
         copy(part);
     }
 };

@@ -8,8 +8,8 @@
 
 namespace swivel {
 
-// What swivel_choose() promises, arguments already checked: an entry of priorities for each group, words for every
-// block, urgency or null. Returns how many limbs were picked.
+// Does what swivel_choose() promises; arguments are already checked: an entry of priorities for each group, words for
+// every block, urgency or null. Returns how many limbs were picked.
 std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, float* urgency, std::uint32_t max_blocks,
                      std::uint32_t* words);
 

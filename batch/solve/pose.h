@@ -11,7 +11,7 @@ namespace swivel {
 // A pose that is right, and all of its members.
 swivel_pose full_pose(const swivel_pose* given);
 
-// The origin of the positions in a job's frames: the root, where it is doubles.
+// The origin of the positions in a job's streams: the root, where it is doubles.
 inline swivel_in origin_of(const swivel_pose& pose) { return pose.root_is_double ? pose.root_position : swivel_in{}; }
 
 // Whether a pose asks for where all needed joints are.

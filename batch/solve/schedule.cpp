@@ -54,7 +54,7 @@ std::uint32_t busy_block_count(const Work& work)
     return busy;
 }
 
-// What threads take parts of: the rounds of a job with frames, or else its blocks. In rounds, one thread has the same
+// Threads take parts of the rounds of a job with streams, or else of its blocks. In rounds, one thread has the same
 // characters of all groups. A part must be solved once, because a solve may read what it wrote: the last normal, or a
 // pose that is read and written in place. So each part's byte in the crowd says whether it is done.
 struct Parts {
@@ -65,9 +65,9 @@ struct Parts {
 
     explicit Parts(const Work& todo)
         : work(todo),
-          count(todo.pose     ? run_count(todo)
-                : todo.frames ? round_count(todo)
-                              : todo.blocks.count),
+          count(todo.pose      ? run_count(todo)
+                : todo.streams ? round_count(todo)
+                               : todo.blocks.count),
           done(todo.crowd.done)
     {
         std::fill_n(done, count, std::uint8_t{0});
@@ -99,7 +99,7 @@ struct Parts {
         Work part = work;
         part.strip = strip;
         if (work.pose) return solve_runs(part, first, end);
-        if (work.frames) return solve_rounds(part, first, end);
+        if (work.streams) return solve_rounds(part, first, end);
         part.blocks = {work.blocks.first + first, end - first};
         solve_here(part);
     }

@@ -62,12 +62,12 @@ LaneMask bad_lanes(const Group& group, std::uint32_t block)
     return lanes;
 }
 
-Stream* add_input(const Group& group, const swivel_frame& frame, const swivel_frame_field& each, Stream* to)
+Stream* add_input(const Group& group, const swivel_streams& given, const swivel_stream& each, Stream* to)
 {
     const FieldRows rows = rows_of(group, each.field);
     const swivel_in values{each.data, each.stride};
-    if (!frame.origin.data || !is_position(each.field)) return streams_in(rows, 0, values, to);
-    const swivel_in origin = has_origin(group, each.field) ? frame.origin : swivel_in{};
+    if (!given.origin.data || !is_position(each.field)) return streams_in(rows, 0, values, to);
+    const swivel_in origin = has_origin(group, each.field) ? given.origin : swivel_in{};
     return streams_of_doubles(rows, 0, values, origin, to);
 }
 void copy_chosen(const Group& group, const Stream* from, const Stream* end, const std::uint32_t* mask, GroupBlocks some)
@@ -90,24 +90,24 @@ void in_parts(const Share& share, GroupBlocks some, const Copy& copy)
 
 }  // namespace
 
-std::uint32_t stream_count_of(const Group& group, const swivel_frame& frame)
+std::uint32_t stream_count_of(const Group& group, const swivel_streams& given)
 {
     std::uint32_t count = 0;
-    for (const swivel_frame_field& each : fields_of(frame))
+    for (const swivel_stream& each : fields_of(given))
         if (each.data) count += stream_count(field_row_count(group.features, each.field));
     return count;
 }
 
-Stream* Share::set(const GroupFrame& group_frame, std::uint32_t run, Stream* to)
+Stream* Share::set(const GroupStreams& from, std::uint32_t run, Stream* to)
 {
-    group = group_frame.group;
-    blocks = group_frame.blocks;
+    group = from.group;
+    blocks = from.blocks;
     streams = to;
-    for (const swivel_frame_field& each : fields_of(group_frame.frame))
-        if (each.data && is_input(each.field)) to = add_input(*group, group_frame.frame, each, to);
+    for (const swivel_stream& each : fields_of(from.given))
+        if (each.data && is_input(each.field)) to = add_input(*group, from.given, each, to);
     in_end = to;
     for (const bool is_flags : {false, true}) {
-        for (const swivel_frame_field& each : fields_of(group_frame.frame))
+        for (const swivel_stream& each : fields_of(from.given))
             if (each.data && !is_input(each.field) && (each.field == SWIVEL_FLAGS) == is_flags)
                 to = streams_out(rows_of(*group, each.field), 0, {each.data, each.stride}, to);
         (is_flags ? out_end : kept_end) = to;

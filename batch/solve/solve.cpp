@@ -106,7 +106,7 @@ std::uint32_t allowed_arcs(const Group& group, std::uint32_t limb, swivel_arc* a
 void solve_here(const Work& work)
 {
     if (work.pose) return solve_runs(work, 0, run_count(work));
-    if (work.frames) return solve_rounds(work, 0, ~0u);
+    if (work.streams) return solve_rounds(work, 0, ~0u);
     const FloatEnv env;
     for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
         if (work.mask)

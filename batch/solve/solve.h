@@ -21,7 +21,7 @@ struct GroupBlocks {
 // not fit the caches.
 void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
                  bool from_memory = false, const std::uint32_t* mask = nullptr);
-// What a group of bodies does in a pass before any of their limbs is solved.
+// A group of bodies does this in a pass before any of their limbs is solved.
 void prepare_group(const Kernels& kernels, const Group& group, Pass pass, GroupBlocks blocks, StripMemory strip,
                    const std::uint32_t* mask);
 // The limbs of a mask. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is faster.
@@ -36,12 +36,12 @@ struct Work {
     swivel_crowd& crowd;
     const Kernels& kernels;
     swivel_blocks blocks;
-    const std::uint32_t* groups;  // bits of those that are named; null: all
-    const std::uint32_t* mask;    // bits of the limbs to solve; null: all
-    const swivel_frame* frames;   // of each group that is named; null: values are in rows
-    bool from_memory;             // the job's rows do not fit the caches
-    StripMemory strip;            // of a workspace
-    const swivel_pose* pose;      // of bodies; null: free limbs
+    const std::uint32_t* groups;    // bits of those that are named; null: all
+    const std::uint32_t* mask;      // bits of the limbs to solve; null: all
+    const swivel_streams* streams;  // of each group that is named; null: values are in rows
+    bool from_memory;               // the job's rows do not fit the caches
+    StripMemory strip;              // of a workspace
+    const swivel_pose* pose;        // of bodies; null: free limbs
     bool probes_only = false;
     swivel_sample* sample = nullptr;
     void* sample_user = nullptr;
@@ -74,7 +74,7 @@ inline std::uint32_t block_count_of(const swivel_crowd& crowd, const std::uint32
 }
 bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count);
 
-// Work with frames goes in rounds, because limbs of one character often share cache lines. Round n is the nth run of
+// Work with streams goes in rounds, because limbs of one character often share cache lines. Round n is the nth run of
 // blocks of each group. These solve rounds first ... end - 1 of a job's blocks on this thread, and count all rounds.
 void solve_rounds(const Work& work, std::uint32_t first, std::uint32_t end);
 std::uint32_t round_count(const Work& work);

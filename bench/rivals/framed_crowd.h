@@ -15,17 +15,17 @@ namespace bench {
 
 class FramedCrowd {
 public:
-    FramedCrowd(swivel::Crowd crowd, std::vector<swivel::Frame> views)
+    FramedCrowd(swivel::Crowd crowd, std::vector<swivel::Streams> views)
         : crowd_(std::move(crowd)), views_(std::move(views)), frames_(views_.begin(), views_.end())
     {
     }
 
     swivel::Crowd& crowd() { return crowd_; }
-    std::span<const swivel_frame> frames() const { return frames_; }
+    std::span<const swivel_streams> frames() const { return frames_; }
 
     void write()
     {
-        for_each_field([&](std::uint32_t group, std::uint32_t count, const swivel_frame_field& f) {
+        for_each_field([&](std::uint32_t group, std::uint32_t count, const swivel_stream& f) {
             if (f.field < SWIVEL_INPUT_END)
                 swivel::check(swivel_write(crowd_.get(), f.field, group, 0, count, {f.data, f.stride}));
         });
@@ -33,12 +33,12 @@ public:
     void solve() { crowd_.solve({.blocks = all_blocks(), .on_this_thread = true}); }
     void read()
     {
-        for_each_field([&](std::uint32_t group, std::uint32_t count, const swivel_frame_field& f) {
+        for_each_field([&](std::uint32_t group, std::uint32_t count, const swivel_stream& f) {
             if (f.field > SWIVEL_INPUT_END)
                 swivel::check(swivel_read(crowd_.get(), f.field, group, 0, count, {f.data, f.stride}));
         });
     }
-    void solve_in_one() { crowd_.solve({.blocks = all_blocks(), .frames = frames_, .on_this_thread = true}); }
+    void solve_in_one() { crowd_.solve({.blocks = all_blocks(), .streams = frames_, .on_this_thread = true}); }
 
 private:
     swivel_blocks all_blocks() const { return {0, swivel_block_count(crowd_.get())}; }
@@ -51,8 +51,8 @@ private:
     }
 
     swivel::Crowd crowd_;
-    std::vector<swivel::Frame> views_;  // what frames_ views
-    std::vector<swivel_frame> frames_;
+    std::vector<swivel::Streams> views_;  // what frames_ views
+    std::vector<swivel_streams> frames_;
 };
 
 }  // namespace bench

@@ -7,7 +7,7 @@ FramedCrowd production_crowd(std::vector<ProductionLimb>& limbs)
 {
     swivel::Crowd crowd = make_crowd(kProduction, limbs.size(), random_limbs(limbs.size()));
     ProductionLimb& first = limbs[0];
-    swivel::Frame frame;
+    swivel::Streams frame;
     const auto in = [&](swivel_field field, float* values) {
         swivel::check(swivel_read(crowd.get(), field, 0, 0, static_cast<std::uint32_t>(limbs.size()),
                                   {values, sizeof(ProductionLimb)}));

@@ -34,10 +34,10 @@ Rig rig(float side)
 
 using Poses = std::vector<CharacterPose>;
 using Goals = std::vector<CharacterGoal>;
-swivel::Frame frame(const Poses& world, const Goals& goals, Poses& local, std::size_t side)
+swivel::Streams frame(const Poses& world, const Goals& goals, Poses& local, std::size_t side)
 {
     constexpr std::size_t pose = sizeof(CharacterPose), goal = sizeof(CharacterGoal);
-    swivel::Frame frame;
+    swivel::Streams frame;
     frame.in(SWIVEL_TARGET, {goals[0].arm[side].wrist, goal})
         .in(SWIVEL_POLE, {goals[0].arm[side].pole, goal})
         .in(SWIVEL_SHOULDER_POSITION, {world[0].arm[side].shoulder.position, pose})

@@ -70,10 +70,10 @@ TEST_CASE("docs: bodies")
                     nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     pose.root_rotation = swivel::stream(characters, &Character::rotation);
-    swivel::Frame arms, legs;
+    swivel::Streams arms, legs;
     arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::hand_target));
     legs.in(SWIVEL_TARGET, swivel::stream(characters, &Character::foot_target));
-    crowd.solve({.frames = {arms, legs}, .pose = &pose});
+    crowd.solve({.streams = {arms, legs}, .pose = &pose});
     // [end]
     for (const Character& character : characters) {
         if (&character == &characters[7]) continue;
@@ -84,7 +84,7 @@ TEST_CASE("docs: bodies")
     // [places]
     std::vector<std::array<Float3, kJoints>> places(characters.size());
     pose.joint_positions = {places.data(), sizeof places[0], sizeof(Float3), nullptr};
-    crowd.solve({.frames = {arms, legs}, .pose = &pose});
+    crowd.solve({.streams = {arms, legs}, .pose = &pose});
     const Float3 foot_from_root = places[3][kFoot];  // in the root's frame
     // [end]
     const Eigen::Vector3d foot = vec(stands.place) + vec(foot_from_root);
@@ -92,7 +92,7 @@ TEST_CASE("docs: bodies")
     const std::vector<Character> still = characters;
     for (Character& character : characters) character.hand_target[1] += 0.1f;
     // [some]
-    crowd.solve({.limbs = std::array{3u, 5u}, .frames = {arms, legs}, .pose = &pose});
+    crowd.solve({.limbs = std::array{3u, 5u}, .streams = {arms, legs}, .pose = &pose});
     // [end]
     CHECK((place_of(characters[5], kHand) - vec(characters[5].hand_target)).norm() <
           2e-6);

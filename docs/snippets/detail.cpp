@@ -50,7 +50,7 @@ TEST_CASE("docs: bodies come near and go")
     pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
                     nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
-    swivel::Frame arm;
+    swivel::Streams arm;
     arm.in(SWIVEL_TARGET, swivel::stream(characters, &Character::target));
     pose.weight = swivel::stream(characters, &Character::weight);
     std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
@@ -83,7 +83,7 @@ TEST_CASE("docs: bodies come near and go")
         std::ranges::fill(mask, 0);
         for (std::uint32_t n = 0; n < characters.size(); ++n)
             if (characters[n].weight > 0) mask[n / 32] |= 1u << (n % 32);
-        crowd.solve({.mask = mask, .frames = {arm}, .pose = &pose});
+        crowd.solve({.mask = mask, .streams = {arm}, .pose = &pose});
         // [end]
         for (std::uint32_t n = 0; n < kCount; ++n) {
             max = std::max(max, std::abs(turn_of(characters[n]) - was[n]));

@@ -134,11 +134,11 @@ TEST_CASE("docs: feet that stand")
         pose.root_position = swivel::stream(characters, &Character::place);
         pose.root_rotation = swivel::stream(characters, &Character::rotation);
         pose.time = swivel::stream(characters, &Character::time);
-        swivel::Frame left_leg, right_leg;
+        swivel::Streams left_leg, right_leg;
         left_leg.in(SWIVEL_CONTACT, swivel::stream(characters, &Character::left_down));
         right_leg.in(SWIVEL_CONTACT,
                      swivel::stream(characters, &Character::right_down));
-        crowd.solve({.frames = {left_leg, right_leg}, .pose = &pose});
+        crowd.solve({.streams = {left_leg, right_leg}, .pose = &pose});
         // [end]
         if (n == 0) stood = place_of(characters[7], kLeftFoot);
         CHECK((place_of(characters[7], kLeftFoot) - stood).norm() < 2e-6);
@@ -293,13 +293,13 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
         if (n == 1)
             for (Character& each : characters) each.place[1] += 0.1f;
         // [shift]
-        swivel::Frame left_leg, right_leg, pelvis;
+        swivel::Streams left_leg, right_leg, pelvis;
         left_leg.in(SWIVEL_NEXT_TARGET, swivel::stream(steps, &Steps::left_next));
         left_leg.in(SWIVEL_NEXT_TIME, swivel::stream(steps, &Steps::left_in));
         right_leg.in(SWIVEL_NEXT_TARGET, swivel::stream(steps, &Steps::right_next));
         right_leg.in(SWIVEL_NEXT_TIME, swivel::stream(steps, &Steps::right_in));
         pelvis.out(SWIVEL_SHIFT, swivel::stream(steps, &Steps::shift));
-        crowd.solve({.frames = {left_leg, right_leg, pelvis}, .pose = &pose});
+        crowd.solve({.streams = {left_leg, right_leg, pelvis}, .pose = &pose});
         for (std::size_t body = 0; body < characters.size(); ++body) {
             shown[body] = characters[body].place;    // the animation's own root stays
             shown[body][1] += steps[body].shift[0];  // draw the body here

@@ -65,15 +65,15 @@ TEST_CASE("docs: groups of different features")
     crowd.write_all(SWIVEL_SHOULDER_CONE, arms,
                     swivel::cone(axis, swivel::degrees(80)));
     // [end]
-    // [frames]
-    swivel::Frame leg;
+    // [streams]
+    swivel::Streams leg;
     leg.in(SWIVEL_SHOULDER_POSITION, swivel::stream(characters, &Character::hip));
     leg.in(SWIVEL_TARGET, swivel::stream(characters, &Character::ankle));
     leg.in(SWIVEL_POLE, swivel::stream(characters, &Character::knee_hint));
     leg.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::thigh));
     leg.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::shin));
 
-    swivel::Frame arm;
+    swivel::Streams arm;
     arm.in(SWIVEL_SHOULDER_POSITION, swivel::stream(characters, &Character::shoulder));
     arm.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
     arm.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
@@ -82,7 +82,7 @@ TEST_CASE("docs: groups of different features")
     arm.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm));
     arm.out(SWIVEL_WRIST, swivel::stream(characters, &Character::hand));
 
-    crowd.solve({.frames = {leg, arm}});  // one job; a frame for each group
+    crowd.solve({.streams = {leg, arm}});  // one job; streams for each group
     // [end]
     for (const Character& each : characters) {
         CHECK((end_of(each.hip, each.thigh, thigh, each.shin, shin) - vec(each.ankle))
@@ -111,7 +111,7 @@ TEST_CASE("docs: groups of different features")
         each.grip = {0.4f, 1.3f, 0.3f};
     }
     // [some]
-    const std::uint32_t solved = crowd.solve({.groups = {arms}, .frames = {arm}});
+    const std::uint32_t solved = crowd.solve({.groups = {arms}, .streams = {arm}});
     // [end]
     CHECK(solved == count);
     CHECK(characters[7].thigh == before);

@@ -142,27 +142,27 @@ TEST_CASE("docs: feet on hills")
         crowd.write_all(SWIVEL_EFFECTOR, leg, kBall);
     // [end]
     const swivel_pose& pose = scene.pose;
-    // [frames]
-    std::array<swivel::Frame, 3> frames;  // two legs, and the pelvis
+    // [streams]
+    std::array<swivel::Streams, 3> streams;  // two legs, and the pelvis
     constexpr std::size_t step = sizeof(Character);
     for (std::size_t leg = 0; leg < 2; ++leg) {
-        frames[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
-        frames[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
-        frames[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
-        frames[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
-        frames[leg].out(SWIVEL_HAND_TRANSFORM, {&characters[0].ankle[leg], step});
+        streams[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
+        streams[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
+        streams[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
+        streams[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
+        streams[leg].out(SWIVEL_HAND_TRANSFORM, {&characters[0].ankle[leg], step});
     }
     // [end]
     for (int n = 0; n < 30; ++n) {
         // [two]
-        crowd.solve({.frames = frames, .pose = &pose, .probes_only = true});
+        crowd.solve({.streams = streams, .pose = &pose, .probes_only = true});
         for (Character& each : characters)
             for (std::size_t leg = 0; leg < 2; ++leg) {
                 const Float3& at = each.probe[leg];
                 each.ground[leg] = {at[0], terrain.height(at[0], at[2]), at[2]};
                 each.normal[leg] = terrain.normal(at[0], at[2]);
             }
-        crowd.solve({.frames = frames, .pose = &pose});
+        crowd.solve({.streams = streams, .pose = &pose});
         // [end]
     }
     CHECK(scene.worst() < 1e-4);
@@ -182,7 +182,7 @@ TEST_CASE("docs: feet on hills")
                 std::copy(normal.begin(), normal.end(), probes.normals[foot]);
             }
         };
-        crowd.solve({.frames = frames, .pose = &pose, .sample = sample});
+        crowd.solve({.streams = streams, .pose = &pose, .sample = sample});
         // [end]
     }
     for (std::size_t n = 0; n < characters.size(); ++n) {
@@ -198,7 +198,7 @@ TEST_CASE("docs: feet on hills")
     swivel_pose far = pose;
     far.root_position = {roots.data(), sizeof roots[0]};
     far.root_is_double = 1;
-    std::array<swivel::Frame, 3> contacts;
+    std::array<swivel::Streams, 3> contacts;
     for (std::size_t leg = 0; leg < 2; ++leg)
         contacts[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
     for (std::uint32_t group = 0; group < 3; ++group)
@@ -218,7 +218,7 @@ TEST_CASE("docs: feet on hills")
                 std::copy(normal.begin(), normal.end(), probes.normals[foot]);
             }
         };
-        crowd.solve({.frames = contacts, .pose = &far, .sample = sample});
+        crowd.solve({.streams = contacts, .pose = &far, .sample = sample});
         // [end]
     }
     for (std::size_t n = 0; n < characters.size(); ++n)

@@ -151,10 +151,10 @@ TEST_CASE("docs: a rifle in both hands")
     crowd.write_all(SWIVEL_GRIP, 1, Grip{0.1f, 0, 0.25f, 0, 0, 0, 1});
     // [end]
     // [frame]
-    swivel::Frame right_arm, left_arm, rifle;
+    swivel::Streams right_arm, left_arm, rifle;
     rifle.out(SWIVEL_PROP_TRANSFORM, swivel::stream(characters, &Character::rifle));
     left_arm.out(SWIVEL_FLAGS, swivel::stream(characters, &Character::left_flags));
-    crowd.solve({.frames = {right_arm, left_arm, rifle}, .pose = &pose});
+    crowd.solve({.streams = {right_arm, left_arm, rifle}, .pose = &pose});
     // [end]
     CHECK(scene.worst({0.1f, 0, 0.25f}) < 2e-6);
     for (std::size_t n = 0; n < characters.size(); ++n) {

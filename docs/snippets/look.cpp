@@ -83,9 +83,9 @@ TEST_CASE("docs: a head that looks")
                     nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
     pose.time = swivel::stream(characters, &Character::time);
-    swivel::Frame head;
+    swivel::Streams head;
     head.in(SWIVEL_LOOK_TARGET, swivel::stream(characters, &Character::looks_at));
-    crowd.solve({.frames = {head}, .pose = &pose});
+    crowd.solve({.streams = {head}, .pose = &pose});
     // [end]
     const Float3 eye = {0, 0.08f, 0.1f};
     for (const Character& each : characters) CHECK(off(each, kHead, eye) < 2e-6);
@@ -97,14 +97,14 @@ TEST_CASE("docs: a head that looks")
     // [reset]
     swivel_reset(crowd.get(), 0, moved, 1);
     // [end]
-    crowd.solve({.frames = {head}, .pose = &pose});
+    crowd.solve({.streams = {head}, .pose = &pose});
     for (std::size_t n = 0; n < 40; ++n)
         CHECK((off(characters[n], kHead, eye) < 2e-6) == (n == moved));
 
     const float none = std::numeric_limits<float>::quiet_NaN();
     for (Character& each : characters) each.looks_at = {none, none, none};
     crowd.reset(0);
-    crowd.solve({.frames = {head}, .pose = &pose});
+    crowd.solve({.streams = {head}, .pose = &pose});
     CHECK(characters[3].solved == std::array<Float4, kJoints>{{{0, 0, 0, 1},
                                                                {0, 0, 0, 1},
                                                                {0, 0, 0, 1},

@@ -36,17 +36,17 @@ int main()
     swivel::Crowd crowd({left_arms});
 
     // Each frame: from your structures, to your structures.
-    swivel::Frame frame;
-    frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
-    frame.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
-    frame.in(SWIVEL_SHOULDER_POSITION,
-             swivel::stream(characters, &Character::shoulder_position));
-    frame.in(SWIVEL_PARENT_ROTATION,
-             swivel::stream(characters, &Character::clavicle_rotation));
-    frame.out(SWIVEL_SHOULDER,
-              swivel::stream(characters, &Character::upper_arm_rotation));
-    frame.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm_rotation));
-    crowd.solve({.frames = {frame}});
+    swivel::Streams arms;
+    arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+    arms.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
+    arms.in(SWIVEL_SHOULDER_POSITION,
+            swivel::stream(characters, &Character::shoulder_position));
+    arms.in(SWIVEL_PARENT_ROTATION,
+            swivel::stream(characters, &Character::clavicle_rotation));
+    arms.out(SWIVEL_SHOULDER,
+             swivel::stream(characters, &Character::upper_arm_rotation));
+    arms.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm_rotation));
+    crowd.solve({.streams = {arms}});
 
     std::vector<double> off(characters.size());  // from target to wrist, in arm lengths
     crowd.residuals(0, off);

@@ -299,7 +299,7 @@ void check_value(swivel_field field)
                                               " floats is no value of field " + std::to_string(field));
 }
 
-// A member of the caller's structures, for fields of a frame, for swivel_in, or for swivel_out unless it is const.
+// A member of the caller's structures, for streams, for swivel_in, or for swivel_out unless it is const.
 template <class Value>
 struct Stream {
     Value* data;
@@ -322,8 +322,9 @@ auto& reached(At& at, Step step, Steps... steps)
         return reached(at[static_cast<std::size_t>(step)], steps...);
 }
 // Where the first structure's member is, and the stride: swivel::stream(characters, &Character::grip). Members of
-// members and elements of arrays follow: stream(characters, &Character::legs, 1, &Leg::target). Of no characters it is
-// null, which leaves the field out. Doubles are for positions of frames with an origin, int32_t for skeletons' parents.
+// members and elements of arrays follow: stream(characters, &Character::legs, 1, &Leg::target). Without characters it
+// is null, which leaves the field out. Doubles are for positions of streams with an origin, int32_t for skeletons'
+// parents.
 template <std::ranges::contiguous_range Range, class... Steps>
 requires std::ranges::borrowed_range<Range>
 auto stream(Range&& values, Steps... steps)
@@ -334,28 +335,28 @@ auto stream(Range&& values, Steps... steps)
     return Stream<Value>{std::ranges::empty(values) ? nullptr : &reached(*first, steps...), sizeof *first};
 }
 
-// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_frame, which views it
+// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_streams, which views it
 // until it moves or ends, with fields that are added later, but not with a later origin(). Keep it from solve to solve
 // while the arrays stay where they are.
-//     swivel::Frame frame;
-//     frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
-//     frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
-class Frame {
+//     swivel::Streams arms;
+//     arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+//     arms.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
+class Streams {
 public:
-    Frame& in(swivel_field field, const swivel_in& values)
+    Streams& in(swivel_field field, const swivel_in& values)
     {
-        if (field >= SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "a frame takes in no result; give it by out()");
+        if (field >= SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "streams take in no result; give it by out()");
         return add({field, const_cast<void*>(values.data), values.stride});  // inputs are only read
     }
-    Frame& out(swivel_field field, const swivel_out& values)
+    Streams& out(swivel_field field, const swivel_out& values)
     {
-        if (field < SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "a frame puts out no input; give it by in()");
+        if (field < SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "streams put out no input; give it by in()");
         return add({field, values.data, values.stride});
     }
     template <class Value>
-    Frame& in(swivel_field, const Stream<Value>&) = delete;  // neither floats nor doubles
+    Streams& in(swivel_field, const Stream<Value>&) = delete;  // neither floats nor doubles
     template <class Value>
-    requires(FieldValue<Value> || DoubleValue<Value>) Frame& in(swivel_field field, const Stream<Value>& values)
+    requires(FieldValue<Value> || DoubleValue<Value>) Streams& in(swivel_field field, const Stream<Value>& values)
     {
         check_value<std::remove_cv_t<Value>>(field);
         if (is_position(field)) {
@@ -367,46 +368,46 @@ public:
         return in(field, swivel_in(values));
     }
     template <class Value>
-    Frame& out(swivel_field, const Stream<Value>&) = delete;  // no floats to write to
+    Streams& out(swivel_field, const Stream<Value>&) = delete;  // no floats to write to
     template <FieldValue Value>
-    requires(!std::is_const_v<Value>) Frame& out(swivel_field field, const Stream<Value>& values)
+    requires(!std::is_const_v<Value>) Streams& out(swivel_field field, const Stream<Value>& values)
     {
         check_value<Value>(field);
         return out(field, swivel_out(values));
     }
     // Positions are doubles, and this is subtracted.
-    Frame& origin(const swivel_in& values)
+    Streams& origin(const swivel_in& values)
     {
         origin_ = values;
         return *this;
     }
-    operator swivel_frame() const&
+    operator swivel_streams() const&
     {
-        swivel_frame frame = swivel_default_frame();
-        frame.fields = fields_.data();
-        frame.field_count = static_cast<std::uint32_t>(fields_.size());
-        frame.positions = positions_;
-        frame.origin = origin_;
-        return frame;
+        swivel_streams view = swivel_default_streams();
+        view.fields = fields_.data();
+        view.field_count = static_cast<std::uint32_t>(fields_.size());
+        view.positions = positions_;
+        view.origin = origin_;
+        return view;
     }
-    operator swivel_frame() const&& = delete;  // which would view what ends with its line
+    operator swivel_streams() const&& = delete;  // which would view what ends with its line
 
 private:
-    Frame& add(const swivel_frame_field& field)
+    Streams& add(const swivel_stream& field)
     {
-        if (count_ == fields_.size()) fail(SWIVEL_INVALID_ARGUMENT, "a frame lists more fields than a group has");
+        if (count_ == fields_.size()) fail(SWIVEL_INVALID_ARGUMENT, "streams list more fields than a group has");
         fields_[count_++] = field;
         return *this;
     }
     void say_positions(swivel_numbers are)
     {
         if (positions_ != SWIVEL_NUMBERS_UNSPECIFIED && positions_ != are)
-            fail(SWIVEL_INVALID_ARGUMENT, "a frame has positions in floats and in doubles; give all in one of them");
+            fail(SWIVEL_INVALID_ARGUMENT, "streams have positions in floats and in doubles; give all in one of them");
         positions_ = are;
     }
 
     // As many as a group has. Those that are not used yet are null, which lists nothing.
-    std::array<swivel_frame_field, 64> fields_ = {};
+    std::array<swivel_stream, 64> fields_ = {};
     std::size_t count_ = 0;
     swivel_in origin_ = {};
     swivel_numbers positions_ = SWIVEL_NUMBERS_UNSPECIFIED;
@@ -433,7 +434,7 @@ public:
         else
             values_ = std::vector<Each>(values.begin(), values.end());
     }
-    // A range with a name, of what converts to Each, such as Frames: kept as copies.
+    // A range with a name, of what converts to Each, such as Streams: kept as copies.
     template <std::ranges::contiguous_range Range>
     requires(std::is_lvalue_reference_v<Range> && !std::convertible_to<Range, std::span<const Each>> &&
              !std::is_arithmetic_v<Each> && std::convertible_to<std::ranges::range_reference_t<Range>, Each>)
@@ -504,17 +505,17 @@ private:
 #endif
 };
 
-// What a solve does, as swivel_job. By default it solves every limb, from and to rows, on oneTBB. Of mask, limbs and
-// priorities at most one is given.
+// One solve, as swivel_job. By default it solves every limb, from and to rows, on oneTBB. At most one of mask, limbs
+// and priorities is given.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
-    Given<std::uint32_t> groups = everything;  // their numbers, which a solve allocates bits for
-    Given<std::uint32_t> mask = everything;    // words of bits, (swivel_block_count() + 1) / 2 of them
-    Given<std::uint32_t> limbs = everything;   // numbers of limbs in the crowd
-    Given<swivel_in> priorities = everything;  // one for each group; of bodies one alone
-    std::span<float> urgency = {};             // with priorities: one for each block, kept by the caller
-    std::uint32_t max_blocks = 0;              // with priorities
-    Given<swivel_frame> frames = everything;   // one for each group that is named, such as a Frame with a name
+    Given<std::uint32_t> groups = everything;    // their numbers, which a solve allocates bits for
+    Given<std::uint32_t> mask = everything;      // words of bits, (swivel_block_count() + 1) / 2 of them
+    Given<std::uint32_t> limbs = everything;     // numbers of limbs in the crowd
+    Given<swivel_in> priorities = everything;    // one for each group; of bodies one alone
+    std::span<float> urgency = {};               // with priorities: one for each block, kept by the caller
+    std::uint32_t max_blocks = 0;                // with priorities
+    Given<swivel_streams> streams = everything;  // one for each group that is named, such as Streams with a name
     bool on_this_thread = false;
     void* workspace = nullptr;          // memory for this call alone; null: one of the crowd's workspaces
     const swivel_pose* pose = nullptr;  // of bodies; null in a crowd of free limbs
@@ -595,7 +596,7 @@ public:
         check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, values, first), out(values)));
     }
 
-    // swivel_solve(): crowd.solve(), or crowd.solve({.frames = {frame}}). Returns how many limbs were solved.
+    // swivel_solve(): crowd.solve(), or crowd.solve({.streams = {arms}}). Returns how many limbs were solved.
     std::uint32_t solve(const Job& wanted = {})
     {
         swivel_job job = swivel_default_job();
@@ -617,12 +618,12 @@ public:
         if (wanted.priorities) job.priorities = checked(*wanted.priorities);
         job.urgency = checked(wanted.urgency);
         job.max_blocks = wanted.max_blocks;
-        if (wanted.frames) {
+        if (wanted.streams) {
             std::size_t named_count = 0;
             for (const std::uint32_t word : named) named_count += static_cast<std::size_t>(std::popcount(word));
-            check_count((*wanted.frames).size(), "frames", wanted.groups ? named_count : swivel_group_count(crowd_),
+            check_count((*wanted.streams).size(), "streams", wanted.groups ? named_count : swivel_group_count(crowd_),
                         "groups");
-            job.frames = (*wanted.frames).data();
+            job.streams = (*wanted.streams).data();
         }
         job.on_this_thread = wanted.on_this_thread;
         job.workspace = wanted.workspace;

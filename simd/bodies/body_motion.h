@@ -19,10 +19,10 @@ struct Motion {
     SWIVEL_INLINE static Motion at(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
     {
         if (row == 0) return {one<T>(), vector(T(0), T(0), T(0))};
-        const JointRows rows = rows_of(block, row, lane);
-        return {rows.get_rotor(kMotionRow), rows.get_vector(kShiftRow)};
+        const RowView<T> rows = rows_of(block, row, lane);
+        return {rows.rotor(kMotionRow), rows.vector(kShiftRow)};
     }
-    // Of a joint of the skeleton, from where it comes.
+    // The motion of a joint of the skeleton, from where it comes.
     SWIVEL_INLINE static Motion at(const BodyBlock& block, const MovedJoint& joint, std::uint32_t lane)
     {
         const Motion motion = at(block, joint.mover, lane);
@@ -45,14 +45,14 @@ struct IntoBody {
     T shrink;
 
     SWIVEL_INLINE IntoBody(const BodyBlock& block, std::uint32_t lane)
-        : back(~rows_of(block, kRootJoint, lane).get_rotor(kTurnRow)),
+        : back(~rows_of(block, kRootJoint, lane).rotor(kTurnRow)),
           shrink(T(1) / rows_of(block, kRootJoint, lane).get(kScaleRow))
     {
     }
-    SWIVEL_INLINE Rotor<T> rotation(const JointRows& joint) const { return back * joint.get_rotor(kTurnRow); }
-    SWIVEL_INLINE Vector<T> place(const JointRows& joint) const
+    SWIVEL_INLINE Rotor<T> rotation(const RowView<T>& joint) const { return back * joint.rotor(kTurnRow); }
+    SWIVEL_INLINE Vector<T> place(const RowView<T>& joint) const
     {
-        return turned(back, shrink * joint.get_vector(kPlaceRow));
+        return turned(back, shrink * joint.vector(kPlaceRow));
     }
 };
 
@@ -65,13 +65,13 @@ SWIVEL_FLATTEN void move(const BodyBlock& block, const BodyLimb& limb)
         for (std::uint32_t n = 0; n < limb.turned_count; ++n) {
             const TurnedJoint& joint = limb.turned[n];
             const Motion above = Motion::at(block, joint.above, lane);
-            const JointRows at = rows_of(block, joint.row, lane);
+            const RowView<T> at = rows_of(block, joint.row, lane);
             const Rotor<T> parent = body.rotation(rows_of(block, joint.parent, lane)), incoming = body.rotation(at);
             const Vector<T> place = body.place(at);
-            const Rotor<T> solved = unit_rotation(above.turn * parent * at.get_rotor(kLocalRow));
+            const Rotor<T> solved = unit_rotation(above.turn * parent * at.rotor(kLocalRow));
             const Rotor<T> turn = select(kept, none.turn, hemisphere(unit_rotation(solved * ~incoming)));
-            at.set_rotor(kMotionRow, turn);
-            at.set_vector(kShiftRow, select(kept, none.shift, above(place) - turned(turn, place)));
+            at.set(kMotionRow, turn);
+            at.set(kShiftRow, select(kept, none.shift, above(place) - turned(turn, place)));
         }
     }
 }
@@ -86,7 +86,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_rotation(const swivel_pose& pose, co
         const Motion motion = Motion::at(block, joint, lane);
         const Rotor<T> incoming = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
         rows_of(block, 0, lane)
-            .set_rotor(kOutTurnRow, select(motion.is_none(), incoming, with_one_nan(motion.turn * incoming)));
+            .set(kOutTurnRow, select(motion.is_none(), incoming, with_one_nan(motion.turn * incoming)));
     }
 }
 SWIVEL_FLATTEN [[gnu::noinline]] void carry_translation(const swivel_pose& pose, const BodyBlock& block,
@@ -97,8 +97,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_translation(const swivel_pose& pose,
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const Motion motion = Motion::at(block, joint, lane);
         const Vector<T> incoming = vector_of(load_values<T, 3>(translations.lane + lane, at));
-        rows_of(block, 0, lane)
-            .set_vector(kOutPlaceRow, select(motion.is_none(), incoming, with_one_nan(motion(incoming))));
+        rows_of(block, 0, lane).set(kOutPlaceRow, select(motion.is_none(), incoming, with_one_nan(motion(incoming))));
     }
 }
 template <swivel_pose_form Form>
@@ -111,7 +110,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void carry_matrix(const swivel_pose& pose, cons
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const Motion motion = Motion::at(block, joint, lane);
         const MatrixParts m = read_parts<Form>(matrices.lane + lane, at);
-        const JointRows out = rows_of(block, 0, lane);
+        const RowView<T> out = rows_of(block, 0, lane);
         for (std::uint32_t c = 0; c < 4; ++c) {
             const Vector<T> incoming = c < 3 ? axis_of<Form>(m, c) : vector_of(m.part[3]);
             const Vector<T> moved = select(motion.is_none(), incoming,
@@ -144,9 +143,9 @@ SWIVEL_FLATTEN void place(const BodyBlock& block, const BodyJoint& joint)
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const IntoBody body(block, lane);
         const Motion motion = Motion::at(block, joint.mover, lane);
-        const JointRows at = rows_of(block, joint.row, lane), out = rows_of(block, 0, lane);
-        out.set_rotor(kOutTurnRow, with_one_nan(hemisphere(motion.turn * body.rotation(at))));
-        out.set_vector(kOutPlaceRow, with_one_nan(motion(body.place(at))));
+        const RowView<T> at = rows_of(block, joint.row, lane), out = rows_of(block, 0, lane);
+        out.set(kOutTurnRow, with_one_nan(hemisphere(motion.turn * body.rotation(at))));
+        out.set(kOutPlaceRow, with_one_nan(motion(body.place(at))));
     }
 }
 

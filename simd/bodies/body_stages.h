@@ -24,42 +24,42 @@ struct StageBody<Stage::posed> {
         constexpr BendNormal which = S::template is<SWIVEL_POLE_INCOMING>() ? BendNormal::own : BendNormal::chosen;
         const bool weighs = s.has(SWIVEL_WITH_WEIGHTS);
         const BodyLimb& limb = *s.strip.run.limb;
-        const Rotor<T> wrist = s.body_rotor(limb.wrist + kTurnRow);
-        const PosedLimb<T> posed{s.body_rotor(limb.parent + kTurnRow), s.body_rotor(limb.shoulder + kTurnRow),
-                                 s.body_vector(limb.shoulder + kPlaceRow), s.body_vector(limb.elbow + kPlaceRow),
-                                 s.body_vector(limb.wrist + kPlaceRow)};
+        const Rotor<T> wrist = s.body.rotor(limb.wrist + kTurnRow);
+        const PosedLimb<T> posed{s.body.rotor(limb.parent + kTurnRow), s.body.rotor(limb.shoulder + kTurnRow),
+                                 s.body.vector(limb.shoulder + kPlaceRow), s.body.vector(limb.elbow + kPlaceRow),
+                                 s.body.vector(limb.wrist + kPlaceRow)};
         s.require(is_posed(s));
         s.require(is_share(body_weight(s)));
         if (s.has(SWIVEL_WITH_PELVIS_FIT)) s.require(FitWish<S>(s).is_valid());
-        Mask<T> stays = T(0) == T(1);
+        Mask<T> stays = no_lanes<T>();
         if (which == BendNormal::chosen && weighs) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),
                                                   vector(T(limb.hinge[0]), T(limb.hinge[1]), T(limb.hinge[2])), stays);
-        s.set_rotor(kIncomingRow, seen.model.upper);
+        s.rows.set(kIncomingRow, seen.model.upper);
         if (weighs || s.has(kTwistBones | SWIVEL_WITH_AIM | SWIVEL_WITH_RECORD)) {
             const Rotor<T> hand = ~seen.frames.fore * wrist * ~broadcast<T>(s.strip.bind.hand_from_arm);
-            s.set_rotor(kIncomingRow + 4, ~seen.model.upper * seen.model.fore);
-            s.set_rotor(kIncomingRow + 8, hand);
+            s.rows.set(kIncomingRow + 4, ~seen.model.upper * seen.model.fore);
+            s.rows.set(kIncomingRow + 8, hand);
             if (s.has(kTwistBones)) {
                 const Turned<T> twist = twist_rotor(hand);
-                s.set_body(kTwistInRow, twist.cos);
-                s.set_body(kTwistInRow + 1, twist.sin);
+                s.body.set(kTwistInRow, twist.cos);
+                s.body.set(kTwistInRow + 1, twist.sin);
             }
         }
-        const T per_scale = T(1) / s.body_row(limb.parent + kScaleRow);
+        const T per_scale = T(1) / s.body.get(limb.parent + kScaleRow);
         see_goal(s, seen, posed.shoulder_place, per_scale);
         // Lengths that were never written are NaN.
         const auto length = [&](int n, const T& posed_length) SWIVEL_INLINE_LAMBDA {
             const T given = s.io.load(SWIVEL_LENGTHS, n);
             return select(given == given, given, per_scale * posed_length);
         };
-        s.set_body(kLengthsRow, length(0, seen.bones.upper_length));
-        s.set_body(kLengthsRow + 1, length(1, seen.bones.fore_length));
-        if (s.has(SWIVEL_WITH_CAP)) s.set_body(kReachRow, incoming_reach(s, posed, per_scale));
+        s.body.set(kLengthsRow, length(0, seen.bones.upper_length));
+        s.body.set(kLengthsRow + 1, length(1, seen.bones.fore_length));
+        if (s.has(SWIVEL_WITH_CAP)) s.body.set(kReachRow, incoming_reach(s, posed, per_scale));
         const auto set_from_arm =
             [&](std::uint32_t row, std::uint32_t joint, const Rotor<T>& frame)
-                SWIVEL_INLINE_LAMBDA { s.set_body_rotor(row, ~s.body_rotor(joint + kTurnRow) * frame); };
-        s.set_body_rotor(kUpperFromArmRow, ~posed.shoulder * seen.frames.upper);
+                SWIVEL_INLINE_LAMBDA { s.body.set(row, ~s.body.rotor(joint + kTurnRow) * frame); };
+        s.body.set(kUpperFromArmRow, ~posed.shoulder * seen.frames.upper);
         set_from_arm(kForeFromArmRow, limb.elbow, seen.frames.fore);
         if (limb.elbow_parent != limb.shoulder)
             set_from_arm(kElbowParentFromArmRow, limb.elbow_parent, seen.frames.upper);
@@ -79,7 +79,7 @@ private:
         if (!any(is_given)) return reach;
         const Vector<T> upper = posed.elbow_place - posed.shoulder_place, fore = posed.wrist_place - posed.elbow_place;
         const T cosine = scalar_product(upper, fore) / hi(sqrt(len2(upper) * len2(fore)), T(kTiny)),
-                a = s.body_row(kLengthsRow), b = s.body_row(kLengthsRow + 1);
+                a = s.body.get(kLengthsRow), b = s.body.get(kLengthsRow + 1);
         return select(is_given, sqrt(hi(a * a + b * b + (a + a) * b * cosine, T(0))), reach);
     }
     // The goal, as the parent sees it. Joints' places are from the root's.
@@ -90,24 +90,24 @@ private:
         using T = typename S::T;
         const bool is_sent = s.has(SWIVEL_SENT);
         const std::uint32_t goal = s.strip.run.limb->goal;
-        // What is planted stays where it is while the root is shifted. What is held goes with the shifted body.
+        // A planted point stays where it is while the root is shifted. A held thing goes with the shifted body.
         const Vector<T> root = s.has(SWIVEL_WITH_LINK) ? vector(T(0), T(0), T(0))
-                                                       : s.body_vector(is_sent ? kShiftedRow : kRootRow),
-                        target = is_sent ? s.body_vector(goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET);
+                                                       : s.body.vector(is_sent ? kShiftedRow : kRootRow),
+                        target = is_sent ? s.body.vector(goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET);
         s.require(len2(target) <= T(kHuge2));
-        // What is sent does not depend on the root's place, which is bad input even so.
-        if (is_sent) s.require(len2(s.body_vector(kRootRow)) <= T(kHuge2));
-        s.set_vector(kWristRow, per_scale * seen.back(target - root - shoulder));
+        // A goal that the library makes does not depend on the root's place, which is bad input even so.
+        if (is_sent) s.require(len2(s.body.vector(kRootRow)) <= T(kHuge2));
+        s.rows.set(kWristRow, per_scale * seen.back(target - root - shoulder));
         if (has_pole(s)) {
             const Vector<T> pole = s.io.load_vector(SWIVEL_POLE);
             s.require(len2(pole) <= T(kHuge2));
-            s.set_vector(kPoleRow,
-                         per_scale * seen.back(pole_is_point(s) ? pole - s.body_vector(kRootRow) - shoulder : pole));
+            s.rows.set(kPoleRow,
+                       per_scale * seen.back(pole_is_point(s) ? pole - s.body.vector(kRootRow) - shoulder : pole));
         }
         if (s.has(SWIVEL_WITH_HAND)) {
-            const Rotor<T> hand = is_sent ? s.body_rotor(goal + kGoalHandRow) : s.io.load_rotor(SWIVEL_HAND);
+            const Rotor<T> hand = is_sent ? s.body.rotor(goal + kGoalHandRow) : s.io.load_rotor(SWIVEL_HAND);
             s.require(is_orientation(hand));
-            s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~seen.arm * hand);
+            s.rows.set(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~seen.arm * hand);
         }
     }
 };
@@ -121,21 +121,20 @@ struct StageBody<Stage::record> {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
         const ArmFrame<T> arm = arm_frame(s);
-        const T scale = s.body_row(limb.parent + kScaleRow);
-        Rotor<T> hand = s.get_rotor(kIncomingRow + 8);
+        const T scale = s.body.get(limb.parent + kScaleRow);
+        Rotor<T> hand = s.rows.rotor(kIncomingRow + 8);
         if (s.has(SWIVEL_WITH_AIM) && s.has(SWIVEL_WITH_HAND))
-            hand = ~s.body_rotor(limb.wrist_parent_row()) * s.io.load_rotor(SWIVEL_HAND) *
+            hand = ~s.body.rotor(limb.wrist_parent_row()) * s.io.load_rotor(SWIVEL_HAND) *
                    ~broadcast<T>(s.strip.bind.hand_from_arm);
-        Rows<T, kTold> out = s.io;
-        out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        out.store_vector(SWIVEL_RECORD, with_one_nan(arm.shoulder + s.body_vector(kRootRow)), kRecordShoulder);
+        const Rows<T, kRuntimeFeatures> out = s.chosen_rows();
+        out.store_vector(SWIVEL_RECORD, with_one_nan(arm.shoulder + s.body.vector(kRootRow)), kRecordShoulder);
         out.store_rotor(SWIVEL_RECORD, with_one_nan(arm.rotation), kRecordArm);
-        // What else is bad in the pose shows in the scale.
+        // All else that is bad in the pose shows in the scale.
         out.store(SWIVEL_RECORD, kRecordScale, with_one_nan(select(is_posed(s), scale, T(__builtin_nan("")))));
-        out.store(SWIVEL_RECORD, kRecordLengths, with_one_nan(s.body_row(kLengthsRow)));
-        out.store(SWIVEL_RECORD, kRecordLengths + 1, with_one_nan(s.body_row(kLengthsRow + 1)));
-        out.store_rotor(SWIVEL_RECORD, with_one_nan(s.get_rotor(kIncomingRow)), kRecordIncoming);
-        out.store_rotor(SWIVEL_RECORD, with_one_nan(s.get_rotor(kIncomingRow + 4)), kRecordIncoming + 4);
+        out.store(SWIVEL_RECORD, kRecordLengths, with_one_nan(s.body.get(kLengthsRow)));
+        out.store(SWIVEL_RECORD, kRecordLengths + 1, with_one_nan(s.body.get(kLengthsRow + 1)));
+        out.store_rotor(SWIVEL_RECORD, with_one_nan(s.rows.rotor(kIncomingRow)), kRecordIncoming);
+        out.store_rotor(SWIVEL_RECORD, with_one_nan(s.rows.rotor(kIncomingRow + 4)), kRecordIncoming + 4);
         out.store_rotor(SWIVEL_RECORD, with_one_nan(hand), kRecordIncoming + 8);
     }
 };
@@ -146,11 +145,11 @@ SWIVEL_INLINE Rotor<typename S::T> turned_twist_bone(const S& s, std::uint32_t n
 {
     using T = typename S::T;
     const BodyLimb& limb = *s.strip.run.limb;
-    const Rotor<T> fore = s.body_rotor(limb.elbow + kTurnRow) * s.body_rotor(kForeFromArmRow);
-    const Rotor<T> from_arm = ~s.body_rotor(limb.twist_parents[n] + kTurnRow) * fore;
+    const Rotor<T> fore = s.body.rotor(limb.elbow + kTurnRow) * s.body.rotor(kForeFromArmRow);
+    const Rotor<T> from_arm = ~s.body.rotor(limb.twist_parents[n] + kTurnRow) * fore;
     const Rotor<T> turn = rotor(T(0), T(0), s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 2)),
                                 s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 3)));
-    return unit_rotation(from_arm * turn * ~from_arm * s.body_rotor(limb.twist_bones[n] + kLocalRow));
+    return unit_rotation(from_arm * turn * ~from_arm * s.body.rotor(limb.twist_bones[n] + kLocalRow));
 }
 
 // The rotations of the joints, in place of the incoming ones.
@@ -166,24 +165,24 @@ struct StageBody<Stage::correct> {
         const T weight = body_weight(s);
         const bool fades = s.strip.run.strip.pose->weight.data != nullptr;
         const Mask<T> valid = lanes_where<T>(s.good()), kept = kept_lanes(s, valid) | (valid & (weight == T(0)));
-        s.set_body(kKeptRow, select(kept, T(1), T(0)));
+        s.body.set(kKeptRow, select(kept, T(1), T(0)));
         const auto store = [&](std::uint32_t joint, const Rotor<T>& solved,
                                const float(&rest)[4]) SWIVEL_INLINE_LAMBDA {
-            const Rotor<T> faded = fades ? part_of_turn(s.body_rotor(joint + kLocalRow), solved, weight) : solved;
+            const Rotor<T> faded = fades ? part_of_turn(s.body.rotor(joint + kLocalRow), solved, weight) : solved;
             set_local(s, joint, faded, broadcast<T>(rest), valid, kept);
         };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
         const Rotor<T> shoulder = load_result_rotor(s, SWIVEL_SHOULDER);
-        store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body_rotor(kUpperFromArmRow),
+        store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body.rotor(kUpperFromArmRow),
               b.shoulder_rest);
-        store(limb.elbow, s.body_rotor(limb.elbow_parent_row()) * elbow * ~s.body_rotor(kForeFromArmRow), b.elbow_rest);
+        store(limb.elbow, s.body.rotor(limb.elbow_parent_row()) * elbow * ~s.body.rotor(kForeFromArmRow), b.elbow_rest);
         if (s.has(SWIVEL_WITH_HAND))
             store(limb.wrist,
-                  s.body_rotor(limb.wrist_parent_row()) * s.get_rotor(kTwistRow) * broadcast<T>(bind.hand_from_arm),
+                  s.body.rotor(limb.wrist_parent_row()) * s.rows.rotor(kTwistRow) * broadcast<T>(bind.hand_from_arm),
                   b.wrist_rest);
         if (s.has(SWIVEL_WITH_CLAVICLE))
             store(limb.parent,
-                  unit_rotation(s.body_rotor(limb.parent + kLocalRow) * load_result_rotor(s, SWIVEL_CLAVICLE_ROTATION)),
+                  unit_rotation(s.body.rotor(limb.parent + kLocalRow) * load_result_rotor(s, SWIVEL_CLAVICLE_ROTATION)),
                   limb.clavicle_rest);
         for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
             store(limb.twist_bones[n], turned_twist_bone(s, n), limb.twist_rest[n]);
@@ -203,7 +202,7 @@ private:
     {
         using T = typename S::T;
         const bool keeps = s.strip.run.keeps || s.strip.run.strip.pose->space == SWIVEL_IN_BODY;
-        Mask<T> kept = keeps ? !valid : T(0) == T(1);
+        Mask<T> kept = keeps ? !valid : no_lanes<T>();
         if (s.has(SWIVEL_WITH_WEIGHTS) && !(s.strip.run.features & kBoundingFeatures)) {
             const T none = T(0);
             kept = kept | (valid & (s.io.load(SWIVEL_WEIGHTS, 0) == none) & (s.io.load(SWIVEL_WEIGHTS, 1) == none) &
@@ -211,7 +210,7 @@ private:
         }
         if (s.has(SWIVEL_WITH_LINK) && s.has(SWIVEL_POLE_INCOMING) &&
             !(s.strip.run.features & (kBoundingFeatures | SWIVEL_WITH_ANGLE)))
-            kept = kept | (valid & (s.body_row(s.strip.run.limb->goal + kGoalOwnRow) > T(0.5)));
+            kept = kept | (valid & (s.body.get(s.strip.run.limb->goal + kGoalOwnRow) > T(0.5)));
         return kept;
     }
 };

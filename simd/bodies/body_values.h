@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the kernels of bodies read and write: rows of a block's joints, and the caller's values of its bodies.
+// The kernels of bodies read and write rows of a block's joints, and the caller's values of its bodies.
 // Only body_kernels.cpp includes this.
 #pragma once
 
@@ -18,36 +18,17 @@ namespace {
 
 using T = typename KernelNumber<SWIVEL_ARCH, 1>::type;
 
-// The rows of one joint, from the lanes of a slice on.
-struct JointRows {
-    float* rows;
-
-    SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(rows + row * kLanes); }
-    SWIVEL_ALWAYS_INLINE void set(std::uint32_t row, const T& value) const { store_lanes(rows + row * kLanes, value); }
-    SWIVEL_ALWAYS_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
-    {
-        store_rows(rows + row * kLanes, v);
-    }
-    SWIVEL_ALWAYS_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
-    {
-        store_rows(rows + row * kLanes, q);
-    }
-    SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const
-    {
-        return load_vector_rows<T>(rows + row * kLanes);
-    }
-    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const { return load_rotor_rows<T>(rows + row * kLanes); }
-    SWIVEL_ALWAYS_INLINE JointFrame<T> frame() const
-    {
-        return {get_rotor(kTurnRow), get_vector(kPlaceRow), get(kScaleRow)};
-    }
-    SWIVEL_ALWAYS_INLINE void set_frame(const JointFrame<T>& frame) const
-    {
-        set_rotor(kTurnRow, frame.rotation);
-        set_vector(kPlaceRow, frame.place);
-        set(kScaleRow, frame.scale);
-    }
-};
+// The frame of a joint, in its rows.
+SWIVEL_ALWAYS_INLINE JointFrame<T> frame_of(const RowView<T>& joint)
+{
+    return {joint.rotor(kTurnRow), joint.vector(kPlaceRow), joint.get(kScaleRow)};
+}
+SWIVEL_ALWAYS_INLINE void set_frame(const RowView<T>& joint, const JointFrame<T>& frame)
+{
+    joint.set(kTurnRow, frame.rotation);
+    joint.set(kPlaceRow, frame.place);
+    joint.set(kScaleRow, frame.scale);
+}
 
 SWIVEL_ALWAYS_INLINE Vector<T> vector_of(const std::array<T, 3>& v) { return vector(v[0], v[1], v[2]); }
 SWIVEL_ALWAYS_INLINE Rotor<T> rotor_of(const std::array<T, 4>& q) { return rotor(q[0], q[1], q[2], q[3]); }
@@ -69,7 +50,7 @@ struct Bodies {
     {
     }
 };
-SWIVEL_ALWAYS_INLINE JointRows rows_of(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
+SWIVEL_ALWAYS_INLINE RowView<T> rows_of(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
 {
     return {block.rows + row * kLanes + lane};
 }

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "core/fit.h"
-#include "simd/bodies/sent_rows.h"
+#include "simd/bodies/goal_rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// What a limb that is to fit asks for beside its goal.
+// A limb that is to fit asks for this beside its goal.
 template <class S>
 struct FitWish {
     using T = typename S::T;
@@ -36,23 +36,23 @@ struct StageBody<Stage::span> {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
         const FitWish<S> wish(s);
-        const T scale = s.body_row(limb.parent + kScaleRow);
+        const T scale = s.body.get(limb.parent + kScaleRow);
         const Vector<T> up = up_of(s);
-        const Vector<T> shoulder = s.body_vector(limb.shoulder + kPlaceRow), root = s.body_vector(kRootRow);
+        const Vector<T> shoulder = s.body.vector(limb.shoulder + kPlaceRow), root = s.body.vector(kRootRow);
         const bool is_planted = s.has(SWIVEL_WITH_PLANT);
         const Vector<T> target =
-            is_planted ? s.body_vector(limb.goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET) - root;
+            is_planted ? s.body.vector(limb.goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET) - root;
         Vector<T> from_wrist = vector(T(0), T(0), T(0));
         if (s.has(SWIVEL_WITH_EFFECTOR)) {
             const Rotor<T> hand =
-                is_planted ? s.body_rotor(limb.goal + kGoalHandRow) : normalise(s.io.load_rotor(SWIVEL_HAND));
+                is_planted ? s.body.rotor(limb.goal + kGoalHandRow) : normalise(s.io.load_rotor(SWIVEL_HAND));
             from_wrist = scale * turned(hand, s.io.load_vector(SWIVEL_EFFECTOR));
         }
         const T reach = limb_reach(s).far;
         const auto asks = [&](const Vector<T>& place, const T& share) SWIVEL_INLINE_LAMBDA {
             return counted(shift_span(shoulder + from_wrist - place, up, reach), share);
         };
-        ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
+        ShiftSpan<T> span{s.body.get(kSpanRow), s.body.get(kSpanRow + 1), s.body.get(kSpanRow + 2) > T(0.5)};
         const T weight = s.has(SWIVEL_WITH_WEIGHTS) ? wish.weight * s.io.load(SWIVEL_WEIGHTS, 0) : wish.weight;
         ShiftSpan<T> asked = span & asks(target, weight);
         if (s.has(SWIVEL_WITH_NEXT_TARGET)) {
@@ -61,9 +61,9 @@ struct StageBody<Stage::span> {
         }
         s.require(is_posed(s) & wish.is_valid() & (len2(target) <= T(kHuge2)) & (len2(from_wrist) <= T(kHuge2)));
         const Mask<T> counts = lanes_where<T>(s.good());  // bad input asks for nothing
-        s.set_body(kSpanRow, select(counts, asked.low, span.low));
-        s.set_body(kSpanRow + 1, select(counts, asked.high, span.high));
-        s.set_body(kSpanRow + 2, select(asked.reaches | !counts, s.body_row(kSpanRow + 2), T(0)));
+        s.body.set(kSpanRow, select(counts, asked.low, span.low));
+        s.body.set(kSpanRow + 1, select(counts, asked.high, span.high));
+        s.body.set(kSpanRow + 2, select(asked.reaches | !counts, s.body.get(kSpanRow + 2), T(0)));
     }
 };
 
@@ -75,28 +75,23 @@ struct StageBody<Stage::fit> {
     {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
-        const T wish = s.io.load(SWIVEL_SHIFT_WISH, 0), time = s.body_row(kTimeRow);
-        const Rotor<T> root = s.body_rotor(kRootJoint + kTurnRow);
-        const T length = T(limb.rest_length) * s.body_row(kRootJoint + kScaleRow);
-        s.require(is_within(wish, -kHuge, kHuge) & is_within(time, 0, kHuge) & is_within(len2(root), 0.99, 1.01) &
-                  (len2(s.body_vector(kRootRow)) <= T(kHuge2)) & is_within(length, kTiny, kHuge));
-        const ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
-        const FittedShift<T> fitted = fitted_shift(span, wish, T(limb.drop) * length, T(limb.rise) * length);
-        const EasedHeight<T> eased_shift = eased(s, SWIVEL_SHIFT, fitted.shift, no_lanes<T>(), limb.spring);
-        store_eased(good_rows(s), SWIVEL_SHIFT, eased_shift);
-        Rows<T, kTold> all = s.io, cleared = s.io;
-        all.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        cleared.chosen = s.strip.run.keeps ? 0 : s.chosen() & ~s.good();
-        if (cleared.chosen != 0) cleared.store_vector(SWIVEL_SHIFT, vector(T(0), T(0), T(0)));
+        const T wish = s.io.load(SWIVEL_SHIFT_WISH, 0), time = s.body.get(kTimeRow);
+        const Rotor<T> root = s.body.rotor(kRootJoint + kTurnRow);
+        const T length = T(limb.rest_length) * s.body.get(kRootJoint + kScaleRow);
+        s.require(is_within(wish, -kHuge, kHuge) & is_within(time, 0, kHuge) & is_almost_unit(root) &
+                  (len2(s.body.vector(kRootRow)) <= T(kHuge2)) & is_within(length, kTiny, kHuge));
+        const ShiftSpan<T> span{s.body.get(kSpanRow), s.body.get(kSpanRow + 1), s.body.get(kSpanRow + 2) > T(0.5)};
+        const FittedShift<T> fitted =
+            fitted_shift(span, wish, T(limb.shift.drop) * length, T(limb.shift.rise) * length);
+        const EasedHeight<T> eased_shift = eased(s, SWIVEL_SHIFT, fitted.shift, no_lanes<T>(), limb.shift.spring);
+        s.good_rows().store_vector(SWIVEL_SHIFT, vector(eased_shift.at, eased_shift.rate, T(1)));
+        if (const auto cleared = s.cleared_rows(); cleared.chosen != 0)
+            cleared.store_vector(SWIVEL_SHIFT, vector(T(0), T(0), T(0)));
+        s.store_flags(word_where(fitted.all_reach, SWIVEL_REACHED) | word_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR));
         const Mask<T> valid = lanes_where<T>(s.good());
-        all.store(
-            SWIVEL_FLAGS, 0,
-            select(valid,
-                   word_where(fitted.all_reach, SWIVEL_REACHED) | word_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR),
-                   word<T>(SWIVEL_BAD_INPUT)));
         const Vector<T> shift = select(valid, eased_shift.at, eased_shift.before) * up_of(s);
-        s.set_body_vector(kShiftedRow, shift);
-        s.set_body_vector(kRootRow, s.body_vector(kRootRow) + shift);
+        s.body.set(kShiftedRow, shift);
+        s.body.set(kRootRow, s.body.vector(kRootRow) + shift);
     }
 };
 

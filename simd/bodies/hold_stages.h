@@ -6,7 +6,7 @@
 
 #include "core/plant.h"
 #include "core/prop.h"
-#include "simd/bodies/sent_rows.h"
+#include "simd/bodies/goal_rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -25,13 +25,13 @@ SWIVEL_INLINE HeldFrame<typename S::T> grip_of(const S& s)
 template <class S>
 SWIVEL_INLINE HeldFrame<typename S::T> get_held(const S& s, std::uint32_t row)
 {
-    return {s.body_rotor(row + kHeldTurnRow), s.body_vector(row + kHeldPlaceRow)};
+    return {s.body.rotor(row + kHeldTurnRow), s.body.vector(row + kHeldPlaceRow)};
 }
 template <class S>
 SWIVEL_INLINE void set_held(const S& s, std::uint32_t row, const HeldFrame<typename S::T>& frame)
 {
-    s.set_body_rotor(row + kHeldTurnRow, frame.rotation);
-    s.set_body_vector(row + kHeldPlaceRow, frame.place);
+    s.body.set(row + kHeldTurnRow, frame.rotation);
+    s.body.set(row + kHeldPlaceRow, frame.place);
 }
 static_assert(std::uint32_t{kHolderTurnRow} == kHeldTurnRow && std::uint32_t{kHolderPlaceRow} == kHeldPlaceRow);
 
@@ -42,21 +42,19 @@ struct StageBody<Stage::grasp> {
     {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
-        if (!limb.holds_prop) return;
+        if (!limb.link.is_prop) return;
         const AnimatedHand<T> animated = animated_hand(s);
         const HeldFrame<T> grip = grip_of(s);
         const LimbReach<T> reach = limb_reach(s);
         Vector<T> wrist = grip.place;
         if (s.has(SWIVEL_WITH_EFFECTOR))
             wrist =
-                wrist - s.body_row(limb.parent + kScaleRow) * turned(grip.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
+                wrist - s.body.get(limb.parent + kScaleRow) * turned(grip.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
         const HeldFrame<T> prop = held_by({animated.rotation, animated.point}, grip);
         s.require(is_posed(s) & (len2(prop.place) <= T(kHuge2)) & (len2(wrist) <= T(kHuge2)));
-        const T nan = T(__builtin_nan(""));
-        const Vector<T> place = select(lanes_where<T>(s.good()), prop.place, vector(nan, nan, nan));
-        set_held(s, limb.holder, {prop.rotation, place});
-        s.set_body_vector(limb.holder + kHolderWristRow, wrist);
-        s.set_body_vector(limb.holder + kHolderShoulderRow, s.body_vector(limb.shoulder + kPlaceRow));
+        set_held(s, limb.link.holder, {prop.rotation, or_nan(lanes_where<T>(s.good()), prop.place)});
+        s.body.set(limb.link.holder + kHolderWristRow, wrist);
+        s.body.set(limb.link.holder + kHolderShoulderRow, s.body.vector(limb.shoulder + kPlaceRow));
         // A hand that does not hold, by its weight, asks for nothing.
         T far = reach.exact, near = reach.near;
         if (s.has(SWIVEL_WITH_WEIGHTS)) {
@@ -64,14 +62,14 @@ struct StageBody<Stage::grasp> {
             far = select(asks_nothing, T(kHuge), far);
             near = select(asks_nothing, T(0), near);
         }
-        s.set_body(limb.holder + kHolderReachRow, far);
-        s.set_body(limb.holder + kHolderNearRow, near);
+        s.body.set(limb.link.holder + kHolderReachRow, far);
+        s.body.set(limb.link.holder + kHolderNearRow, near);
         // A hand that is written goes on as it is, of any length, as it would if the limb held nothing.
         const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
         const T length2 = len2(hand);
-        send(s, animated.point, select(length2 == length2, hand, animated.rotation));
+        set_goal(s, animated.point, select(length2 == length2, hand, animated.rotation));
         const T lengths = s.io.load(SWIVEL_LENGTHS, 0) + s.io.load(SWIVEL_LENGTHS, 1);  // NaN: the pose's
-        s.set_body(limb.goal + kGoalOwnRow, select(animated.is_posed & !(lengths == lengths), T(1), T(0)));
+        s.body.set(limb.goal + kGoalOwnRow, select(animated.is_posed & !(lengths == lengths), T(1), T(0)));
     }
 };
 
@@ -80,7 +78,7 @@ template <class S>
 struct PropAtHand {
     using T = typename S::T;
     const S& s;
-    const BodyLimb& prop = *s.strip.run.limb;
+    const BodyLimb& limb = *s.strip.run.limb;
     HeldFrame<T> frame;
     Mask<T> is_of_hands;  // the caller says nothing of it
     T share;
@@ -94,47 +92,48 @@ struct PropAtHand {
         frame = between(hands, told, select(is_of_hands, T(0), weight));
     }
     SWIVEL_INLINE explicit PropAtHand(const S& slice)
-        : s(slice), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_HAND_BLEND, 0))
+        : s(slice), is_of_hands(T(limb.prop.joint) == T(0)), share(s.io.load(SWIVEL_HAND_BLEND, 0))
     {
         s.require(is_share(share));
-        if (prop.holder_count == 1) share = T(0);
-        const HeldFrame<T> hands = between(get_held(s, holder(0)), get_held(s, holder(prop.holder_count - 1)), share);
+        if (limb.prop.holder_count == 1) share = T(0);
+        const HeldFrame<T> hands =
+            between(get_held(s, holder(0)), get_held(s, holder(limb.prop.holder_count - 1)), share);
         const Rotor<T> turn = s.io.load_rotor(SWIVEL_PROP_ROTATION);
         const Vector<T> at = s.io.load_vector(SWIVEL_PROP_POSITION);
         const T turn2 = len2(turn), at2 = len2(at);
         const Mask<T> has_turn = turn2 == turn2, has_place = at2 == at2;
         s.require((is_orientation(turn) | !has_turn) & ((at2 <= T(kHuge2)) | !has_place));
         const Rotor<T> unit = normalise(select(has_turn, turn, one<T>()));
-        if (prop.joint != 0) {
-            const Rotor<T> rotation = s.body_rotor(prop.joint + kTurnRow);
+        if (limb.prop.joint != 0) {
+            const Rotor<T> rotation = s.body.rotor(limb.prop.joint + kTurnRow);
             const Vector<T> given = select(has_place, at, vector(T(0), T(0), T(0)));
-            weigh(hands,
-                  {unit_rotation(rotation * unit), s.body_vector(prop.joint + kPlaceRow) + turned(rotation, given)});
+            weigh(hands, {unit_rotation(rotation * unit),
+                          s.body.vector(limb.prop.joint + kPlaceRow) + turned(rotation, given)});
             return;
         }
         is_of_hands = !(has_turn | has_place);
         weigh(hands,
-              {select(has_turn, unit, hands.rotation), select(has_place, at - s.body_vector(kRootRow), hands.place)});
+              {select(has_turn, unit, hands.rotation), select(has_place, at - s.body.vector(kRootRow), hands.place)});
     }
-    SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return prop.frame + kHoldersRow + n * kHolderRows; }
+    SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return limb.frame + kHoldersRow + n * kHolderRows; }
     // The moves by which a holder's arm reaches; all of them where that is bad input.
     SWIVEL_INLINE ReachingMoves<T> reaching(std::uint32_t n) const
     {
         const std::uint32_t at = holder(n);
-        const Vector<T> wrist = frame.place + turned(frame.rotation, s.body_vector(at + kHolderWristRow)),
-                        middle = s.body_vector(at + kHolderShoulderRow) - wrist,
-                        place = s.body_vector(at + kHolderPlaceRow);
+        const Vector<T> wrist = frame.place + turned(frame.rotation, s.body.vector(at + kHolderWristRow)),
+                        middle = s.body.vector(at + kHolderShoulderRow) - wrist,
+                        place = s.body.vector(at + kHolderPlaceRow);
         const Mask<T> is_good = len2(place) <= T(kHuge2);
         return {select(is_good, middle, vector(T(0), T(0), T(0))),
-                select(is_good, s.body_row(at + kHolderReachRow), T(kHuge))};
+                select(is_good, s.body.get(at + kHolderReachRow), T(kHuge))};
     }
     // Whether a holder's grip is nearer to its shoulder than its arm gets.
     SWIVEL_INLINE Mask<T> is_too_near(std::uint32_t n) const
     {
         const std::uint32_t at = holder(n);
         const T length2 = len2(reaching(n).middle),
-                near = s.body_row(at + kHolderNearRow) - T(kReachSlack) * sqrt(length2);
-        return (len2(s.body_vector(at + kHolderPlaceRow)) <= T(kHuge2)) & (near > T(0)) & (length2 < near * near);
+                near = s.body.get(at + kHolderNearRow) - T(kReachSlack) * sqrt(length2);
+        return (len2(s.body.vector(at + kHolderPlaceRow)) <= T(kHuge2)) & (near > T(0)) & (length2 < near * near);
     }
 };
 
@@ -144,15 +143,15 @@ struct StageBody<Stage::prop> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& prop = *s.strip.run.limb;
+        const BodyLimb& limb = *s.strip.run.limb;
         PropAtHand<S> held(s);
-        const ReachingMoves<T> a = held.reaching(0), b = held.reaching(prop.holder_count - 1);
+        const ReachingMoves<T> a = held.reaching(0), b = held.reaching(limb.prop.holder_count - 1);
         // So much less that what rounds still reaches, of a far move and of the shorter arm, too.
         const T size = lo(a.reach, b.reach) + sqrt(len2(a.middle)) + sqrt(len2(b.middle));
         const auto within = [&](const ReachingMoves<T>& moves) SWIVEL_INLINE_LAMBDA {
             return ReachingMoves<T>{moves.middle, hi(moves.reach - T(2 * kReachSlack) * size, T(0))};
         };
-        const T max = T(prop.max_move) * T(prop.rest_length) * s.body_row(kRootJoint + kScaleRow);
+        const T max = T(limb.prop.max_move) * T(limb.rest_length) * s.body.get(kRootJoint + kScaleRow);
         Mask<T> is_longer = no_lanes<T>();
         const Vector<T> none = vector(T(0), T(0), T(0));
         const Mask<T> rests = a.has(none) & b.has(none);
@@ -160,28 +159,21 @@ struct StageBody<Stage::prop> {
             all(rests) ? none : select(rests, none, at_most(min_move(within(a), within(b)), max, !rests, is_longer));
         held.frame.place = held.frame.place + move;
         const Mask<T> is_far = !(rests | (a.has(move) & b.has(move))),
-                      is_near = (!is_far) & (held.is_too_near(0) | held.is_too_near(prop.holder_count - 1)),
+                      is_near = (!is_far) & (held.is_too_near(0) | held.is_too_near(limb.prop.holder_count - 1)),
                       stays = !(len2(move) > T(0));
-        s.require((len2(held.frame.place) <= T(kHuge2)) & is_within(len2(held.frame.rotation), 0.99, 1.01) &
-                  (len2(s.body_vector(kRootRow)) <= T(kHuge2)));
-        const T nan = T(__builtin_nan(""));
-        const Mask<T> valid = lanes_where<T>(s.good());
-        set_held(s, prop.frame, {held.frame.rotation, select(valid, held.frame.place, vector(nan, nan, nan))});
-        s.set_body(prop.frame + kHeldScaleRow, T(1));
+        s.require((len2(held.frame.place) <= T(kHuge2)) & is_almost_unit(held.frame.rotation) &
+                  (len2(s.body.vector(kRootRow)) <= T(kHuge2)));
+        set_held(s, limb.frame, {held.frame.rotation, or_nan(lanes_where<T>(s.good()), held.frame.place)});
+        s.body.set(limb.frame + kHeldScaleRow, T(1));
         const Mask<T> says = held.is_of_hands & stays;
-        s.set_body(prop.frame + kSayerRow,
+        s.body.set(limb.frame + kLeadHandRow,
                    select(says & (held.share == T(0)), T(0), select(says & (held.share == T(1)), T(1), T(-1))));
 
-        const Rows<T, kTold> out = good_rows(s);
-        out.store_vector(SWIVEL_PROP_TRANSFORM, held.frame.place + s.body_vector(kRootRow));
+        const Rows<T, kRuntimeFeatures> out = s.good_rows();
+        out.store_vector(SWIVEL_PROP_TRANSFORM, held.frame.place + s.body.vector(kRootRow));
         out.store_rotor(SWIVEL_PROP_TRANSFORM, hemisphere(held.frame.rotation), 3);
-        Rows<T, kTold> all_rows = s.io;
-        all_rows.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        all_rows.store(SWIVEL_FLAGS, 0,
-                       select(valid,
-                              word_where(!(is_far | is_near), SWIVEL_REACHED) | word_where(is_far, SWIVEL_CLAMPED_FAR) |
-                                  word_where(is_near, SWIVEL_CLAMPED_NEAR),
-                              word<T>(SWIVEL_BAD_INPUT)));
+        s.store_flags(word_where(!(is_far | is_near), SWIVEL_REACHED) | word_where(is_far, SWIVEL_CLAMPED_FAR) |
+                      word_where(is_near, SWIVEL_CLAMPED_NEAR));
     }
 };
 
@@ -192,22 +184,17 @@ struct StageBody<Stage::link> {
     {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
-        HeldFrame<T> goal = gripped(get_held(s, limb.link), grip_of(s), s.body_row(limb.link + kHeldScaleRow));
+        HeldFrame<T> goal = gripped(get_held(s, limb.link.row), grip_of(s), s.body.get(limb.link.row + kHeldScaleRow));
         T own = T(0);
-        if (limb.holds_prop) {
-            const Mask<T> says = s.body_row(limb.link + kSayerRow) == T(limb.holder_number);
-            goal = {select(says, s.body_rotor(limb.goal + kGoalHandRow), goal.rotation),
-                    select(says, s.body_vector(limb.goal + kGoalPlaceRow), goal.place)};
-            own = select(says, s.body_row(limb.goal + kGoalOwnRow), T(0));
+        if (limb.link.is_prop) {
+            const Mask<T> says = s.body.get(limb.link.row + kLeadHandRow) == T(limb.link.number);
+            goal = {select(says, s.body.rotor(limb.goal + kGoalHandRow), goal.rotation),
+                    select(says, s.body.vector(limb.goal + kGoalPlaceRow), goal.place)};
+            own = select(says, s.body.get(limb.goal + kGoalOwnRow), T(0));
         }
-        s.set_body(limb.goal + kGoalOwnRow, own);
-        s.set_body(limb.goal + kGoalFlagsRow, word<T>(0));
-        send(s, goal.place, goal.rotation);
-        if (s.has(SWIVEL_WITH_RECORD)) {
-            const Rows<T, kTold> out = waiting_rows(s);
-            out.store_vector(SWIVEL_SOLVED_GOAL, goal.place + s.body_vector(kRootRow));
-            out.store_rotor(SWIVEL_SOLVED_GOAL, goal.rotation, 3);
-        }
+        s.body.set(limb.goal + kGoalOwnRow, own);
+        s.body.set(limb.goal + kGoalFlagsRow, word<T>(0));
+        set_goal(s, goal.place, goal.rotation);
     }
 };
 
@@ -220,29 +207,27 @@ struct StageBody<Stage::hand_transform> {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
         const ArmFrame<T> arm = arm_frame(s);
-        const T scale = s.body_row(limb.parent + kScaleRow),
+        const T scale = s.body.get(limb.parent + kScaleRow),
                 stretch = s.has(SWIVEL_WITH_REACH) ? s.io.load_result(SWIVEL_STRETCH, 0) : T(1);
         const Rotor<T> upper = arm.rotation * s.io.load_result_rotor(SWIVEL_SHOULDER, 0),
                        fore = upper * hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
         const auto bone = [&](const Rotor<T>& frame, std::uint32_t n) SWIVEL_INLINE_LAMBDA {
-            return turned(frame, vector(T(0), T(0), s.body_row(kLengthsRow + n)));
+            return turned(frame, vector(T(0), T(0), s.body.get(kLengthsRow + n)));
         };
         const HeldFrame<T> solved{
-            unit_rotation(fore * s.get_rotor(kTwistRow) * broadcast<T>(s.strip.bind.hand_from_arm)),
+            unit_rotation(fore * s.rows.rotor(kTwistRow) * broadcast<T>(s.strip.bind.hand_from_arm)),
             arm.shoulder + (scale * stretch) * (bone(upper, 0) + bone(fore, 1))};
-        const Mask<T> kept = s.body_row(kKeptRow) > T(0.5), valid = lanes_where<T>(s.good()) | kept;
+        const Mask<T> kept = s.body.get(kKeptRow) > T(0.5), valid = lanes_where<T>(s.good()) | kept;
         const T nan = T(__builtin_nan(""));
-        const Vector<T> place = select(kept, s.body_vector(limb.wrist + kPlaceRow), solved.place);
-        const Rotor<T> turn = select(kept, s.body_rotor(limb.wrist + kTurnRow), solved.rotation);
-        const Mask<T> is_known = valid & (len2(place) <= T(kHuge2)) & is_within(len2(turn), 0.99, 1.01) &
-                                 (len2(s.body_vector(kRootRow)) <= T(kHuge2));
-        const HeldFrame<T> hand{select(is_known, turn, rotor(nan, nan, nan, nan)),
-                                select(is_known, place, vector(nan, nan, nan))};
+        const Vector<T> place = select(kept, s.body.vector(limb.wrist + kPlaceRow), solved.place);
+        const Rotor<T> turn = select(kept, s.body.rotor(limb.wrist + kTurnRow), solved.rotation);
+        const Mask<T> is_known =
+            valid & (len2(place) <= T(kHuge2)) & is_almost_unit(turn) & (len2(s.body.vector(kRootRow)) <= T(kHuge2));
+        const HeldFrame<T> hand{select(is_known, turn, rotor(nan, nan, nan, nan)), or_nan(is_known, place)};
         set_held(s, limb.frame, hand);
-        s.set_body(limb.frame + kHeldScaleRow, scale);
-        Rows<T, kTold> out = s.io;
-        out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        out.store_vector(SWIVEL_HAND_TRANSFORM, with_one_nan(hand.place + s.body_vector(kRootRow)));
+        s.body.set(limb.frame + kHeldScaleRow, scale);
+        const Rows<T, kRuntimeFeatures> out = s.chosen_rows();
+        out.store_vector(SWIVEL_HAND_TRANSFORM, with_one_nan(hand.place + s.body.vector(kRootRow)));
         out.store_rotor(SWIVEL_HAND_TRANSFORM, with_one_nan(hemisphere(hand.rotation)), 3);
     }
 };

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "core/look.h"
+#include "simd/bodies/goal_rows.h"
 #include "simd/bodies/joint_stages.h"
-#include "simd/bodies/sent_rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// What a body is to look at, and where its line of sight comes.
+// The target of a body's look, and its line of sight as it comes.
 template <class S>
 struct LookGoal {
     using T = typename S::T;
@@ -23,18 +23,18 @@ struct LookGoal {
     {
         const BodyLimb& look = *s.strip.run.limb;
         const std::uint32_t last = look.turned[look.turned_count - 1].row;
-        const Rotor<T> turn = s.body_rotor(last + kTurnRow);
-        const T scale = s.body_row(last + kScaleRow), own_weight = s.io.load(SWIVEL_LOOK_WEIGHT, 0);
-        const Vector<T> given = s.io.load_vector(SWIVEL_LOOK_TARGET), root_place = s.body_vector(kRootRow);
+        const Rotor<T> turn = s.body.rotor(last + kTurnRow);
+        const T scale = s.body.get(last + kScaleRow), own_weight = s.io.load(SWIVEL_LOOK_WEIGHT, 0);
+        const Vector<T> given = s.io.load_vector(SWIVEL_LOOK_TARGET), root_place = s.body.vector(kRootRow);
         const T given2 = len2(given);
         is_given = given2 == given2;
         s.require(is_share(own_weight) & is_share(body_weight) & ((given2 <= T(kHuge2)) | !is_given) &
                   (len2(root_place) <= T(kHuge2)) & is_within(scale, kTiny, kHuge));
         for (std::uint32_t n = 0; n < look.turned_count; ++n)
-            s.require(is_within(len2(s.body_rotor(look.turned[n].row + kTurnRow)), 0.99, 1.01) &
-                      (len2(s.body_vector(look.turned[n].row + kPlaceRow)) <= T(kHuge2)));
+            s.require(is_almost_unit(s.body.rotor(look.turned[n].row + kTurnRow)) &
+                      (len2(s.body.vector(look.turned[n].row + kPlaceRow)) <= T(kHuge2)));
         const auto constant = [](const float(&v)[3]) SWIVEL_INLINE_LAMBDA { return vector(T(v[0]), T(v[1]), T(v[2])); };
-        sight = {s.body_vector(last + kPlaceRow) + turned(turn, scale * constant(rules.eye)),
+        sight = {s.body.vector(last + kPlaceRow) + turned(turn, scale * constant(rules.eye)),
                  turned(turn, constant(rules.axis))};
         s.require(len2(sight.eye) <= T(kHuge2));
         target = select(is_given, given - root_place, sight.eye + sight.axis);
@@ -66,13 +66,13 @@ struct StageBody<Stage::look> {
         for (std::uint32_t n = 0; n < look.following_count; ++n) {
             const FollowingJoint& joint = look.following[n];
             const LookedJoint<T>& with = chain.joint[joint.number];
-            const Rotor<T> rotation = s.body_rotor(joint.row + kTurnRow);
-            const Vector<T> came = s.body_vector(joint.row + kPlaceRow);
+            const Rotor<T> rotation = s.body.rotor(joint.row + kTurnRow);
+            const Vector<T> came = s.body.vector(joint.row + kPlaceRow);
             set_frame(s, joint.row, kept, with.sum * rotation, with.place + turned(with.sum, came - with.came));
         }
         for (std::uint32_t n = 0; n < look.turned_count; ++n)
             set_frame(s, look.turned[n].row, kept, chain.joint[n].rotation, chain.joint[n].place);
-        store(s, goal, chain, valid);
+        store(s, goal, chain);
     }
 
 private:
@@ -106,7 +106,7 @@ private:
         chain.held = no_lanes<T>();
         for (std::uint32_t n = 0; n < look.turned_count; ++n) {
             LookedJoint<T>& joint = chain.joint[n];
-            joint.came = joint.place = s.body_vector(look.turned[n].row + kPlaceRow);
+            joint.came = joint.place = s.body.vector(look.turned[n].row + kPlaceRow);
             if (n > 0) joint.place = chain.joint[n - 1].place + turned(sum, joint.came - chain.joint[n - 1].came);
             const LookTurn<T> turn = turn_of(n, joint.place, sum);
             joint.turn = turn.turn;
@@ -115,7 +115,7 @@ private:
             chain.held = chain.held | turn.held;
             sum = unit_rotation(turn.turn * sum);
             joint.sum = sum;
-            joint.rotation = sum * s.body_rotor(look.turned[n].row + kTurnRow);
+            joint.rotation = sum * s.body.rotor(look.turned[n].row + kTurnRow);
         }
     }
     // Holds the turns back where they would change by more than the rate lets them. All go the same part of their ways,
@@ -129,7 +129,7 @@ private:
         for (std::uint32_t n = 0; n < count; ++n) chain.carried[n] = vector(T(0), T(0), T(0));
         const bool has_rate = goal.rules.rate > 0;
         if (!has_rate && all(goal.body_weight == T(1))) return;
-        const Rotor<T> came = s.body_rotor(s.strip.run.limb->turned[count - 1].row + kTurnRow);
+        const Rotor<T> came = s.body.rotor(s.strip.run.limb->turned[count - 1].row + kTurnRow);
         Rotor<T> goals[kMaxLookJoints];
         for (std::uint32_t n = 0; n < count; ++n)
             goals[n] = seen_by(~(n == 0 ? came : chain.joint[n - 1].sum * came), chain.joint[n].turn);
@@ -159,7 +159,7 @@ private:
     {
         using T = typename S::T;
         const std::uint32_t count = s.strip.run.limb->turned_count;
-        const T time = s.body_row(kTimeRow), half = T(0.5f * goal.rules.rate) * time;
+        const T time = s.body.get(kTimeRow), half = T(0.5f * goal.rules.rate) * time;
         s.require(is_within(time, 0, kHuge));
         Vector<T> carried[kMaxLookJoints];
         Mask<T> has_begun = s.io.load_result(SWIVEL_LOOK_TURNS, 0) > T(0.5);
@@ -192,8 +192,8 @@ private:
             const TurnedJoint& joint = look.turned[n];
             const bool hangs_on_last = n > 0 && joint.parent == look.turned[n - 1].row;
             const Rotor<T> parent = hangs_on_last ? chain.joint[n - 1].rotation
-                                    : n > 0       ? chain.joint[n - 1].sum * s.body_rotor(joint.parent + kTurnRow)
-                                                  : s.body_rotor(joint.parent + kTurnRow);
+                                    : n > 0       ? chain.joint[n - 1].sum * s.body.rotor(joint.parent + kTurnRow)
+                                                  : s.body.rotor(joint.parent + kTurnRow);
             const Rotor<T> local = unit_rotation(~parent * chain.joint[n].rotation);
             set_local(s, joint.row, local, local, valid, kept);
         }
@@ -205,11 +205,11 @@ private:
     {
         using T = typename S::T;
         const BodyLimb& look = *s.strip.run.limb;
-        const Rotor<T> root = s.body_rotor(kRootJoint + kTurnRow);
-        const T shrink = T(1) / s.body_row(kRootJoint + kScaleRow);
+        const Rotor<T> root = s.body.rotor(kRootJoint + kTurnRow);
+        const T shrink = T(1) / s.body.get(kRootJoint + kScaleRow);
         const bool has_above = look.above != 0;
-        const Rotor<T> above = has_above ? s.body_rotor(look.above + kMotionRow) : one<T>();
-        const Vector<T> above_shift = has_above ? s.body_vector(look.above + kShiftRow) : vector(T(0), T(0), T(0));
+        const Rotor<T> above = has_above ? s.body.rotor(look.above + kMotionRow) : one<T>();
+        const Vector<T> above_shift = has_above ? s.body.vector(look.above + kShiftRow) : vector(T(0), T(0), T(0));
         for (std::uint32_t n = 0; n < look.turned_count; ++n) {
             const LookedJoint<T>& joint = chain.joint[n];
             const Rotor<T> turn = hemisphere(unit_rotation(~root * joint.sum * root));
@@ -217,41 +217,36 @@ private:
                                      SWIVEL_INLINE_LAMBDA { return turned(~root, shrink * place); };
             const Vector<T> shift = in_body(joint.place) - turned(turn, in_body(joint.came));
             const std::uint32_t row = look.turned[n].row;
-            s.set_body_rotor(row + kMotionRow, select(kept, above, has_above ? turn * above : turn));
-            s.set_body_vector(row + kShiftRow,
-                              select(kept, above_shift, has_above ? turned(turn, above_shift) + shift : shift));
+            s.body.set(row + kMotionRow, select(kept, above, has_above ? turn * above : turn));
+            s.body.set(row + kShiftRow,
+                       select(kept, above_shift, has_above ? turned(turn, above_shift) + shift : shift));
         }
     }
     template <class S>
     SWIVEL_INLINE static void set_frame(const S& s, std::uint32_t row, const Mask<typename S::T>& kept,
                                         const Rotor<typename S::T>& rotation, const Vector<typename S::T>& place)
     {
-        s.set_body_rotor(row + kTurnRow, select(kept, s.body_rotor(row + kTurnRow), rotation));
-        s.set_body_vector(row + kPlaceRow, select(kept, s.body_vector(row + kPlaceRow), place));
+        s.body.set(row + kTurnRow, select(kept, s.body.rotor(row + kTurnRow), rotation));
+        s.body.set(row + kPlaceRow, select(kept, s.body.vector(row + kPlaceRow), place));
     }
     template <class S>
-    SWIVEL_INLINE static void store(const S& s, const LookGoal<S>& goal, const Chain<typename S::T>& chain,
-                                    const Mask<typename S::T>& valid)
+    SWIVEL_INLINE static void store(const S& s, const LookGoal<S>& goal, const Chain<typename S::T>& chain)
     {
         using T = typename S::T;
-        const Rows<T, kTold> out = good_rows(s);
-        out.store_vector(SWIVEL_SIGHT, chain.sight.eye + s.body_vector(kRootRow));
+        const Rows<T, kRuntimeFeatures> out = s.good_rows(), cleared = s.cleared_rows();
+        out.store_vector(SWIVEL_SIGHT, chain.sight.eye + s.body.vector(kRootRow));
         out.store_vector(SWIVEL_SIGHT, chain.sight.axis, 3);
         const std::uint32_t count = s.strip.run.limb->turned_count;
         out.store(SWIVEL_LOOK_TURNS, 0, T(1));
         for (std::uint32_t n = 0; n < count; ++n)
             out.store_vector(SWIVEL_LOOK_TURNS, chain.carried[n], 1 + 3 * static_cast<int>(n));
-        Rows<T, kTold> all = s.io, cleared = s.io;
-        all.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        cleared.chosen = s.strip.run.keeps ? 0 : s.chosen() & ~s.good();
         if (cleared.chosen != 0)
             for (std::uint32_t n = 0; n <= 3 * count; ++n) cleared.store(SWIVEL_LOOK_TURNS, static_cast<int>(n), T(0));
         const Mask<T> meets =
-            goal.is_given & sees(chain.sight, s.io.load_vector(SWIVEL_LOOK_TARGET) - s.body_vector(kRootRow));
-        const Word<T> flags =
-            word_where(meets, SWIVEL_REACHED) | word_where(chain.held & (goal.weight > T(0)), SWIVEL_LIMITED_LOOK) |
-            word_where(chain.is_behind, SWIVEL_LIMITED_STEP) | word_where(goal.is_faded, SWIVEL_FADED);
-        all.store(SWIVEL_FLAGS, 0, select(valid, flags, word<T>(SWIVEL_BAD_INPUT)));
+            goal.is_given & sees(chain.sight, s.io.load_vector(SWIVEL_LOOK_TARGET) - s.body.vector(kRootRow));
+        s.store_flags(word_where(meets, SWIVEL_REACHED) |
+                      word_where(chain.held & (goal.weight > T(0)), SWIVEL_LIMITED_LOOK) |
+                      word_where(chain.is_behind, SWIVEL_LIMITED_STEP) | word_where(goal.is_faded, SWIVEL_FADED));
     }
 };
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/plant_rotation.h"
-#include "simd/bodies/sent_rows.h"
+#include "simd/bodies/goal_rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -34,16 +34,17 @@ SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
     state.left = s.io.load_result(SWIVEL_PLANT, kLeft);
     return state;
 }
-template <class T>
-SWIVEL_INLINE void store_plant(const Rows<T, kTold>& out, const PlantState<T>& state)
+template <class S>
+SWIVEL_INLINE void hold_back_plant(const S& s, const PlantState<typename S::T>& state)
 {
+    using T = typename S::T;
     const auto bit = [](const Mask<T>& is_set, float value)
                          SWIVEL_INLINE_LAMBDA { return select(is_set, T(value), T(0)); };
-    out.store_vector(SWIVEL_PLANT, state.mark, kMark);
-    out.store_vector(SWIVEL_PLANT, state.offset, kOffset);
-    out.store_vector(SWIVEL_PLANT, state.velocity, kVelocity);
-    out.store(SWIVEL_PLANT, kLeft, state.left);
-    out.store(SWIVEL_PLANT, kState,
+    hold_back(s, SWIVEL_PLANT, kMark, state.mark);
+    hold_back(s, SWIVEL_PLANT, kOffset, state.offset);
+    hold_back(s, SWIVEL_PLANT, kVelocity, state.velocity);
+    hold_back(s, SWIVEL_PLANT, kLeft, state.left);
+    hold_back(s, SWIVEL_PLANT, kState,
               T(kBegun) + bit(state.waiting, kIsWaiting) + bit(state.armed, kIsArmed) + bit(state.locked, kIsLocked));
 }
 
@@ -62,9 +63,8 @@ SWIVEL_INLINE Mask<typename S::T> in_contact(const S& s, const Mask<typename S::
     MotionState<T> motion{s.io.load_result_vector(SWIVEL_CONTACT_STATE, 0),
                           s.io.load_result(SWIVEL_CONTACT_STATE, 3) > T(0.5)};
     const Mask<T> is_in_contact = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.rules);
-    const Rows<T, kTold> out = waiting_rows(s);
-    out.store_vector(SWIVEL_CONTACT_STATE, motion.place);
-    out.store(SWIVEL_CONTACT_STATE, 3, select(motion.contact, T(1), T(0)));
+    hold_back(s, SWIVEL_CONTACT_STATE, 0, motion.place);
+    hold_back(s, SWIVEL_CONTACT_STATE, 3, select(motion.contact, T(1), T(0)));
     return is_in_contact;
 }
 
@@ -80,10 +80,9 @@ SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<type
                       s.io.load_result_vector(SWIVEL_PLANT_ROTATION, kTurnVelocity)};
     const Rotor<T> planted =
         plant_rotation(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
-    const Rows<T, kTold> out = waiting_rows(s);
-    out.store_rotor(SWIVEL_PLANT_ROTATION, turn.mark, kTurnMark);
-    out.store_vector(SWIVEL_PLANT_ROTATION, turn.offset, kTurnOffset);
-    out.store_vector(SWIVEL_PLANT_ROTATION, turn.velocity, kTurnVelocity);
+    hold_back(s, SWIVEL_PLANT_ROTATION, kTurnMark, turn.mark);
+    hold_back(s, SWIVEL_PLANT_ROTATION, kTurnOffset, turn.offset);
+    hold_back(s, SWIVEL_PLANT_ROTATION, kTurnVelocity, turn.velocity);
     return support * planted;
 }
 
@@ -102,10 +101,10 @@ struct PlantedPoint {
     // sees_ground: else it is lifted as in the last step.
     SWIVEL_INLINE PlantedPoint(const S& slice, bool sees_ground) : s(slice)
     {
-        s.require(is_posed(s) & is_within(len2(support.rotation), 0.99, 1.01));
+        s.require(is_posed(s) & is_almost_unit(support.rotation));
         PlantInput<T> in;
-        in.time = s.body_row(kTimeRow);
-        in.length = T(limb.rest_length) * s.body_row(kRootJoint + kScaleRow);
+        in.time = s.body.get(kTimeRow);
+        in.length = T(limb.rest_length) * s.body.get(kRootJoint + kScaleRow);
         forget_old(state, in.time, limb.rules);
         Vector<T> point = animated.point;
         if (s.has(SWIVEL_WITH_GROUND)) point = point + (sees_ground ? lifted_by_ground() : lifted_so_far());
@@ -119,7 +118,7 @@ struct PlantedPoint {
     {
         if (!any(planted.step.locks)) return;
         const Vector<T> up = up_of(s);
-        const T clearance = T(limb.ground.toe_clearance) * s.body_row(limb.parent + kScaleRow);
+        const T clearance = T(limb.ground.toe_clearance) * s.body.get(limb.parent + kScaleRow);
         lock_on_ground(state, planted.step.locks, support.turned_back(up),
                        ground_of(s, up).way_up(support.to_root(state.mark), clearance));
     }
@@ -154,9 +153,9 @@ struct StageBody<Stage::probe> {
     {
         using T = typename S::T;
         const PlantedPoint<S> point(s, false);
-        const Vector<T> place = point.place() + s.body_vector(kRootRow);
+        const Vector<T> place = point.place() + s.body.vector(kRootRow);
         s.require(len2(place) <= T(kHuge2));
-        good_rows(s).store_vector(SWIVEL_PROBE, place);
+        s.good_rows().store_vector(SWIVEL_PROBE, place);
     }
 };
 
@@ -174,25 +173,21 @@ struct StageBody<Stage::plant> {
             s.has(SWIVEL_WITH_PLANT_ROTATION)
                 ? planted_turn(s, planted.step, point.state.locked, point.support.rotation, point.animated.rotation)
                 : point.animated.rotation;
-        const Rows<T, kTold> out = waiting_rows(s);
-        const Vector<T> in_world = place + s.body_vector(kRootRow);
         if (s.has(SWIVEL_WITH_GROUND)) {
             point.lock_to_ground();
-            out.store_vector(SWIVEL_PROBE, in_world);
-            store_eased(out, SWIVEL_LIFT, point.lift);
+            hold_back(s, SWIVEL_PROBE, 0, place + s.body.vector(kRootRow));
+            hold_back(s, SWIVEL_LIFT, 0, point.lift.at);
+            hold_back(s, SWIVEL_LIFT, 1, point.lift.rate);
+            hold_back(s, SWIVEL_LIFT, 2, T(1));
             const Spring<Vector<T>> normal = point.normal();
-            out.store_vector(SWIVEL_LIFT, normal.at, kSlope);
-            out.store_vector(SWIVEL_LIFT, normal.rate, kSlopeRate);
+            hold_back(s, SWIVEL_LIFT, kSlope, normal.at);
+            hold_back(s, SWIVEL_LIFT, kSlopeRate, normal.rate);
         }
-        store_plant(out, point.state);
-        send(s, place, hand);
-        s.set_body(point.limb.goal + kGoalFlagsRow,
+        hold_back_plant(s, point.state);
+        set_goal(s, place, hand);
+        s.body.set(point.limb.goal + kGoalFlagsRow,
                    word_where(point.state.locked, SWIVEL_PLANTED) | word_where(planted.step.releases, SWIVEL_RELEASED) |
                        word_where(planted.too_far, SWIVEL_BROKE_AWAY) | word_where(planted.cut, SWIVEL_CUT));
-        if (s.has(SWIVEL_WITH_RECORD)) {
-            out.store_vector(SWIVEL_SOLVED_GOAL, in_world);
-            out.store_rotor(SWIVEL_SOLVED_GOAL, hand, 3);
-        }
     }
 };
 
@@ -205,40 +200,35 @@ struct StageBody<Stage::ground> {
         const BodyLimb& limb = *s.strip.run.limb;
         const GroundRules& rules = limb.ground;
         const Vector<T> up = up_of(s);
-        const T scale = s.body_row(limb.parent + kScaleRow), share = s.io.load(SWIVEL_GROUND_WEIGHT, 0);
+        const T scale = s.body.get(limb.parent + kScaleRow), share = s.io.load(SWIVEL_GROUND_WEIGHT, 0);
         const Vector<T> heel = vector(T(rules.heel[0]), T(rules.heel[1]), T(rules.heel[2]));
         const Vector<T> heel_from_toe = scale * (heel - s.io.load_vector(SWIVEL_EFFECTOR));
         s.require(is_share(share) & (len2(heel_from_toe) <= T(kHuge2)));
-        const Foot<T> sent{s.body_vector(limb.goal + kGoalPlaceRow), s.body_rotor(limb.goal + kGoalHandRow)};
-        const Vector<T> normal = waiting_rows(s).load_result_vector(SWIVEL_LIFT, kSlope);
+        const Foot<T> planted{s.body.vector(limb.goal + kGoalPlaceRow), s.body.rotor(limb.goal + kGoalHandRow)};
+        const Vector<T> normal = s.body.vector(limb.goal + waiting_row(SWIVEL_LIFT) + kSlope);
         const GroundPlane<T> ground = ground_of(s, up);
         const Foot<T> foot =
-            foot_on_ground(ground, leaning(ground, normal, up), up, sent, heel_from_toe, scale, share, rules);
-        send(s, foot.toe, foot.rotation);
-        if (s.has(SWIVEL_WITH_RECORD)) {
-            const Rows<T, kTold> out = waiting_rows(s);
-            out.store_vector(SWIVEL_SOLVED_GOAL, foot.toe + s.body_vector(kRootRow));
-            out.store_rotor(SWIVEL_SOLVED_GOAL, foot.rotation, 3);
-        }
+            foot_on_ground(ground, leaning(ground, normal, up), up, planted, heel_from_toe, scale, share, rules);
+        set_goal(s, foot.toe, foot.rotation);
     }
 };
 
 // Stores what waited. Bad input keeps what is carried, or clears it where limbs go to rest.
 template <>
-struct StageBody<Stage::stand> {
+struct StageBody<Stage::commit> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const Rows<T, kTold> from = waiting_rows(s), out = good_rows(s);
-        Rows<T, kTold> cleared = s.io;
-        cleared.chosen = s.strip.run.keeps ? 0 : s.chosen() & ~s.good();
-        for (const swivel_field field : kSentResults) {
+        const Rows<T, kRuntimeFeatures> out = s.good_rows(), cleared = s.cleared_rows();
+        for (const swivel_field field : kWaitingResults) {
             const FieldRow& row = row_of(field);
             if ((s.strip.run.features & row.needs) != row.needs) continue;
-            for (int c = 0; c < static_cast<int>(row.component_count); ++c) {
-                out.store(field, c, from.load_result(field, c));
-                if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED) cleared.store(field, c, T(0));
+            const std::uint32_t waiting = s.strip.run.limb->goal + waiting_row(field);
+            for (std::uint32_t c = 0; c < row.component_count; ++c) {
+                out.store(field, static_cast<int>(c), s.body.get(waiting + c));
+                if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED)
+                    cleared.store(field, static_cast<int>(c), T(0));
             }
         }
     }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/yielding_hand.h"
-#include "simd/bodies/sent_rows.h"
+#include "simd/bodies/goal_rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -14,14 +14,14 @@ struct StageBody<Stage::yield> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const T stretch = s.get(kStretchRow), upper = stretch * length(s, 0), fore = stretch * length(s, 1);
-        const Vector<T> achieved = bent_reach(upper, fore, s.get(kFlexionRow)) * s.get_vector(kLineRow),
-                        missing = s.get_vector(kWristRow) - achieved,
+        const T stretch = s.rows.get(kStretchRow), upper = stretch * length(s, 0), fore = stretch * length(s, 1);
+        const Vector<T> achieved = bent_reach(upper, fore, s.rows.get(kFlexionRow)) * s.rows.vector(kLineRow),
+                        missing = s.rows.vector(kWristRow) - achieved,
                         effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
         const Mask<T> misses = misses_its_place(missing, upper + fore);
-        Rotor<T> hand = yielding_hand(s.get_rotor(kHandRow), effector, missing, upper + fore);
+        Rotor<T> hand = yielding_hand(s.rows.rotor(kHandRow), effector, missing, upper + fore);
         if (s.has(SWIVEL_WITH_GROUND) && any(misses)) hand = toe_over_ground(s, misses, achieved, effector, hand);
-        s.set_rotor(kHandRow, hand);
+        s.rows.set(kHandRow, hand);
     }
 
 private:
@@ -35,7 +35,7 @@ private:
         using T = typename S::T;
         const GroundPlane<T> ground = ground_of(s, up_of(s));
         const ArmFrame<T> arm = arm_frame(s);
-        const T scale = s.body_row(s.strip.run.limb->parent + kScaleRow),
+        const T scale = s.body.get(s.strip.run.limb->parent + kScaleRow),
                 height = ground.distance(arm.shoulder + scale * sandwich(arm.rotation, ankle)) / scale,
                 wanted = T(s.strip.run.limb->ground.toe_clearance) - height;
         return lifting_turn(ground.exists & misses, sandwich(~arm.rotation, ground.normal), sandwich(foot, effector),

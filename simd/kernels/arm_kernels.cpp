@@ -17,7 +17,8 @@ extern const LimbKernels limb_kernels;
 
 namespace {
 
-// What all slices of a run share. The elbow's local rotation is cos_half * elbow_straight - sin_half * elbow_hinge.
+// The values that all slices of a run share. The elbow's local rotation is cos_half * elbow_straight - sin_half *
+// elbow_hinge.
 template <class T>
 struct Shared {
     Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm, elbow_straight, elbow_hinge;

@@ -69,7 +69,7 @@ struct BlockAside {
         for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
             const std::size_t from = list.limb[lane < count ? lane : 0];
             copy_lane(rows, run.input + row_offset(from, rows, 0), input + lane);
-            // What bad input keeps is in the results.
+            // Bad input keeps values of the results.
             if (run.keeps) copy_lane(result_rows, run.results + row_offset(from, result_rows, 0), results + lane);
         }
         SolveRun aside = run;

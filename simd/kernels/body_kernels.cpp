@@ -13,7 +13,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 namespace {
 
-// What a pose says of a joint, relative to its parent or to the root.
+// A joint as a pose gives it, relative to its parent or to the root.
 struct GivenJoint {
     Rotor<T> rotation;
     Vector<T> translation;
@@ -33,14 +33,14 @@ struct PoseReader {
           pose(given)
     {
     }
-    SWIVEL_INLINE GivenJoint read(const BodyJoint& joint, std::uint32_t lane, const JointRows& to) const
+    SWIVEL_INLINE GivenJoint read(const BodyJoint& joint, std::uint32_t lane, const RowView<T>& to) const
     {
         const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
         if constexpr (Form != SWIVEL_ROTATIONS) {
             return read_matrix(rotations.lane + lane, at, joint.is_turned != 0, to);
         } else {
             const Rotor<T> rotation = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
-            if (joint.is_turned) to.set_rotor(kLocalRow, rotation);
+            if (joint.is_turned) to.set(kLocalRow, rotation);
             GivenJoint given{rotation,
                              vector(T(joint.translation[0]), T(joint.translation[1]), T(joint.translation[2])), T(1)};
             if constexpr (Translates)
@@ -56,12 +56,12 @@ struct PoseReader {
     }
 
 private:
-    SWIVEL_INLINE static GivenJoint read_matrix(LaneValues lane, std::size_t at, bool keeps, const JointRows& to)
+    SWIVEL_INLINE static GivenJoint read_matrix(LaneValues lane, std::size_t at, bool keeps, const RowView<T>& to)
     {
         const MatrixParts m = read_parts<Form>(lane, at);
         const MatrixFrame<T> frame = matrix_frame(axis_of<Form>(m, 0), axis_of<Form>(m, 1), axis_of<Form>(m, 2));
         if (keeps) {
-            to.set_rotor(kLocalRow, frame.rotation);
+            to.set(kLocalRow, frame.rotation);
             for (std::uint32_t n = 0; n < 9; ++n) to.set(kAxesRow + n, m.part[n / 3][n % 3]);
         }
         return {frame.rotation, vector_of(m.part[3]), select(frame.valid, frame.scale, T(__builtin_nan("")))};
@@ -76,23 +76,23 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_root(const BodyPlan& plan, const Body
     const auto at = [&](std::uint32_t row, std::uint32_t lane)
                         SWIVEL_INLINE_LAMBDA { return rows_of(block, row, lane); };
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        at(kRootJoint, lane).set_frame({one<T>(), none, T(1)});
-        at(0, lane).set_vector(kRootRow, none);
-        at(0, lane).set_vector(kShiftedRow, none);
+        set_frame(at(kRootJoint, lane), {one<T>(), none, T(1)});
+        at(0, lane).set(kRootRow, none);
+        at(0, lane).set(kShiftedRow, none);
     }
     if (pose.root_rotation.data) {
         const Bodies bodies(block, pose.root_rotation);
         for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>)
-            at(kRootJoint, lane).set_rotor(kTurnRow, unit_rotation(rotor_of(load_values<T, 4>(bodies.lane + lane, 0))));
+            at(kRootJoint, lane).set(kTurnRow, unit_rotation(rotor_of(load_values<T, 4>(bodies.lane + lane, 0))));
     }
     if (pose.root_position.data && !pose.root_is_double) {
         const Bodies bodies(block, pose.root_position);
         for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>)
-            at(0, lane).set_vector(kRootRow, vector_of(load_values<T, 3>(bodies.lane + lane, 0)));
+            at(0, lane).set(kRootRow, vector_of(load_values<T, 3>(bodies.lane + lane, 0)));
     }
     if (pose.root_scale.data) {
         const Bodies bodies(block, pose.root_scale);
-        float* const scales = at(kRootJoint + kScaleRow, 0).rows;
+        float* const scales = at(kRootJoint + kScaleRow, 0).first;
         for (std::uint32_t n = 0; n < kLanes; ++n) std::memcpy(scales + n, bodies.lane[n], sizeof(float));
     }
 }
@@ -116,10 +116,10 @@ SWIVEL_INLINE void take_root_from_support(const BodyBlock& block, const swivel_p
     const bool has_support = pose.support_position.data != nullptr;
     const Bodies supports = has_support ? Bodies(block, pose.support_position) : Bodies();
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const JointRows at = rows_of(block, 0, lane);
-        Vector<T> from = at.get_vector(kRootRow);
+        const RowView<T> at = rows_of(block, 0, lane);
+        Vector<T> from = at.vector(kRootRow);
         if (has_support) from = from - vector_of(load_values<T, 3>(supports.lane + lane, 0));
-        at.set_vector(kRootFromSupportRow, from);
+        at.set(kRootFromSupportRow, from);
     }
 }
 
@@ -129,7 +129,7 @@ void read_weights(const BodyPlan& plan, const BodyBlock& block)
     for (std::uint32_t n = 0; n < kLanes; ++n)
         std::memcpy(block.rows + kWeightRow * kLanes + n, weights.lane[n], sizeof(float));
 }
-// What plants and shifts need of a body.
+// A body's values for plants and shifts.
 SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan, const BodyBlock& block)
 {
     const swivel_pose& pose = *plan.pose;
@@ -142,9 +142,9 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan
         take_root_from_support(block, pose);
     const Bodies rotations = pose.support_rotation.data ? Bodies(block, pose.support_rotation) : Bodies();
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const JointRows at = rows_of(block, 0, lane);
+        const RowView<T> at = rows_of(block, 0, lane);
         if (pose.support_rotation.data)
-            at.set_rotor(kSupportRow, unit_rotation(rotor_of(load_values<T, 4>(rotations.lane + lane, 0))));
+            at.set(kSupportRow, unit_rotation(rotor_of(load_values<T, 4>(rotations.lane + lane, 0))));
         at.set(kSpanRow, T(-kAnyShift));
         at.set(kSpanRow + 1, T(kAnyShift));
         at.set(kSpanRow + 2, T(1));
@@ -159,7 +159,7 @@ SWIVEL_INLINE JointFrame<T> frame_in_body(const JointFrame<T>& root, const Joint
 {
     JointFrame<T> frame = joint_frame(root, given.rotation, given.translation, given.scale);
     if constexpr (!Translates) frame.place = above.place + turned(above.rotation, above.scale * given.translation);
-    const Mask<T> good = is_within(len2(above.rotation), 0.99, 1.01) & (len2(above.place) <= T(kHuge2));
+    const Mask<T> good = is_almost_unit(above.rotation) & (len2(above.place) <= T(kHuge2));
     frame.scale = select(good & (above.scale == above.scale), frame.scale, T(__builtin_nan("")));
     return frame;
 }
@@ -172,17 +172,17 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_joints(const BodyPlan& plan, const Bo
     for (std::uint32_t n = 1; n < plan.joint_count; ++n) {
         const BodyJoint& joint = plan.joints[n];
         for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-            const JointRows at = rows_of(block, joint.row, lane);
+            const RowView<T> at = rows_of(block, joint.row, lane);
             const GivenJoint given = reader.read(joint, lane, at);
-            const JointFrame<T> above = rows_of(block, joint.parent, lane).frame();
+            const JointFrame<T> above = frame_of(rows_of(block, joint.parent, lane));
             if (!in_body) {
-                at.set_frame(joint_frame(above, given.rotation, given.translation, given.scale));
+                set_frame(at, joint_frame(above, given.rotation, given.translation, given.scale));
                 continue;
             }
             const JointFrame<T> frame =
-                frame_in_body<Translates>(rows_of(block, kRootJoint, lane).frame(), above, given);
-            at.set_frame(frame);
-            if (joint.is_turned) at.set_rotor(kLocalRow, ~above.rotation * frame.rotation);
+                frame_in_body<Translates>(frame_of(rows_of(block, kRootJoint, lane)), above, given);
+            set_frame(at, frame);
+            if (joint.is_turned) at.set(kLocalRow, ~above.rotation * frame.rotation);
         }
     }
 }

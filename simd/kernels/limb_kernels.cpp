@@ -29,7 +29,7 @@ template <std::size_t number>
 constexpr StageFunction stage_function()
 {
     constexpr Stage stage = [] {
-        Stage last = Stage::see;
+        Stage last = Stage::goal_to_parent;
         for (const StageRow& row : kStages)
             if (first_function(row.stage) <= number) last = row.stage;
         return last;
@@ -61,7 +61,7 @@ void add_block(Strip& strip, std::uint32_t block, std::uint32_t lanes)
 void solve(const SolveRun& run)
 {
     constexpr std::uint32_t all_lanes = (1u << kLanes) - 1;
-    const Binding bind = binding_of<kTold>(run);
+    const Binding bind = binding_of<kRuntimeFeatures>(run);
     for (std::size_t limb = 0; limb < run.limb_count;) {
         Strip strip{run, bind, run.strip.rows};
         for (; limb < run.limb_count && strip.block_count < run.strip.block_count; limb += kLanes) {
@@ -78,7 +78,7 @@ void solve(const SolveRun& run)
 #ifdef SWIVEL_SINGLE_LIMBS  // of one instruction set (dispatch.h)
 std::uint32_t store_arcs(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMaxArcs])
 {
-    const Binding bind = binding_of<kTold>(run);
+    const Binding bind = binding_of<kRuntimeFeatures>(run);
     Strip strip{run, bind, run.strip.rows};
     add_block(strip, static_cast<std::uint32_t>(limb / kLanes), 1u << limb % kLanes);
     for (std::uint32_t n = 0; run.stages->function[n] < first_function(Stage::choose); ++n)

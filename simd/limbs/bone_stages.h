@@ -9,7 +9,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// What lies along the line from shoulder to wrist.
+// A limb laid along the line from shoulder to wrist.
 template <class T>
 struct Laid {
     Vector<T> line;  // unit
@@ -26,15 +26,15 @@ SWIVEL_INLINE Laid<typename S::T> lay_bones(const S& s, const BonesOf& bones_of)
     const WristLine<T> to = wrist_line(wrist);
     const auto bones = bones_of(to.wanted);
     if constexpr (std::is_same_v<decltype(bones.lift), Rotor<T>>) {
-        s.set_rotor(kLiftRow, bones.lift);
+        s.rows.set(kLiftRow, bones.lift);
     } else {
-        s.set(kLiftRow, bones.lift.template at<kScalar>());
-        s.set(kLiftRow + 1, bones.lift.template at<kI>());
+        s.rows.set(kLiftRow, bones.lift.template at<kScalar>());
+        s.rows.set(kLiftRow + 1, bones.lift.template at<kI>());
     }
-    s.set(kFlexionRow, bones.cos_half);
-    s.set(kFlexionRow + 1, bones.sin_half);
-    s.set(kStretchRow, bones.stretch);
-    s.set_vector(kLineRow, to.line);
+    s.rows.set(kFlexionRow, bones.cos_half);
+    s.rows.set(kFlexionRow + 1, bones.sin_half);
+    s.rows.set(kStretchRow, bones.stretch);
+    s.rows.set(kLineRow, to.line);
     return {to.line, bones.flags | word_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED)};
 }
 template <class S>
@@ -58,8 +58,8 @@ SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, const LimbUse& 
     }
     if (use.cap) {
         goal.cap = {s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
-                    s.has(SWIVEL_BODY) ? s.body_row(kReachRow)
-                                       : incoming_reach(normalise(s.get_rotor(kIncomingRow + 4)), goal.arm)};
+                    s.has(SWIVEL_BODY) ? s.body.get(kReachRow)
+                                       : incoming_reach(normalise(s.rows.rotor(kIncomingRow + 4)), goal.arm)};
         s.require(is_valid(goal.cap));
     }
     if (use.limits.flexion) {
@@ -73,7 +73,7 @@ struct StageBody<Stage::bones> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
-        s.set(kFlagsRow, lay_reaching_bones(s, use_of(s)).flags);
+        s.rows.set(kFlagsRow, lay_reaching_bones(s, use_of(s)).flags);
     }
 };
 
@@ -98,12 +98,12 @@ struct StageBody<Stage::aim> {
             goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
             s.require(len2(goal.effector) <= T(kHuge2));
         }
-        const Rotor<T> hand = use.hand             ? s.get_rotor(kHandRow)
-                              : s.has(SWIVEL_BODY) ? s.get_rotor(kIncomingRow + 8)
+        const Rotor<T> hand = use.hand             ? s.rows.rotor(kHandRow)
+                              : s.has(SWIVEL_BODY) ? s.rows.rotor(kIncomingRow + 8)
                                                    : one<T>();
         const Laid<T> laid =
             lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(use, goal, hand, wanted); });
-        s.set(kFlagsRow, laid.flags);
+        s.rows.set(kFlagsRow, laid.flags);
     }
 };
 
@@ -115,7 +115,7 @@ SWIVEL_INLINE void load_continuity(const S& s, Continuity<typename S::T>& contin
                          s.io.load_result(SWIVEL_NORMAL, 2)),
                   s.io.load_turned(SWIVEL_MAX_SWIVEL)};
     if (!s.has(SWIVEL_BODY) || !s.strip.run.strip.pose->time.data) return;
-    const T time = s.body_row(kTimeRow);
+    const T time = s.body.get(kTimeRow);
     s.require(is_within(time, 0, kHuge) & is_valid(continuity));
     continuity.max = timed_step(continuity.max, time);
 }
@@ -133,23 +133,23 @@ SWIVEL_INLINE void wish_for_normal(const S& s, const LimbUse& use, const Laid<ty
         goal.angle = s.io.load_turned(SWIVEL_ANGLE);
         s.require(is_valid(goal.angle));
     }
-    if (use.incoming) goal.incoming.shoulder = s.get_rotor(kIncomingRow);
+    if (use.incoming) goal.incoming.shoulder = s.rows.rotor(kIncomingRow);
     if (use.weights) goal.weights.pole = s.io.load(SWIVEL_WEIGHTS, 2);
     if (use.continuity) {
         load_continuity(s, goal.continuity);
         s.require(is_valid(goal.continuity));
     }
-    const Rotor<T> hand = use.wish == Wish::hand ? s.get_rotor(kHandRow) : one<T>();
+    const Rotor<T> hand = use.wish == Wish::hand ? s.rows.rotor(kHandRow) : one<T>();
     const LimbNormal<T> found = limb_normal(use, goal, hand, laid.line);
-    s.set_vector(kNormalRow, found.normal);
-    s.set(kFlagsRow, laid.flags | found.flags);
+    s.rows.set(kNormalRow, found.normal);
+    s.rows.set(kFlagsRow, laid.flags | found.flags);
 }
 template <>
 struct StageBody<Stage::wish> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
-        wish_for_normal(s, use_of(s), Laid<typename S::T>{s.get_vector(kLineRow), s.get_flags()});
+        wish_for_normal(s, use_of(s), Laid<typename S::T>{s.rows.vector(kLineRow), s.rows.word(kFlagsRow)});
     }
 };
 

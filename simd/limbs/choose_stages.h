@@ -61,7 +61,7 @@ template <int Boxes, class S>
 SWIVEL_INLINE Limits<typename S::T, Boxes> load_limits(const S& s, int line_count, const LimitList& list)
 {
     return load_limits<typename S::T, Boxes>(
-        line_count, list.box_count, [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA { return s.get(row); },
+        line_count, list.box_count, [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA { return s.rows.get(row); },
         [&](int box, int row) SWIVEL_INLINE_LAMBDA { return s.io.load(list.box_field[box], row); });
 }
 
@@ -78,7 +78,7 @@ template <class S>
 SWIVEL_INLINE auto load_region(const S& s)
 {
     return load_region<typename S::T>(s.strip.run.region,
-                                      [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA { return s.get(row); });
+                                      [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA { return s.rows.get(row); });
 }
 
 // Lanes of a strip.
@@ -219,15 +219,15 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         const int line_count = Lines > 0 ? Lines : list.line_count;
         const Limits<T, Boxes> limits = load_limits<Boxes>(s, line_count, list);
         const Turned<T> wish{T(1), T(0)};
-        Word<T> flags = s.get_flags();
+        Word<T> flags = s.rows.word(kFlagsRow);
         T min_room = T(2);
-        const auto look = [&](const T& room_left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
+        const auto test_limit = [&](const T& room_left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
             flags = flags | word_where(room_left < T(kNoRoom), flag);
             min_room = lo(room_left, min_room);
         };
-        for (int n = 0; n < line_count; ++n) look(limits.line[n].at(wish), list.line_flag[n]);
-        for (int n = 0; n < limits.box_count; ++n) look(room(limits.box[n], wish), list.box_flag[n]);
-        if constexpr (InRegion) look(room(load_region(s), wish), SWIVEL_LIMITED_REGION);
+        for (int n = 0; n < line_count; ++n) test_limit(limits.line[n].at(wish), list.line_flag[n]);
+        for (int n = 0; n < limits.box_count; ++n) test_limit(room(limits.box[n], wish), list.box_flag[n]);
+        if constexpr (InRegion) test_limit(room(load_region(s), wish), SWIVEL_LIMITED_REGION);
         const Mask<T> granted = min_room >= T(kNoRoom);
         std::uint32_t forbidden = s.good() & lane_bits(!granted);
         if constexpr (InRegion) forbidden &= s.limbs();  // padding has no limits, but its group's region
@@ -242,9 +242,9 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
                 for_least.add(first, forbidden & lane_bits(!end.allowed));
             }
         }
-        s.set(kSwivelRow, swivel.cos);
-        s.set(kSwivelRow + 1, swivel.sin);
-        s.set(kFlagsRow, flags);
+        s.rows.set(kSwivelRow, swivel.cos);
+        s.rows.set(kSwivelRow + 1, swivel.sin);
+        s.rows.set(kFlagsRow, flags);
     });
     if constexpr (is_long)
         if (for_end.count > 0) search_end<T, Boxes, InRegion>(strip, list, for_end, for_least);

@@ -13,7 +13,7 @@ namespace swivel::inline SWIVEL_ISA {
 template <Stage stage>
 struct StageBody;
 
-// What a group's features make the formula use, but for limits of the swivel, which have stages of their own.
+// The parts of the formula that a group's features use, but for limits of the swivel, which have stages of their own.
 template <class S>
 SWIVEL_INLINE LimbUse use_of(const S& s)
 {
@@ -58,8 +58,8 @@ template <class S>
 SWIVEL_INLINE ParentFrame<typename S::T> posed_parent(const S& s)
 {
     const BodyLimb& limb = *s.strip.run.limb;
-    return {s.body_vector(limb.shoulder + kPlaceRow), s.body_rotor(limb.parent + kTurnRow),
-            s.body_row(limb.parent + kScaleRow)};
+    return {s.body.vector(limb.shoulder + kPlaceRow), s.body.rotor(limb.parent + kTurnRow),
+            s.body.get(limb.parent + kScaleRow)};
 }
 // The arm frame of a body's limb, with the clavicle as turned, from the root's place.
 template <class T>
@@ -74,20 +74,19 @@ SWIVEL_INLINE ArmFrame<typename S::T> arm_frame(const S& s)
     const ParentFrame<T> parent = posed_parent(s);
     const Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
     if (!s.has(SWIVEL_WITH_CLAVICLE)) return {arm, parent.position};
-    const Vector<T> clavicle = s.body_vector(s.strip.run.limb->parent + kPlaceRow);
-    const Rotor<T> turned_arm = arm * s.get_rotor(kClavicleRow);
+    const Vector<T> clavicle = s.body.vector(s.strip.run.limb->parent + kPlaceRow);
+    const Rotor<T> turned_arm = arm * s.rows.rotor(kClavicleRow);
     return {turned_arm, clavicle + sandwich(turned_arm * ~arm, parent.position - clavicle)};
 }
-// Whether the pose is good in all that a limb takes of it. What is bad in a joint shows in all below it.
+// Whether the pose is good in all that a limb takes from it. A bad joint shows in all below it.
 template <class S>
 SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
 {
     using T = typename S::T;
     const BodyLimb& limb = *s.strip.run.limb;
     const auto is_joint = [&](std::uint32_t joint) SWIVEL_INLINE_LAMBDA {
-        return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
-               (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
-               is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
+        return is_almost_unit(s.body.rotor(joint + kTurnRow)) & (len2(s.body.vector(joint + kPlaceRow)) <= T(kHuge2)) &
+               is_within(s.body.get(joint + kScaleRow), kTiny, kHuge);
     };
     Mask<T> good = is_joint(limb.wrist);
     for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
@@ -99,7 +98,7 @@ SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
 template <class S>
 SWIVEL_INLINE typename S::T length(const S& s, int bone)
 {
-    return s.has(SWIVEL_BODY) ? s.body_row(kLengthsRow + static_cast<std::uint32_t>(bone))
+    return s.has(SWIVEL_BODY) ? s.body.get(kLengthsRow + static_cast<std::uint32_t>(bone))
                               : s.io.load(SWIVEL_LENGTHS, bone);
 }
 // A vector of the hand joint's own frame.
@@ -110,7 +109,7 @@ SWIVEL_INLINE Vector<typename S::T> in_hand(const S& s, const Vector<typename S:
 }
 
 template <>
-struct StageBody<Stage::see> {
+struct StageBody<Stage::goal_to_parent> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
@@ -125,12 +124,12 @@ struct StageBody<Stage::see> {
         const SeenGoal<T> seen =
             seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
         const T shrink = T(1) / seen.size;
-        s.set_vector(kWristRow, shrink * seen.wrist);
-        s.set_vector(kPoleRow, shrink * seen.pole);
+        s.rows.set(kWristRow, shrink * seen.wrist);
+        s.rows.set(kPoleRow, shrink * seen.pole);
         if constexpr (S::template is<SWIVEL_WITH_HAND>()) {
             const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
             s.require(is_orientation(hand));
-            s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
+            s.rows.set(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
         }
     }
 };
@@ -141,7 +140,7 @@ template <class T>
 struct ClavicleEnds {
     Vector<T> shoulder, from;
 };
-// Of a free limb: the clavicle's own bone.
+// A free limb: the clavicle's own bone.
 template <class S>
 SWIVEL_INLINE ClavicleEnds<typename S::T> resting_clavicle(const S& s)
 {
@@ -149,7 +148,7 @@ SWIVEL_INLINE ClavicleEnds<typename S::T> resting_clavicle(const S& s)
     const Vector<T> bone = sandwich(~broadcast<T>(s.strip.bind.parent_from_arm), s.io.load_vector(SWIVEL_CLAVICLE));
     return {bone, bone};
 }
-// Of a body's limb: what goes to the target, as it comes. With an aim that is the ray's point as far as the target is.
+// A body's limb: what goes to the target, as it comes. With an aim that is the ray's point as far as the target is.
 template <class S>
 SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
 {
@@ -157,15 +156,15 @@ SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
     const BodyLimb& limb = *s.strip.run.limb;
     const ParentFrame<T> parent = posed_parent(s);
     const Turn<T> back = turn_by(~(parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm)));
-    const Vector<T> clavicle = s.body_vector(limb.parent + kPlaceRow);
+    const Vector<T> clavicle = s.body.vector(limb.parent + kPlaceRow);
     const auto seen = [&](const Vector<T>& place)
                           SWIVEL_INLINE_LAMBDA { return (T(1) / parent.scale) * back(place - clavicle); };
-    const Turn<T> hand = turn_by(s.body_rotor(limb.wrist + kTurnRow));
+    const Turn<T> hand = turn_by(s.body.rotor(limb.wrist + kTurnRow));
     const Vector<T> shoulder = seen(parent.position);
-    Vector<T> from = seen(s.body_vector(limb.wrist + kPlaceRow));
+    Vector<T> from = seen(s.body.vector(limb.wrist + kPlaceRow));
     if (s.has(SWIVEL_WITH_EFFECTOR)) from = from + back(hand(s.io.load_vector(SWIVEL_EFFECTOR)));
     if (s.has(SWIVEL_WITH_AIM)) {
-        const Vector<T> way = s.get_vector(kWristRow) + shoulder - from;
+        const Vector<T> way = s.rows.vector(kWristRow) + shoulder - from;
         from = from + sqrt(len2(way)) * back(hand(s.io.load_vector(SWIVEL_AIM)));
     }
     return {shoulder, from};
@@ -182,18 +181,18 @@ struct StageBody<Stage::clavicle> {
         const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
         const Vector<T>& bone = ends.shoulder;
         const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
-        const Vector<T> target = s.get_vector(kWristRow) + bone;
+        const Vector<T> target = s.rows.vector(kWristRow) + bone;
         s.require((len2(bone) <= T(kHuge2)) & is_share(share));
         const Rotor<T> turn = clavicle_rotation(
             ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
         const Turn<T> back = turn_by(~turn);
-        s.set_vector(kWristRow, back(target) - bone);
+        s.rows.set(kWristRow, back(target) - bone);
         if (has_pole(s)) {
-            const Vector<T> pole = s.get_vector(kPoleRow);
-            s.set_vector(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
+            const Vector<T> pole = s.rows.vector(kPoleRow);
+            s.rows.set(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
         }
-        if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM)) s.set_rotor(kHandRow, ~turn * s.get_rotor(kHandRow));
-        s.set_rotor(kClavicleRow, turn);
+        if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM)) s.rows.set(kHandRow, ~turn * s.rows.rotor(kHandRow));
+        s.rows.set(kClavicleRow, turn);
     }
 };
 
@@ -220,7 +219,7 @@ private:
         if constexpr (S::template is<SWIVEL_JOINTS>()) of_arm = ~broadcast<T>(from) * local * broadcast<T>(to);
         of_arm = scaled(of_arm);
         s.require(is_orientation(local) & is_orientation(of_arm));
-        s.set_rotor(row, of_arm);
+        s.rows.set(row, of_arm);
     }
 };
 
@@ -237,10 +236,10 @@ struct StageBody<Stage::goal> {
         goal.arm.wrist = s.goal_vector(seen, kWristRow, SWIVEL_TARGET);
         Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
         if (use.hand) {
-            goal.hand = seen ? s.get_rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
+            goal.hand = seen ? s.rows.rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
             if (!seen) valid = valid & is_orientation(goal.hand);
             if (is_bound(s)) {
-                const Rotor<T> wrist_parent = s.has(SWIVEL_BODY) ? s.body_rotor(s.strip.run.limb->wrist_parent_row())
+                const Rotor<T> wrist_parent = s.has(SWIVEL_BODY) ? s.body.rotor(s.strip.run.limb->wrist_parent_row())
                                                                  : broadcast<T>(bind.wrist_parent_from_arm);
                 goal.hand = (use.aim ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
             }
@@ -253,14 +252,14 @@ struct StageBody<Stage::goal> {
         if (use.weights) {
             goal.arm.upper = length(s, 0);
             goal.arm.fore = length(s, 1);
-            goal.incoming = {s.get_rotor(kIncomingRow), s.get_rotor(kIncomingRow + 4),
-                             use.hand ? s.get_rotor(kIncomingRow + 8) : one<T>()};
+            goal.incoming = {s.rows.rotor(kIncomingRow), s.rows.rotor(kIncomingRow + 4),
+                             use.hand ? s.rows.rotor(kIncomingRow + 8) : one<T>()};
             goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};
             valid = valid & is_valid(goal.weights);
         }
         const WristGoal<T> wrist = wrist_goal(use, goal);
-        s.set_vector(kWristRow, wrist.place);
-        if (use.hand) s.set_rotor(kHandRow, wrist.hand);
+        s.rows.set(kWristRow, wrist.place);
+        if (use.hand) s.rows.set(kHandRow, wrist.hand);
         s.require(valid);
     }
 };

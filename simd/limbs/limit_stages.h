@@ -14,13 +14,13 @@ namespace swivel::inline SWIVEL_ISA {
 template <class S>
 SWIVEL_INLINE auto hinged_lift(const S& s)
 {
-    return hinge(s.get(kLiftRow), s.get(kLiftRow + 1));
+    return hinge(s.rows.get(kLiftRow), s.rows.get(kLiftRow + 1));
 }
 template <class S>
 SWIVEL_INLINE auto lift_of(const S& s)
 {
     if constexpr (S::template is<SWIVEL_WITH_AIM>())
-        return s.get_rotor(kLiftRow);
+        return s.rows.rotor(kLiftRow);
     else
         return hinged_lift(s);
 }
@@ -28,8 +28,8 @@ template <class S, class Lift>
 SWIVEL_INLINE auto swivelling_arm(const S& s, const Lift& lift)
 {
     using T = typename S::T;
-    return SwivellingArm<T, Lift>{s.get_vector(kLineRow), s.get_vector(kNormalRow), lift, s.get_elbow(),
-                                  s.get_rotor(kHandRow)};
+    return SwivellingArm<T, Lift>{s.rows.vector(kLineRow), s.rows.vector(kNormalRow), lift, s.elbow(),
+                                  s.rows.rotor(kHandRow)};
 }
 
 // The arm, for limits of the upper arm.
@@ -48,9 +48,9 @@ SWIVEL_INLINE auto hand_arm_of(const S& s)
 template <class S>
 SWIVEL_INLINE void set_line(const S& s, std::uint32_t row, const OnCircle<typename S::T>& line)
 {
-    s.set(row, line.a);
-    s.set(row + 1, line.b);
-    s.set(row + 2, line.c);
+    s.rows.set(row, line.a);
+    s.rows.set(row + 1, line.b);
+    s.rows.set(row + 2, line.c);
 }
 // The line of a limit comes after those of the features before it.
 template <class S, class Limit>

@@ -15,19 +15,14 @@ template <class S>
 struct Results {
     using T = typename S::T;
     const S& s;
-    Rows<T, kTold> out;
+    Rows<T, kRuntimeFeatures> out;
     Mask<T> valid;
 
-    SWIVEL_INLINE explicit Results(const S& slice) : s(slice), out(slice.io), valid(lanes_where<T>(slice.good()))
+    SWIVEL_INLINE explicit Results(const S& slice)
+        : s(slice),
+          out(slice.strip.run.keeps ? slice.good_rows() : slice.chosen_rows()),
+          valid(lanes_where<T>(slice.good()))
     {
-        const std::uint32_t stored = s.strip.run.keeps ? s.good() : s.chosen();
-        out.chosen = stored == S::kEvery ? kEveryLane : stored;
-    }
-    SWIVEL_INLINE void store_flags(const Word<T>& flags) const
-    {
-        Rows<T, kTold> all = out;
-        all.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        all.store(SWIVEL_FLAGS, 0, select(valid, flags, word<T>(SWIVEL_BAD_INPUT)));
     }
     // A joint's rotation: of its two quaternions the one nearer to the incoming pose's, or else the one with w >= 0.
     SWIVEL_INLINE void store_joint(swivel_field field, swivel_field incoming, const Rotor<T>& q,
@@ -50,25 +45,25 @@ struct StageBody<Stage::store> {
         const Binding& bind = s.strip.bind;
         const swivel_binding& b = *s.strip.run.binding;
         const Results<S> results(s);
-        const Vector<T> line = s.get_vector(kLineRow);
-        Vector<T> normal = s.get_vector(kNormalRow);
-        Word<T> flags = s.get_flags();
-        if (s.has(SWIVEL_SENT)) flags = flags | s.body_flags(s.strip.run.limb->goal + kGoalFlagsRow);
+        const Vector<T> line = s.rows.vector(kLineRow);
+        Vector<T> normal = s.rows.vector(kNormalRow);
+        Word<T> flags = s.rows.word(kFlagsRow);
+        if (s.has(SWIVEL_SENT)) flags = flags | s.body.word(s.strip.run.limb->goal + kGoalFlagsRow);
         Continuity<T> continuity;
         if (s.has(SWIVEL_WITH_MAX_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & kSwivelLimits) {
-            normal = swivelled(normal, line, {s.get(kSwivelRow), s.get(kSwivelRow + 1)});
+            normal = swivelled(normal, line, {s.rows.get(kSwivelRow), s.rows.get(kSwivelRow + 1)});
             if (s.has(SWIVEL_WITH_MAX_SWIVEL) && !s.has(SWIVEL_STEP_WINS))
                 flags = flags | word_where(jumps(continuity, normal, line), SWIVEL_JUMPED);
         }
         if (s.has(SWIVEL_STEP_WINS)) normal = last_step(continuity, normal, line, flags);
         const Rotor<T> shoulder = lifted(line, normal, lift_of(s));
-        if (s.has(SWIVEL_WITH_HAND)) s.set_rotor(kShoulderRow, shoulder);  // for the stage `wrist`
-        const T cos = select(results.valid, s.get(kFlexionRow), T(1)),
-                sin = select(results.valid, s.get(kFlexionRow + 1), T(0));
+        if (s.has(SWIVEL_WITH_HAND)) s.rows.set(kShoulderRow, shoulder);  // for the stage `wrist`
+        const T cos = select(results.valid, s.rows.get(kFlexionRow), T(1)),
+                sin = select(results.valid, s.rows.get(kFlexionRow + 1), T(0));
         const Rotor<T> safe = select(results.valid, shoulder, one<T>());
 
-        results.store_flags(flags);
+        s.store_flags(flags);
         if constexpr (joints) {
             results.store_joint(SWIVEL_SHOULDER, SWIVEL_INCOMING_SHOULDER,
                                 broadcast<T>(bind.parent_from_arm) * safe * ~broadcast<T>(bind.upper_from_arm),
@@ -84,11 +79,11 @@ struct StageBody<Stage::store> {
         }
         if (s.has(SWIVEL_WITH_CLAVICLE)) {
             const Rotor<T> parent_from_arm = broadcast<T>(bind.parent_from_arm);
-            const Rotor<T> turn = parent_from_arm * s.get_rotor(kClavicleRow) * ~parent_from_arm;
+            const Rotor<T> turn = parent_from_arm * s.rows.rotor(kClavicleRow) * ~parent_from_arm;
             results.out.store_rotor(SWIVEL_CLAVICLE_ROTATION, hemisphere(select(results.valid, turn, one<T>())));
         }
         if (s.has(SWIVEL_WITH_REACH))
-            results.out.store(SWIVEL_STRETCH, 0, select(results.valid, s.get(kStretchRow), T(1)));
+            results.out.store(SWIVEL_STRETCH, 0, select(results.valid, s.rows.get(kStretchRow), T(1)));
         if (s.has(SWIVEL_WITH_MAX_SWIVEL))
             results.out.store_vector(SWIVEL_NORMAL, select(results.valid, normalise(normal), vector(T(0), T(0), T(0))));
     }
@@ -103,10 +98,10 @@ struct StageBody<Stage::wrist> {
         constexpr bool joints = S::template is<SWIVEL_JOINTS>();
         const Binding& bind = s.strip.bind;
         const Results<S> results(s);
-        Rotor<T> wrist = s.get_rotor(kHandRow);  // with aim it is relative to the forearm
-        if (!s.has(SWIVEL_WITH_AIM)) wrist = ~(s.get_rotor(kShoulderRow) * s.get_elbow()) * wrist;
+        Rotor<T> wrist = s.rows.rotor(kHandRow);  // with aim it is relative to the forearm
+        if (!s.has(SWIVEL_WITH_AIM)) wrist = ~(s.rows.rotor(kShoulderRow) * s.elbow()) * wrist;
         wrist = select(results.valid, wrist, one<T>());
-        s.set_rotor(kTwistRow, wrist);
+        s.rows.set(kTwistRow, wrist);
         if constexpr (joints)
             wrist = broadcast<T>(bind.wrist_parent_from_arm) * wrist * broadcast<T>(bind.hand_from_arm);
         results.store_joint(SWIVEL_WRIST, SWIVEL_INCOMING_WRIST, wrist,
@@ -124,9 +119,9 @@ struct StageBody<Stage::twist_bones> {
         const Results<S> results(s);
         const auto if_joints = [&](const float(&q)[4])
                                    SWIVEL_INLINE_LAMBDA { return s.has(SWIVEL_JOINTS) ? broadcast<T>(q) : one<T>(); };
-        Turned<T> twist = twist_rotor(s.get_rotor(kTwistRow));
+        Turned<T> twist = twist_rotor(s.rows.rotor(kTwistRow));
         if (s.has(SWIVEL_BODY)) {  // from the incoming one, the short way
-            const Turned<T> incoming{s.body_row(kTwistInRow), s.body_row(kTwistInRow + 1)};
+            const Turned<T> incoming{s.body.get(kTwistInRow), s.body.get(kTwistInRow + 1)};
             const T cos = twist.cos * incoming.cos + twist.sin * incoming.sin,
                     sin = twist.sin * incoming.cos - twist.cos * incoming.sin;
             twist = {abs(cos), flip_sign(sin, cos)};

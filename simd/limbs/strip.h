@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A strip: up to eight blocks of a run, which go through the stages together. What one stage finds for a later one lies
-// in rows of the strip, which stay in the cache of level 1.
+// A strip: up to eight blocks of a run, which go through the stages together. A stage leaves what it finds for later
+// ones in rows of the strip, which stay in the cache of level 1.
 #pragma once
 
 #include "simd/slice.h"
@@ -37,9 +37,9 @@ struct StripSlice {
     static constexpr std::uint32_t kEvery = (1u << lane_count<T>)-1;
 
     Strip& strip;
-    Rows<T, kTold> io;  // the group's own rows
-    float* rows;        // the strip's
-    float* body;        // the body's; of free limbs the strip's, which no stage reads as these
+    Rows<T, kRuntimeFeatures> io;  // the group's own rows
+    RowView<T> rows;               // the strip's
+    RowView<T> body;               // the body's; of free limbs the strip's, which no stage reads as these
     std::uint32_t block, lane;
 
     // Whether the group has a feature; and the same as a constant, of one that the stage knows. A stage that asks for
@@ -55,59 +55,45 @@ struct StripSlice {
         return (Has & feature) != 0;
     }
 
-    SWIVEL_ALWAYS_INLINE T get(std::uint32_t row) const { return load_lanes<T>(at(rows, row)); }
-    SWIVEL_ALWAYS_INLINE Word<T> get_flags() const { return load_lane_word<T>(at(rows, kFlagsRow)); }
-    SWIVEL_ALWAYS_INLINE Vector<T> get_vector(std::uint32_t row) const { return load_vector_rows<T>(at(rows, row)); }
-    SWIVEL_ALWAYS_INLINE Rotor<T> get_rotor(std::uint32_t row) const { return load_rotor_rows<T>(at(rows, row)); }
-    SWIVEL_ALWAYS_INLINE Hinge<T> get_elbow() const { return hinge(get(kFlexionRow), -get(kFlexionRow + 1)); }
-    template <class Value>
-    SWIVEL_ALWAYS_INLINE void set(std::uint32_t row, const Value& value) const
-    {
-        store_lanes(at(rows, row), value);
-    }
-    SWIVEL_ALWAYS_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const { store_rows(at(rows, row), v); }
-    SWIVEL_ALWAYS_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const { store_rows(at(rows, row), q); }
-    // Rows of the body: of its limb on the way, and of its joints.
-    SWIVEL_ALWAYS_INLINE T body_row(std::uint32_t row) const { return load_lanes<T>(at(body, row)); }
-    SWIVEL_ALWAYS_INLINE Rotor<T> body_rotor(std::uint32_t row) const { return load_rotor_rows<T>(at(body, row)); }
-    SWIVEL_ALWAYS_INLINE Vector<T> body_vector(std::uint32_t row) const { return load_vector_rows<T>(at(body, row)); }
-    SWIVEL_ALWAYS_INLINE Word<T> body_flags(std::uint32_t row) const { return load_lane_word<T>(at(body, row)); }
-    template <class Value>
-    SWIVEL_ALWAYS_INLINE void set_body(std::uint32_t row, const Value& value) const
-    {
-        store_lanes(at(body, row), value);
-    }
-    SWIVEL_ALWAYS_INLINE void set_body_vector(std::uint32_t row, const Vector<T>& v) const
-    {
-        store_rows(at(body, row), v);
-    }
-    SWIVEL_ALWAYS_INLINE void set_body_rotor(std::uint32_t row, const Rotor<T>& q) const
-    {
-        store_rows(at(body, row), q);
-    }
+    SWIVEL_ALWAYS_INLINE Hinge<T> elbow() const { return hinge(rows.get(kFlexionRow), -rows.get(kFlexionRow + 1)); }
     // A part of the goal: in the strip, if an earlier stage has put it there, or else as it was given.
     SWIVEL_ALWAYS_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
     {
-        return load_vector_rows<T>(in_strip ? rows + row * kLanes : io.input_at(field, 0));
+        return load_vector_rows<T>(in_strip ? rows.at(row) : io.input_at(field, 0));
     }
 
     // Bits of its lanes.
     SWIVEL_ALWAYS_INLINE std::uint32_t good() const { return strip.good[block] >> lane & kEvery; }
     SWIVEL_ALWAYS_INLINE std::uint32_t chosen() const { return strip.chosen[block] >> lane & kEvery; }
-    // Of those that are limbs, and no padding.
+    // Bits of the lanes that are limbs, and no padding.
     SWIVEL_ALWAYS_INLINE std::uint32_t limbs() const
     {
         const std::size_t first = std::size_t{strip.block[block]} * kLanes + lane, end = strip.run.padding;
         return first + lane_count<T> <= end ? kEvery : first < end ? (1u << (end - first)) - 1 : 0;
+    }
+    // The group's rows of some lanes; of the chosen ones; of those with valid input; and of those with bad input that
+    // go to rest.
+    SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> rows_of(std::uint32_t lanes) const
+    {
+        Rows<T, kRuntimeFeatures> some = io;
+        some.chosen = lanes == kEvery ? kEveryLane : lanes;
+        return some;
+    }
+    SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> chosen_rows() const { return rows_of(chosen()); }
+    SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> good_rows() const { return rows_of(good()); }
+    SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> cleared_rows() const
+    {
+        return rows_of(strip.run.keeps ? 0 : chosen() & ~good());
+    }
+    SWIVEL_ALWAYS_INLINE void store_flags(const Word<T>& flags) const
+    {
+        chosen_rows().store(SWIVEL_FLAGS, 0, select(lanes_where<T>(good()), flags, word<T>(SWIVEL_BAD_INPUT)));
     }
     // Lanes with an input that is not valid are bad from now on.
     SWIVEL_ALWAYS_INLINE void require(const Mask<T>& valid) const
     {
         strip.good[block] &= ~((lane_bits(!valid) & kEvery) << lane);
     }
-
-private:
-    SWIVEL_ALWAYS_INLINE static float* at(float* first, std::uint32_t row) { return first + row * kLanes; }
 };
 
 // Calls take(slice) for each slice of a strip that has chosen lanes.
@@ -124,7 +110,7 @@ SWIVEL_INLINE void for_each_slice(Strip& strip, const Take& take)
         float* const body = run.strip.bodies ? run.strip.bodies + strip.block[n] * run.body_block_floats : rows;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
             const StripSlice<T, Knows, Has> slice{
-                strip, {run, input + lane, results + lane, kEveryLane}, rows + lane, body + lane, n, lane};
+                strip, {run, input + lane, results + lane, kEveryLane}, {rows + lane}, {body + lane}, n, lane};
             if (lanes == kLanes || slice.chosen() != 0) take(slice);
         }
     }

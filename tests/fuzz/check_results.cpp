@@ -102,7 +102,7 @@ void check_plant(Reader& reader)
 // Whether a limb is so long that its hand may be further away than any place.
 bool is_endless(Reader& reader) { return reader.read(SWIVEL_LENGTHS) > 0 && reader.value[0] + reader.value[1] > 1e13f; }
 // A place and a rotation. All of it may be NaN where the limb's input is bad, or it has no place.
-void check_frame(Reader& reader, swivel_field field, bool is_bad)
+void check_streams(Reader& reader, swivel_field field, bool is_bad)
 {
     if (reader.read(field) == 0) return;
     bool is_none = true;
@@ -148,8 +148,8 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     if (has_features(session, group, SWIVEL_LOOK)) return check_sight(session, group, limb, flags);
     SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
     check_plant(reader);
-    check_frame(reader, SWIVEL_PROP_TRANSFORM, false);
-    check_frame(reader, SWIVEL_HAND_TRANSFORM, flags == SWIVEL_BAD_INPUT || is_endless(reader));
+    check_streams(reader, SWIVEL_PROP_TRANSFORM, false);
+    check_streams(reader, SWIVEL_HAND_TRANSFORM, flags == SWIVEL_BAD_INPUT || is_endless(reader));
     if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
         return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_CLAMPED_NEAR ||
                               flags == SWIVEL_BAD_INPUT);

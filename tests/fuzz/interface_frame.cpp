@@ -36,9 +36,9 @@ Frame::Frame(Session& session, std::uint32_t group, const Strided* of_bodies) : 
     }
 }
 
-swivel_frame Frame::view() const
+swivel_streams Frame::view() const
 {
-    swivel_frame frame = swivel_default_frame();
+    swivel_streams frame = swivel_default_streams();
     frame.fields = fields.data();
     frame.field_count = static_cast<std::uint32_t>(fields.size());
     frame.origin = origin;

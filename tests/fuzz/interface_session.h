@@ -101,14 +101,14 @@ enum class Sampling : std::uint8_t { none, asks, probes_only };
 struct Frame {
     swivel_in origin = {};
     const Strided* root;
-    std::vector<swivel_frame_field> fields = {};
+    std::vector<swivel_stream> fields = {};
     std::vector<Strided> inputs = {}, outputs = {};
     std::vector<swivel_field> input_fields = {}, output_fields = {};
     bool is_valid = true;
 
     // root: where bodies' roots are, in doubles; null for others.
     Frame(Session& session, std::uint32_t group, const Strided* root);
-    swivel_frame view() const;  // of this, which must outlive it
+    swivel_streams view() const;  // of this, which must outlive it
 
     // Inputs of chosen limbs are in the crowd's rows, and results are the crowd's. Values of others, and all of them if
     // nothing is chosen, are as they were.

@@ -397,12 +397,12 @@ TEST_CASE("a job for probes alone gives them to a frame, also where the last sol
     stage.go_to(1);
     stage.write_labels(crowd);
     std::vector<Float3> probes(stage.body_count, {kNan, kNan, kNan});
-    const swivel_frame_field field = {SWIVEL_PROBE, probes.data(), sizeof probes[0]};
-    swivel_frame frames[3] = {swivel_default_frame(), swivel_default_frame(), swivel_default_frame()};
+    const swivel_stream field = {SWIVEL_PROBE, probes.data(), sizeof probes[0]};
+    swivel_streams frames[3] = {swivel_default_streams(), swivel_default_streams(), swivel_default_streams()};
     frames[0].fields = &field, frames[0].field_count = 1;
     const swivel_pose pose = stage.view();
     swivel_job job = swivel_default_job();
-    job.pose = &pose, job.frames = frames, job.probes_only = 1;
+    job.pose = &pose, job.streams = frames, job.probes_only = 1;
     check(swivel_solve(crowd.get(), &job));
     for (std::uint32_t body = 0; body < stage.body_count; ++body) {
         INFO("body " << body);

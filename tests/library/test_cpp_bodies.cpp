@@ -240,7 +240,7 @@ TEST_CASE("C++: frames of bodies have values of their fields' widths and kinds, 
 {
     std::vector<std::array<float, 11>> plants(2);
     std::vector<std::array<double, 3>> places(2);
-    Frame frame;
+    Streams frame;
     CHECK_NOTHROW(frame.out(SWIVEL_PLANT, stream(plants)));
     CHECK_NOTHROW(frame.in(SWIVEL_NEXT_TARGET, stream(places)));
     CHECK_THROWS_WITH(frame.out(SWIVEL_SHIFT, stream(plants)), Catch::Contains("11 floats is no value"));
@@ -258,9 +258,9 @@ TEST_CASE("C++: frames of bodies have values of their fields' widths and kinds, 
     Player far(standing("prop-at-joint"));
     far.play(1, [&](Job job) {
         const std::vector<std::array<float, 3>> grounds(20);
-        std::vector<Frame> frames(swivel_group_count(far.crowd.get()));
+        std::vector<Streams> frames(swivel_group_count(far.crowd.get()));
         frames[0].in(SWIVEL_GROUND, stream(grounds));
-        job.frames = frames;
+        job.streams = frames;
         CHECK_THROWS_WITH(far.crowd.solve(job),
                           Catch::Contains("ground is in floats, but the pose has root_is_double"));
     });

@@ -142,25 +142,26 @@ static_assert(std::is_convertible_v<decltype(stream(std::declval<std::vector<Per
 static_assert(
     !std::is_convertible_v<decltype(stream(std::declval<const std::vector<Person>&>(), &Person::pose)), swivel_out>);
 template <class Value>
-concept FramesIn = requires(Frame frame, Stream<Value> values)
+concept StreamsIn = requires(Streams frame, Stream<Value> values)
 {
     frame.in(SWIVEL_TARGET, values);
 };
 template <class Value>
-concept FramesOut = requires(Frame frame, Stream<Value> values)
+concept StreamsOut = requires(Streams frame, Stream<Value> values)
 {
     frame.out(SWIVEL_SHOULDER, values);
 };
-static_assert(FramesIn<const Floats> && FramesIn<Doubles> && !FramesIn<int>);
-static_assert(FramesOut<Floats> && !FramesOut<Doubles> && !FramesOut<const Floats>);
+static_assert(StreamsIn<const Floats> && StreamsIn<Doubles> && !StreamsIn<int>);
+static_assert(StreamsOut<Floats> && !StreamsOut<Doubles> && !StreamsOut<const Floats>);
 
 template <class Frames>
-concept TakesFrames = requires(Frames&& frames)
+concept TakesStreams = requires(Frames&& frames)
 {
-    Job{.frames = std::forward<Frames>(frames)};
+    Job{.streams = std::forward<Frames>(frames)};
 };
-static_assert(TakesFrames<Frame&> && TakesFrames<std::vector<Frame>&>);
-static_assert(!TakesFrames<Frame> && !TakesFrames<std::vector<Frame>>);  // a job would view what ends with its line
+static_assert(TakesStreams<Streams&> && TakesStreams<std::vector<Streams>&>);
+static_assert(!TakesStreams<Streams> &&
+              !TakesStreams<std::vector<Streams>>);  // a job would view what ends with its line
 template <class Range>
 concept Streamable = requires(Range&& range)
 {
@@ -209,8 +210,8 @@ TEST_CASE("C++: a job with a name keeps ranges without a name, and frames in bra
     CHECK(solved_by(crowd, words) == 0x21u);
 
     const Float3 target{0.2f, 0.3f, 0.4f};
-    const Frame frame = Frame().in(SWIVEL_TARGET, {target.data(), 0});
-    Job framed{.frames = {frame}};
+    const Streams frame = Streams().in(SWIVEL_TARGET, {target.data(), 0});
+    Job framed{.streams = {frame}};
     scribble();
     CHECK(solved_by(crowd, framed) == 0xfffffu);
     std::vector<Float3> read(20);
@@ -238,7 +239,7 @@ TEST_CASE("C++: a matrix is no rotation, and other arrays of floats are no other
     std::vector<std::array<float, 16>> matrices(3);
     std::vector<std::array<float, 12>> boxes(3);
     Crowd crowd(group(3, SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_BOX));
-    Frame frame;
+    Streams frame;
     const auto no_value = Catch::Contains("floats is no value of");
     CHECK_THROWS_WITH(frame.in(SWIVEL_PARENT_ROTATION, stream(people, &Person::legs, 0, &Leg::world)), no_value);
     CHECK_THROWS_WITH(crowd.write(SWIVEL_PARENT_ROTATION, 0, matrices), no_value);
@@ -250,15 +251,15 @@ TEST_CASE("C++: a matrix is no rotation, and other arrays of floats are no other
 TEST_CASE("C++: one frame and one group need no braces, an empty list is nothing")
 {
     Crowd crowd(group(20)), two({group(20), group(3)});
-    std::vector<Frame> frames(2);
-    CHECK(crowd.solve({.frames = frames[0]}) == 20);
-    CHECK(two.solve({.frames = frames}) == 23);
+    std::vector<Streams> frames(2);
+    CHECK(crowd.solve({.streams = frames[0]}) == 20);
+    CHECK(two.solve({.streams = frames}) == 23);
     CHECK(two.solve({.groups = {1}}) == 3);
     CHECK(two.solve({.groups = {}}) == 0);
     CHECK(two.solve({.limbs = {}}) == 0);
     CHECK(two.solve({.groups = everything}) == 23);
     CHECK_THROWS_WITH(two.solve({.mask = {}}), Catch::Contains("a mask of 0 words"));
-    CHECK_THROWS_WITH(two.solve({.frames = frames[0]}), Catch::Contains("1 frames for 2 groups"));
+    CHECK_THROWS_WITH(two.solve({.streams = frames[0]}), Catch::Contains("1 frames for 2 groups"));
 }
 
 TEST_CASE("C++: a stream is the first one's member, or a part of it, and the way to the next")
@@ -269,21 +270,21 @@ TEST_CASE("C++: a stream is the first one's member, or a part of it, and the way
     CHECK((grip.data == &characters[0].grip && grip.stride == sizeof(Person)));
     CHECK((far.data == &characters[0].place && far.stride == sizeof(Person)));
     CHECK((pose.data == &characters[0].pose && pose.stride == sizeof(Person)));
-    Frame doubles;
+    Streams doubles;
     doubles.in(SWIVEL_TARGET, stream(characters, &Person::place));
-    CHECK(swivel_frame(doubles).positions == SWIVEL_DOUBLES);
+    CHECK(swivel_streams(doubles).positions == SWIVEL_DOUBLES);
     CHECK_THROWS_WITH(doubles.in(SWIVEL_POLE, stream(characters, &Person::grip)),
                       Catch::Contains("floats and in doubles"));
     CHECK_THROWS_WITH(doubles.in(SWIVEL_HAND, stream(characters, &Person::place)), Catch::Contains("is no position"));
-    Frame made;
+    Streams made;
     const std::vector<Made> classes(20, Made(1));  // taken for floats, which need no origin
     made.in(SWIVEL_PARENT_SCALE, stream(classes));
-    const swivel_frame view = made;
+    const swivel_streams view = made;
     CHECK((view.fields[0].data == classes.data() && view.fields[1].data == nullptr));
     CHECK(view.positions == SWIVEL_NUMBERS_UNSPECIFIED);
     made.in(SWIVEL_TARGET, stream(characters, &Person::grip));  // a view sees what is added later
     CHECK(view.fields[1].data == &characters[0].grip);
-    CHECK(swivel_frame(made).positions == SWIVEL_FLOATS);
+    CHECK(swivel_streams(made).positions == SWIVEL_FLOATS);
     const swivel_out left = stream(characters, &Person::legs, 1, &Leg::target);
     CHECK((left.data == &characters[0].legs[1].target && left.stride == sizeof(Person)));
     CHECK(swivel_in(stream(characters, &Person::pose, 2)).data == &characters[0].pose[2]);
@@ -308,10 +309,10 @@ TEST_CASE("C++: ranges have a value for each limb, or say from which limb on; fr
     CHECK_THROWS_AS(crowd.write_all(SWIVEL_POLE, 0, 1.0f), Error);
     std::vector<double> residuals(6);
     CHECK_THROWS_AS(crowd.residuals(1, residuals), Error);
-    const std::vector<swivel_frame> frames(3, swivel_default_frame());
-    CHECK_NOTHROW(crowd.solve({.frames = std::span(frames).first(2)}));
+    const std::vector<swivel_streams> frames(3, swivel_default_streams());
+    CHECK_NOTHROW(crowd.solve({.streams = std::span(frames).first(2)}));
     for (const std::size_t count : {std::size_t{1}, std::size_t{3}})
-        CHECK_THROWS_WITH(crowd.solve({.frames = std::span(frames).first(count)}),
+        CHECK_THROWS_WITH(crowd.solve({.streams = std::span(frames).first(count)}),
                           std::to_string(count) + " frames for 2 groups; give one for each");
 }
 

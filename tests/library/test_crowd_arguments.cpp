@@ -73,14 +73,14 @@ TEST_CASE("a definition of an older header is read as far as it goes")
 
 TEST_CASE("frames and jobs of an older header are read as far as they go, frames as far apart as the first says")
 {
-    constexpr std::size_t step = offsetof(swivel_frame, origin);  // as if a first release had no origins
+    constexpr std::size_t step = offsetof(swivel_streams, origin);  // as if a first release had no origins
     const swivel_group_def groups[] = {group_of(20), group_of(5)};
     Crowd framed = crowd_with(0, groups), rows = crowd_with(0, groups);
-    alignas(swivel_frame) std::array<unsigned char, 2 * step> frames;
+    alignas(swivel_streams) std::array<unsigned char, 2 * step> frames;
     std::vector<Float3> targets[] = {std::vector<Float3>(20, Float3{0, 1, 1}), std::vector<Float3>(5, Float3{1, 0, 1})};
-    Frame own[2];
+    Streams own[2];
     for (std::uint32_t g = 0; g < 2; ++g) {
-        swivel_frame frame = own[g].in(SWIVEL_TARGET, {targets[g].data(), sizeof(Float3)});
+        swivel_streams frame = own[g].in(SWIVEL_TARGET, {targets[g].data(), sizeof(Float3)});
         frame.size = step;
         std::memcpy(frames.data() + g * step, &frame, step);
         for (Crowd* crowd : {&framed, &rows}) crowd->write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
@@ -88,7 +88,7 @@ TEST_CASE("frames and jobs of an older header are read as far as they go, frames
     }
     rows.solve();
     swivel_job job = swivel_default_job();
-    job.frames = reinterpret_cast<const swivel_frame*>(frames.data());
+    job.streams = reinterpret_cast<const swivel_streams*>(frames.data());
     REQUIRE(swivel_solve(framed.get(), &job) == SWIVEL_OK);
     CHECK((all_words(framed) == all_words(rows)));
 

@@ -228,15 +228,15 @@ TEST_CASE("jobs name groups; frames are given for those alone")
     Crowd crowd({group(20), group(5), group(40)});
     const Float3 target{0.3f, 0.2f, 1};
     for (std::uint32_t g = 0; g < 3; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
-    Frame frame;
+    Streams frame;
     frame.in(SWIVEL_TARGET, {&target, 0});
-    CHECK(crowd.solve({.groups = {0u, 2u}, .frames = {frame, frame}}) == 60);
+    CHECK(crowd.solve({.groups = {0u, 2u}, .streams = {frame, frame}}) == 60);
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 0)[19] == SWIVEL_REACHED);
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 1)[4] == 0);  // never solved
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 2)[39] == SWIVEL_REACHED);
     CHECK(crowd.solve({.groups = {1u}, .limbs = {3u, 32u}}) == 1);
     CHECK(crowd.solve({.groups = std::vector<std::uint32_t>()}) == 0);
-    CHECK_THROWS_WITH(crowd.solve({.groups = {1u}, .frames = {frame, frame}}),
+    CHECK_THROWS_WITH(crowd.solve({.groups = {1u}, .streams = {frame, frame}}),
                       "2 frames for 1 groups; give one for each");
     CHECK_THROWS_WITH(crowd.solve({.groups = {3u}}), "group 3 does not exist; this crowd has 3");
 }
@@ -246,11 +246,11 @@ TEST_CASE("a job whose groups lie outside its blocks solves nothing, on threads,
     Crowd crowd({group(16 * 2000), group(16)});
     const Float3 target{0.3f, 0.2f, 1};
     for (std::uint32_t g = 0; g < 2; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
-    const Frame frame = Frame().in(SWIVEL_TARGET, {&target, 0});
-    CHECK(crowd.solve({.blocks = swivel_blocks{0, 2000}, .groups = {1u}, .frames = {frame}}) == 0);
-    CHECK(crowd.solve({.groups = {1u}, .frames = {frame}}) == 16);
-    CHECK(crowd.solve({.groups = {0u}, .frames = {frame}}) == 32000);
-    CHECK_THROWS_WITH(Frame().in(SWIVEL_FLAGS, {&target, 4}), "a frame takes in no result; give it by out()");
+    const Streams frame = Streams().in(SWIVEL_TARGET, {&target, 0});
+    CHECK(crowd.solve({.blocks = swivel_blocks{0, 2000}, .groups = {1u}, .streams = {frame}}) == 0);
+    CHECK(crowd.solve({.groups = {1u}, .streams = {frame}}) == 16);
+    CHECK(crowd.solve({.groups = {0u}, .streams = {frame}}) == 32000);
+    CHECK_THROWS_WITH(Streams().in(SWIVEL_FLAGS, {&target, 4}), "streams take in no result; give it by out()");
 }
 
 TEST_CASE("bad input keeps the pose in a frame that is read and written in place")
@@ -279,14 +279,14 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
             crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
             crowd.solve();
             const auto had = read<Float4>(crowd, SWIVEL_SHOULDER);
-            const Frame frame = Frame()
-                                    .in(SWIVEL_TARGET, stream(poses, &Pose::target))
-                                    .in(SWIVEL_INCOMING_SHOULDER, stream(poses, &Pose::shoulder))
-                                    .in(SWIVEL_INCOMING_ELBOW, stream(poses, &Pose::elbow))
-                                    .out(SWIVEL_SHOULDER, stream(poses, &Pose::shoulder))
-                                    .out(SWIVEL_ELBOW, stream(poses, &Pose::elbow))
-                                    .out(SWIVEL_FLAGS, stream(poses, &Pose::flags));
-            Job job{.frames = frame, .on_this_thread = on_this_thread};
+            const Streams frame = Streams()
+                                      .in(SWIVEL_TARGET, stream(poses, &Pose::target))
+                                      .in(SWIVEL_INCOMING_SHOULDER, stream(poses, &Pose::shoulder))
+                                      .in(SWIVEL_INCOMING_ELBOW, stream(poses, &Pose::elbow))
+                                      .out(SWIVEL_SHOULDER, stream(poses, &Pose::shoulder))
+                                      .out(SWIVEL_ELBOW, stream(poses, &Pose::elbow))
+                                      .out(SWIVEL_FLAGS, stream(poses, &Pose::flags));
+            Job job{.streams = frame, .on_this_thread = on_this_thread};
             if (masked) job.mask = std::vector<std::uint32_t>(4, 0xffffbfffu);
             if (on_this_thread) job.blocks = swivel_blocks{0, swivel_block_count(crowd.get())};
             crowd.solve(job);

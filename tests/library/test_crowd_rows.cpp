@@ -284,15 +284,15 @@ TEST_CASE("nothing allocates after creation")
         static std::vector<std::array<double, 3>> wrists(5000);
         static std::vector<double> residuals(5000);
         static const std::vector<std::uint32_t> mask(157, 0x80018001u);
-        static const Frame own = Frame()
-                                     .in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]})
-                                     .out(SWIVEL_SHOULDER, {shoulders.data(), sizeof shoulders[0]});
-        static const swivel_frame frame = own;
+        static const Streams own = Streams()
+                                       .in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]})
+                                       .out(SWIVEL_SHOULDER, {shoulders.data(), sizeof shoulders[0]});
+        static const swivel_streams frame = own;
         const std::span frames(&frame, 1);
         crowd.write(SWIVEL_TARGET, 0, targets);
         crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
         crowd.solve({.blocks = swivel_blocks{0, 200}, .on_this_thread = true});
-        crowd.solve({.blocks = swivel_blocks{3, 200}, .mask = mask, .frames = frames, .on_this_thread = true});
+        crowd.solve({.blocks = swivel_blocks{3, 200}, .mask = mask, .streams = frames, .on_this_thread = true});
         crowd.read(SWIVEL_SHOULDER, 0, shoulders);
         crowd.wrists(0, wrists);
         crowd.residuals(0, residuals);

@@ -296,7 +296,7 @@ TEST_CASE("frames that cannot be are refused")
     const swivel_in origin{c.doubles, 0}, narrow_origin{c.doubles, 23};
     const struct {
         const char* words;
-        std::vector<swivel_frame_field> fields;  // of group 1
+        std::vector<swivel_stream> fields;  // of group 1
         std::uint32_t positions = SWIVEL_NUMBERS_UNSPECIFIED;
         swivel_in origin = {};
     } rows[] = {
@@ -306,12 +306,12 @@ TEST_CASE("frames that cannot be are refused")
         {"group 1, hand: not part of this group; create it with SWIVEL_WITH_HAND", {{SWIVEL_HAND, c.floats, 16}}},
         {"group 1, incoming_wrist: not part of this group; create it with ", {{SWIVEL_INCOMING_WRIST, c.floats, 16}}},
         {"create it with SWIVEL_WITH_CLAVICLE", {{SWIVEL_CLAVICLE_ROTATION, c.floats, 16}}},
-        {"frame of group 1 lists pole twice; list it once", {{SWIVEL_POLE, c.floats, 0}, {SWIVEL_POLE, c.floats, 0}}},
+        {"streams of group 1 list pole twice; list it once", {{SWIVEL_POLE, c.floats, 0}, {SWIVEL_POLE, c.floats, 0}}},
         {"there is no field ", {{SWIVEL_INPUT_END, c.floats, 0}}},
         {"target is in doubles, but floats are read without an origin; give floats, or an",
          {{SWIVEL_TARGET, c.doubles, 24}},
          SWIVEL_DOUBLES},
-        {"target is in floats, but the frame has an origin; give doubles",
+        {"target is in floats, but the streams have an origin; give doubles",
          {{SWIVEL_TARGET, c.floats, 24}},
          SWIVEL_FLOATS,
          origin},
@@ -323,9 +323,9 @@ TEST_CASE("frames that cannot be are refused")
          origin},
     };
     const swivel_blocks whole{0, 3}, of_second{2, 1}, of_first{0, 2};
-    swivel_frame frames[2] = {swivel_default_frame(), swivel_default_frame()};
+    swivel_streams frames[2] = {swivel_default_streams(), swivel_default_streams()};
     swivel_job job = swivel_default_job();
-    job.frames = frames;
+    job.streams = frames;
     {
         const Unchanged refused{c};
         for (const auto& [words, fields, positions, from] : rows) {
@@ -336,14 +336,14 @@ TEST_CASE("frames that cannot be are refused")
                 refused(swivel_solve(c.crowd.get(), &job), words);
             }
         }
-        frames[1] = swivel_default_frame(), frames[1].field_count = 1;
+        frames[1] = swivel_default_streams(), frames[1].field_count = 1;
         refused(swivel_solve(c.crowd.get(), &job), "null");
         for (const std::uint32_t size : {0u, static_cast<std::uint32_t>(sizeof frames[0]) + 8}) {
             frames[0].size = size;
             refused(swivel_solve(c.crowd.get(), &job), "size ");
         }
     }
-    frames[0] = swivel_default_frame();
+    frames[0] = swivel_default_streams();
     job.blocks = &of_first;  // the second frame is not looked at
     CHECK(swivel_solve(c.crowd.get(), &job) == SWIVEL_OK);
 }

@@ -80,8 +80,8 @@ struct Most {
 
 // Frames that take every result of each group out of the crowd, as far as frames can.
 struct Frames {
-    std::vector<Frame> own;
-    std::vector<swivel_frame> frames;
+    std::vector<Streams> own;
+    std::vector<swivel_streams> frames;
     std::vector<std::vector<float>> values;
 
     explicit Frames(const Crowd& crowd)
@@ -90,7 +90,7 @@ struct Frames {
         for (std::uint32_t g = 0; swivel_group_limb_count(crowd.get(), g) > 0; ++g) {
             std::vector<float>& group =
                 values.emplace_back(kFloats * kResults * swivel_group_limb_count(crowd.get(), g));
-            Frame& frame = own.emplace_back();
+            Streams& frame = own.emplace_back();
             for (std::size_t n = 0; SWIVEL_SHOULDER + n < SWIVEL_RESULT_END; ++n)
                 if (const auto field = static_cast<swivel_field>(SWIVEL_SHOULDER + n);
                     swivel_field_row_count(crowd.get(), g, field) > 0)
@@ -122,7 +122,7 @@ void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Mo
         job.pose = pose;
         const auto solve = [&, &each = job] { check(swivel_solve(crowd.get(), &each)); };
         max.take(name + ", " + kind, solve);
-        job.frames = frames.frames.data();
+        job.streams = frames.frames.data();
         max.take(name + ", " + kind + ", with frames", solve);
     }
 }

@@ -180,13 +180,13 @@ TEST_CASE("frames are refused exactly where a result overlaps another limb's inp
                 const std::size_t in = input + i * input_stride, out = output + j * step;
                 overlaps = overlaps || (out < in + 12 && in < out + 4);
             }
-        const swivel_frame_field fields[] = {{SWIVEL_TARGET, base + input, input_stride},
-                                             {SWIVEL_FLAGS, base + output, step}};
-        swivel_frame frame = swivel_default_frame();
+        const swivel_stream fields[] = {{SWIVEL_TARGET, base + input, input_stride},
+                                        {SWIVEL_FLAGS, base + output, step}};
+        swivel_streams frame = swivel_default_streams();
         frame.fields = fields;
         frame.field_count = 2;
         swivel_job job = swivel_default_job();
-        job.frames = &frame;
+        job.streams = &frame;
         RC_ASSERT((swivel_solve(crowd.get(), &job) != SWIVEL_OK) == overlaps);
         RC_ASSERT(!overlaps || is_one_line(swivel_last_error()));
     });

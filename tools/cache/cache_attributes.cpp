@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 9;
+constexpr int kFormat = 10;
 constexpr std::uint32_t kMax = 0x7fffffff;      // frames, characters
 constexpr std::uint32_t kMaxLimbs = 4;          // of a character: formats::LimbName has no more
 constexpr double kMaxLength = 1e15;             // as swivel.h has it

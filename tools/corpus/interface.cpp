@@ -377,7 +377,7 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     const swivel_pose pose = library_pose(poses);
     Job job{.pose = &pose};
     if (!poses.mask.empty()) job.mask = poses.mask;
-    std::array<Frame, kGroupCount + 2 + kLookCount> frames;
+    std::array<swivel::Streams, kGroupCount + 2 + kLookCount> frames;
     const auto give = [&](std::size_t group, swivel_field field, const std::vector<double>& values) {
         if (!values.empty()) frames[group].in(field, body_values(poses, values));
     };
@@ -390,8 +390,8 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     give(prop_group(poses.has_shift), SWIVEL_PROP_POSITION, poses.far_props);
     const std::uint32_t look = look_group(poses.has_shift, poses.has_prop);
     for (std::uint32_t n = 0; n < kLookCount; ++n) give(look + n, SWIVEL_LOOK_TARGET, poses.far_look_targets[n]);
-    const std::span<Frame> given = std::span(frames).first(look + (poses.has_looks ? kLookCount : 0));
-    if (pose.root_is_double) job.frames = given;
+    const std::span<swivel::Streams> given = std::span(frames).first(look + (poses.has_looks ? kLookCount : 0));
+    if (pose.root_is_double) job.streams = given;
     take(job);
 }
 

@@ -163,8 +163,8 @@ void sample(const swivel_probes* probes, void* user)
 
 // What a group's limb reads.
 struct GroupInputs {
-    swivel_frame_field fields[7];
-    swivel_frame frame;
+    swivel_stream fields[7];
+    swivel_streams frame;
 };
 void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& first, size_t stride, GroupInputs& to)
 {
@@ -174,7 +174,7 @@ void list_inputs(const swivel_crowd* crowd, uint32_t group, const goal_input& fi
     } inputs[] = {{SWIVEL_TARGET, first.target},     {SWIVEL_POLE, first.pole},        {SWIVEL_HAND, first.hand},
                   {SWIVEL_WEIGHTS, first.weights},   {SWIVEL_CONTACT, &first.contact}, {SWIVEL_GRIP, first.grip},
                   {SWIVEL_LOOK_TARGET, first.target}};
-    to.frame = swivel_default_frame();
+    to.frame = swivel_default_streams();
     to.frame.fields = to.fields;
     for (const auto& input : inputs)
         if (swivel_field_row_count(crowd, group, input.field) > 0)
@@ -279,9 +279,9 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
     const size_t stride = limb_count * sizeof(goal_input);
     size_t rotations[kMaxJoints], places[kMaxJoints], results[kMaxJoints], joint = 0;
     GroupInputs lists[GOAL_MAX_LIMBS];
-    swivel_frame frames[GOAL_MAX_LIMBS + 1];
-    const swivel_frame_field wish{SWIVEL_SHIFT_WISH, const_cast<float*>(&characters[0].wish), sizeof(goal_character)};
-    frames[limb_count] = swivel_default_frame();
+    swivel_streams frames[GOAL_MAX_LIMBS + 1];
+    const swivel_stream wish{SWIVEL_SHIFT_WISH, const_cast<float*>(&characters[0].wish), sizeof(goal_character)};
+    frames[limb_count] = swivel_default_streams();
     frames[limb_count].fields = &wish;
     frames[limb_count].field_count = 1;
     for (uint32_t limb = 0; limb < limb_count; ++limb) {
@@ -307,12 +307,12 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
     pose.time = {&seconds, 0};
     pose.support_position = {characters[0].place, sizeof(goal_character)};
     Standing standing{ground, heights, roots, inputs, limb_count};
-    job->frames = frames;
+    job->streams = frames;
     job->pose = &pose;
     job->sample = ground ? sample : nullptr;
     job->sample_user = &standing;
     const swivel_status status = swivel_solve(crowd, job);
-    job->frames = nullptr;
+    job->streams = nullptr;
     job->pose = nullptr;
     job->sample = nullptr;
     job->sample_user = nullptr;

@@ -282,7 +282,7 @@ private:
                 made_["form"] = pose->form, made_["space"] = pose->space, made_["outputs"] = outputs_of(poses);
                 made_["root_is_double"] = pose->root_is_double;
             }
-            if (job.frames) made["doubles"] = doubles(*job.frames);
+            if (job.streams) made["doubles"] = doubles(*job.streams);
             if (!poses.mask.empty()) made["mask"] = poses.mask[0];
             made["solved"] = crowd_->solve(job);
         });
@@ -313,7 +313,7 @@ private:
     }
 
     // Positions in double, of each group.
-    Json doubles(std::span<const swivel_frame> frames) const
+    Json doubles(std::span<const swivel_streams> frames) const
     {
         Json groups = Json::array();
         for (std::uint32_t group = 0; group < groups_.size(); ++group) {

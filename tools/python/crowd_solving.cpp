@@ -126,25 +126,25 @@ using Blocks = std::optional<std::pair<std::int64_t, std::int64_t>>;
 
 // Results go straight into the caller's arrays, or through copies. A copy brings back the whole group's values, over
 // those that another thread solved meanwhile.
-void require_direct(const Frames& frames)
+void require_direct(const StreamArrays& streams)
 {
-    for (const Output& each : frames.outputs)
+    for (const Output& each : streams.outputs)
         if (!each.given.is(each.direct))
             throw py::value_error(
-                "frames: where not all limbs are solved, outputs need the numbers of a value side by side");
+                "streams: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
 // A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know. What is planted
 // or linked needs none.
-void require_frames(const HeldCrowd& held, const std::vector<std::uint32_t>& groups, const PoseArrays& pose,
-                    const py::object& frames)
+void require_streams(const HeldCrowd& held, const std::vector<std::uint32_t>& groups, const PoseArrays& pose,
+                     const py::object& streams)
 {
     const bool has_targets = std::any_of(groups.begin(), groups.end(), [&](std::uint32_t group) {
         return !(swivel_group_features(held.crowd.get(), group) & (SWIVEL_SENT | SWIVEL_NO_LIMB));
     });
-    if (pose.view.root_is_double && has_targets && frames.is_none())
+    if (pose.view.root_is_double && has_targets && streams.is_none())
         throw py::value_error(
-            "root_position is float64, so targets are, too, and come in frames; give these, or a root_position of "
+            "root_position is float64, so targets are, too, and come in streams; give these, or a root_position of "
             "float32");
 }
 
@@ -162,7 +162,7 @@ void* workspace_of(const HeldCrowd& held)
 
 std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups, const py::object& mask,
                     const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> max_blocks,
-                    const py::object& urgency, const py::object& frames, const py::object& pose, bool on_this_thread,
+                    const py::object& urgency, const py::object& streams, const py::object& pose, bool on_this_thread,
                     bool probes_only)
 {
     Job job;
@@ -182,11 +182,12 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     job.urgency = urgency_of(held, urgency);
     const PoseArrays poses = pose.is_none() ? PoseArrays() : pose_of(held, pose);
     if (!pose.is_none()) job.pose = &poses.view;
-    require_frames(held, named, poses, frames);
-    const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames, named, poses.view.root_is_double != 0);
+    require_streams(held, named, poses, streams);
+    const StreamArrays arrays =
+        streams.is_none() ? StreamArrays() : streams_of(held, streams, named, poses.view.root_is_double != 0);
     if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
-    const std::vector<swivel_frame> views(arrays.frames.begin(), arrays.frames.end());
-    if (!frames.is_none()) job.frames = views;
+    const std::vector<swivel_streams> views(arrays.streams.begin(), arrays.streams.end());
+    if (!streams.is_none()) job.streams = views;
     job.on_this_thread = on_this_thread;
     job.probes_only = probes_only;
     job.workspace = workspace_of(held);
@@ -228,7 +229,7 @@ void add_solving(CrowdClass& crowd)
     crowd.def(
         "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("groups") = py::none(),
         py::arg("mask") = py::none(), py::arg("limbs") = py::none(), py::arg("priorities") = py::none(),
-        py::arg("max_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("frames") = py::none(),
+        py::arg("max_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("streams") = py::none(),
         py::arg("pose") = py::none(), py::arg("on_this_thread") = false, py::arg("probes_only") = false,
         "Solves limbs, all of them if nothing is given, and gives how many. Equal inputs give equal bits on every "
         "CPU.\n\n"
@@ -237,7 +238,8 @@ void add_solving(CrowdClass& crowd)
         "limbs to solve; lanes of padding mean nothing. limbs: whole numbers of shape (count,) in any order, as\n"
         "limbs(group) gives them. priorities, max_blocks and urgency: as choose() has them. Limbs that are not\n"
         "chosen keep their results bit for bit.\n\n"
-        "frames solves from and to your own arrays. It takes a run of blocks of each group in turn, while they are in\n"
+        "streams solve from and to your own arrays. They take a run of blocks of each group in turn, while they are "
+        "in\n"
         "the nearest cache. Give a dict for each group, or one dict if there is one group; with groups, for each of\n"
         "these, in the same order. Keys are lower-case names of fields, values arrays of the whole group as write()\n"
         "takes them and as out of read(). A field of a structured array is one. Inputs are read, results are filled.\n"
@@ -253,7 +255,7 @@ void add_solving(CrowdClass& crowd)
         "ground\n"
         "there, write Field.GROUND and Field.GROUND_NORMAL, and solve. No function of yours is called in a solve.\n\n"
         "On all cores if the library was built with oneTBB; on_this_thread on one, and then several threads may\n"
-        "solve blocks that do not overlap at once, with the same mask and frames. Lists and priorities are for the\n"
+        "solve blocks that do not overlap at once, with the same mask and streams. Lists and priorities are for the\n"
         "whole crowd and exclude both, and priorities exclude groups. ValueError for limbs that do not exist or are\n"
         "padding.");
     crowd.def("choose", &choose, py::arg("priorities"), py::arg("max_blocks"), py::arg("urgency") = py::none(),

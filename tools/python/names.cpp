@@ -88,7 +88,7 @@ const std::vector<Enum>& enums()
         {"IntEnum",
          "OnBadInput",
          "What a limb with Flag.BAD_INPUT gets.\n\n"
-         "REST_POSE: its rest pose. KEEP_POSE: it keeps its results and its values in frames; only its flags\n"
+         "REST_POSE: its rest pose. KEEP_POSE: it keeps its results and its values in streams; only its flags\n"
          "are written.",
          {{"REST_POSE", SWIVEL_REST_POSE}, {"KEEP_POSE", SWIVEL_KEEP_POSE}}},
         {"IntEnum",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Poses of bodies, and frames of a solve, as Python gives them.
+// Poses of bodies, and streams of a solve, as Python gives them.
 #pragma once
 
 #include <vector>
@@ -19,16 +19,16 @@ struct PoseArrays {
 // A swivel.Pose of a crowd of bodies, else TypeError; ValueError or TypeError for arrays that do not go with the crowd.
 PoseArrays pose_of(const HeldCrowd& held, const pybind11::object& given);
 
-// The frames of a call, and the arrays behind them.
-struct Frames {
-    std::vector<Frame> frames;
+// The streams of a call, and the arrays behind them.
+struct StreamArrays {
+    std::vector<Streams> streams;
     std::vector<Input> inputs;
     std::vector<Output> outputs;
 };
 
 // A dict for each of these groups, or one dict if it is one group; in the crowd's order. ValueError or TypeError for
 // what is none. far: positions are doubles, also without an origin.
-Frames frames_of(const HeldCrowd& held, const pybind11::object& given, const std::vector<std::uint32_t>& groups,
-                 bool far);
+StreamArrays streams_of(const HeldCrowd& held, const pybind11::object& given, const std::vector<std::uint32_t>& groups,
+                        bool far);
 
 }  // namespace swivel::python

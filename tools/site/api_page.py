@@ -12,7 +12,7 @@ CHAPTERS = {
     "swivel_block_count": "A crowd's shape and rows",
     "swivel_write": "In and out",
     "swivel_solve": "Solving",
-    "swivel_frame": "Whole frames",
+    "swivel_streams": "Streams",
     "swivel_reset": "Continuity, allowed swivels, joint angles",
     "swivel_range": "Values of limits and turns",
     "swivel_forward": "Forward kinematics",

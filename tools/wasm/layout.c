@@ -24,7 +24,7 @@
     _Generic(value, uint32_t : NO_VALUE, const uint32_t* : NO_VALUE, int32_t : WHOLE_NUMBER, default : FLOATS)
 enum kind { NO_VALUE, WHOLE_NUMBER, FLOATS };
 
-_Static_assert(sizeof(swivel_frame_field) == 12, "rows.ts writes it as three words");
+_Static_assert(sizeof(swivel_stream) == 12, "rows.ts writes it as three words");
 _Static_assert(sizeof(swivel_joint_values) == 16, "bodies.ts writes it as four words");
 _Static_assert(sizeof(swivel_supports) == 16, "bodies.ts writes it as four words");
 _Static_assert(sizeof(swivel_plant) == 11 * sizeof(float), "groups.ts writes it as floats");

@@ -106,8 +106,8 @@ int main(void)
 {
     const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
     const swivel_in target_in = {target, 0}, pole_in = {pole, 0}, lengths_in = {lengths, 0};
-    swivel_frame_field fields[2];
-    swivel_frame frame = swivel_default_frame();
+    swivel_stream fields[2];
+    swivel_streams frame = swivel_default_streams();
     swivel_job job = swivel_default_job();
     const swivel_blocks first_block = {0, 1};
     swivel_group_def group = swivel_default_group_def(1);
@@ -140,7 +140,7 @@ int main(void)
     fields[1].field = SWIVEL_FLAGS, fields[1].data = &flags, fields[1].stride = sizeof flags;
     frame.fields = fields, frame.field_count = 2;
     flags = 0;
-    job.frames = &frame;
+    job.streams = &frame;
     check(swivel_solve(crowd, &job) == SWIVEL_OK && flags == SWIVEL_REACHED, "a whole frame");
     job.blocks = &first_block;
     job.on_this_thread = 1;

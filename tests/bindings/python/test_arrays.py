@@ -79,13 +79,13 @@ class Copies(unittest.TestCase):
         pose = np.zeros(N, [("shoulder", "f4", 4), ("pad", "u1"), ("elbow", "f4", 2), ("flags", "u4"), ("goal", "f8", 3)])
         pose["goal"] = self.values + 1e6
         crowd = swivel.Crowd(N)
-        crowd.solve(frames={"target": pose["goal"], "origin": (1e6, 1e6, 1e6), "shoulder": pose["shoulder"], "elbow": pose["elbow"],
+        crowd.solve(streams={"target": pose["goal"], "origin": (1e6, 1e6, 1e6), "shoulder": pose["shoulder"], "elbow": pose["elbow"],
                            "flags": pose["flags"]})
         for field in ("shoulder", "elbow", "flags"):
             np.testing.assert_array_equal(pose[field], crowd.read(Field[field.upper()]))
         self.assertTrue(np.any(pose["shoulder"] != 0) and not np.any(pose["pad"]))
         split = np.zeros((4, N), np.float32)
-        crowd.solve(frames=[{"shoulder": split.T}])
+        crowd.solve(streams=[{"shoulder": split.T}])
         np.testing.assert_array_equal(split.T, pose["shoulder"])
 
 
@@ -169,9 +169,9 @@ class Mistakes(Refusals):
             self.refuses(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got (", swivel.Crowd, [wrong])
         self.refuses(ValueError, "there is no way to treat bad input 2; give a member of swivel.OnBadInput", swivel.Crowd, 1, on_bad_input=2)
         self.refuses(ValueError, "features is -1", swivel.Crowd, [swivel.Group(1, features=-1)])
-        self.refuses(ValueError, "frame of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve,
-                   frames={"tagret": 0})
-        self.refuses(ValueError, "frames: expected one for each of 1 groups, got 2", crowd.solve, frames=[{}, {}])
+        self.refuses(ValueError, "streams of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve,
+                   streams={"tagret": 0})
+        self.refuses(ValueError, "streams: expected one for each of 1 groups, got 2", crowd.solve, streams=[{}, {}])
         self.refuses(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve, priorities=[1, 1],
                    max_blocks=1)
         self.refuses(TypeError, "takes priorities and max_blocks together", crowd.solve, max_blocks=1)
@@ -183,9 +183,9 @@ class Mistakes(Refusals):
         self.refuses(ValueError, "urgency goes with priorities", crowd.solve, urgency=np.zeros(7, np.float32))
         self.refuses(ValueError, "group 1 does not exist; this crowd has 1", crowd.solve, groups=[1])
         self.refuses(ValueError, "group 0 is named twice", crowd.solve, groups=[0, 0])
-        self.refuses(ValueError, "frames: expected one for each of 0 groups, got 1", crowd.solve, groups=[], frames={})
+        self.refuses(ValueError, "streams: expected one for each of 0 groups, got 1", crowd.solve, groups=[], streams={})
         self.refuses(ValueError, "numbers of a value side by side", crowd.solve, blocks=(0, 1),
-                   frames={"shoulder": np.zeros((4, N), np.float32).T})
+                   streams={"shoulder": np.zeros((4, N), np.float32).T})
         self.refuses(ValueError, "give shoulder_position=", swivel.solve, (0, 0, 1), None, (1, 1), parent_rotation=(0, 0, 0, 1))
         self.refuses(ValueError, "give lengths= or binding=", swivel.solve, (0, 0, 1), None)
         self.refuses(TypeError, "unexpected keyword argument 'hond'", swivel.solve, (0, 0, 1), None, (1, 1), hond=1)

@@ -18,7 +18,7 @@ class Solved(unittest.TestCase):
 
     def solved(self, features=Feature.WITH_HAND, **arrays):
         crowd = crowd_of(N, features)
-        self.assertEqual(crowd.solve(frames=self.bodies.goals(), pose=Pose(**arrays)), N)
+        self.assertEqual(crowd.solve(streams=self.bodies.goals(), pose=Pose(**arrays)), N)
         self.assertIsNone(crowd.find(Flag.BAD_INPUT))
 
     def test_what_is_left_out_rests(self):
@@ -28,11 +28,11 @@ class Solved(unittest.TestCase):
         targets = [{"target": self.bodies.places[:, wrist] - self.bodies.root_position} for _, _, wrist in LIMBS]
         for rotations, members in ((whole, {}), (short, dict(translations=PLACES.tolist(), scales=ones, root_position=(0, 0, 0),
                                                              root_rotation=(0, 0, 0, 1), root_scale=1))):
-            crowd_of(N, Feature.POLE_INCOMING).solve(frames=targets, pose=Pose(rotations, **members))
+            crowd_of(N, Feature.POLE_INCOMING).solve(streams=targets, pose=Pose(rotations, **members))
         np.testing.assert_array_equal(short, whole)
-        crowd_of(N, Feature.POLE_INCOMING).solve(frames=targets, pose=Pose(given[0].tolist(), out=out))
+        crowd_of(N, Feature.POLE_INCOMING).solve(streams=targets, pose=Pose(given[0].tolist(), out=out))
         same = np.tile(given[0], (N, 1, 1))
-        crowd_of(N, Feature.POLE_INCOMING).solve(frames=targets, pose=Pose(same))
+        crowd_of(N, Feature.POLE_INCOMING).solve(streams=targets, pose=Pose(same))
         written = [joint for limb in LIMBS for joint in limb[:2]]  # no hands, so no wrists
         np.testing.assert_array_equal(out[:, written], same[:, written])
         self.assertFalse(np.any(np.delete(out, written, axis=1)))
@@ -94,8 +94,8 @@ class Compared(unittest.TestCase):
 
 
 class Mistakes(Refusals):
-    def solve_fails(self, error, text, *arguments, frames=None, **keywords):
-        self.refuses(error, text, crowd_of(2).solve, frames=frames, pose=Pose(*arguments, **keywords))
+    def solve_fails(self, error, text, *arguments, streams=None, **keywords):
+        self.refuses(error, text, crowd_of(2).solve, streams=streams, pose=Pose(*arguments, **keywords))
 
     def test_poses(self):
         good, matrices = np.zeros((2, 8, 4), np.float32), np.zeros((2, 8, 4, 4), np.float32)
@@ -122,7 +122,7 @@ class Mistakes(Refusals):
         fails(ValueError, "scales: expected shape (2, 8, 3), or (8, 3) for all bodies, got (3,)", good, scales=(1, 1, 1))
         fails(ValueError, "root_rotation: expected shape (2, 4), or (4,) for all bodies, got (4, 4)", good, root_rotation=np.eye(4))
         fails(ValueError, "root_position is float64, so targets are, too", good, root_position=np.zeros(3))
-        fails(ValueError, "a body's origin is its root in doubles", good, frames=[{"origin": (0, 0, 0)}, {}])
+        fails(ValueError, "a body's origin is its root in doubles", good, streams=[{"origin": (0, 0, 0)}, {}])
 
     def test_spaces_and_outputs(self):
         good, places, space = np.zeros((2, 8, 4), np.float32), np.zeros((2, 8, 3), np.float32), swivel.PoseSpace.IN_BODY

@@ -94,7 +94,7 @@ class Names(unittest.TestCase):
 
     def test_every_key_of_a_frame(self):
         with self.assertRaises(ValueError) as caught:
-            swivel.Crowd(1).solve(frames={"?": 0})
+            swivel.Crowd(1).solve(streams={"?": 0})
         self.assertEqual(str(caught.exception).partition("there are ")[2].split(", "),
                          ["origin", *[name.lower() for name in header_enum("swivel_field")]])
 

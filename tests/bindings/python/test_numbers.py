@@ -86,11 +86,11 @@ class Groups(unittest.TestCase):
         for groups in ([0, 1], [1, 0]):
             frames = [{name: np.zeros_like(values) for name, values in wanted[group].items()} for group in groups]
             frames[groups.index(1)]["hand"] = hands
-            self.assertEqual(crowd.solve(groups=groups, frames=frames), 60)
+            self.assertEqual(crowd.solve(groups=groups, streams=frames), 60)
             for group, frame in zip(groups, frames):
                 for name, values in wanted[group].items():
                     np.testing.assert_array_equal(frame[name], values, name)
-        crowd.solve(groups=[1], frames={"hand": hands})  # one group, one dict
+        crowd.solve(groups=[1], streams={"hand": hands})  # one group, one dict
 
     def test_bad_input_keeps_the_pose_or_rests(self):
         keeps = swivel.Group(40, on_bad_input=swivel.OnBadInput.KEEP_POSE)
@@ -105,7 +105,7 @@ class Groups(unittest.TestCase):
         bad = np.isnan(targets[:, 0])
         for outs in ([good.copy() for _ in range(2)], [np.asfortranarray(good) for _ in range(2)]):  # in place, and through a copy
             flags = np.zeros(40, np.uint32)
-            crowd.solve(frames=[{"target": targets, "shoulder": outs[0], "flags": flags}, {"target": targets, "shoulder": outs[1]}])
+            crowd.solve(streams=[{"target": targets, "shoulder": outs[0], "flags": flags}, {"target": targets, "shoulder": outs[1]}])
             np.testing.assert_array_equal(flags[bad], Flag.BAD_INPUT)
             np.testing.assert_array_equal(outs[0][bad], good[bad])
             np.testing.assert_array_equal(outs[1][bad], np.tile(np.float32((0, 0, 0, 1)), (bad.sum(), 1)))

@@ -202,7 +202,7 @@ class Scenes(unittest.TestCase):
         player.write(scene["frames"][1])
         crowd, (pose, written) = player.crowd, player.pose(scene["frames"][1])
         before, probes = (crowd.read(Field.PLANT), crowd.read(Field.PROBE), digest(written)), np.zeros((player.bodies, 3), np.float32)
-        self.assertEqual(crowd.solve(groups=[0], pose=pose, frames={"probe": probes}, probes_only=True), player.bodies)
+        self.assertEqual(crowd.solve(groups=[0], pose=pose, streams={"probe": probes}, probes_only=True), player.bodies)
         np.testing.assert_array_equal(probes, crowd.read(Field.PROBE))
         self.assertTrue(np.any(probes != before[1]))
         np.testing.assert_array_equal(crowd.read(Field.PLANT), before[0])

@@ -62,10 +62,10 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     one = Group(1, binding, wanted, shoulder_order=shoulder_order, wrist_order=wrist_order)
     n = _limb_count(one, values)
     crowd = Crowd(one._replace(limb_count=max(n, 1)))  # a group has limbs; of no arms, the one's results are left out
-    frame: dict[str, npt.ArrayLike] = {field.name.lower(): array for field, array in values.items()}
+    streams: dict[str, npt.ArrayLike] = {field.name.lower(): array for field, array in values.items()}
     if origin is not None:
-        frame["origin"] = origin
-    crowd.solve(frames=frame if n > 0 else None)
+        streams["origin"] = origin
+    crowd.solve(streams=streams if n > 0 else None)
     results = {field.name.lower(): crowd.read(field)
                for field in Field if field >= Field.SHOULDER and crowd.component_count(field) > 0}
     results.update(elbow_position=crowd.elbows(), wrist_position=crowd.wrists(), residual=crowd.residuals())

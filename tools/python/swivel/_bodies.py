@@ -204,8 +204,8 @@ class Pose(NamedTuple):
     In the body's space all joints below a limb's move with it, and are written, too, translations among them. joint_rotations
     and joint_positions get the joints that some limb needs: its own, those in between, and all above. Others keep their numbers.
 
-    A root_position that is an array of float64 makes support_position and all positions in frames float64. The root is subtracted in double, for
-    crowds kilometres from the origin. Positions that frames leave out, and places among results, are then counted from the root.
+    A root_position that is an array of float64 makes support_position and all positions in streams float64. The root is subtracted in double, for
+    crowds kilometres from the origin. Positions that streams leave out, and places among results, are then counted from the root.
     """
 
     rotations: Optional[npt.ArrayLike] = None

@@ -73,19 +73,19 @@ export class Crowd extends CrowdRows {
             return memory.words(solved, 1)[0];
         });
     }
-    /** A bit for each group that a job names, and their frames. */
+    /** A bit for each group that a job names, and their streams. */
     private name(groups: Numbers | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): void {
         if (groups === undefined) {
-            if (this.held.some((_, group) => this.lists(group))) to.words("frames", this.frames);
+            if (this.held.some((_, group) => this.lists(group))) to.words("streams", this.streams);
             return;
         }
         const words = new Array<number>(Math.ceil(this.groupCount / 32)).fill(0);
         for (const group of Array.from(numbers("groups", groups))) this.limbCount(group), words[group >> 5] |= 1 << (group & 31);
         to.words("groups", borrowed.words(words)).words("group_word_count", words.length);
         const named = Array.from(new Set(Array.from(groups))).sort((a, b) => a - b);  // the crowd's order
-        if (named.some((group) => this.lists(group))) to.words("frames", this.framesOf(named, borrowed));
+        if (named.some((group) => this.lists(group))) to.words("streams", this.streamsOf(named, borrowed));
     }
-    /** Whether a group's frame lists any field. */
+    /** Whether a group's streams list any field. */
     private lists(group: number): boolean { return this.listOf(group)[1] > 0; }
     /** Lends the library the urgency of blocks, which a solve changes. */
     private wait(urgency: Float32Array | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): Float32Array {

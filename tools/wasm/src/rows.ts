@@ -20,14 +20,14 @@ export function isPosition(field: FieldNumber): boolean { return (positions as r
 export class CrowdRows {
     private at = 0;
     private readonly groups: CheckedGroup[];
-    /** A swivel_frame for each group, which lists the fields that values() has given. */
-    protected frames = 0;
+    /** A swivel_streams for each group, which lists the fields that values() has given. */
+    protected streams = 0;
     /** Of each group, the fields that values() has given. */
     protected readonly held: Map<FieldNumber, Values>[];
     private readonly owned: number[] = [];
     /** Of bodies: the swivel_pose of every solve. */
     protected posed = 0;
-    /** Of bodies: whether positions in frames are doubles. */
+    /** Of bodies: whether positions in streams are doubles. */
     protected isDouble = false;
 
     /** @internal */
@@ -36,9 +36,9 @@ export class CrowdRows {
         this.groups = given.map((group, n) => ({ ...group, features: BigInt.asUintN(64, memory.calls.swivel_group_features(this.at, n)) }));
         this.held = given.map(() => new Map());
         this.orDispose(() => {
-            const { bytes } = layout.swivel_frame;
-            this.frames = memory.allocate(bytes * given.length);
-            given.forEach((_, n) => new Structure(memory, "swivel_frame", this.frames + n * bytes));
+            const { bytes } = layout.swivel_streams;
+            this.streams = memory.allocate(bytes * given.length);
+            given.forEach((_, n) => new Structure(memory, "swivel_streams", this.streams + n * bytes));
         });
     }
     /** Acts; where that fails nothing of this crowd is left. */
@@ -66,8 +66,8 @@ export class CrowdRows {
         this.memory.calls.swivel_crowd_destroy(this.at);
         for (const fields of this.held) for (const values of fields.values()) this.memory.free(values.byteOffset);
         for (const at of this.owned) this.memory.free(at);
-        if (this.frames) this.held.forEach((_, group) => this.memory.free(this.listOf(group)[0]));
-        this.memory.free(this.frames);
+        if (this.streams) this.held.forEach((_, group) => this.memory.free(this.listOf(group)[0]));
+        this.memory.free(this.streams);
         this.at = 0;
     }
 
@@ -178,19 +178,19 @@ export class CrowdRows {
         const held = this.held[group].get(field);
         if (held) this.readTo(held.byteOffset, field, { group, first: 0, count: this.limbCount(group) });
     }
-    /** The frames of these groups alone. */
-    protected framesOf(groups: readonly number[], borrowed: Borrowed): number {
-        const { bytes } = layout.swivel_frame, frames = borrowed.bytes(bytes * groups.length);
+    /** The streams of these groups alone. */
+    protected streamsOf(groups: readonly number[], borrowed: Borrowed): number {
+        const { bytes } = layout.swivel_streams, streams = borrowed.bytes(bytes * groups.length);
         const of = (place: number): Uint8Array => this.memory.bytes(place, bytes);
-        groups.forEach((group, n) => of(frames + n * bytes).set(of(this.frames + group * bytes)));
-        return frames;
+        groups.forEach((group, n) => of(streams + n * bytes).set(of(this.streams + group * bytes)));
+        return streams;
     }
-    /** Where a group's frame says which fields it lists, and how many. */
+    /** Where a group's streams say which fields they list, and how many. */
     protected listOf(group: number): Uint32Array {
-        const { bytes, fields } = layout.swivel_frame;
-        return this.memory.words(this.frames + group * bytes + fields, 2);
+        const { bytes, fields } = layout.swivel_streams;
+        return this.memory.words(this.streams + group * bytes + fields, 2);
     }
-    /** Adds a swivel_frame_field to a group's frame. */
+    /** Adds a swivel_stream to a group's streams. */
     protected list(group: number, field: number[]): void {
         const [before, count] = this.listOf(group), size = field.length, list = this.memory.allocate(4 * size * (count + 1));
         const fields = this.memory.words(list, size * (count + 1));

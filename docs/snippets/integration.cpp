@@ -39,21 +39,21 @@ double twist_of(const Character& character)
 
 }  // namespace
 
-TEST_CASE("docs: frames in place")
+TEST_CASE("docs: streams in place")
 {
     const swivel_binding arm = bound_arm();
     std::vector<Character> characters(
         40, {{0.3f, -0.2f, 0.3f}, {-0.2f, -0.5f, -0.3f}, {}, {}});
     swivel::Crowd crowd({swivel::group(40, arm, SWIVEL_WORLD | SWIVEL_JOINTS)});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
-    // [frame]
-    swivel::Frame frame;  // what is not listed keeps its rows, or is not written
-    frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
-    frame.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
+    // [streams]
+    swivel::Streams arms;  // what is not listed keeps its rows, or is not written
+    arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+    arms.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
     // May be the very pose that was read.
-    frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
-    frame.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm));
-    crowd.solve({.frames = {frame}});  // one for each group
+    arms.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
+    arms.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm));
+    crowd.solve({.streams = {arms}});  // one for each group
     // [end]
     for (const Character& character : characters) {
         CHECK((wrist_of(character) - vec(character.grip)).norm() < 1e-6);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the stages share that send a body's limb to a goal of their own: its frame, where it is animated, and the rows
-// in which their results wait.
+// Shared by the stages that compute the goal of a body's limb (plant, link): its frame, where it is animated, and the
+// rows in which their results wait.
 #pragma once
 
 #include <cstddef>
@@ -14,32 +14,24 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A run's lanes of what they write: those of a slice that are good.
-template <class S>
-SWIVEL_INLINE Rows<typename S::T, kTold> good_rows(const S& s)
+// The results of a limb that wait until all of its input is known to be good, among the rows of its goal.
+inline constexpr swivel_field kWaitingResults[] = {SWIVEL_PLANT,       SWIVEL_PLANT_ROTATION, SWIVEL_CONTACT_STATE,
+                                                   SWIVEL_SOLVED_GOAL, SWIVEL_PROBE,          SWIVEL_LIFT};
+constexpr std::uint32_t waiting_row(swivel_field field)
 {
-    Rows<typename S::T, kTold> rows = s.io;
-    rows.chosen = s.good() == S::kEvery ? kEveryLane : s.good();
-    return rows;
+    std::uint32_t row = kGoalResultsRow;
+    for (const swivel_field each : kWaitingResults) {
+        if (each == field) break;
+        row += row_of(each).component_count;
+    }
+    return row;
 }
-
-// The results of a limb that is sent that it has before all of its input is known to be good. Their rows lie side by
-// side.
-inline constexpr swivel_field kSentResults[] = {SWIVEL_PLANT,       SWIVEL_PLANT_ROTATION, SWIVEL_CONTACT_STATE,
-                                                SWIVEL_SOLVED_GOAL, SWIVEL_PROBE,          SWIVEL_LIFT};
-static_assert([] {
-    std::uint32_t count = 0;
-    for (const swivel_field field : kSentResults) count += row_of(field).component_count;
-    return kGoalResultsRow + count == kGoalRows;
-}());
-// The same rows, where they wait for that.
-template <class S>
-SWIVEL_INLINE Rows<typename S::T, kTold> waiting_rows(const S& s)
+static_assert(waiting_row(SWIVEL_RESULT_END) == kGoalRows);
+// Lets a value of such a result wait, from one of its components on.
+template <class S, class Value>
+SWIVEL_INLINE void hold_back(const S& s, swivel_field field, std::uint32_t component, const Value& value)
 {
-    Rows<typename S::T, kTold> rows = s.io;
-    const std::ptrdiff_t from = s.strip.run.limb->goal + kGoalResultsRow, first = rows.row(SWIVEL_PLANT, 0);
-    rows.results = s.body + (from - first) * std::ptrdiff_t{kLanes};
-    return rows;
+    s.body.set(s.strip.run.limb->goal + waiting_row(field) + component, value);
 }
 
 // A body's axis of heights and shifts, in the world.
@@ -48,7 +40,7 @@ SWIVEL_INLINE Vector<typename S::T> up_of(const S& s)
 {
     using T = typename S::T;
     const float(&up)[3] = s.strip.run.limb->up;
-    return turned(s.body_rotor(kRootJoint + kTurnRow), vector(T(up[0]), T(up[1]), T(up[2])));
+    return turned(s.body.rotor(kRootJoint + kTurnRow), vector(T(up[0]), T(up[1]), T(up[2])));
 }
 
 // The ground below a foot.
@@ -58,7 +50,7 @@ SWIVEL_INLINE GroundPlane<typename S::T> ground_of(const S& s, const Vector<type
     using T = typename S::T;
     const Vector<T> normal = s.io.load_vector(SWIVEL_GROUND_NORMAL);
     s.require(is_within(len2(normal), 1e-18, 1e18));
-    return ground_plane(s.io.load_vector(SWIVEL_GROUND) - s.body_vector(kRootRow), normal, up);
+    return ground_plane(s.io.load_vector(SWIVEL_GROUND) - s.body.vector(kRootRow), normal, up);
 }
 
 // The frame that planted points are carried in, as the body's root sees it.
@@ -72,7 +64,7 @@ struct SupportFrame {
     SWIVEL_INLINE static SupportFrame of(const S& s)
     {
         const bool is_turned = s.strip.run.strip.pose->support_rotation.data != nullptr;
-        return {is_turned, is_turned ? s.body_rotor(kSupportRow) : one<T>(), s.body_vector(kRootFromSupportRow)};
+        return {is_turned, is_turned ? s.body.rotor(kSupportRow) : one<T>(), s.body.vector(kRootFromSupportRow)};
     }
     SWIVEL_INLINE Vector<T> from_root(const Vector<T>& place) const
     {
@@ -85,8 +77,8 @@ struct SupportFrame {
     }
 };
 
-// Where a limb's point is as animated, from the root's place, and the hand's rotation. What the caller has written
-// counts instead of the pose's.
+// Where a limb's point is as animated, from the root's place, and the hand's rotation. Values that the caller has
+// written replace the pose's.
 template <class T>
 struct AnimatedHand {
     Vector<T> point;
@@ -98,15 +90,15 @@ SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
 {
     using T = typename S::T;
     const BodyLimb& limb = *s.strip.run.limb;
-    AnimatedHand<T> animated{s.body_vector(limb.wrist + kPlaceRow), s.body_rotor(limb.wrist + kTurnRow),
+    AnimatedHand<T> animated{s.body.vector(limb.wrist + kPlaceRow), s.body.rotor(limb.wrist + kTurnRow),
                              all_lanes<T>()};
     if (s.has(SWIVEL_WITH_EFFECTOR))
-        animated.point = animated.point + s.body_row(limb.parent + kScaleRow) *
+        animated.point = animated.point + s.body.get(limb.parent + kScaleRow) *
                                               turned(animated.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
     const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
     const T distance2 = len2(target);
     if (const Mask<T> is_given = distance2 == distance2; any(is_given)) {
-        animated.point = select(is_given, target - s.body_vector(kRootRow), animated.point);
+        animated.point = select(is_given, target - s.body.vector(kRootRow), animated.point);
         animated.is_posed = !is_given;
     }
     if (s.has(SWIVEL_WITH_HAND)) {
@@ -121,19 +113,20 @@ SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
     return animated;
 }
 
-// Sends a limb to a goal, from the root's place as kGoalPlaceRow has it.
+// Gives a limb its goal, from the root's place as kGoalPlaceRow has it. Bad input makes it NaN, which the limb finds.
 template <class S>
-SWIVEL_INLINE void send(const S& s, const Vector<typename S::T>& place, const Rotor<typename S::T>& hand)
+SWIVEL_INLINE void set_goal(const S& s, const Vector<typename S::T>& place, const Rotor<typename S::T>& hand)
 {
     using T = typename S::T;
     const std::uint32_t goal = s.strip.run.limb->goal;
-    // The limb finds bad input here.
-    const T nan = T(__builtin_nan(""));
-    s.set_body_vector(goal + kGoalPlaceRow, select(lanes_where<T>(s.good()), place, vector(nan, nan, nan)));
-    s.set_body_rotor(goal + kGoalHandRow, hand);
+    s.body.set(goal + kGoalPlaceRow, or_nan(lanes_where<T>(s.good()), place));
+    s.body.set(goal + kGoalHandRow, hand);
+    if (!s.has(SWIVEL_WITH_RECORD)) return;
+    hold_back(s, SWIVEL_SOLVED_GOAL, 0, place + s.body.vector(kRootRow));
+    hold_back(s, SWIVEL_SOLVED_GOAL, 3, hand);
 }
 
-// A height that a spring eases towards a goal. What is carried of it: where it is, its rate, and 1 once it has begun.
+// A height that a spring eases towards a goal. It carries where it is, its rate, and 1 once it has begun.
 // It begins at the goal, and anew where that is asked for.
 template <class T>
 struct EasedHeight {
@@ -145,7 +138,7 @@ SWIVEL_INLINE EasedHeight<typename S::T> eased(const S& s, swivel_field carried,
                                                const Mask<typename S::T>& anew, const SpringRule& rule)
 {
     using T = typename S::T;
-    const T time = s.body_row(kTimeRow);
+    const T time = s.body.get(kTimeRow);
     const Spring<T> previous{s.io.load_result(carried, 0), s.io.load_result(carried, 1)};
     const Mask<T> is_number = (previous.at == previous.at) & (previous.rate == previous.rate), stands = time == T(0),
                   begun = (s.io.load_result(carried, 2) > T(0.5)) & is_number & !anew;
@@ -156,14 +149,6 @@ SWIVEL_INLINE EasedHeight<typename S::T> eased(const S& s, swivel_field carried,
     s.require(is_within(height.at, -kHuge, kHuge) & (height.rate == height.rate));
     return height;
 }
-template <class T>
-SWIVEL_INLINE void store_eased(const Rows<T, kTold>& out, swivel_field carried, const EasedHeight<T>& height)
-{
-    out.store(carried, 0, height.at);
-    out.store(carried, 1, height.rate);
-    out.store(carried, 2, T(1));
-}
-
 // The normal that a foot turns with, of any length but 0. A spring eases it towards `goal`. A planted foot takes its
 // goal at once, and so does one where `fresh` holds or nothing usable is carried. Where time stands still no bit
 // changes.
@@ -174,7 +159,7 @@ SWIVEL_INLINE Spring<Vector<typename S::T>> eased_normal(const S& s, const Vecto
                                                          const Mask<typename S::T>& planted, const SpringRule& rule)
 {
     using T = typename S::T;
-    const T time = s.body_row(kTimeRow);
+    const T time = s.body.get(kTimeRow);
     const Spring<Vector<T>> carried{s.io.load_result_vector(SWIVEL_LIFT, kSlope),
                                     s.io.load_result_vector(SWIVEL_LIFT, kSlopeRate)};
     const Spring<Vector<T>> next = sprung(carried, goal, time, rule);
@@ -196,9 +181,9 @@ SWIVEL_INLINE LimbReach<typename S::T> limb_reach(const S& s)
 {
     using T = typename S::T;
     const BodyLimb& limb = *s.strip.run.limb;
-    const T scale = s.body_row(limb.parent + kScaleRow);
-    const Vector<T> shoulder = s.body_vector(limb.shoulder + kPlaceRow), elbow = s.body_vector(limb.elbow + kPlaceRow),
-                    wrist = s.body_vector(limb.wrist + kPlaceRow);
+    const T scale = s.body.get(limb.parent + kScaleRow);
+    const Vector<T> shoulder = s.body.vector(limb.shoulder + kPlaceRow), elbow = s.body.vector(limb.elbow + kPlaceRow),
+                    wrist = s.body.vector(limb.wrist + kPlaceRow);
     const auto length = [&](int bone, const Vector<T>& posed) SWIVEL_INLINE_LAMBDA {
         const T given = s.io.load(SWIVEL_LENGTHS, bone);
         s.require(is_length(given) | !(given == given));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole frame, round after round. A round has a run of blocks of each of a few groups. A run is copied in, solved
-// and copied out, while its rows are in a near cache. If limbs are chosen, only these are.
-#include "batch/solve/frame.h"
+// A job with streams, round after round. A round has a run of blocks of each of a few groups. A run is copied in,
+// solved and copied out, while its rows are in a near cache. If limbs are chosen, only these are.
+#include "batch/solve/streams_of.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ namespace swivel {
 
 namespace {
 
-// So many successive groups share rounds, or fewer if their frames have many values: the copies of all of them lie on
+// So many successive groups share rounds, or fewer if their streams have many values: the copies of all of them lie on
 // the stack. Characters with more limbs are rare.
 constexpr std::uint32_t kGroupsTogether = 4;
 // The blocks of a round. With fewer, more time goes into starting loops; with more, fewer rows stay in the nearest
@@ -22,23 +22,23 @@ constexpr std::uint32_t kRoundBlocks = 32;
 // Blocks of each group in a round.
 std::uint32_t run_blocks(std::uint32_t group_count) { return kRoundBlocks / group_count; }
 
-// Calls take(frames, group_count, round_count) for the groups that a job touches, a few at a time.
+// Calls take(of_groups, group_count, round_count) for the groups that a job touches, a few at a time.
 template <class Take>
 void for_each_bundle(const Work& work, const Take& take)
 {
-    GroupFrame frames[kGroupsTogether];
+    GroupStreams of_groups[kGroupsTogether];
     std::uint32_t count = 0, max = 0, streams = 0;
     const auto flush = [&] {
         if (count == 0) return;
         const std::uint32_t run = run_blocks(count);
-        take(frames, count, (max + run - 1) / run);
+        take(of_groups, count, (max + run - 1) / run);
         count = max = streams = 0;
     };
     for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks blocks, std::uint32_t n) {
-        const swivel_frame frame = frame_at(work.frames, n);
-        const std::uint32_t more = stream_count_of(group, frame);
+        const swivel_streams given = streams_at(work.streams, n);
+        const std::uint32_t more = stream_count_of(group, given);
         if (count == kGroupsTogether || streams + more > kMaxStreams) flush();
-        frames[count++] = {&group, blocks, frame};
+        of_groups[count++] = {&group, blocks, given};
         max = std::max(max, blocks.count);
         streams += more;
     });
@@ -54,12 +54,12 @@ struct Bundle {
 
     explicit Bundle(const Work& todo) : work(todo) {}
 
-    void set(const GroupFrame* frames, std::uint32_t group_count)
+    void set(const GroupStreams* of_groups, std::uint32_t group_count)
     {
         count = group_count;
         run = run_blocks(count);
         Stream* to = streams;
-        for (std::uint32_t n = 0; n < count; ++n) to = shares[n].set(frames[n], run, to);
+        for (std::uint32_t n = 0; n < count; ++n) to = shares[n].set(of_groups[n], run, to);
     }
     void solve(std::uint32_t round) const
     {
@@ -85,7 +85,7 @@ private:
 std::uint32_t round_count(const Work& work)
 {
     std::uint32_t all = 0;
-    for_each_bundle(work, [&](const GroupFrame*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
+    for_each_bundle(work, [&](const GroupStreams*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
     return all;
 }
 
@@ -94,7 +94,7 @@ void solve_rounds(const Work& work, std::uint32_t first, std::uint32_t end)
     const FloatEnv env;
     Bundle bundle(work);
     std::uint32_t before = 0;  // rounds of earlier bundles
-    for_each_bundle(work, [&](const GroupFrame* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
+    for_each_bundle(work, [&](const GroupStreams* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
         const std::uint32_t from = std::max(first, before), to = std::min(end, before + rounds);
         if (from < to) bundle.set(of_groups, group_count);
         for (std::uint32_t round = from; round < to; ++round) bundle.solve(round - before);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "batch/explain/bad_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "batch/explain/limb_value.h"
+
+namespace swivel {
+
+namespace {
+
+bool is_bad(const LimbValue& value, const FieldRow& row)
+{
+    std::uint32_t c = 0;
+    for (const ValuePart part : row.range.parts) {
+        if (part == ValuePart::none) break;
+        const PartBounds bounds = bounds_of(part);
+        const double size = bounds.count > 1 ? value.length(c, bounds.count) : value[c];
+        if (size < bounds.min || size > bounds.max || (std::isnan(size) && !may_be_missing(row))) return true;
+        c += bounds.count;
+    }
+    return false;
+}
+// Whether only stages of bodies read a field. Ground that is nowhere near is none, so no ground is bad.
+bool is_of_bodies(const Group& group, swivel_field field)
+{
+    constexpr swivel_features kReadInBodies = SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_NEXT_TARGET |
+                                              SWIVEL_FIT | SWIVEL_WITH_GROUND | SWIVEL_WITH_LINK | SWIVEL_PROP |
+                                              SWIVEL_LOOK;
+    if (field == SWIVEL_TARGET || field == SWIVEL_HAND)
+        return group.features & SWIVEL_WITH_PLANT || group.limb.link.is_prop;
+    if (field == SWIVEL_CLAVICLE) return group.features & SWIVEL_BODY;
+    return field != SWIVEL_GROUND && row_of(field).needs & kReadInBodies;
+}
+
+}  // namespace
+
+bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field)
+{
+    return is_input(field) && is_of_bodies(group, field) && field_row_count(group.features, field) > 0 &&
+           is_bad(LimbValue(group, limb, field), row_of(field));
+}
+bool is_bad_in_body(const Group& group, std::uint32_t limb)
+{
+    return std::any_of(std::begin(kFields), std::end(kFields),
+                       [&](const FieldRow& row) { return is_bad_in_body(group, limb, row.field); });
+}
+
+bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text)
+{
+    bool is_found = false;
+    for (const FieldRow& row : kFields) {
+        if (!is_bad_in_body(group, limb, row.field)) continue;
+        const LimbValue value(group, limb, row.field);
+        text.add("%s%s (", is_found ? "; " : "", row.name);
+        bool is_number = true;
+        for (std::uint32_t c = 0; c < field_row_count(group.features, row.field); ++c) {
+            text.add("%s%g", c == 0 ? "" : ", ", value[c]);
+            is_number = is_number && !std::isnan(value[c]);
+        }
+        if (is_number)
+            text.add(") is out of its range, %s", row.range.text);
+        else
+            text.add(") is not a number");
+        is_found = true;
+    }
+    return is_found;
+}
+
+}  // namespace swivel
