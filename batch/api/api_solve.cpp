@@ -16,6 +16,7 @@
 #include "batch/solve/budget.h"
 #include "batch/solve/pose.h"
 #include "batch/solve/solve.h"
+#include "simd/float_env.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -71,6 +72,7 @@ std::optional<std::uint32_t> first_body(const Work& work)
 // Keeps what explanations doubt of a solve: resets of all bodies, and the time of its pose.
 void note_solve(swivel_crowd& crowd, const Work& work)
 {
+    const FloatEnv env;  // a time may be anything
     const std::uint32_t reset = crowd.reset_limbs.exchange(0, std::memory_order_relaxed);
     if (reset >= crowd.groups[0].limb_count)
         crowd.solves_anew.fetch_add(1, std::memory_order_relaxed);
