@@ -26,12 +26,13 @@
 //
 // Errors: a call that fails returns a status, leaves one line in swivel_last_error(), and changes nothing else.
 //
-// Threads: different threads may use different crowds at once. One crowd belongs to one thread at a time; but calls
-// that take it const may run together, and so may jobs on_this_thread whose blocks do not overlap. "Any thread" marks
-// calls that need no such care.
+// Threads: different threads may use different crowds at once. One crowd belongs to one thread at a time, with two
+// exceptions: calls that take it const may run together while nothing changes it, and so may jobs on_this_thread on
+// blocks that do not overlap, each in a workspace of its own. "Any thread" marks calls that need no such care.
 //
-// Every call computes with default rounding and denormals, then restores the caller's floating-point environment.
-// Every call needs at most 32 KiB of stack.
+// Every call computes with default rounding and denormals, whatever the caller has, and restores the caller's
+// floating-point environment with its sticky flags; callbacks run in the caller's. Every call needs at most 32 KiB of
+// stack; callbacks, and what oneTBB takes on its own threads, come on top.
 //
 // Structures that may grow begin with their size: start each from its swivel_default_ function. The library accepts the
 // shorter structures of older headers. In an array, all elements have the size of the first.
@@ -78,8 +79,8 @@ typedef enum swivel_flag {
     SWIVEL_STRETCHED = 1u << 2,     // SWIVEL_STRETCH is above 1
     SWIVEL_CLAMPED_FAR = 1u << 3,   // the target is too far: the wrist is at the nearest point within reach
     SWIVEL_CLAMPED_NEAR = 1u << 4,  // the target is too near: likewise
-    // Pole, hand or target do not say where the elbow goes, so the last solve's normal or the incoming pose does; or
-    // else the normal is the arm frame's x axis, or its y axis.
+    // Pole, hand or target do not say where the elbow goes, so the last solve's normal does, or the incoming pose. If
+    // neither does, the normal is the arm frame's x axis, or else its y axis.
     SWIVEL_SWIVEL_UNDEFINED = 1u << 5,
     SWIVEL_LIMITED_FLEXION = 1u << 6,  // the flexion limit keeps the wrist from the target
     // The named limit forbids the swivel that was wished for.
@@ -90,8 +91,9 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_FOREARM_TWIST = 1u << 11,
     SWIVEL_LIMITED_HAND_TWIST = 1u << 12,
     SWIVEL_LIMITED_WRIST_BOX = 1u << 13,
-    SWIVEL_LIMITED_STEP = 1u << 14,    // the wish is further than SWIVEL_MAX_SWIVEL from the last solve's swivel
-    SWIVEL_INFEASIBLE = 1u << 15,      // no swivel keeps all limits; this one violates them least
+    SWIVEL_LIMITED_STEP = 1u << 14,  // the wish is further than SWIVEL_MAX_SWIVEL from the last solve's swivel
+    // No swivel keeps all limits. This one violates them least, or with STEP_WINS it is on its way there.
+    SWIVEL_INFEASIBLE = 1u << 15,
     SWIVEL_JUMPED = 1u << 16,          // joint limits turned the swivel further than SWIVEL_MAX_SWIVEL
     SWIVEL_PLANTED = 1u << 17,         // the point is locked to its support
     SWIVEL_RELEASED = 1u << 18,        // this solve released it
@@ -141,14 +143,15 @@ typedef uint64_t swivel_features;
 // Where the wrist misses its place, the hand turns about it, no further than it must, to bring the effector nearest to
 // its target: a heel lifts where the leg is too short for the toe.
 #define SWIVEL_HAND_YIELDS (UINT64_C(1) << 32)
-#define SWIVEL_WITH_HAND_TRANSFORM (UINT64_C(1) << 33)  // where the hand or foot is after a solve
-#define SWIVEL_WITH_LINK (UINT64_C(1) << 34)            // the goal is a grip on another limb's hand, or on a PROP: link
-#define SWIVEL_PROP (UINT64_C(1) << 35)                 // the group is a thing that hands hold: swivel_prop
-#define SWIVEL_WITH_GROUND (UINT64_C(1) << 36)          // the planted foot stands on uneven ground: swivel_ground
-#define SWIVEL_SENT (UINT64_C(1) << 37)                 // the library makes its goal: WITH_PLANT and WITH_LINK add it
-#define SWIVEL_LOOK (UINT64_C(1) << 38)                 // the group is joints that turn to a target: swivel_look
-#define SWIVEL_WITH_REGION (UINT64_C(1) << 39)          // the upper arm stays in a region: swivel_region
-#define SWIVEL_STEP_WINS (UINT64_C(1) << 43)  // SWIVEL_MAX_SWIVEL takes precedence over limits, so no elbow pops
+// Where the hand or foot is after a solve. A group that others are linked to gets it by itself.
+#define SWIVEL_WITH_HAND_TRANSFORM (UINT64_C(1) << 33)
+#define SWIVEL_WITH_LINK (UINT64_C(1) << 34)    // the goal is a grip on another limb's hand, or on a PROP: link
+#define SWIVEL_PROP (UINT64_C(1) << 35)         // the group is a thing that hands hold: swivel_prop
+#define SWIVEL_WITH_GROUND (UINT64_C(1) << 36)  // the planted foot stands on uneven ground: swivel_ground
+#define SWIVEL_SENT (UINT64_C(1) << 37)         // the library makes its goal: WITH_PLANT and WITH_LINK add it
+#define SWIVEL_LOOK (UINT64_C(1) << 38)         // the group is joints that turn to a target: swivel_look
+#define SWIVEL_WITH_REGION (UINT64_C(1) << 39)  // the upper arm stays in a region: swivel_region
+#define SWIVEL_STEP_WINS (UINT64_C(1) << 43)    // SWIVEL_MAX_SWIVEL takes precedence over limits, so no elbow pops
 // No poles: the elbow lies where it would if the wanted hand were not bent. Where the hand hardly says that, within 20
 // degrees of the line from shoulder to wrist, the incoming pose fades in.
 #define SWIVEL_POLE_HAND (UINT64_C(1) << 44)
@@ -161,11 +164,15 @@ typedef uint64_t swivel_features;
 // - Valid input: positions and poles up to 1e15; quaternions of length 1e-9..1e9, which need not be normalised; axes
 //   and pairs of cosine and sine whose squared length is 1 within 1e-6; shares. A limb with any other value gets
 //   SWIVEL_BAD_INPUT, and no other limb changes by a bit.
+// - Positions are in the target's space where no other frame is named: the arm frame, or with WORLD the world. In rows
+//   they are from the root where a pose's root is in doubles.
 // - A range of angles is four numbers: cosine and sine of its middle, then of its half-width. swivel_range() makes it.
 // - Limits are measured from the rest pose with the elbow straight; their axes are in the arm frame. The solver takes
-//   the allowed swivel that is nearest to the wish. The wrist comes before limits, limits before SWIVEL_MAX_SWIVEL.
-// - Results: unit quaternions with w >= 0, or WITH_INCOMING with the incoming one's sign. Equal inputs give equal bits
-//   on every CPU and instruction set, with any number of threads and any choice of blocks.
+//   the allowed swivel that is nearest to the wish. The wrist comes before limits. Limits come before
+//   SWIVEL_MAX_SWIVEL, but with STEP_WINS after it.
+// - Results: quaternions of unit length within 1.1e-6 and with w >= 0; at w = 0 the first of x, y, z that is not 0 is
+//   positive. WITH_INCOMING they have the sign nearer to the incoming one. Equal inputs give equal bits on every CPU
+//   and instruction set, with any number of threads and any choice of blocks.
 typedef enum swivel_field {
     SWIVEL_TARGET = 0,  // 3: where the wrist goes, in the arm frame, or with WORLD in the world
     // 3: a point that the elbow leans towards, in the target's space; with POLE_DIRECTION a direction, with POLE_NORMAL
@@ -177,7 +184,8 @@ typedef enum swivel_field {
     SWIVEL_PARENT_SCALE,       // 1, WORLD: the parent's uniform scale, 1e-15..1e15
     // 4, WITH_HAND: the wanted rotation of the hand, or with JOINTS of the wrist joint, in the target's space
     SWIVEL_HAND,
-    // 3, WITH_EFFECTOR: a point in the hand's frame, or with JOINTS in the wrist joint's, in the bones' unit
+    // 3, WITH_EFFECTOR: a point in the hand's frame, which has the arm frame's axes at rest, or with JOINTS in the
+    // wrist joint's own; in the bones' unit, before the parent's scale
     SWIVEL_EFFECTOR,
     // 2, WITH_ANGLE: cosine and sine of an angle by which the elbow turns on from the pole's side, by the right hand
     // about the line from shoulder to wrist. The pair's length is 1e-9..1e9.
@@ -220,18 +228,21 @@ typedef enum swivel_field {
     SWIVEL_NEXT_TARGET,  // 3, WITH_NEXT_TARGET: where the wrist or effector goes next, such as the next step
     // 1, WITH_NEXT_TARGET: seconds until then, 0 or more. 1e15, as at the start: nothing comes next
     SWIVEL_NEXT_TIME,
-    SWIVEL_SHIFT_WISH,  // 1, FIT: the shift that is wished for; 0 at the start
-    SWIVEL_GROUND,      // 3, WITH_GROUND: a point of the ground, sampled at SWIVEL_PROBE. NaN, as at the start: none
+    // 1, FIT: the shift that is wished for, in the world's unit, -1e15..1e15; 0 at the start
+    SWIVEL_SHIFT_WISH,
+    SWIVEL_GROUND,  // 3, WITH_GROUND: a point of the ground, sampled at SWIVEL_PROBE. NaN, as at the start: none
     // 3, WITH_GROUND: its normal, of length 1e-9..1e9. Steeper than 87 degrees counts as no ground
     SWIVEL_GROUND_NORMAL,
     SWIVEL_GROUND_WEIGHT,  // 1, WITH_GROUND: how far the foot turns with the ground, a share; 1 at the start
     // 7, WITH_LINK: position, 3, and rotation, 4, of this limb's wrist or effector on what it is linked to: in the
     // frame of that limb's wrist joint, in the bones' unit; or in the PROP's frame, in the world's unit.
     SWIVEL_GRIP,
-    SWIVEL_PROP_POSITION,  // 3, PROP: in the world, or with a joint in its frame. NaN, as at the start: see swivel_prop
+    // 3, PROP: in the target's space, or with a joint in its frame. NaN, as at the start: see swivel_prop
+    SWIVEL_PROP_POSITION,
     SWIVEL_PROP_ROTATION,  // 4, PROP: likewise
-    SWIVEL_HAND_BLEND,     // 1, PROP: which hand says where it is: 0, as at the start, the first; 1 the second
-    // 1, PROP: how much given position, rotation and joint count against the hands; 1 at the start
+    // 1, PROP: which hand says where it is, a share: 0, as at the start, the first; 1 the second; in between both
+    SWIVEL_HAND_BLEND,
+    // 1, PROP: how much given position, rotation and joint count against the hands, a share; 1 at the start
     SWIVEL_PROP_WEIGHT,
     SWIVEL_LOOK_TARGET,  // 3, LOOK: what to look at. NaN, as at the start: nothing, so the incoming pose comes back
     SWIVEL_LOOK_WEIGHT,  // 1, LOOK: how much of the turn is taken, a share; 1 at the start
@@ -245,7 +256,7 @@ typedef enum swivel_field {
     SWIVEL_STRETCH,  // 1, WITH_REACH: the factor for both bone lengths, 1 or more
     // 3, WITH_MAX_SWIVEL: unit normal of the swivel plane in the arm frame, from which the next solve steps
     SWIVEL_NORMAL,
-    // 4 n, WITH_TWIST_BONES * n: rotations of n bones that share the hand's twist; bone i turns by i / (n + 1) of it.
+    // 4 n, WITH_TWIST_BONES * n: rotations of n bones that share the hand's twist; bone i of 1..n turns by i / (n + 1).
     // Local rotations with JOINTS and a binding of these bones. Bodies: what each turns by from its incoming rotation.
     SWIVEL_TWIST_BONES,
     SWIVEL_CLAVICLE_ROTATION,  // 4, WITH_CLAVICLE: the parent joint's turn; its rotation becomes the old one times this
@@ -256,7 +267,7 @@ typedef enum swivel_field {
     // its velocity, 3; the seconds until it is gone; 0 before the first solve, else 8, plus 1 if locked, 2 if the next
     // label locks it, 4 if it was just released.
     SWIVEL_PLANT,
-    // 10, WITH_PLANT_ROTATION: the same of the rotation: 4, offset 3, velocity 3, as half-tangents
+    // 10, WITH_PLANT_ROTATION: the same of the rotation: 4; offset, 3, and velocity, 3, of axis times tan(angle / 2)
     SWIVEL_PLANT_ROTATION,
     SWIVEL_CONTACT_STATE,  // 4, PLANT_BY_MOTION: the last animated position in the support's frame; 1 if in contact
     SWIVEL_SOLVED_GOAL,    // 7, SENT and WITH_RECORD: where the wrist or effector was sent, 3; the hand's rotation, 4
@@ -269,7 +280,8 @@ typedef enum swivel_field {
     SWIVEL_PROP_TRANSFORM,  // 7, PROP: position, 3, and world rotation, 4
     // 6, LOOK: the line of sight after the solve: its start, 3; its unit direction in the world, 3
     SWIVEL_SIGHT,
-    // 25, LOOK: 1 once solved; then 3 a joint: its turn as quarter-tangents, in the last joint's frame
+    // 25, LOOK: 1 once solved; then 3 a joint: the axis of its turn times the tangent of a quarter of the angle, in the
+    // last joint's incoming frame; 0 without a rate
     SWIVEL_LOOK_TURNS,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
@@ -388,8 +400,8 @@ static inline swivel_skeleton swivel_default_skeleton(void)
 typedef struct swivel_limb_joints {
     size_t size;  // sizeof(swivel_limb_joints), set by swivel_default_limb_joints()
     uint32_t shoulder, elbow, wrist;
-    // Joints that share the hand's twist, from elbow to wrist, up to SWIVEL_MAX_TWIST_BONES: each below the elbow, none
-    // below the wrist, above the wrist or above another of them.
+    // Joints that share the hand's twist, from elbow to wrist, up to SWIVEL_MAX_TWIST_BONES. Each is below the elbow
+    // and not below the wrist. None is above the wrist or above another of them.
     uint32_t twist_bone_count;
     const uint32_t* twist_bones;
     float bend[3];   // as swivel_chain's: in the shoulder joint's frame
@@ -420,7 +432,7 @@ typedef enum swivel_euler_order {
 // A limb with bad input gets this, besides SWIVEL_BAD_INPUT.
 typedef enum swivel_on_bad_input {
     SWIVEL_REST_POSE,  // its rest pose; its carried values are cleared
-    SWIVEL_KEEP_POSE,  // the results and carried values that it had
+    SWIVEL_KEEP_POSE,  // the results and carried values that it had; in streams only its flags are written
 } swivel_on_bad_input;
 
 // How limbs WITH_PLANT stand. While its point, the effector or else the wrist, is in contact, it is locked to the
@@ -436,7 +448,8 @@ typedef struct swivel_plant {
     float relock_speed;   // limb lengths a second: after a release by distance a slower point locks again; 0: none does
     float anchor_lead;    // 0: the anchor is where the point locks. 1: where it would come to rest. 0.5 slides least
     float reset_time;     // a body that was not solved for longer than this starts anew; 0: none does
-    // PLANT_BY_MOTION: speed and height over the root below which a contact begins, then those at which it goes on.
+    // PLANT_BY_MOTION: a contact begins below speed[0] and height[0], and goes on below speed[1] and height[1]. Speeds
+    // are in limb lengths a second, heights over the root along `up`.
     float speed[2], height[2];
 } swivel_plant;
 
@@ -446,10 +459,11 @@ static inline swivel_plant swivel_default_plant(void)
     return plant;
 }
 
-// How a FIT group shifts a body along the crowd's `up`, such as its pelvis, so that its limbs WITH_PELVIS_FIT reach: to
-// the nearest shift to the wish from which all do, or else the middle of those that conflict. A critically damped
-// spring eases it. Add SWIVEL_SHIFT to the root's position along `up`. Solve the group in one job with all limbs of its
-// bodies. Flags: REACHED, or CLAMPED_FAR where no shift lets all limbs reach.
+// How a FIT group shifts a body along the crowd's `up`, such as its pelvis, so that its limbs WITH_PELVIS_FIT reach.
+// Among the shifts from which all reach it takes the nearest to the wish; if there is none, the middle between those
+// that conflict. A critically damped spring eases it. Add SWIVEL_SHIFT to the position of root or pelvis along `up`.
+// Solve the group in one job with all limbs of its bodies. Flags: REACHED, or CLAMPED_FAR where no shift within drop
+// and rise lets all limbs reach.
 typedef struct swivel_fit {
     float drop, rise;  // the most down and up, in limb lengths of the first group WITH_PELVIS_FIT
     float half_life;   // s: in which about half of a distance is made up
@@ -479,11 +493,11 @@ static inline swivel_ground swivel_default_ground(void)
     return ground;
 }
 
-// How a PROP lies, which one hand or two hold: limbs WITH_LINK. It is where SWIVEL_PROP_POSITION and
-// SWIVEL_PROP_ROTATION say; or else where its joint is; or else as the hands have it in the incoming pose, by
-// SWIVEL_HAND_BLEND. Then it moves, no further than it must and max_move allows, so that all hands reach their grips.
-// Flags: REACHED; CLAMPED_FAR where a hand cannot reach; CLAMPED_NEAR where a grip is too near to a shoulder. Source:
-// our own.
+// How a PROP lies, which one hand or two hold: limbs WITH_LINK. Its position, and apart from that its rotation, is as
+// SWIVEL_PROP_POSITION or SWIVEL_PROP_ROTATION says; or else its joint's, as posed and shifted with the body; or else
+// as the hands have it in the incoming pose, by SWIVEL_HAND_BLEND. Then it moves, no further than it must and max_move
+// allows, so that all hands reach their grips. Flags: REACHED; CLAMPED_FAR where a hand cannot reach; CLAMPED_NEAR
+// where a grip is too near to a shoulder. Source: our own.
 typedef struct swivel_prop {
     int32_t joint;   // of the skeleton, which no limb may turn; -1: none
     float max_move;  // in limb lengths of the first limb that is linked to it; 0: it stays, as a ladder does
@@ -510,9 +524,10 @@ typedef struct swivel_look {
     float cos_max[SWIVEL_MAX_LOOK_JOINTS];    // cosine of the angle that each joint turns at most, -1..1
     float eye[3];                             // where the line of sight starts, in the last joint's frame, in its unit
     float axis[3];                            // where it points, in the last joint's frame, of any length but 0
-    float cos_full, cos_none;                 // the turn fades between these cosines of the target's angle to the sight
-    float fade_distance;                      // it also fades nearer than this, in the last joint's unit, 0 to 1e15
-    float rate;                               // radians a second; 0: turns are not eased
+    // The turn fades between these cosines of the target's angle to the incoming line of sight: cos_full > cos_none.
+    float cos_full, cos_none;
+    float fade_distance;  // it also fades nearer than this, in the last joint's unit, 0 to 1e15
+    float rate;           // radians a second; 0: turns are not eased
 } swivel_look;
 
 // No joints yet: shares of 1, cones of 46 degrees, a line along the last joint's z axis. It fades from 96 to 154
@@ -571,11 +586,11 @@ typedef struct swivel_group_def {
     swivel_fit fit;                    // FIT
     swivel_ground ground;              // WITH_GROUND
     swivel_prop prop;                  // PROP
-    // WITH_LINK: the group that this one holds at SWIVEL_GRIP, instead of a target and hand of its own: a PROP, or an
-    // earlier group, whose hand or foot this solve leaves there. Solve both in one job.
+    // WITH_LINK: the group that this one holds at SWIVEL_GRIP, instead of a target and hand of its own. It is a PROP,
+    // or an earlier group, whose hand or foot is then where the same solve puts it. Solve both in one job.
     uint32_t link;                // UINT32_MAX: none
     swivel_look look;             // LOOK
-    const swivel_region* region;  // WITH_REGION: where the upper arm may point; copied. Null without the feature
+    const swivel_region* region;  // WITH_REGION: where the upper arm may point, not nothing; copied. Null without it
 } swivel_group_def;
 
 // Plain limbs in the arm frame.
@@ -681,7 +696,8 @@ SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
 // Binds a limb: the alignments from its rest pose, and its two bone lengths. Fails for bad quaternions, bones of no
-// length, a bend along a bone, and without a bend for a rest pose bent by 10 degrees or less. Any thread.
+// length, a bend along the upper arm or one that turns the forearm about itself, and without a bend for a rest pose
+// bent by 10 degrees or less. Any thread.
 SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
 
 // swivel_bind() of a limb in a skeleton. Also fails for joints that do not exist or are no limb, for parents in a
@@ -742,7 +758,8 @@ typedef struct swivel_streams {
     uint32_t field_count;
     uint32_t positions;  // a swivel_numbers: a solve fails where the listed positions would be read as the other kind
     // Null data: positions are floats. With data, all positions listed are 3 doubles, and this origin is subtracted as
-    // by swivel_write_doubles(). Stride 0: one origin for the whole group.
+    // by swivel_write_doubles(). Poles that are directions or normals are 3 doubles, too, but nothing is subtracted.
+    // Positions in rows that are not listed must be from the same origin. Stride 0: one origin for the whole group.
     swivel_in origin;
 } swivel_streams;
 
@@ -783,11 +800,13 @@ typedef struct swivel_joint_values {
 // more.
 //
 // - A joint turns by what carries the incoming bone to the solved one. So a goal at the incoming wrist with
-//   POLE_INCOMING gives the incoming pose back, and where all weights are 0 its bits.
+//   POLE_INCOMING gives the incoming pose back; so do weights of 0, to the bit where the group has no limit, cap, soft
+//   reach or step.
 // - SHOULDER, ELBOW and WRIST in rows are the arm's, as without JOINTS; limits bound these, not the joints.
 // - Rotations that are not finite, positions beyond 1e15, and scales or matrices that are mirrored, not uniform or
 //   slanted by more than 1e-3 are bad input of all limbs at or below that joint.
-// - A body's inputs are read before its results are written, so a pose may be solved in place.
+// - A body's inputs are read before its results are written, so a pose may be solved in place. A body's results may not
+//   overlap another body's inputs.
 typedef struct swivel_pose {
     size_t size;  // sizeof(swivel_pose), set by swivel_default_pose()
     swivel_pose_form form;
@@ -819,7 +838,8 @@ typedef struct swivel_pose {
     swivel_in support_position;  // 3 floats in the world, or doubles as the root's
     swivel_in support_rotation;  // x, y, z, w
     // How much of all that turns a body's joints counts, 1 float, a share; null: 1. At 0 joints keep their incoming
-    // bits while what is carried goes on, so a body comes and goes without a jump. Rows are those of a weight of 1.
+    // bits while what is carried goes on, so a body comes and goes without a jump. Rows of limbs, props and shifts are
+    // those of a weight of 1; a look's SWIVEL_SIGHT and REACHED are of this weight.
     swivel_in weight;
 } swivel_pose;
 
@@ -854,8 +874,8 @@ typedef struct swivel_probes {
 } swivel_probes;
 typedef void swivel_sample(const swivel_probes* probes, void* user);
 
-// One call of swivel_solve(). A null choice means all limbs, a null output is not written. A job of null
-// pointers solves every limb.
+// One call of swivel_solve(). A null choice means all limbs, a null output is not written. A job of null pointers
+// solves every limb.
 typedef struct swivel_job {
     size_t size;  // sizeof(swivel_job), set by swivel_default_job()
 
@@ -871,7 +891,8 @@ typedef struct swivel_job {
     // (swivel_block_count() + 1) / 2.
     const uint32_t* mask;
     uint32_t mask_word_count;
-    const swivel_limbs* limbs;  // by a list of such numbers, in any order
+    // By a list of such numbers, in any order; one named twice is solved once. Fails for padding lanes.
+    const swivel_limbs* limbs;
     // The most urgent blocks, at most max_blocks of them, as swivel_choose() picks them; urgency is its, or null.
     const swivel_in* priorities;
     float* urgency;
@@ -971,14 +992,16 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // the target is, the limit that turned the elbow, why a point stands or slides. It warns of another unit, another
 // origin, a time in milliseconds or a pose that is solved twice. With SWIVEL_EVERY_GROUP it explains all groups of body
 // `limb`, each in a line that begins "group 0: ". Body groups that are limbs need WITH_RECORD. text gets at most size
-// bytes, its 0 among them; a text that was cut ends in three dots. Takes up to a millisecond for a limb.
+// bytes, its 0 among them; a text that was cut ends in three dots. The words may change, and the last digits differ
+// between C libraries. limb counts within the group. Takes up to a millisecond for a limb.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
 // Compares a pose, as a job has it, with where your engine has a limb of one body, and says which input disagrees: the
 // order of quaternions, the form or the space, another joint, a unit, an axis, the root. Call it for each limb when you
-// bind a skeleton. shoulder, elbow, wrist: positions in the world, 3 doubles each. agrees: unless null, becomes 1 where
-// all are within 1e-3 of the limb's length, else 0. text: as swivel_explain()'s. Takes up to a tenth of a millisecond.
+// bind a skeleton. shoulder, elbow, wrist: positions in the world, 3 doubles each, of the pose as it goes in. agrees:
+// unless null, becomes 1 where all are within 1e-3 of the limb's length, and time, bend and the skeleton's unit look
+// right; else 0. text: as swivel_explain()'s. Takes up to a tenth of a millisecond.
 SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body,
                                         const swivel_pose* pose, const double shoulder[3], const double elbow[3],
                                         const double wrist[3], char* text, size_t size, int* agrees);
@@ -1002,7 +1025,9 @@ SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t
                                              swivel_euler_order wrist_order, int family, swivel_out angles);
 
 // Values of fields from angles in radians. Any thread. All but swivel_cos_sin() fail for values that are not finite or
-// out of range, and leave their outputs then. A range from min to max, no wider than 2 pi, for twists and boxes.
+// out of range, and then leave their outputs as they were.
+//
+// The range from min to max, no wider than 2 pi: a twist's, or one of the three of a box.
 SWIVEL_API swivel_status swivel_range(double min, double max, float range[4]);
 // An axis of any length but zero, and the largest angle to it, 0 to pi.
 SWIVEL_API swivel_status swivel_cone(const double axis[3], double max, float cone[4]);
@@ -1063,10 +1088,12 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
-// Results in 16-bit words, about half of the rows' bytes, the same words on every CPU. Word r of lane l of the nth
-// block becomes words[(n * rows + r) * SWIVEL_LANES + l], where rows is swivel_packed_row() of SWIVEL_RESULT_END.
-// - A rotation takes 3 words: the three smallest components in order, each ((word & 32767) - 16384) / (16383 sqrt 2).
-//   The index of the largest is word0 >> 15 | (word1 >> 15) << 1, and its sign positive. Within 1.54e-4 rad.
+// Results in 16-bit words, about half of the rows' bytes, the same words on every CPU. blocks are counted within the
+// group. Word r of lane l of the nth block becomes words[(n * rows + r) * SWIVEL_LANES + l], where rows is
+// swivel_packed_row() of SWIVEL_RESULT_END; words has room for blocks.count * rows * SWIVEL_LANES.
+// - A rotation takes 3 words. The largest component, the first of equals, is left out; its index is
+//   word0 >> 15 | (word1 >> 15) << 1, its sign positive. The others follow in the order x, y, z, w, each
+//   ((word & 32767) - 16384) / (16383 sqrt 2). Within 1.54e-4 rad.
 // - ELBOW without JOINTS takes 2 words and STRETCH 1: half floats. FLAGS takes 2, the low half first. NORMAL takes
 // none. docs/howto/results.md says how far wrists are off. Any thread, while nothing solves these blocks.
 SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
@@ -1087,9 +1114,10 @@ typedef struct swivel_supports {
 SWIVEL_API swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                                swivel_supports from, swivel_supports to);
 
-// A digest of all results, to compare machines by: equal results have equal digests, others almost surely not. Each
-// lane hashes its bits in the order of groups, blocks and rows: h becomes (h ^ bits) * 0x9e3779b97f4a7c15, then h ^ (h
-// >> 32); a last hash takes those of the lanes. 0 for a null crowd.
+// A digest of all results, to compare machines by: crowds of the same groups with equal results have equal digests,
+// others almost surely not. Each lane has a 64-bit hash, 0 at first, of its bits in the order of groups, blocks and
+// rows, without padding: h becomes (h ^ bits) * 0x9e3779b97f4a7c15, then h ^ (h >> 32). A last hash takes those of the
+// lanes, lane 0 first. 0 for a null crowd.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // The instruction set in use, chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this CPU
