@@ -259,7 +259,7 @@ TEST_CASE("C++: one frame and one group need no braces, an empty list is nothing
     CHECK(two.solve({.limbs = {}}) == 0);
     CHECK(two.solve({.groups = everything}) == 23);
     CHECK_THROWS_WITH(two.solve({.mask = {}}), Catch::Contains("a mask of 0 words"));
-    CHECK_THROWS_WITH(two.solve({.streams = frames[0]}), Catch::Contains("1 frames for 2 groups"));
+    CHECK_THROWS_WITH(two.solve({.streams = frames[0]}), Catch::Contains("1 streams for 2 groups"));
 }
 
 TEST_CASE("C++: a stream is the first one's member, or a part of it, and the way to the next")

@@ -237,7 +237,7 @@ TEST_CASE("jobs name groups; frames are given for those alone")
     CHECK(crowd.solve({.groups = {1u}, .limbs = {3u, 32u}}) == 1);
     CHECK(crowd.solve({.groups = std::vector<std::uint32_t>()}) == 0);
     CHECK_THROWS_WITH(crowd.solve({.groups = {1u}, .streams = {frame, frame}}),
-                      "2 frames for 1 groups; give one for each");
+                      "2 streams for 1 groups; give one for each");
     CHECK_THROWS_WITH(crowd.solve({.groups = {3u}}), "group 3 does not exist; this crowd has 3");
 }
 

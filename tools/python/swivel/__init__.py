@@ -15,7 +15,7 @@ are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results 
 from ._arms import solve
 from ._bodies import BodyGroup, FitGroup, Ground, LookGroup, Plant, Pose, PropGroup, Skeleton, Support
 from ._core import (LANES, Arms, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, OnBadInput, PoseSpace, Region, aim, arm_axis, bind, bind_joints,
-                    blade_name, cone, fill_cache, flexion, isa_name, isas, mirror, needed_features, range, steps, turn, unpack_rotations, use_isa, verify,
+                    blade_name, cone, cos_sin, fill_cache, flexion, isa_name, isas, mirror, needed_features, range, steps, unpack_rotations, use_isa, verify,
                     version)
 from ._groups import Group
 
