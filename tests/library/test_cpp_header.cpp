@@ -313,7 +313,7 @@ TEST_CASE("C++: ranges have a value for each limb, or say from which limb on; fr
     CHECK_NOTHROW(crowd.solve({.streams = std::span(frames).first(2)}));
     for (const std::size_t count : {std::size_t{1}, std::size_t{3}})
         CHECK_THROWS_WITH(crowd.solve({.streams = std::span(frames).first(count)}),
-                          std::to_string(count) + " frames for 2 groups; give one for each");
+                          std::to_string(count) + " streams for 2 groups; give one for each");
 }
 
 TEST_CASE("the C++ wrapper throws the line and frees what it owns")

@@ -115,7 +115,7 @@ void add_limits(py::module_& module)
 {
     module.def(
         "range", [](double min, double max) { return array_of(range(min, max)); }, py::arg("min"), py::arg("max"),
-        "A range of angles in radians, least <= most, no wider than 2 pi: (4,) float32, cos and sin of its\n"
+        "A range of angles in radians, min <= max, no wider than 2 pi: (4,) float32, cos and sin of its\n"
         "middle, cos and sin of half its width. A twist's, or one of the three that np.concatenate makes a\n"
         "box of.");
     module.def("arm_axis", &arm_axis_array, py::arg("binding"), py::arg("parent_rotation"), py::arg("direction"),
@@ -127,7 +127,7 @@ void add_limits(py::module_& module)
                "A cone about an axis (3,) of any length, open by `most` radians from it, 0 to pi: (4,) float32.");
     module.def(
         "flexion", [](double min, double max) { return array_of(flexion(min, max)); }, py::arg("min"), py::arg("max"),
-        "The elbow's least and largest flexion in radians, 0 <= least <= most <= pi: (2,) float32.");
+        "The elbow's min and max flexion in radians, 0 <= min <= max <= pi: (2,) float32.");
     module.def(
         "cos_sin", [](double angle) { return array_of(cos_sin(angle)); }, py::arg("angle"),
         "Cosine and sine of an angle in radians, for Field.ANGLE and Field.MAX_SWIVEL: (2,) float32.");

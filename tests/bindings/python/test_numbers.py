@@ -157,9 +157,9 @@ class Bits(Refusals):
             ([{"blocks": (block, 1), **here} for block in range(count)], [min(16, N - 16 * block) for block in range(count)]),
             ([{"mask": even}, {"blocks": (0, count), "mask": ~even, **here}], [N // 2, N // 2]),
             ([{"limbs": []}, {"limbs": np.random.default_rng(4).permutation(N)}], [0, N]),
-            ([{"frames": {**inputs, **out}}], [N]),
-            ([{"frames": [inputs], "blocks": (first, 9), **here} for first in range(0, count, 9)], [9 * 16] * 6 + [N - 6 * 9 * 16]),
-            ([{"limbs": whole.limbs()[1::2], "frames": {"target": sample.targets, **some}}, {"limbs": whole.limbs()[::2]}], [N // 2, N // 2]),
+            ([{"streams": {**inputs, **out}}], [N]),
+            ([{"streams": [inputs], "blocks": (first, 9), **here} for first in range(0, count, 9)], [9 * 16] * 6 + [N - 6 * 9 * 16]),
+            ([{"limbs": whole.limbs()[1::2], "streams": {"target": sample.targets, **some}}, {"limbs": whole.limbs()[::2]}], [N // 2, N // 2]),
             ([choose] * 4, [16 * 16] * 3 + [N - 3 * 16 * 16 + 16]),
             ([{"priorities": [1.0], "max_blocks": 20, "urgency": urgency[1]}] * 4, [320, 320, 320, 312]),
         ]

@@ -106,7 +106,7 @@ class Player:
         pose, written = self.pose(frame)
         job = {"pose": pose}
         if "doubles" in frame:
-            job["frames"] = [{name: array(values, float).reshape(self.bodies, 3) for name, values in fields.items()} for fields in frame["doubles"]]
+            job["streams"] = [{name: array(values, float).reshape(self.bodies, 3) for name, values in fields.items()} for fields in frame["doubles"]]
         if "mask" in frame:
             job["mask"] = (frame["mask"] >> np.arange(self.crowd.lane_count) & 1).astype(bool)
         return self.crowd.solve(**job), f"{self.crowd.digest():x}", f"{digest(written):x}"

@@ -7,11 +7,11 @@ import { Field } from "./stage.js";
 
 const WIDTH = 2048;  // of textures that are only long
 
-/** Refuses what a browser's textures cannot hold. most: how many texels a side of them has at most. */
+/** Refuses what a browser's textures cannot hold. max: how many texels a side of them has at most. */
 function checkSides(what, width, height, max) {
     const side = Math.max(width, height);
     if (side <= max) return;
-    const why = `a texture has ${most} texels a side, and they take ${side}`;
+    const why = `a texture has ${max} texels a side, and they take ${side}`;
     throw new Error(`this browser's graphics cannot hold ${what}: ${why}. Take fewer --frames or --characters`);
 }
 /** How many characters fit: a texture has a line for a block of 16, and one for the block of an extra character. */

@@ -25,7 +25,7 @@ export function shown(value: unknown): string {
 
 /** A count or an index. */
 export function whole(name: string, number: number, max = 0xffffffff): number {
-    if (!Number.isInteger(number) || number < 0 || number > max) refuse(`${name} is ${shown(number)}; give a whole number from 0 to ${most}`);
+    if (!Number.isInteger(number) || number < 0 || number > max) refuse(`${name} is ${shown(number)}; give a whole number from 0 to ${max}`);
     return number;
 }
 
