@@ -135,9 +135,9 @@ def feet_plant():
     seen = (times >= 0.3) & (times <= 1.4)
     figure, axes = chart(times[seen], animated[seen], sent[seen], (down, up), 0.25, 0.75)
     upright(axes, locked, "locks"), upright(axes, free, "is released")
-    stretch(axes, locked, locked + Plant().stop_time, "stop", 0.345), stretch(axes, free, free + Plant().release_time, "blend", 0.345)
+    stretch(axes, locked, locked + Plant().stop_time, "stop_time", 0.345), stretch(axes, free, free + Plant().release_time, "release_time", 0.345)
     axes.text(0.8, 0.17, "the label says: in contact", color=GREEN, ha="center")
-    axes.text(0.82, 0.57, "stands: it moves by no bit", color=ORANGE, ha="center")
+    axes.text(0.82, 0.57, "stands: not a bit changes", color=ORANGE, ha="center")
     axes.text(0.86, 0.435, "as animated: it slides", color=GREY, ha="center")
     return figure
 
@@ -150,9 +150,9 @@ def feet_break():
     figure, axes = chart(times[seen], animated[seen], sent[seen], (0.1, 1.8), -0.06, 0.4)
     axes.fill_between([0.1, broke], -0.06, unlock, color=ORANGE, alpha=0.09, lw=0)
     axes.plot([0.1, broke], [unlock, unlock], color=PALE, lw=1, ls=(0, (3, 4)))
-    axes.text(0.12, unlock + 0.014, "unlock", color=GREY)
+    axes.text(0.12, unlock + 0.014, "unlock_radius", color=GREY)
     upright(axes, broke, "breaks away", "right"), upright(axes, anew, "slower than relock_speed: locks anew", "left")
-    stretch(axes, broke, broke + Plant().release_time, "blend", -0.007)
+    stretch(axes, broke, broke + Plant().release_time, "release_time", -0.007)
     axes.text(0.9, -0.134, "the label says: in contact, all the time", color=GREEN, ha="center")
     axes.text(0.3, 0.02, "stands", color=ORANGE, ha="center")
     axes.text(0.58, 0.13, "as animated", color=GREY, ha="right")

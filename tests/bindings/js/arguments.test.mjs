@@ -30,7 +30,7 @@ const turns = [0, 0, 0, 1, 0.1, 0, 0, 1, 0, 0.2, 0, 1, 0, 0, 0.3, 1, 0.1, 0.2, 0
 // A call with its usual arguments, in a list or an object, and others in the same places: each alone must change the answer.
 const some = { group: 1, first: 2, count: 2 }, others = { group: 0, first: 1, count: 1 };
 const functions = {
-  range: [[0, 1], [0.1, 1.1]], cone: [[[0, 0, 1], 1], [[0, 1, 1], 0.5]], flexion: [[0, 2], [0.1, 1.5]], turn: [[1], [2]], aim: [[[0, 0, 1], 1], [[0, 1, 0], 2]],
+  range: [[0, 1], [0.1, 1.1]], cone: [[[0, 0, 1], 1], [[0, 1, 1], 0.5]], flexion: [[0, 2], [0.1, 1.5]], cosSin: [[1], [2]], aim: [[[0, 0, 1], 1], [[0, 1, 0], 2]],
   armAxis: [[binding, [0, 0, 0, 1], [0, 1, 0]], [swivel.bind({ ...chain, bend: [0, 1, 0] }), [0.5, 0, 0, 1], [0, 0, 1]]],
   steps: [[[1, 1, 1], [1, 1, 0], 1.4, 1.3], [[1, 1, 0.5], [0, 1, 0], 1.5, 1.2]], bladeName: [[1], [2]],
 };
@@ -105,9 +105,9 @@ const fits = { ...arm, features: plants | Feature.WITH_PELVIS_FIT }, holds = { .
 const foot = (ground) => [{ ...arm, features: hand | plants | Feature.WITH_EFFECTOR | Feature.WITH_GROUND, ground }];
 const plant = (given) => [{ ...arm, features: plants, plant: given }], prop = (given) => [holds, { prop: given }], looks = (given) => [{ look: given }];
 const wrong = [
-  [plant(0.1), 'plant takes lock, unlock, stop, blend, again, run, longest, speed, height, not 0.1'],
+  [plant(0.1), 'plant takes lockRadius, unlockRadius, stopTime, releaseTime, relockSpeed, anchorLead, resetTime, speed, height, not 0.1'],
   [[fits, { fit: {}, joints: arm.joints }], 'a group of shifts takes fit, onBadInput, not joints'],
-  [foot(0.1), 'ground takes heel, toeClearance, heelClearance, cosMax, half, not 0.1'],
+  [foot(0.1), 'ground takes heel, toeClearance, heelClearance, cosMax, halfLife, not 0.1'],
   [prop({ wrist: 1 }), 'prop takes joint, maxMove, not wrist'],
   [[{ ...holds, link: -1 }, { prop: {} }], 'link is -1; give a whole number'],
   [[{ prop: {}, link: 0 }], "a prop's group takes prop, onBadInput, not link"],

@@ -108,7 +108,7 @@ test('views of every field have the same bits, in and out', () => {
 });
 
 test('what is carried can be saved and set back in another crowd, views too, and is reset for some', () => {
-  const carried = ['NORMAL', 'PLANT', 'PLANT_ROTATION', 'MOTION', 'SHIFT', 'LIFT', 'LOOK_TURNS'].map((name) => Field[name]), seen = new Set();
+  const carried = ['NORMAL', 'PLANT', 'PLANT_ROTATION', 'CONTACT_STATE', 'SHIFT', 'LIFT', 'LOOK_TURNS'].map((name) => Field[name]), seen = new Set();
   for (const scene of scenes.filter(({ name }) => name.startsWith('standing'))) {
     const [crowd, other] = [crowdOf(scene), crowdOf(scene)];
     for (const _ of play(scene, crowd));

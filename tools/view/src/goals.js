@@ -17,11 +17,11 @@ function riseOf(stage, limb, character, part) {
     return counts ? 0 : shiftOf(stage, character);
 }
 /** Whether the library made the target: of a hand that holds another, and of a foot that stands, unless the user drags it. */
-const isSent = (stage, limb, character) => stage.has(limb, "GOAL") && !(stage.isHeld && stage.movedParts(limb, character).includes("target"));
+const isSent = (stage, limb, character) => stage.has(limb, "SOLVED_GOAL") && !(stage.isHeld && stage.movedParts(limb, character).includes("target"));
 
 /** part: "target" or "pole". A direction is seen at the end of the limb. */
 export function seenGoal(stage, limb, character, part) {
-    if (part === "target" && isSent(stage, limb, character)) return stage.toWorld(character, stage.read(limb, character, "GOAL").subarray(0, 3));
+    if (part === "target" && isSent(stage, limb, character)) return stage.toWorld(character, stage.read(limb, character, "SOLVED_GOAL").subarray(0, 3));
     const asked = Array.from(stage.input(limb, character, part)), rise = riseOf(stage, limb, character, part);
     if (stage.isPoint(limb, part)) return raised(asked, rise);
     const origin = raised(stage.origin(limb, character), rise), length = stage.armLength(limb, character);

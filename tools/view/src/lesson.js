@@ -19,7 +19,7 @@ const TURNED = 0.1;  // degrees from the pole's own elbow that are worth a word
 /** Where the wrist goes, relative to the shoulder: the target less the effector, as the hand's goal turns it. */
 function wristGoal(stage, { limb, character }, { target }) {
     if (!stage.has(limb, "EFFECTOR")) return target;
-    const { size } = stage.characters[character], turn = stage.has(limb, "GOAL") ? stage.read(limb, character, "GOAL").subarray(3) : stage.input(limb, character, "hand");
+    const { size } = stage.characters[character], turn = stage.has(limb, "SOLVED_GOAL") ? stage.read(limb, character, "SOLVED_GOAL").subarray(3) : stage.input(limb, character, "hand");
     const hand = new Quaternion().fromArray(turn).normalize();
     return target.clone().addScaledVector(new Vector3().fromArray(stage.read(limb, character, "EFFECTOR")).applyQuaternion(hand), -size);
 }

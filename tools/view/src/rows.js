@@ -52,7 +52,7 @@ export class LimbRows {
             uInputs: this.inputs, uResults: this.results,
             uTargetRow: row("TARGET"), uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"), uWeightsRow: row("WEIGHTS"),
             uShoulderRow: row("SHOULDER"), uElbowRow: row("ELBOW"), uWristRow: row("WRIST"), uFlagsRow: row("FLAGS"),
-            uStretchRow: row("STRETCH"), uRecordRow: row("RECORD"), uGoalRow: row("GOAL"), uPlantRow: row("PLANT"), uBlocks: blocks,
+            uStretchRow: row("STRETCH"), uRecordRow: row("RECORD"), uGoalRow: row("SOLVED_GOAL"), uPlantRow: row("PLANT"), uBlocks: blocks,
         };
     }
     texture(rows, blockCount) {
