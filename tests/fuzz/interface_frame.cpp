@@ -17,7 +17,7 @@ bool is_given(Session& session, std::uint32_t group, swivel_field field)
 
 }  // namespace
 
-Frame::Frame(Session& session, std::uint32_t group, const Strided* of_bodies) : root(of_bodies)
+JobStreams::JobStreams(Session& session, std::uint32_t group, const Strided* of_bodies) : root(of_bodies)
 {
     const bool has_origin = session.bytes.one_in(4);
     if (has_origin && !session.bodies) take_origin(session, swivel_group_limb_count(session.crowd, group));
@@ -36,7 +36,7 @@ Frame::Frame(Session& session, std::uint32_t group, const Strided* of_bodies) : 
     }
 }
 
-swivel_streams Frame::view() const
+swivel_streams JobStreams::view() const
 {
     swivel_streams frame = swivel_default_streams();
     frame.fields = fields.data();
@@ -46,14 +46,14 @@ swivel_streams Frame::view() const
 }
 
 // Null data is a field that is not given.
-void Frame::add(const Session& session, std::uint32_t group, swivel_field field, const Strided& values)
+void JobStreams::add(const Session& session, std::uint32_t group, swivel_field field, const Strided& values)
 {
     fields.push_back({field, values.data(), values.stride()});
     const bool is_wrong = component_count(session, group, field) == 0 || !values.is_valid();
     if (!values.is_null() && is_wrong) is_valid = false;
 }
 
-void Frame::take_input(Session& session, std::uint32_t group, swivel_field field)
+void JobStreams::take_input(Session& session, std::uint32_t group, swivel_field field)
 {
     const std::size_t each = (origin.data || root) && is_position(field) ? sizeof(double) : sizeof(float),
                       components = std::max(component_count(session, group, field), 1u);
@@ -66,7 +66,7 @@ void Frame::take_input(Session& session, std::uint32_t group, swivel_field field
     add(session, group, field, values);
 }
 
-void Frame::take_origin(Session& session, std::uint32_t limb_count)
+void JobStreams::take_origin(Session& session, std::uint32_t limb_count)
 {
     Strided& values = inputs.emplace_back(session.bytes, limb_count, 3 * sizeof(double), true);
     input_fields.push_back(SWIVEL_INPUT_END);  // none
@@ -75,7 +75,7 @@ void Frame::take_origin(Session& session, std::uint32_t limb_count)
     if (!values.is_null() && !values.is_valid()) is_valid = false;
 }
 
-void Frame::take_output(Session& session, std::uint32_t group, swivel_field field)
+void JobStreams::take_output(Session& session, std::uint32_t group, swivel_field field)
 {
     const std::size_t components = std::max(component_count(session, group, field), 1u);
     Strided& values = outputs.emplace_back(session.bytes, swivel_group_limb_count(session.crowd, group),
@@ -85,8 +85,8 @@ void Frame::take_output(Session& session, std::uint32_t group, swivel_field fiel
 }
 
 // What is subtracted from a position. Origins of free limbs are zeros, and directions have none.
-double Frame::from(const Session& session, std::uint32_t group, swivel_field field, std::uint32_t limb,
-                   std::size_t c) const
+double JobStreams::from(const Session& session, std::uint32_t group, swivel_field field, std::uint32_t limb,
+                        std::size_t c) const
 {
     double place = 0;
     if (root && !is_direction(session, group, field))
@@ -94,7 +94,7 @@ double Frame::from(const Session& session, std::uint32_t group, swivel_field fie
     return place;
 }
 
-void Frame::check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb, Sampling sampling) const
+void JobStreams::check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb, Sampling sampling) const
 {
     const swivel_rows rows = swivel_input_rows(session.crowd, group);
     for (std::size_t n = 0; n < inputs.size(); ++n) {
@@ -116,7 +116,8 @@ void Frame::check_inputs(const Session& session, std::uint32_t group, std::uint3
     }
 }
 
-void Frame::check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen, Sampling sampling) const
+void JobStreams::check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen,
+                       Sampling sampling) const
 {
     const auto limb_count = static_cast<std::uint32_t>(chosen.size());
     const bool is_untouched = std::find(chosen.begin(), chosen.end(), true) == chosen.end();

@@ -98,7 +98,7 @@ void check_others(const Session& session, const SomeLimbs& chosen);
 enum class Sampling : std::uint8_t { none, asks, probes_only };
 
 // One group's frame and the arrays that it points to.
-struct Frame {
+struct JobStreams {
     swivel_in origin = {};
     const Strided* root;
     std::vector<swivel_stream> fields = {};
@@ -107,7 +107,7 @@ struct Frame {
     bool is_valid = true;
 
     // root: where bodies' roots are, in doubles; null for others.
-    Frame(Session& session, std::uint32_t group, const Strided* root);
+    JobStreams(Session& session, std::uint32_t group, const Strided* root);
     swivel_streams view() const;  // of this, which must outlive it
 
     // Inputs of chosen limbs are in the crowd's rows, and results are the crowd's. Values of others, and all of them if

@@ -130,7 +130,7 @@ struct TakenJob {
     std::vector<std::uint32_t> words = {}, list = {};
     std::vector<Priorities> priorities = {};
     std::unique_ptr<Pose> pose = {};
-    std::vector<Streams> frames = {};
+    std::vector<JobStreams> frames = {};
     std::vector<std::uint32_t> framed_groups = {}, named = {};
     std::vector<float> urgency = {};
     std::vector<swivel_streams> frame_array = {};
@@ -317,7 +317,7 @@ private:
                 !job.blocks || (blocks.count > 0 && from < blocks.first + blocks.count && to >= blocks.first);
             if (is_touched && !frames.back().is_valid) is_valid = false;  // others are not looked at
         }
-        for (const Streams& frame : frames) frame_array.push_back(frame.view());
+        for (const JobStreams& frame : frames) frame_array.push_back(frame.view());
         if (frame_array.empty())
             frame_array.push_back(swivel_default_streams());  // for no group: its size is looked at
         job.streams = frame_array.data();
@@ -340,7 +340,7 @@ void call_solve(Session& session)
     if (taken.job.solved_count) SWIVEL_REQUIRE(is_solved == (taken.solved_count != ~0u));
     if (!taken.is_known() && is_solved) {
         if (taken.pose) taken.pose->check_others(session);
-        for (const Streams& frame : taken.frames)
+        for (const JobStreams& frame : taken.frames)
             for (const Strided& output : frame.outputs) output.check_gaps(false);
         SWIVEL_REQUIRE(!taken.job.solved_count || taken.solved_count <= session.lane_count());
         return;

@@ -230,6 +230,6 @@ test('what a table does not hold is said, and too many rows are refused', async 
     assert.ok(rows.length === 11 && rows[1].endsWith(',,,'), rows[1]);
     await page.evaluate(() => { swivelPage.stage.frameCount = 2_000_001; });
     await table(page).click();
-    assert.match(await page.textContent('.notice'), /^This table would have 2,000,001 rows, and 2,000,000 are the max/);
+    assert.match(await page.textContent('.notice'), /^This table would have 2,000,001 rows, and 2,000,000 are the most/);
   }, { spoils: true });
 });
