@@ -35,6 +35,9 @@ struct Member {
     Value Struct::*at;
     std::uint32_t min = 0, max = 1;
 };
+// clang 14 deduces the arguments of no aggregate by itself.
+template <class Struct, class Value>
+Member(const char*, Value Struct::*, std::uint32_t = 0, std::uint32_t = 1) -> Member<Struct, Value>;
 constexpr std::tuple kChain{Member{"shoulder_rotation", &swivel_chain::shoulder_rotation},
                             Member{"elbow_rotation", &swivel_chain::elbow_rotation},
                             Member{"wrist_rotation", &swivel_chain::wrist_rotation},
