@@ -242,7 +242,7 @@ private:
                     numbers.push_back(swivel_group_first_limb(crowd.get(), g) + n);
             }
         std::ranges::sort(numbers);
-        numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
         return numbers;
     }
     std::vector<std::uint32_t> mask_of(const Limbs& limbs) const

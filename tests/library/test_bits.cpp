@@ -6,6 +6,7 @@
 // the caller's environment in all functions is test_float_environment.cpp's.
 #include <sys/mman.h>
 
+#include <rapidcheck/catch.h>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdlib>

@@ -351,7 +351,7 @@ struct Figure {
     swivel_status bind(swivel_binding* binding) const { return swivel_bind_joints(&skeleton, &joints, binding); }
 };
 // A limb with nothing aligned.
-struct Chain {
+struct BoundChain {
     Random random{9};
     swivel_chain chain = skewed_chain(random);
 
@@ -430,11 +430,11 @@ TEST_CASE("swivel_bind_joints refuses joints that do not exist or are no limb, b
 TEST_CASE("swivel_bind refuses what is not a limb")
 {
     for (const float bad : {0.0f, kNan, kInf, 1e-20f, 3e38f}) {
-        check_unbound<Chain>("rotation", [&](Chain& c) { std::ranges::fill(c.chain.elbow_rotation, bad); });
-        check_unbound<Chain>("forearm has no direction",
-                             [&](Chain& c) { std::ranges::fill(c.chain.wrist_offset, bad); });
+        check_unbound<BoundChain>("rotation", [&](BoundChain& c) { std::ranges::fill(c.chain.elbow_rotation, bad); });
+        check_unbound<BoundChain>("forearm has no direction",
+                                  [&](BoundChain& c) { std::ranges::fill(c.chain.wrist_offset, bad); });
     }
-    const Refusal<Chain> refusals[] = {
+    const Refusal<BoundChain> refusals[] = {
         {"the bend is not finite", [](auto& c) { c.chain.bend[1] = kInf; }},
         {"rotation is zero or not finite", [](auto& c) { c.chain.wrist_rotation[1] = kNan; }},
         {"the bend lies along the upper arm", [](auto& c) { std::ranges::copy(c.chain.elbow_offset, c.chain.bend); }},
@@ -448,5 +448,5 @@ TEST_CASE("swivel_bind refuses what is not a limb")
         {"build with the header", [](auto& c) { c.chain.size += 8; }},
         {"reserved is not 0", [](auto& c) { c.chain.reserved = 1; }},
     };
-    for (const auto& [words, change] : refusals) check_unbound<Chain>(words, change);
+    for (const auto& [words, change] : refusals) check_unbound<BoundChain>(words, change);
 }
