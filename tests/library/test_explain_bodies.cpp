@@ -283,7 +283,6 @@ TEST_CASE("explain says what hands hold, where props lie and why, and what depen
         {"a grip of the hand that says where the prop is", H::left, SWIVEL_GRIP, 5, 1, kNan},
         {"a share above 1", H::prop, SWIVEL_HAND_BLEND, 0, 1, 1.5f},
         {"a share that is no number", H::prop, SWIVEL_HAND_BLEND, 0, 1, kNan},
-        {"a weight below 0", H::prop, SWIVEL_PROP_WEIGHT, 0, 1, -0.5f},
         {"a place", H::prop, SWIVEL_PROP_POSITION, 0, 3, 1e15f},
         {"no rotation", H::prop, SWIVEL_PROP_ROTATION, 0, 4, 0},
         {"a target that is written for a hand on a prop", H::left, SWIVEL_TARGET, 0, 3, 1e15f},
@@ -292,6 +291,9 @@ TEST_CASE("explain says what hands hold, where props lie and why, and what depen
         tell(input.scene, [&](HoldingBodies& bodies) {
             std::fill_n(bodies.find(input.group, input.field)->at(kBody) + input.first, input.count, input.bad);
         });
+    tell("a weight below 0", [](HoldingBodies& bodies) {
+        bodies.give(H::prop, SWIVEL_PROP_WEIGHT, [](std::size_t n) { return Float1{n == kBody ? -0.5f : 1}; });
+    });
     tell("a target of a hand on a limb, which is no input", [](HoldingBodies& bodies) {
         bodies.give(H::follower, SWIVEL_TARGET, [](std::size_t) { return Float3{1e15f, 1e15f, 1e15f}; });
     });
