@@ -100,18 +100,18 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
     return {normalise(normal), undefined};
 }
 
-// The normal no further from the previous one than the frame's most swivel.
+// The normal no further from the previous one than the frame's max swivel.
 template <class T>
 struct SteppedNormal {
     Vector<T> normal;
     Mask<T> limited;
 };
-// Whether a turn about the line from one unit normal to another is larger than the most, by more than slack.
+// Whether a turn about the line from one unit normal to another is larger than the max, by more than slack.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_beyond(const Vector<T>& from, const Vector<T>& to, const Vector<T>& line,
                                           const Turned<T>& max, double slack)
 {
-    // This is the sine of the excess over the most. Near an excess of half a turn the sine is small, and the cosines
+    // This is the sine of the excess over the max. Near an excess of half a turn the sine is small, and the cosines
     // tell.
     const T cos_turn = scalar_product(from, to), sin_turn = abs(scalar_product(cross(from, to), line));
     return (sin_turn * max.cos - cos_turn * abs(max.sin) > T(slack)) | (cos_turn < max.cos - T(1e-3));
@@ -154,7 +154,7 @@ SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& sta
     const Vector<T> stepped = state.max.cos * previous + copysign(state.max.sin, side) * cross(line, previous);
     return {select(limited, stepped, wish), limited};
 }
-// Where the step wins: the normal that the limits leave, no further from the previous one than the frame's most swivel.
+// Where the step wins: the normal that the limits leave, no further from the previous one than the frame's max swivel.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> last_step(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line,
                                             Word<T>& flags)
@@ -163,7 +163,7 @@ SWIVEL_INLINE constexpr Vector<T> last_step(const Continuity<T>& state, const Ve
     flags = flags | word_where(step.limited, SWIVEL_LIMITED_STEP);
     return step.normal;
 }
-// Whether the normal that the limits leave is further from the previous one than the frame's most swivel.
+// Whether the normal that the limits leave is further from the previous one than the frame's max swivel.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line)
 {
