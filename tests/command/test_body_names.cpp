@@ -114,9 +114,9 @@ std::map<std::string, Names> expected_parts(const Convention& of)
                                           {"neck", split(of.neck)},
                                           {"head", {of.head}}};
     for (const auto& [word, side] : {std::pair("left", of.left), std::pair("right", of.right)}) {
-        const auto add = [&](const Names& of_side, const Names& to) {
+        const auto add = [&parts, prefix = std::string(word)](const Names& of_side, const Names& to) {
             for (std::size_t n = 1; n <= std::min(of_side.size(), to.size()); ++n)  // from the end
-                parts[word + to[to.size() - n]] = {of_side[of_side.size() - n]};
+                parts[prefix + to[to.size() - n]] = {of_side[of_side.size() - n]};
         };
         add(sided(of.arm, side), {"Shoulder", "UpperArm", "LowerArm", "Hand"});
         add(sided(of.leg, side), {"UpperLeg", "LowerLeg", "Foot", "Toes"});

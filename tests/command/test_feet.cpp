@@ -284,8 +284,8 @@ TEST_CASE("feet: on hills they stand on the ground as it lies, and on one side o
             feet_report(folder, {"walk.bvh", "--ground", "g.png", "--ground-size", size, "--out", "out.bvh"});
         INFO(size << ' ' << report.value("look", json()).dump());
         const PlainLegs stands = legs_in(folder / "out.bvh");
-        const auto over = [&](const Vector3d& toe) {
-            return kMetre * (toe.y() - report.at("floor").get<double>() - ground.height(toe.x(), toe.z()));
+        const auto over = [&report, &hill = ground](const Vector3d& toe) {
+            return kMetre * (toe.y() - report.at("floor").get<double>() - hill.height(toe.x(), toe.z()));
         };
         double off = 0, lowest = 0, slope = 0;
         for (std::size_t side = 0; side < 2; ++side)
@@ -343,8 +343,8 @@ TEST_CASE("feet: beyond the edges of a grid its outermost samples go on")
     // 3 columns a metre apart and 2 rows. From half a step beyond the last sample on, no other one counts.
     const tools::Ground ground{{{2, 8, 1}, {5, 1, -3}, 3, 2}, {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f}};
     for (const double off : {0.5, 1.5, 100.0})
-        for (const std::size_t column : {0, 2})
-            for (const std::size_t row : {0, 1}) {
+        for (const std::size_t column : {0u, 2u})
+            for (const std::size_t row : {0u, 1u}) {
                 const double x = 5 + (column == 0 ? -1 - off : 1 + off), z = -3 + (row == 0 ? -0.5 - off : 0.5 + off);
                 const tools::GroundPoint point = tools::ground_at(ground.grid, ground.heights.data(), x, z);
                 INFO("at " << x << ", " << z);
