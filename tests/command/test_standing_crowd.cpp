@@ -181,7 +181,7 @@ constexpr Profile kProfiles[] = {
 
 TEST_CASE("a crowd climbs steps without a jump, and its feet stand on them")
 {
-    const std::size_t every = GENERATE(1, 2, 4);
+    const std::size_t every = GENERATE(1u, 2u, 4u);
     const HillStage stage({.every = every});
     const PlainLegs before = stage.legs_of("walk.bvh");
     const auto jumps = [](const PlainLegs& legs) {
