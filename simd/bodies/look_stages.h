@@ -138,10 +138,12 @@ private:
         if (!any(is_less)) return;
         if (any(goal.body_weight < T(1)))
             for (std::uint32_t n = 0; n < count; ++n) goals[n] = part_of_turn(one<T>(), goals[n], goal.body_weight);
-        const Chain<T> aimed = chain;
+        Rotor<T> aimed[kMaxLookJoints];  // not the whole chain, which would take 9 KiB of stack
+        for (std::uint32_t n = 0; n < count; ++n) aimed[n] = chain.joint[n].turn;
+        const Mask<T> held = chain.held;
         turn_chain(s, goal, chain, [&](std::uint32_t n, const Vector<T>&, const Rotor<T>& before) SWIVEL_INLINE_LAMBDA {
             const Rotor<T> turn = seen_by(before * came, goals[n]);
-            return LookTurn<T>{select(is_less, turn, aimed.joint[n].turn), aimed.held};
+            return LookTurn<T>{select(is_less, turn, aimed[n]), held};
         });
     }
     // A turn in another frame.
