@@ -12,16 +12,23 @@ static int failed(const char* what)
     return 1;
 }
 
-/* The rest pose, in metres: a T-pose facing +z with y up. The left arm's bones run along +x, the right one's along -x;
- * both elbows bend forwards. */
-static swivel_chain rest_pose(int side)
+/* The skeleton at rest, in metres: a T-pose facing +z with y up, each joint in the frame of its parent. No joint is
+ * turned at rest; else the skeleton would have rotations, too. */
+enum { CHEST, LEFT_SHOULDER, LEFT_ELBOW, LEFT_WRIST, RIGHT_SHOULDER, RIGHT_ELBOW, RIGHT_WRIST, JOINT_COUNT };
+static const int32_t parents[JOINT_COUNT] = {-1, CHEST, LEFT_SHOULDER, LEFT_ELBOW, CHEST, RIGHT_SHOULDER, RIGHT_ELBOW};
+static const float translations[JOINT_COUNT][3] = {{0, 1.2f, 0},      {0.18f, 0.2f, 0}, {0.30f, 0, 0}, {0.26f, 0, 0},
+                                                   {-0.18f, 0.2f, 0}, {-0.30f, 0, 0},   {-0.26f, 0, 0}};
+
+static swivel_status bind_arm(int side, swivel_binding* binding)
 {
-    const float sign = side == LEFT ? 1.0f : -1.0f;
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[0] = sign * 0.30f;
-    chain.wrist_offset[0] = sign * 0.26f;
-    chain.bend[2] = 1;
-    return chain;
+    const uint32_t shoulder = side == LEFT ? LEFT_SHOULDER : RIGHT_SHOULDER;
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    swivel_limb_joints joints = swivel_default_limb_joints(shoulder, shoulder + 1, shoulder + 2);
+    skeleton.joint_count = JOINT_COUNT;
+    skeleton.parents = (swivel_in){parents, sizeof parents[0]};
+    skeleton.translations = (swivel_in){translations, sizeof translations[0]};
+    joints.bend[2] = 1; /* both elbows bend forwards */
+    return swivel_bind_joints(&skeleton, &joints, binding);
 }
 
 int main(void)
@@ -38,10 +45,9 @@ int main(void)
     int side;
 
     for (side = LEFT; side < SIDE_COUNT; ++side) {
-        const swivel_chain chain = rest_pose(side);
         groups[side] = swivel_default_group_def(1);
         groups[side].features = SWIVEL_WORLD | SWIVEL_JOINTS;
-        if (swivel_bind(&chain, &groups[side].binding) != SWIVEL_OK) return failed("swivel_bind");
+        if (bind_arm(side, &groups[side].binding) != SWIVEL_OK) return failed("swivel_bind_joints");
     }
     def.groups = groups;
     def.group_count = SIDE_COUNT;

@@ -45,14 +45,28 @@ static void place_characters(void)
     }
 }
 
-/* The rest pose: legs down -y with knees that bend backwards, left arms along +x with elbows that bend forwards. */
+/* The skeleton at rest, each joint in the frame of its parent: a leg down -y and a left arm along +x. */
+enum { PELVIS, HIP, KNEE, ANKLE, SHOULDER, ELBOW, WRIST, JOINT_COUNT };
+static const int32_t parents[JOINT_COUNT] = {-1, PELVIS, HIP, KNEE, PELVIS, SHOULDER, ELBOW};
+static const float translations[JOINT_COUNT][3] = {{0, 0.95f, 0},    {0.1f, 0, 0},  {0, -0.45f, 0}, {0, -0.42f, 0},
+                                                   {0.2f, 0.45f, 0}, {0.30f, 0, 0}, {0.26f, 0, 0}};
+
+/* forwards: towards +z, as an elbow bends; -1 is backwards, as a knee does. */
+static swivel_status bind_limb(uint32_t first_joint, float forwards, swivel_binding* binding)
+{
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    swivel_limb_joints joints = swivel_default_limb_joints(first_joint, first_joint + 1, first_joint + 2);
+    skeleton.joint_count = JOINT_COUNT;
+    skeleton.parents = (swivel_in){parents, sizeof parents[0]};
+    skeleton.translations = (swivel_in){translations, sizeof translations[0]};
+    joints.bend[2] = forwards;
+    return swivel_bind_joints(&skeleton, &joints, binding);
+}
+
 static swivel_status make_crowd(swivel_crowd** crowd)
 {
     swivel_group_def groups[GROUP_COUNT];
     swivel_crowd_def def = swivel_default_crowd_def();
-    swivel_chain leg = swivel_default_chain(), arm = swivel_default_chain();
-    leg.elbow_offset[1] = -0.45f, leg.wrist_offset[1] = -0.42f, leg.bend[2] = -1;
-    arm.elbow_offset[0] = 0.30f, arm.wrist_offset[0] = 0.26f, arm.bend[2] = 1;
 
     // [groups]
     groups[LEGS] = swivel_default_group_def(CHARACTER_COUNT);
@@ -63,8 +77,8 @@ static swivel_status make_crowd(swivel_crowd** crowd)
     def.groups = groups;
     def.group_count = GROUP_COUNT;
     // [end]
-    if (swivel_bind(&leg, &groups[LEGS].binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
-    if (swivel_bind(&arm, &groups[ARMS].binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
+    if (bind_limb(HIP, -1, &groups[LEGS].binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
+    if (bind_limb(SHOULDER, 1, &groups[ARMS].binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
     return swivel_crowd_create(&def, crowd);
 }
 

@@ -50,15 +50,24 @@ void store(const Quaterniond& from, std::array<float, 4>& to) { store(from.coeff
 // the forearm points in the clip's mean.
 swivel_binding bind_arm(const Clip& clip, const Arm& arm)
 {
-    const Vector3d upper = clip.joints[arm.elbow].offset, fore = clip.joints[arm.wrist].offset;
+    const Vector3d fore = clip.joints[arm.wrist].offset;
     Vector3d bend = Vector3d::Zero();
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
         bend += clip.rotation[frame * clip.joints.size() + arm.elbow] * fore;
-    swivel_chain chain = swivel_default_chain();
-    store(upper, chain.elbow_offset);
-    store(fore, chain.wrist_offset);
-    store(bend.normalized(), chain.bend);
-    return swivel::bind(chain);
+    std::vector<std::int32_t> parents;
+    std::vector<std::array<float, 3>> translations;
+    for (const swivel::formats::Joint& joint : clip.joints) {
+        parents.push_back(joint.parent);
+        store(joint.offset, translations.emplace_back());
+    }
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = static_cast<std::uint32_t>(parents.size());
+    skeleton.parents = swivel::stream(parents);
+    skeleton.translations = swivel::stream(translations);
+    const auto number = [](std::size_t joint) { return static_cast<std::uint32_t>(joint); };
+    swivel_limb_joints limb = swivel_default_limb_joints(number(arm.shoulder), number(arm.elbow), number(arm.wrist));
+    store(bend.normalized(), limb.bend);
+    return swivel::bind(skeleton, limb);
 }
 
 // Where one frame of the clip has one arm, in the world.

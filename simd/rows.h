@@ -89,6 +89,11 @@ static_assert([] {
         if (field_row_count(kEveryFeature | row.needs, row.field) == 0) return false;
     return true;
 }());
+// The most rows that a field has in any group.
+constexpr std::uint32_t max_rows(swivel_field field)
+{
+    return field_row_count(kEveryFeature | row_of(field).needs, field);
+}
 
 // Bytes of a row, and of a block.
 inline constexpr std::size_t kRowBytes = kLanes * sizeof(float);

@@ -211,26 +211,13 @@ struct HillWalkers {
                 *probes, n,
                 walkers.sample(probes->bodies[n], {probes->places[n][0], probes->places[n][1], probes->places[n][2]}));
     }
-    // One call: with the ground that is written.
+    // With the ground that is written.
     void solve(Crowd& crowd, PoseBuffer& buffer) const
     {
         write_labels(crowd);
         solve_poses(crowd, view(buffer));
     }
-    // Two calls.
-    void find_probes(Crowd& crowd, PoseBuffer& buffer) const
-    {
-        write_labels(crowd);
-        const swivel_pose pose = view(buffer);
-        crowd.solve({.pose = &pose, .probes_only = true});
-    }
-    void probe_and_solve(Crowd& crowd, PoseBuffer& buffer) const
-    {
-        find_probes(crowd, buffer);
-        for (std::uint32_t leg = 0; leg < 2; ++leg) write(crowd, leg, samples(crowd, leg));
-        solve(crowd, buffer);
-    }
-    // One call that asks.
+    // With the ground that the solve asks for.
     void ask_and_solve(Crowd& crowd, PoseBuffer& buffer) const
     {
         write_labels(crowd);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "swivel/swivel.hpp"
+#include "tests/three_joints.h"
 
 namespace swivel::test {
 
@@ -57,12 +58,7 @@ inline std::uint32_t flags_of(const Crowd& crowd, std::uint32_t group, std::uint
 }
 
 // Limbs whose joints are the arm frame, with bones of length 1.
-inline swivel_group_def group_of(std::uint32_t limb_count)
-{
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
-    return group(limb_count, bind(chain), 0);
-}
+inline swivel_group_def group_of(std::uint32_t limb_count) { return group(limb_count, arm_frame_joints().bound(), 0); }
 // The same features for all groups.
 inline Crowd crowd_with(swivel_features features, std::vector<swivel_group_def> groups)
 {

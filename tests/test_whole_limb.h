@@ -134,38 +134,38 @@ inline constexpr swivel_features kLimits =
     SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 
 // A skeleton's limb with nothing aligned: random rest rotations, bones and bend.
-inline swivel_chain skewed_chain(Random& random)
+inline ThreeJoints skewed_joints(Random& random)
 {
-    swivel_chain chain = swivel_default_chain();
+    ThreeJoints limb;
     const Vector3d upper = random.direction(), hinge = random.across(upper);
     const Quaterniond elbow = random.rotation();
     const Vector3d fore = elbow.conjugate() * (Eigen::AngleAxisd(-random.between(0, 1), hinge) * upper);
-    std::ranges::copy(floats(random.rotation()), chain.shoulder_rotation);
-    std::ranges::copy(floats(elbow), chain.elbow_rotation);
-    std::ranges::copy(floats(random.rotation()), chain.wrist_rotation);
-    std::ranges::copy(floats(Vector3d(random.between(0.5, 1) * upper)), chain.elbow_offset);
-    std::ranges::copy(floats(Vector3d(random.between(0.5, 1) * fore)), chain.wrist_offset);
-    std::ranges::copy(floats(Vector3d(upper.cross(hinge))), chain.bend);
-    return chain;
+    limb.rotations[0] = floats(random.rotation());
+    limb.rotations[1] = floats(elbow);
+    limb.rotations[2] = floats(random.rotation());
+    limb.translations[1] = floats(Vector3d(random.between(0.5, 1) * upper));
+    limb.translations[2] = floats(Vector3d(random.between(0.5, 1) * fore));
+    limb.bend = floats(Vector3d(upper.cross(hinge)));
+    return limb;
 }
 
-struct Chained {
-    swivel_chain chain;
+struct BoundLimb {
+    ThreeJoints rest;
     swivel_binding bound = swivel_default_binding();
 };
-inline Chained chained(Random& random)
+inline BoundLimb bound_limb(Random& random)
 {
-    const swivel_chain chain = skewed_chain(random);
-    return {chain, bind(chain)};
+    const ThreeJoints rest = skewed_joints(random);
+    return {rest, rest.bound()};
 }
 
 // The local rotations of one limb, and where the skeleton then has its wrist and its hand.
 struct LocalPose {
     Quaterniond shoulder, elbow, wrist;
 
-    Vector3d wrist_place(const swivel_chain& chain, const Parent& parent) const
+    Vector3d wrist_place(const ThreeJoints& rest, const Parent& parent) const
     {
-        const Vector3d fore = shoulder * (vec(chain.elbow_offset) + elbow * vec(chain.wrist_offset));
+        const Vector3d fore = shoulder * (vec(rest.translations[1]) + elbow * vec(rest.translations[2]));
         return parent.position + parent.scale * (parent.rotation * fore);
     }
     Quaterniond hand(const Parent& parent) const { return parent.rotation * shoulder * elbow * wrist; }

@@ -85,11 +85,7 @@ public:
         const auto solve_those = [&](const auto& are_chosen) {
             Limbs some;
             std::ranges::copy_if(chosen(), std::back_inserter(some), are_chosen);
-            const Limbs from_last(some.rbegin(), some.rend());
-            if (way_.jobs == Way::Jobs::lists)
-                job.limbs = from_last;
-            else if (way_.jobs == Way::Jobs::masks || from_job_.mask)
-                job.mask = mask_of(some);
+            if (way_.jobs == Way::Jobs::masks || from_job_.mask) job.mask = mask_of(some);
             solve_some(some);
         };
         switch (way_.jobs) {
@@ -106,7 +102,7 @@ public:
                 }
                 return;
             }
-            default:  // a half, and of large crowds a few; then the others
+            case Way::Jobs::masks:  // a half, and of large crowds a few; then the others
                 for (const bool are_first : {true, false})
                     solve_those([&](std::uint32_t limb) {
                         return (limb < 256 ? limb * 7 / 5 % 2 == 0 : limb % 50 == 0) == are_first;

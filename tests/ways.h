@@ -18,7 +18,7 @@ namespace swivel::test {
 struct Way {
     // All in one job; or some limbs after the others, in jobs that choose them; or at once, by threads of the caller's.
     // Every limb is solved once.
-    enum class Jobs { one, blocks, masks, lists, threads };
+    enum class Jobs { one, blocks, masks, threads };
     // joints: of a pose, all bodies' last ones, then all those before; gaps elsewhere. pages: of each limb or body,
     // which are locked away while others are solved.
     enum class Memory { packed, gaps, joints, pages };

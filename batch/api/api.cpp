@@ -103,19 +103,6 @@ void swivel_crowd_destroy(swivel_crowd* crowd)
     if (crowd->release) crowd->release(crowd->arena, crowd->arena_bytes, crowd->user);
 }
 
-swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
-{
-    const FloatEnv env;
-    if (!chain || !binding) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: chain or binding is null");
-    swivel_status status = check_size<swivel_chain>("chain", size_of(chain));
-    if (status != SWIVEL_OK) return status;
-    const swivel_chain given = element(chain, 0, swivel_default_chain());
-    RestLimb limb;
-    status = check_reserved("chain", given);
-    if (status == SWIVEL_OK) status = rest_limb(given, limb);
-    return status == SWIVEL_OK ? bind("swivel_bind", limb, *binding) : status;
-}
-
 swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
                                  swivel_binding* binding)
 {
@@ -131,7 +118,7 @@ swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_l
     status = check_reserved("skeleton", whole);
     if (status == SWIVEL_OK) status = check_reserved("limb joints", given);
     if (status == SWIVEL_OK) status = rest_limb(whole, given, limb);
-    return status == SWIVEL_OK ? bind("swivel_bind_joints", limb, *binding) : status;
+    return status == SWIVEL_OK ? bind(limb, *binding) : status;
 }
 
 swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_rotation[4], const double direction[3],

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The C entry points that solve limbs and choose them. A job is checked (job_check.cpp), becomes Work, and is solved.
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <optional>
@@ -12,7 +11,6 @@
 #include "batch/api/workspace.h"
 #include "batch/crowd/lane_mask.h"
 #include "batch/refusal/sized.h"
-#include "batch/refusal/status.h"
 #include "batch/solve/budget.h"
 #include "batch/solve/pose.h"
 #include "batch/solve/solve.h"
@@ -22,43 +20,6 @@
 using namespace swivel;
 
 namespace {
-
-// Finds the group that a limb index is in. It keeps the last group, because lists often stay in one.
-struct Finder {
-    const swivel_crowd& crowd;
-    const Group* at = crowd.groups;
-
-    bool is_limb(std::uint32_t limb)
-    {
-        const std::uint32_t block = limb / SWIVEL_LANES;
-        if (block >= crowd.block_count) return false;
-        if (block < at->first_block || block - at->first_block >= at->block_count) {
-            const auto starts_after = [](std::uint32_t b, const Group& group) { return b < group.first_block; };
-            at = std::upper_bound(crowd.groups, crowd.groups + crowd.group_count, block, starts_after) - 1;
-        }
-        return limb - at->first_block * SWIVEL_LANES < at->limb_count;
-    }
-};
-
-void clear(std::uint32_t* words, const std::uint32_t* limbs, std::uint32_t limb_count)
-{
-    for (std::uint32_t n = 0; n < limb_count; ++n) words[limbs[n] / 32] = 0;
-}
-
-// Marks a list's limbs in the crowd's own mask; none if one of them is no limb.
-swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::uint32_t limb_count)
-{
-    Finder finder{crowd};
-    for (std::uint32_t n = 0; n < limb_count; ++n) {
-        if (!finder.is_limb(limbs[n])) {
-            clear(crowd.chosen, limbs, n);
-            return fail(SWIVEL_INVALID_ARGUMENT, "entry %u of the list: %u is no limb of this crowd, %s", n, limbs[n],
-                        limbs[n] / SWIVEL_LANES < crowd.block_count ? "but padding" : "but past its end");
-        }
-        crowd.chosen[limbs[n] / 32] |= 1u << limbs[n] % 32;
-    }
-    return SWIVEL_OK;
-}
 
 // The first body that a job solves; none: all are left out.
 std::optional<std::uint32_t> first_body(const Work& work)
@@ -125,31 +86,25 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     const Isa* const isa = usable_isa(status);
     if (!isa) return status;
     const Workspace workspace(*crowd, job.workspace);
-    status = workspace.status;
-    if (status == SWIVEL_OK && job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
-    if (status != SWIVEL_OK) return status;
-    if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.max_blocks, crowd->chosen);
+    if (workspace.status != SWIVEL_OK) return workspace.status;
 
     const Work work{.crowd = *crowd,
                     .kernels = isa->kernels,
                     .blocks = blocks,
                     .groups = job.groups,
-                    .mask = job.limbs || job.priorities ? crowd->chosen : job.mask,
+                    .mask = job.mask,
                     .streams = job.streams,
                     .from_memory = is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks)),
                     .strip = workspace.strip,
                     .pose = job.pose,
-                    .probes_only = job.probes_only != 0,
                     .sample = job.sample,
                     .sample_user = job.sample_user};
-    if (work.pose && !work.probes_only) note_solve(*crowd, work);
+    if (work.pose) note_solve(*crowd, work);
     if (job.on_this_thread)
         solve_here(work);
     else
         solve_in_chunks(work);
     if (job.solved_count) *job.solved_count = count_limbs(work);
-    if (job.limbs) clear(crowd->chosen, job.limbs->indices, job.limbs->count);
-    if (job.priorities) std::fill_n(crowd->chosen, mask_word_count(crowd->block_count), 0u);
     return SWIVEL_OK;
 }
 

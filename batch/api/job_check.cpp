@@ -61,24 +61,6 @@ swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
     return SWIVEL_OK;
 }
 
-swivel_status check_sampling(const swivel_crowd& crowd, const swivel_job& job)
-{
-    if (!job.probes_only) return SWIVEL_OK;
-    if (job.sample)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "the job has a sample function, but probes_only does not call it; give one "
-                    "of them");
-    if (job.probes_only && job.priorities)
-        return fail(
-            SWIVEL_INVALID_ARGUMENT,
-            "the job is for probes_only and has priorities, so the solve would choose other bodies; choose them "
-            "by swivel_choose(), and give both jobs its mask");
-    for (std::uint32_t g = 0; g < crowd.group_count; ++g)
-        if (crowd.groups[g].features & SWIVEL_WITH_GROUND && is_named(job.groups, g)) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT,
-                "the job is for probes_only, but names no group that is SWIVEL_WITH_GROUND; leave it out");
-}
-
 // Whether the numbers of a group's positions are what they are read as. The streams have their origin.
 swivel_status check_positions(std::uint32_t g, const swivel_streams& streams, const swivel_pose* pose)
 {
@@ -144,38 +126,16 @@ swivel_status check_all_streams(const swivel_crowd& crowd, const swivel_job& job
     return status;
 }
 
-swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
-{
-    if ((job.max_blocks > 0 || job.urgency) && !job.priorities)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s priorities; give one for each of this crowd's %u groups",
-                    job.urgency ? "urgency goes with" : "max_blocks goes with", lane_group_count(crowd));
-    if ((job.mask != nullptr) + (job.limbs != nullptr) + (job.priorities != nullptr) > 1)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "a job chooses limbs by a mask, by a list or by priorities; give one of them");
-    if ((job.limbs || job.priorities) && (job.blocks || job.on_this_thread))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "a job with %s is for the whole crowd and cannot be one of several; leave %s out, or give a mask",
-                    job.limbs ? "a list of limbs" : "priorities", job.blocks ? "blocks" : "on_this_thread");
-    if (job.priorities && job.groups)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "a job with priorities is for the whole crowd; leave groups out, and give those that are not "
-                    "wanted priority 0");
-    if (job.limbs && !job.limbs->indices && job.limbs->count > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "a list of %u limbs is null", job.limbs->count);
-    if (job.mask || job.mask_word_count > 0) return check_mask(crowd, job.mask, job.mask_word_count);
-    return job.priorities ? check_priorities(crowd, job.priorities) : SWIVEL_OK;
-}
-
 }  // namespace
 
 swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
 {
     swivel_status status = job.blocks ? check_blocks(crowd, blocks) : SWIVEL_OK;
     if (status == SWIVEL_OK) status = check_groups(crowd, job);
-    if (status == SWIVEL_OK) status = check_choice(crowd, job);
+    if (status == SWIVEL_OK && (job.mask || job.mask_word_count > 0))
+        status = check_mask(crowd, job.mask, job.mask_word_count);
     if (status == SWIVEL_OK) status = check_pose(crowd, job.groups, job.pose);
     if (status == SWIVEL_OK) status = check_links(crowd, job);
-    if (status == SWIVEL_OK) status = check_sampling(crowd, job);
     if (status == SWIVEL_OK && job.streams) status = check_all_streams(crowd, job, blocks);
     return status;
 }

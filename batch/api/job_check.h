@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The checks of a job.
+// The checks of a job and of a choice.
 #pragma once
 
 #include "batch/crowd/crowd.h"

@@ -255,7 +255,7 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
     if (status == SWIVEL_OK) status = check_reserved("limb joints", joints_of(group));
     if (status == SWIVEL_OK) status = rest_limb(skeleton, joints_of(group), limb);
-    if (status == SWIVEL_OK) status = bind("swivel_bind_joints", limb, binding);
+    if (status == SWIVEL_OK) status = bind(limb, binding);
     if (status == SWIVEL_OK) status = check_turned(skeleton, group);
     if (status == SWIVEL_OK) {
         if (group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group.plant);

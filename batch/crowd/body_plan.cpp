@@ -313,7 +313,7 @@ swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def&
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
     rest_limb(skeleton_of(def), joints_of(group), limb);
-    bind("swivel_bind_joints", limb, binding);
+    bind(limb, binding);
     return binding;
 }
 

@@ -65,7 +65,6 @@ struct Layout {
     BodyJoint* joints;
     MovedJoint* moved;
     FollowingJoint* following;
-    std::uint32_t* chosen;
     float* urgency;
     std::uint8_t* done;
     float* workspaces;
@@ -93,7 +92,6 @@ struct Layout {
         joints = arena.take<BodyJoint>(bodies.joint_count);
         moved = arena.take<MovedJoint>(bodies.moved_count);
         following = arena.take<FollowingJoint>(bodies.following_count);
-        chosen = arena.take<std::uint32_t>(mask_word_count(block_count));
         urgency = arena.take<float>(block_count);
         done = arena.take<std::uint8_t>(block_count);
         workspaces = arena.take<float>(def.workspace_count * workspace_floats(strip_blocks, bodies.row_count));
@@ -206,7 +204,6 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     crowd->groups = layout.groups;
     crowd->arena = arena;
     crowd->arena_bytes = static_cast<std::size_t>(layout.bytes);
-    crowd->chosen = layout.chosen;
     crowd->urgency = layout.urgency;
     crowd->done = layout.done;
     crowd->strip_blocks = layout.strip_blocks;

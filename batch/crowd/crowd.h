@@ -51,7 +51,6 @@ struct swivel_crowd {
     void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory
     void* user;
     alignas(16) unsigned char schedule[64];  // what threads remember from one solve to the next (schedule.cpp)
-    std::uint32_t* chosen;                   // a bit for each lane, zeros between calls (api_solve.cpp)
     float* urgency;                          // of each block, where the caller keeps none (budget.cpp)
     std::uint8_t* done;                      // a byte for each block, of a solve on threads (schedule.cpp)
     std::uint32_t strip_blocks;              // of a workspace; 0: it has no whole limbs

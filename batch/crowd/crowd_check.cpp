@@ -28,19 +28,19 @@ bool is_zero(float x) { return x == 0; }
 swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, std::uint32_t twist_bones)
 {
     if (std::all_of(std::begin(binding.parent_from_arm), std::end(binding.parent_from_arm), is_zero))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no binding; make it with swivel_bind()", group);
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no binding; make it with swivel_bind_joints()", group);
     if (const swivel_status status = check_size<swivel_binding>("the group's binding", size_of(&binding));
         status != SWIVEL_OK)
         return status;
     if (!is_binding(binding))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", group);
+                    "group %u's binding holds a quaternion not of unit length; make it with swivel_bind_joints()",
+                    group);
     if (std::all_of(std::begin(binding.lengths), std::end(binding.lengths), is_zero))
-        return fail(
-            SWIVEL_INVALID_ARGUMENT,
-            "group %u's binding has bones of length 0; make it with swivel_bind(), or give NaN for lengths that "
-            "are written later",
-            group);
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u's binding has bones of length 0; make it with swivel_bind_joints(), or give NaN for "
+                    "lengths that are written later",
+                    group);
     if (twist_bones > 0 && binding.twist_bone_count > 0 && binding.twist_bone_count != twist_bones)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u's binding has %u twist bones, its features %u; bind that many, or give it as many as "

@@ -15,7 +15,6 @@ namespace swivel {
 
 namespace {
 
-Vector<double> vector_of(const float (&v)[3]) { return vector<double>(v[0], v[1], v[2]); }
 Rotor<double> rotor_of(const float (&q)[4]) { return rotor<double>(q[0], q[1], q[2], q[3]); }
 
 bool is_usable_bone(const Vector<double>& v) { return len2(v) >= kTiny2 && len2(v) <= kHuge2; }
@@ -52,63 +51,47 @@ Rotor<double> parent_from(const RestJoint& joint, const Rotor<double>& above_fro
 
 // The axis that the elbow turns about, in the shoulder joint's frame, as are the bones and the bend. Flexion turns from
 // the upper arm, e3, towards the bend, e2: about -e1, the opposite of this.
-swivel_status find_hinge(const char* call, const Vector<double>& upper, const Vector<double>& fore,
-                         const Vector<double>& given, Vector<double>& hinge)
+swivel_status find_hinge(const Vector<double>& upper, const Vector<double>& fore, const Vector<double>& given,
+                         Vector<double>& hinge)
 {
     if (!(len2(given) <= kHuge2))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "%s: the bend is not finite or longer than 1e15; give a direction or zeros", call);
+                    "swivel_bind_joints: the bend is not finite or longer than 1e15; give a direction or zeros");
     const bool is_given = len2(given) >= kTiny2;
     if (!is_given && scalar_product(upper, fore) >= kBent * std::sqrt(len2(upper) * len2(fore)))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "%s: the rest pose is straight within 10 degrees, so it does not show where the limb bends to; "
-                    "give the bend",
-                    call);
+                    "swivel_bind_joints: the rest pose is straight within 10 degrees, so it does not show where the "
+                    "limb bends to; give the bend");
     const Vector<double> bend = is_given ? given : fore;
     if (is_along(bend, upper))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "%s: the %s lies along the upper arm; give the direction that flexion carries the forearm towards",
-                    call, is_given ? "bend" : "forearm");
+                    "swivel_bind_joints: the %s lies along the upper arm; give the direction that flexion carries the "
+                    "forearm towards",
+                    is_given ? "bend" : "forearm");
     hinge = cross(bend, upper);
     if (is_along(hinge, fore))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "%s: the forearm at rest lies along the axis that the bend turns it about; give another bend",
-                    call);
+                    "swivel_bind_joints: the forearm at rest lies along the axis that the bend turns it about; give "
+                    "another bend");
     return SWIVEL_OK;
 }
 
 }  // namespace
 
-swivel_status rest_limb(const swivel_chain& chain, RestLimb& limb)
-{
-    limb = {};
-    limb.shoulder.rotation = rotor_of(chain.shoulder_rotation);
-    limb.elbow.rotation = rotor_of(chain.elbow_rotation);
-    limb.wrist.rotation = rotor_of(chain.wrist_rotation);
-    if (!is_orientation(limb.shoulder.rotation) || !is_orientation(limb.elbow.rotation) ||
-        !is_orientation(limb.wrist.rotation))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind: a rest rotation is zero or not finite; give quaternions x, y, z, w");
-    limb.elbow.place = vector_of(chain.elbow_offset);
-    limb.wrist.place = vector_of(chain.wrist_offset);
-    limb.bend = vector_of(chain.bend);
-    return SWIVEL_OK;
-}
-
-swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& to)
+swivel_status bind(const RestLimb& limb, swivel_binding& to)
 {
     const std::size_t size = size_of(&to);
     if (const swivel_status status = check_size<swivel_binding>("binding", size); status != SWIVEL_OK) return status;
     swivel_binding binding = swivel_default_binding();
     const Vector<double>&upper = limb.elbow.place, &fore = limb.wrist.place;
     if (!is_usable_bone(upper) || !is_usable_bone(fore))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: the %s has no direction; offsets must have a length in 1e-15..1e15",
-                    call, is_usable_bone(upper) ? "forearm" : "upper arm");
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind_joints: the %s has no direction; it must be 1e-15 to 1e15 long",
+                    is_usable_bone(upper) ? "forearm" : "upper arm");
     const Rotor<double> elbow_unit = normalise(limb.elbow.rotation);
     const Rotor<double> elbow_s = limb.elbow.between ? *limb.elbow.between * elbow_unit : elbow_unit;
     Vector<double> hinge;
-    if (const swivel_status status = find_hinge(call, upper, sandwich(elbow_s, fore), limb.bend, hinge);
-        status != SWIVEL_OK)
+    if (const swivel_status status = find_hinge(upper, sandwich(elbow_s, fore), limb.bend, hinge); status != SWIVEL_OK)
         return status;
 
     const Rotor<double> upper_from_arm = align(upper, hinge);
@@ -154,7 +137,8 @@ swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotat
     const Vector<double> wanted = vector<double>(direction[0], direction[1], direction[2]);
     if (!is_binding(binding))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_arm_axis: the binding holds a quaternion not of unit length; make it with swivel_bind()");
+                    "swivel_arm_axis: the binding holds a quaternion not of unit length; make it with "
+                    "swivel_bind_joints()");
     if (!is_orientation(parent))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_arm_axis: the parent's rotation is zero or not finite; give a quaternion x, y, z, w");

@@ -26,11 +26,8 @@ struct RestLimb {
     RestJoint twist_bones[SWIVEL_MAX_TWIST_BONES];  // below the elbow
 };
 
-// Does what swivel_bind() promises, for a limb whose rotations are usable. call: named in the line that a refusal
-// leaves.
-swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& binding);
-// The chain as a limb, or a refusal.
-swivel_status rest_limb(const swivel_chain& chain, RestLimb& limb);
+// Does what swivel_bind_joints() promises, for a limb whose rotations are usable.
+swivel_status bind(const RestLimb& limb, swivel_binding& binding);
 
 // Does what swivel_arm_axis() promises; arguments are already checked for null.
 swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],

@@ -43,29 +43,7 @@ void for_each_free_limb(const Group& group, std::uint32_t first, std::uint32_t l
     }
 }
 
-std::uint32_t flags_of(const Group& group, std::size_t limb)
-{
-    const std::size_t at = row_offset(limb, group.result_row_count, field_first_row(group.features, SWIVEL_FLAGS));
-    std::uint32_t flags = 0;
-    std::memcpy(&flags, group.results + at, sizeof flags);
-    return flags;
-}
-
 }  // namespace
-
-int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb)
-{
-    if (!crowd || !group || !limb) return 0;
-    std::uint32_t n = *limb;
-    for (std::uint32_t g = *group; g < crowd->group_count; ++g, n = 0)
-        for (; n < crowd->groups[g].limb_count; ++n) {
-            if (!(flags_of(crowd->groups[g], n) & flags)) continue;
-            *group = g;
-            *limb = n;
-            return 1;
-        }
-    return 0;
-}
 
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
 {

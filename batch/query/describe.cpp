@@ -20,13 +20,10 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
 {
     if (index >= std::size(kFields) || !info) return 0;
     const FieldRow& row = kFields[index];
-    *info = {row.field, row.kind, row.name, row.range.text, row.needs, excludes_of(row), is_position(row.field), 0};
+    const swivel_field field = row.field;
+    *info = {field,     row.kind,         row.name,           row.range.text,
+             row.needs, excludes_of(row), is_position(field), max_rows(field)};
     return 1;
-}
-
-uint32_t swivel_component_count(swivel_field field, swivel_features features)
-{
-    return is_field(field) ? field_row_count(with_sent(features), field) : 0;
 }
 
 const char* swivel_flag_name(uint32_t flags)

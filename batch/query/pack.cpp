@@ -52,11 +52,12 @@ double component(std::uint32_t word)
 
 }  // namespace
 
-uint32_t swivel_packed_row(swivel_features features, swivel_field field)
+uint32_t swivel_packed_row(const swivel_crowd* crowd, uint32_t group, swivel_field field)
 {
+    if (!crowd || group >= crowd->group_count) return 0;
     std::uint32_t rows = 0;
     for (std::size_t f = kInputCount; f < kFieldCount && kFields[f].field < field; ++f)
-        rows += packed_row_count(features, kFields[f].field);
+        rows += packed_row_count(crowd->groups[group].features, kFields[f].field);
     return rows;
 }
 

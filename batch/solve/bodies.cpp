@@ -45,9 +45,10 @@ struct Runs {
             for_each_named(run, [&](const Group& group, std::uint32_t n) {
                 share(group, run, n, [&](const Share& part) { part.copy_in(work.mask, run); });
             });
-        if (work.probes_only || work.sample) prepare(run, Pass::probe);
-        if (work.probes_only) return give_probes(run);
-        if (work.sample) for_each_named(run, [&](const Group& group, std::uint32_t) { sample(group, run); });
+        if (work.sample) {
+            prepare(run, Pass::probe);
+            for_each_named(run, [&](const Group& group, std::uint32_t) { sample(group, run); });
+        }
         for (const Pass pass : {Pass::gather, Pass::shift}) prepare(run, pass);
         look(run, plan);
         for (const Pass pass : {Pass::grasp, Pass::hold}) prepare(run, pass);
@@ -102,23 +103,6 @@ private:
         if (limb.above == 0) return false;
         return is_named(work.groups, limb.above_group) || hangs_on_solved(work.crowd.groups[limb.above_group].limb);
     }
-    // Only the probes go out of the results.
-    void give_probes(GroupBlocks run) const
-    {
-        if (!work.streams) return;
-        for_each_named(run, [&](const Group& group, std::uint32_t n) {
-            swivel_streams given = streams_at(work.streams, n);
-            for (const swivel_stream& each : fields_of(given))
-                if (each.field == SWIVEL_PROBE && each.data) {
-                    given.fields = &each, given.field_count = 1;
-                    share(group, run, given, [&](Share part) {
-                        part.kept_end = part.in_end;  // also where the last solve kept the pose
-                        part.copy_out(work.mask, run);
-                    });
-                    return;
-                }
-        });
-    }
     // Asks the caller for the ground below a group's feet.
     void sample(const Group& group, GroupBlocks run) const
     {
@@ -167,11 +151,7 @@ private:
     template <class Copy>
     void share(const Group& group, GroupBlocks run, std::uint32_t n, const Copy& copy) const
     {
-        share(group, run, streams_at(work.streams, n), copy);
-    }
-    template <class Copy>
-    void share(const Group& group, GroupBlocks run, swivel_streams given, const Copy& copy) const
-    {
+        swivel_streams given = streams_at(work.streams, n);
         given.origin = origin_of(pose);
         Stream streams[kMaxStreams];
         Share part;

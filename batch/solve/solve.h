@@ -42,7 +42,6 @@ struct Work {
     bool from_memory;               // the job's rows do not fit the caches
     StripMemory strip;              // of a workspace
     const swivel_pose* pose;        // of bodies; null: free limbs
-    bool probes_only = false;
     swivel_sample* sample = nullptr;
     void* sample_user = nullptr;
 };

@@ -66,16 +66,20 @@ Limb random_limb(Random& random)
     return limb;
 }
 
-// Bones along +x that bend towards +z, as many rigs have them.
-swivel_binding binding()
-{
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[0] = chain.wrist_offset[0] = 1;
-    chain.bend[2] = 1;
-    return swivel::bind(chain);
-}
-
 }  // namespace
+
+swivel_binding arm_along_x(float upper, float fore)
+{
+    const std::int32_t parents[] = {-1, 0, 1};
+    const float translations[][3] = {{0, 0, 0}, {upper, 0, 0}, {fore, 0, 0}};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = 3;
+    skeleton.parents = {parents, sizeof parents[0]};
+    skeleton.translations = {translations, sizeof translations[0]};
+    swivel_limb_joints joints = swivel_default_limb_joints(0, 1, 2);
+    joints.bend[2] = 1;
+    return swivel::bind(skeleton, joints);
+}
 
 std::vector<Limb> random_limbs(std::size_t count)
 {
@@ -123,7 +127,7 @@ std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs)
 swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs,
                          const swivel_region* region)
 {
-    swivel_group_def def = swivel::group(static_cast<std::uint32_t>(arm_count), binding(), features);
+    swivel_group_def def = swivel::group(static_cast<std::uint32_t>(arm_count), arm_along_x(1, 1), features);
     def.region = region;
     swivel::Crowd crowd({def});
 
@@ -155,7 +159,7 @@ swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::s
 
 std::size_t arms_within(std::size_t memory_level, swivel_features features)
 {
-    const swivel::Crowd crowd({swivel::group(1, binding(), features)});
+    const swivel::Crowd crowd({swivel::group(1, arm_along_x(1, 1), features)});
     const std::size_t row_count =
         swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count;
     const std::size_t blocks = working_sets()[memory_level] / (row_count * sizeof(float)) / SWIVEL_LANES;

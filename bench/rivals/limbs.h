@@ -40,6 +40,10 @@ inline constexpr swivel_features kFullArm = SWIVEL_WORLD | SWIVEL_WITH_HAND | SW
 // Incoming poses, weights, reach and limits of the first limbs of a crowd, where it has them.
 void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count);
 
+// An arm whose bones are so long and run along +x, or along -x where they are negative, as in many rigs. It bends
+// towards +z.
+swivel_binding arm_along_x(float upper, float fore);
+
 // A crowd of one group with all inputs written; limbs repeat where the crowd is larger than they are.
 // region: for SWIVEL_WITH_REGION.
 swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs,

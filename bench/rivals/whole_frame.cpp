@@ -14,14 +14,7 @@ namespace {
 constexpr float kUpper = 0.30f, kFore = 0.26f;
 
 // Bones along +x on the left and -x on the right; both bend forwards, towards +z.
-swivel_binding binding(float side)
-{
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[0] = side * kUpper;
-    chain.wrist_offset[0] = side * kFore;
-    chain.bend[2] = 1;
-    return swivel::bind(chain);
-}
+swivel_binding binding(float side) { return arm_along_x(side * kUpper, side * kFore); }
 Rig rig(float side)
 {
     const swivel_binding b = binding(side);

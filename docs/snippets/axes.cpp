@@ -4,30 +4,26 @@
 namespace {
 
 struct Arm {
-    swivel_chain chain;
-    Float3 shoulder, target, pole;
+    Float3 shoulder, elbow, wrist;  // at rest; the last two in the joint above
+    Float3 bend, target, pole;
 };
 struct Pose {
     Float4 shoulder, elbow;
 };
 
-swivel_chain chain(const Float3& elbow_offset, const Float3& wrist_offset,
-                   const Float3& bend)
-{
-    swivel_chain made = swivel_default_chain();
-    for (std::size_t i = 0; i < 3; ++i) {
-        made.elbow_offset[i] = elbow_offset[i];
-        made.wrist_offset[i] = wrist_offset[i];
-        made.bend[i] = bend[i];
-    }
-    return made;
-}
-
 // The same calls in every engine.
 Pose solved(const Arm& arm)
 {
     // [solve]
-    const swivel_binding bound = swivel::bind(arm.chain);
+    const std::int32_t parents[] = {-1, 0, 1};  // of shoulder, elbow and wrist
+    const Float3 translations[] = {arm.shoulder, arm.elbow, arm.wrist};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = 3;
+    skeleton.parents = swivel::stream(parents);
+    skeleton.translations = swivel::stream(translations);
+    swivel_limb_joints joints = swivel_default_limb_joints(0, 1, 2);
+    std::ranges::copy(arm.bend, joints.bend);
+    const swivel_binding bound = swivel::bind(skeleton, joints);
     swivel::Crowd crowd({swivel::group(1, bound, SWIVEL_WORLD | SWIVEL_JOINTS)});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, arm.shoulder);
     crowd.write_all(SWIVEL_TARGET, 0, arm.target);
@@ -52,11 +48,10 @@ Eigen::Vector3d turned(const Float4& q, const Eigen::Vector3d& v)
 void check_pose(const Arm& arm, const Pose& pose, const Eigen::Vector3d& elbow)
 {
     const Eigen::Vector3d got =
-        vec(arm.shoulder) + turned(pose.shoulder, vec(arm.chain.elbow_offset));
+        vec(arm.shoulder) + turned(pose.shoulder, vec(arm.elbow));
     const Eigen::Vector3d wrist =
-        got + turned(pose.shoulder, turned(pose.elbow, vec(arm.chain.wrist_offset)));
-    const double size =
-        vec(arm.chain.elbow_offset).norm() + vec(arm.chain.wrist_offset).norm();
+        got + turned(pose.shoulder, turned(pose.elbow, vec(arm.wrist)));
+    const double size = vec(arm.elbow).norm() + vec(arm.wrist).norm();
     CHECK((got - elbow).norm() < 1e-6 * size);
     CHECK((wrist - vec(arm.target)).norm() < 1e-6 * size);
 }
@@ -66,10 +61,12 @@ void check_pose(const Arm& arm, const Pose& pose, const Eigen::Vector3d& elbow)
 Arm unity()
 {
     // [unity]
-    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 0, 1}),  // bones along x
-                  {0.2f, 1.4f, 0},                               // shoulder
-                  {0.2f, 1.4f, 0.5f},   // target: half a metre in front
-                  {0.2f, 0.4f, 0.2f}};  // pole: below
+    const Arm arm{.shoulder = {0.2f, 1.4f, 0},
+                  .elbow = {0.3f, 0, 0},  // bones along x
+                  .wrist = {0.4f, 0, 0},
+                  .bend = {0, 0, 1},
+                  .target = {0.2f, 1.4f, 0.5f},  // half a metre in front
+                  .pole = {0.2f, 0.4f, 0.2f}};   // below
     // [end]
     return arm;
 }
@@ -77,10 +74,12 @@ Arm unity()
 Arm unreal()
 {
     // [unreal]
-    const Arm arm{chain({0, 30, 0}, {0, 40, 0}, {1, 0, 0}),  // bones along y
-                  {0, 20, 140},                              // shoulder
-                  {50, 20, 140},  // target: half a metre in front
-                  {20, 20, 40}};  // pole: below
+    const Arm arm{.shoulder = {0, 20, 140},
+                  .elbow = {0, 30, 0},  // bones along y
+                  .wrist = {0, 40, 0},
+                  .bend = {1, 0, 0},
+                  .target = {50, 20, 140},  // half a metre in front
+                  .pole = {20, 20, 40}};    // below
     // [end]
     return arm;
 }
@@ -89,10 +88,12 @@ Arm unreal()
 Arm unreal_mesh()
 {
     // [unreal_mesh]
-    const Arm arm{chain({-30, 0, 0}, {-40, 0, 0}, {0, 1, 0}),  // bones along -x
-                  {-20, 0, 140},                               // shoulder
-                  {-20, 50, 140},  // target: half a metre in front
-                  {-20, 20, 40}};  // pole: below
+    const Arm arm{.shoulder = {-20, 0, 140},
+                  .elbow = {-30, 0, 0},  // bones along -x
+                  .wrist = {-40, 0, 0},
+                  .bend = {0, 1, 0},
+                  .target = {-20, 50, 140},  // half a metre in front
+                  .pole = {-20, 20, 40}};    // below
     // [end]
     return arm;
 }
@@ -100,10 +101,12 @@ Arm unreal_mesh()
 Arm godot()
 {
     // [godot]
-    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 0, -1}),  // bones along x
-                  {0.2f, 1.4f, 0},                                // shoulder
-                  {0.2f, 1.4f, -0.5f},   // target: half a metre in front
-                  {0.2f, 0.4f, -0.2f}};  // pole: below
+    const Arm arm{.shoulder = {0.2f, 1.4f, 0},
+                  .elbow = {0.3f, 0, 0},  // bones along x
+                  .wrist = {0.4f, 0, 0},
+                  .bend = {0, 0, -1},
+                  .target = {0.2f, 1.4f, -0.5f},  // half a metre in front
+                  .pole = {0.2f, 0.4f, -0.2f}};   // below
     // [end]
     return arm;
 }
@@ -111,20 +114,24 @@ Arm godot()
 Arm blender()
 {
     // [blender]
-    const Arm arm{chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, -1, 0}),  // bones along -x
-                  {-0.2f, 0, 1.4f},                                 // shoulder
-                  {-0.2f, -0.5f, 1.4f},   // target: half a metre in front
-                  {-0.2f, -0.2f, 0.4f}};  // pole: below
+    const Arm arm{.shoulder = {-0.2f, 0, 1.4f},
+                  .elbow = {-0.3f, 0, 0},  // bones along -x
+                  .wrist = {-0.4f, 0, 0},
+                  .bend = {0, -1, 0},
+                  .target = {-0.2f, -0.5f, 1.4f},  // half a metre in front
+                  .pole = {-0.2f, -0.2f, 0.4f}};   // below
     // [end]
     return arm;
 }
 
 Arm gltf()
 {
-    return {chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, 0, 1}),
-            {-0.2f, 1.4f, 0},
-            {-0.2f, 1.4f, 0.5f},
-            {-0.2f, 0.4f, 0.2f}};
+    return {.shoulder = {-0.2f, 1.4f, 0},
+            .elbow = {-0.3f, 0, 0},
+            .wrist = {-0.4f, 0, 0},
+            .bend = {0, 0, 1},
+            .target = {-0.2f, 1.4f, 0.5f},
+            .pole = {-0.2f, 0.4f, 0.2f}};
 }
 
 // [to_unity]
@@ -163,12 +170,8 @@ template <class Point, class Turn>
 void check_carried(const Arm& engine, Point point, Turn turn)
 {
     const Arm source = gltf();
-    const auto& from = source.chain;
-    CHECK(distance(
-              point({from.elbow_offset[0], from.elbow_offset[1], from.elbow_offset[2]}),
-              engine.chain.elbow_offset) < 1e-5);
-    const Float3 bend = point({from.bend[0], from.bend[1], from.bend[2]});
-    CHECK((vec(bend).normalized() - vec(engine.chain.bend)).norm() < 1e-6);
+    CHECK(distance(point(source.elbow), engine.elbow) < 1e-5);
+    CHECK((vec(point(source.bend)).normalized() - vec(engine.bend)).norm() < 1e-6);
     CHECK(distance(point(source.target), engine.target) < 1e-5);
     CHECK(distance(point(source.shoulder), engine.shoulder) < 1e-5);
     const Pose carried = solved(source), own = solved(engine);

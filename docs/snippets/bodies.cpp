@@ -92,7 +92,9 @@ TEST_CASE("docs: bodies")
     const std::vector<Character> still = characters;
     for (Character& character : characters) character.hand_target[1] += 0.1f;
     // [some]
-    crowd.solve({.limbs = std::array{3u, 5u}, .streams = {arms, legs}, .pose = &pose});
+    std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
+    for (const std::uint32_t body : {3u, 5u}) mask[body / 32] |= 1u << (body % 32);
+    crowd.solve({.mask = mask, .streams = {arms, legs}, .pose = &pose});
     // [end]
     CHECK((place_of(characters[5], kHand) - vec(characters[5].hand_target)).norm() <
           2e-6);

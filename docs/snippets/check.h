@@ -6,6 +6,7 @@
 #include <swivel/swivel.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -37,6 +38,22 @@ template <class A, class B>
 double distance(const A& a, const B& b)
 {
     return (vec(a) - vec(b)).norm();
+}
+
+// A limb of three joints that are not turned at rest. Elbow and wrist lie in the frame
+// of the joint above, and the bend is in the shoulder's.
+inline swivel_binding bound(const Float3& elbow, const Float3& wrist,
+                            const Float3& bend)
+{
+    const std::int32_t parents[] = {-1, 0, 1};
+    const Float3 translations[] = {{0, 0, 0}, elbow, wrist};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = 3;
+    skeleton.parents = swivel::stream(parents);
+    skeleton.translations = swivel::stream(translations);
+    swivel_limb_joints joints = swivel_default_limb_joints(0, 1, 2);
+    std::copy(bend.begin(), bend.end(), joints.bend);
+    return swivel::bind(skeleton, joints);
 }
 
 // In radians.

@@ -26,30 +26,21 @@ TEST_CASE("docs: active limbs")
     CHECK(solved(crowd) == 20);
 }
 
-TEST_CASE("docs: lists")
-{
-    swivel::Crowd crowd({swivel::group(64)});
-    // [list]
-    const std::uint32_t first = swivel_group_first_limb(crowd.get(), 0);
-    crowd.solve({.limbs = std::array{first + 3, first + 4, first + 40}});
-    // [end]
-    CHECK(solved(crowd) == 3);
-}
-
 TEST_CASE("docs: budget")
 {
     // [budget]
     swivel::Crowd crowd({swivel::group(64)});
     // Yours, kept from frame to frame: a float for each block, zeros at first.
     std::vector<float> urgency(swivel_block_count(crowd.get()));
+    std::vector<std::uint32_t> mask((urgency.size() + 1) / 2);
     std::vector<float> priority(64, 1.0f);  // for each arm; size on screen, say
-    const swivel_in priorities{priority.data(), sizeof(float)};
+    const swivel_in priorities[] = {swivel::stream(priority)};
     // At most two blocks of 16 in this frame.
-    const std::uint32_t count =
-        crowd.solve({.priorities = {priorities}, .urgency = urgency, .max_blocks = 2});
+    crowd.choose(priorities, urgency, 2, mask);
+    crowd.solve({.mask = mask});
     // [end]
-    CHECK(count == 32);
     CHECK(solved(crowd) == 32);
-    crowd.solve({.priorities = {priorities}, .urgency = urgency, .max_blocks = 2});
+    CHECK(crowd.choose(priorities, urgency, 2, mask) == 32);
+    crowd.solve({.mask = mask});
     CHECK(solved(crowd) == 64);
 }

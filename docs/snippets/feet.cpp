@@ -365,11 +365,11 @@ TEST_CASE("docs: feet that are not solved in every frame")
     const swivel_pose& pose = scene.pose;
     const float dt = kFrame;
     for (Character& each : characters) each.time = 0;
-    const std::vector<std::uint32_t> chosen = {0, 2};
+    const std::vector<std::uint32_t> chosen = {0, 2}, mask = {0b101};
     for (int n = 0; n < 3; ++n) {
         // [detail]
         for (Character& each : characters) each.time += dt;  // of every character
-        crowd.solve({.limbs = chosen, .pose = &pose});
+        crowd.solve({.mask = mask, .pose = &pose});
         for (const std::uint32_t body : chosen) characters[body].time = 0;
         // [end]
     }
@@ -405,14 +405,17 @@ TEST_CASE("docs: why a foot slid")
 {
     Legs scene(SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_RECORD);
     swivel::Crowd& crowd = scene.crowd;
+    const std::vector<Character>& characters = scene.characters;
     std::vector<std::string> log;
     for (int n = 0; n < 30; ++n) {
         scene.glide(0.7f);
         // [why]
-        swivel::Crowd::Place at;
-        while (const auto found = crowd.find(SWIVEL_BROKE_AWAY | SWIVEL_CUT, at)) {
-            log.push_back(crowd.explain(found->group, found->limb));
-            at = {found->group, found->limb + 1};
+        std::vector<std::uint32_t> flags(characters.size());
+        for (const std::uint32_t leg : {0u, 1u}) {  // groups
+            crowd.read(SWIVEL_FLAGS, leg, flags);
+            for (std::uint32_t body = 0; body < flags.size(); ++body)
+                if (flags[body] & (SWIVEL_BROKE_AWAY | SWIVEL_CUT))
+                    log.push_back(crowd.explain(leg, body));
         }
         // [end]
     }

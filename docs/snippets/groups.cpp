@@ -13,19 +13,6 @@ struct Character {
     Float4 upper_arm = {}, forearm = {}, hand = {};
 };
 
-// Bones down -y and a knee that bends backwards, or bones along +x and an elbow that
-// bends forwards. No joint is turned at rest.
-swivel_binding bound(const Float3& upper, const Float3& fore, float bend)
-{
-    swivel_chain chain = swivel_default_chain();
-    for (std::size_t i = 0; i < 3; ++i) {
-        chain.elbow_offset[i] = upper[i];
-        chain.wrist_offset[i] = fore[i];
-    }
-    chain.bend[2] = bend;
-    return swivel::bind(chain);
-}
-
 // The last joint's place, by the skeleton's own forward kinematics.
 Eigen::Vector3d end_of(const Float3& start, const Float4& first, const Float3& upper,
                        const Float4& second, const Float3& fore)
@@ -39,8 +26,8 @@ TEST_CASE("docs: groups of different features")
 {
     const Float3 thigh{0, -0.45f, 0}, shin{0, -0.42f, 0};
     const Float3 upper_arm{0.30f, 0, 0}, forearm{0.26f, 0, 0};
-    const swivel_binding left_leg = bound(thigh, shin, -1);
-    const swivel_binding left_arm = bound(upper_arm, forearm, 1);
+    const swivel_binding left_leg = bound(thigh, shin, {0, 0, -1});  // backwards
+    const swivel_binding left_arm = bound(upper_arm, forearm, {0, 0, 1});
     const Character one{.hip = {0.1f, 0.95f, 0},
                         .ankle = {0.1f, 0.25f, 0.1f},
                         .knee_hint = {0.1f, 0.5f, 2},

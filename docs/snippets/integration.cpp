@@ -11,14 +11,7 @@ struct Character {
     Float4 upper_arm, forearm;
 };
 
-swivel_binding bound_arm()
-{
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[0] = 0.30f;
-    chain.wrist_offset[0] = 0.26f;
-    chain.bend[2] = 1;
-    return swivel::bind(chain);
-}
+swivel_binding bound_arm() { return bound({0.30f, 0, 0}, {0.26f, 0, 0}, {0, 0, 1}); }
 
 // Where the wrist is, of bones along +x: the skeleton's own forward kinematics.
 Eigen::Vector3d wrist_of(const Character& character)

@@ -4,12 +4,17 @@
 TEST_CASE("docs: legs")
 {
     // [leg]
-    // Thigh, shin and foot joints at rest: bones down -y, knees forward, +z.
-    swivel_chain leg = swivel_default_chain();
-    leg.elbow_offset[1] = -0.45f;
-    leg.wrist_offset[1] = -0.42f;
+    // Pelvis, hip, knee and ankle at rest: bones down -y, knees forward, +z.
+    const std::int32_t parents[] = {-1, 0, 1, 2};
+    const Float3 translations[] = {
+        {0, 0.95f, 0}, {0.1f, 0, 0}, {0, -0.45f, 0}, {0, -0.42f, 0}};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = 4;
+    skeleton.parents = swivel::stream(parents);
+    skeleton.translations = swivel::stream(translations);
+    swivel_limb_joints leg = swivel_default_limb_joints(1, 2, 3);
     leg.bend[2] = -1;  // the knee bends backwards
-    const swivel_binding left_leg = swivel::bind(leg);
+    const swivel_binding left_leg = swivel::bind(skeleton, leg);
     // [end]
     swivel::Crowd crowd({swivel::group(1, left_leg, SWIVEL_WORLD | SWIVEL_JOINTS)});
     // [leg_solve]

@@ -196,11 +196,7 @@ TEST_CASE("docs: limits that do not pop")
 
 TEST_CASE("docs: limits in the character's axes")
 {
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[0] = 0.30f;
-    chain.wrist_offset[0] = 0.26f;
-    chain.bend[2] = 1;
-    const swivel_binding left = swivel::bind(chain);
+    const swivel_binding left = bound({0.30f, 0, 0}, {0.26f, 0, 0}, {0, 0, 1});
     swivel::Crowd crowd({swivel::group(
         1, left, SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_CONE)});
     // [character]

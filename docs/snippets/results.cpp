@@ -33,22 +33,6 @@ TEST_CASE("docs: flags")
     CHECK(flags[0] == SWIVEL_REACHED);
 }
 
-TEST_CASE("docs: find")
-{
-    swivel::Crowd crowd({swivel::group(2)});
-    give_arms(crowd);
-    crowd.solve();
-    std::vector<std::uint32_t> far;
-    // [find]
-    swivel::Crowd::Place at;  // group 0, limb 0
-    while (const auto found = crowd.find(SWIVEL_CLAMPED_FAR, at)) {
-        far.push_back(found->limb);
-        at = {found->group, found->limb + 1};
-    }
-    // [end]
-    CHECK(far == std::vector<std::uint32_t>{1});
-}
-
 TEST_CASE("docs: forward kinematics and residuals")
 {
     swivel::Crowd crowd({swivel::group(2)});
@@ -96,10 +80,10 @@ TEST_CASE("docs: packed results")
     crowd.solve();
     // [pack]
     // 16-bit rows: keep these, send them, or give them to a GPU.
-    const std::uint32_t rows = swivel_packed_row(0, SWIVEL_RESULT_END);
+    const std::uint32_t rows = swivel_packed_row(crowd.get(), 0, SWIVEL_RESULT_END);
     std::vector<std::uint16_t> words(SWIVEL_LANES * rows);  // one block
     crowd.pack(0, words);
-    const std::uint32_t row = swivel_packed_row(0, SWIVEL_SHOULDER);
+    const std::uint32_t row = swivel_packed_row(crowd.get(), 0, SWIVEL_SHOULDER);
     Float4 shoulder;  // limb 1 of block 0
     swivel_unpack_rotation(words.data() + row * SWIVEL_LANES + 1, SWIVEL_LANES,
                            shoulder.data());

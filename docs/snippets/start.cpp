@@ -4,7 +4,14 @@
 #include <swivel/swivel.hpp>
 #include <vector>
 
-struct Character {  // your own, as your engine keeps it
+// A joint of your skeleton at rest, as your engine keeps it.
+struct Joint {
+    std::int32_t parent;   // its number; -1 for a root
+    float translation[3];  // in the parent's frame
+    float rotation[4];     // relative to the parent: x, y, z, w
+};
+
+struct Character {  // your own, as well
     // Inputs, in the world. The wrist goes to the grip; the elbow leans to the hint.
     // The clavicle is the joint above the shoulder. Rotations are x, y, z, w.
     float grip[3], elbow_hint[3], shoulder_position[3], clavicle_rotation[4];
@@ -14,13 +21,22 @@ struct Character {  // your own, as your engine keeps it
 
 int main()
 {
-    // Bind: the rest pose. A left arm's bones lie along +x of their joints, which are
-    // not turned at rest. The character faces +z.
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[0] = 0.30f;  // the elbow, as the shoulder joint has it
-    chain.wrist_offset[0] = 0.26f;  // the wrist, as the elbow joint has it
-    chain.bend[2] = 1;              // forwards: where flexion carries the forearm
-    const swivel_binding arm = swivel::bind(chain);
+    // Bind: the skeleton at rest. A left arm's bones lie along +x of their joints,
+    // which are not turned at rest. The character faces +z.
+    const std::vector<Joint> joints = {
+        {-1, {0, 1.4f, 0}, {0, 0, 0, 1}},  // 0: clavicle
+        {0, {0.1f, 0, 0}, {0, 0, 0, 1}},   // 1: shoulder, where the upper arm begins
+        {1, {0.30f, 0, 0}, {0, 0, 0, 1}},  // 2: elbow
+        {2, {0.26f, 0, 0}, {0, 0, 0, 1}},  // 3: wrist
+    };
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = static_cast<std::uint32_t>(joints.size());
+    skeleton.parents = swivel::stream(joints, &Joint::parent);
+    skeleton.translations = swivel::stream(joints, &Joint::translation);
+    skeleton.rotations = swivel::stream(joints, &Joint::rotation);
+    swivel_limb_joints limb = swivel_default_limb_joints(1, 2, 3);
+    limb.bend[2] = 1;  // forwards: where flexion carries the forearm
+    const swivel_binding arm = swivel::bind(skeleton, limb);
 
     // A crowd: how many, what goes in and what comes out.
     const Character first{{0.4f, 1.2f, 0.3f},

@@ -309,14 +309,12 @@ typedef struct swivel_field_info {
     swivel_features needs;     // a group has the field if it has all of these, and any number of twist bones for theirs
     swivel_features excludes;  // and none of these
     uint32_t is_position;      // 1: it may be given in double, from an origin
-    uint32_t reserved;         // 0
+    uint32_t max_components;   // the most numbers that a value has in any group; see swivel_field_row_count()
 } swivel_field_info;
 
 // Describes feature or field number `index`, from 0. Returns 1; or 0, changing nothing, if there is none. Any thread.
 SWIVEL_API int swivel_describe_feature(uint32_t index, swivel_feature_info* info);
 SWIVEL_API int swivel_describe_field(uint32_t index, swivel_field_info* info);
-// How many numbers a value of a field has in groups with these features; 0 if they lack the field. Any thread.
-SWIVEL_API uint32_t swivel_component_count(swivel_field field, swivel_features features);
 // The name of the lowest bit of a flag word, such as "REACHED"; null for an unknown bit. Any thread.
 SWIVEL_API const char* swivel_flag_name(uint32_t flags);
 
@@ -330,8 +328,7 @@ typedef struct swivel_out {
     size_t stride;  // bytes; at least the value's size. Any alignment.
 } swivel_out;
 
-// Maps the arm frame to a skeleton's joints, as unit quaternions (x, y, z, w). swivel_bind() and swivel_bind_joints()
-// make it.
+// Maps the arm frame to a skeleton's joints, as unit quaternions (x, y, z, w). swivel_bind_joints() makes it.
 typedef struct swivel_binding {
     size_t size;                     // sizeof(swivel_binding), set by swivel_default_binding()
     float parent_from_arm[4];        // arm frame to the shoulder's parent joint
@@ -353,28 +350,6 @@ static inline swivel_binding swivel_default_binding(void)
     memset(&binding, 0, sizeof binding);
     binding.size = sizeof binding;
     return binding;
-}
-
-// A shoulder, elbow and wrist joint at rest, as a skeleton stores them.
-typedef struct swivel_chain {
-    size_t size;                 // sizeof(swivel_chain), set by swivel_default_chain()
-    float shoulder_rotation[4];  // rest rotation of the shoulder joint relative to its parent joint
-    float elbow_rotation[4];     // rest rotation of the elbow joint relative to the shoulder joint
-    float wrist_rotation[4];     // rest rotation of the wrist joint relative to the elbow joint
-    float elbow_offset[3];       // the elbow in the shoulder joint's frame
-    float wrist_offset[3];       // the wrist in the elbow joint's frame
-    // Where flexion carries the forearm, in the shoulder joint's frame: mostly forwards for an arm, backwards for a
-    // leg. For a direction f in the world and the joint's world rotation q at rest, it is conjugate(q) * f * q, of any
-    // length up to 1e15. Zero: the rest pose says where the limb bends, if it is bent by more than 10 degrees.
-    float bend[3];
-    float reserved;  // 0
-} swivel_chain;
-
-// Joints that are not turned at rest; bones and bend are still to be given.
-static inline swivel_chain swivel_default_chain(void)
-{
-    const swivel_chain chain = {sizeof(swivel_chain), {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0}, {0}, {0}, 0};
-    return chain;
 }
 
 // A skeleton at rest. Joints are named by index, in any order; every stride is at least a value's size.
@@ -404,7 +379,10 @@ typedef struct swivel_limb_joints {
     // and not below the wrist. None is above the wrist or above another of them.
     uint32_t twist_bone_count;
     const uint32_t* twist_bones;
-    float bend[3];   // as swivel_chain's: in the shoulder joint's frame
+    // Where flexion carries the forearm, in the shoulder joint's frame: mostly forwards for an arm, backwards for a
+    // leg. For a direction f in the world and the joint's world rotation q at rest, it is conjugate(q) * f * q, of any
+    // length up to 1e15. Zero: the rest pose says where the limb bends, if it is bent by more than 10 degrees.
+    float bend[3];
     float reserved;  // 0
 } swivel_limb_joints;
 
@@ -695,25 +673,23 @@ SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel
 // Frees what create allocated. Null is allowed.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
-// Binds a limb: the alignments from its rest pose, and its two bone lengths. Fails for bad quaternions, bones of no
-// length, a bend along the upper arm or one that turns the forearm about itself, and without a bend for a rest pose
-// bent by 10 degrees or less. Any thread.
-SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
-
-// swivel_bind() of a limb in a skeleton. Also fails for joints that do not exist or are no limb, for parents in a
-// circle, and for twist bones that are not in order. Any thread.
+// Binds a limb: the alignments from its rest pose, and its two bone lengths. A skeleton of its three joints alone will
+// do. Fails for joints that do not exist or are no limb, parents in a circle, bad quaternions, bones of no length, a
+// bend along the upper arm or one that turns the forearm about itself, no bend for a rest pose bent by 10 degrees or
+// less, and twist bones that are not in order. Any thread.
 SWIVEL_API swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
                                             swivel_binding* binding);
 
-// The crowd's shape. Masks and lists count limbs through the whole crowd, padding lanes included: limb n of a group has
-// the number swivel_group_first_limb() + n, and each group starts a block. In a crowd of bodies they count bodies: limb
-// i of every group is body i's. For null crowds and groups that do not exist all are 0. Any thread.
+// The crowd's shape. Masks count limbs through the whole crowd, padding lanes included: limb n of a group has the
+// number swivel_group_first_limb() + n, and each group starts a block. In a crowd of bodies they count bodies: limb i
+// of every group is body i's. For null crowds and groups that do not exist all are 0. Any thread.
 SWIVEL_API uint32_t swivel_group_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API swivel_features swivel_group_features(const swivel_crowd* crowd, uint32_t group);
-// The first row of a field within each block of a group, and its number of rows. Both are 0 if the group lacks it.
+// The first row of a field within each block of a group, and its number of rows, one for each number of a value. Both
+// are 0 if the group lacks the field.
 SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, uint32_t group, swivel_field field);
 SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, uint32_t group, swivel_field field);
 
@@ -857,12 +833,6 @@ typedef struct swivel_blocks {
     uint32_t first, count;
 } swivel_blocks;
 
-// Some of a crowd's limbs. indices may be null if count is 0.
-typedef struct swivel_limbs {
-    const uint32_t* indices;
-    uint32_t count;
-} swivel_limbs;
-
 // Feet of one group that want to know the ground. Arrays have `count` entries, one for each foot. Positions are in the
 // space of the rows: in the world, or from the root where that is in doubles.
 typedef struct swivel_probes {
@@ -884,19 +854,11 @@ typedef struct swivel_job {
     const uint32_t* groups;
     uint32_t group_word_count;
 
-    // Which limbs, by at most one of mask, limbs and priorities. Chosen limbs get the same bits as in a solve of all;
-    // others keep their results. limbs and priorities exclude blocks and on_this_thread; priorities exclude groups.
-    //
-    // By bits: limb number i is bit i % 32 of mask[i / 32]; see swivel_group_first_limb(). mask_word_count is
-    // (swivel_block_count() + 1) / 2.
+    // Which limbs, by bits: limb number i is bit i % 32 of mask[i / 32]; see swivel_group_first_limb(). Bits of padding
+    // lanes are ignored. mask_word_count is (swivel_block_count() + 1) / 2. Chosen limbs get the same results as in a
+    // solve of all; others keep theirs. swivel_choose() makes a mask of the most urgent blocks.
     const uint32_t* mask;
     uint32_t mask_word_count;
-    // By a list of such numbers, in any order; one named twice is solved once. Fails for padding lanes.
-    const swivel_limbs* limbs;
-    // The most urgent blocks, at most max_blocks of them, as swivel_choose() picks them; urgency is its, or null.
-    const swivel_in* priorities;
-    float* urgency;
-    uint32_t max_blocks;
 
     // The caller's own arrays: swivel_streams of each group that is named, in the crowd's order, as far apart as the
     // first one's size. Null: values are in the crowd's rows.
@@ -914,10 +876,9 @@ typedef struct swivel_job {
 
     const swivel_pose* pose;  // where the bodies' poses are; null in crowds of free limbs
 
-    // Groups WITH_GROUND: give the ground below the last solve's SWIVEL_PROBE; or ask for it in one of two ways.
-    int probes_only;  // not 0: finds SWIVEL_PROBE and changes no other result. Sample, then solve. Not with priorities
-    // Unless null, it is called on the solving threads, by several at a time, with up to 128 feet of one group. It
-    // stores their ground. It may not throw, call this crowd, or wait for oneTBB's tasks unless it isolates them.
+    // Groups WITH_GROUND. Unless null, it is called on the solving threads, by several at a time, with up to 128 feet
+    // of one group. It stores their ground. It may not throw, call this crowd, or wait for oneTBB's tasks unless it
+    // isolates them. Null: the ground is as written, such as that below the last solve's SWIVEL_PROBE.
     swivel_sample* sample;
     void* sample_user;
 } swivel_job;
@@ -968,7 +929,7 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job
 // priorities: one entry for each group, in the crowd's order, or one alone for bodies; one float for each limb, in any
 //   unit. Stride 0: one priority for the whole group. Values count as 0..1e15, NaN as 0.
 // urgency: a float for each block, the caller's, 0 at first, kept from call to call. Null: priorities alone decide.
-// mask: gets the bits of the picked blocks' limbs, and 0 elsewhere, for jobs on your own threads. mask_word_count is
+// mask: gets the bits of the picked blocks' limbs, and 0 elsewhere, for a job. mask_word_count is
 //   (swivel_block_count() + 1) / 2.
 // chosen_count: unless null, becomes how many limbs these are.
 SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency,
@@ -978,12 +939,6 @@ SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* pri
 // Clears the carried fields of these limbs, so that they start anew: call it after a teleport, and where a body's place
 // in the crowd is used anew.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
-
-// The first limb with any of these flags, from limb *limb of group *group on, through all later groups. Returns 1 and
-// stores where; or returns 0 and changes nothing.
-//     for (uint32_t group = 0, limb = 0; swivel_find(crowd, SWIVEL_BAD_INPUT, &group, &limb); ++limb)
-//         printf("limb %u of group %u has bad input\n", limb, group);
-SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
 enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_explain() and swivel_compare()
 #define SWIVEL_EVERY_GROUP UINT32_MAX      // for swivel_explain(): all groups of a body
@@ -1097,9 +1052,9 @@ SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t gr
 // - ELBOW without JOINTS takes 2 words and STRETCH 1: half floats. FLAGS takes 2, the low half first. NORMAL takes
 // none. docs/howto/results.md says how far wrists are off. Any thread, while nothing solves these blocks.
 SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
-// The first row of words of a field in groups with these features; if they lack it, the row after those before it. Any
-// thread.
-SWIVEL_API uint32_t swivel_packed_row(swivel_features features, swivel_field field);
+// The first row of words of a field of a group; if the group lacks it, the row after those before it. 0 for null crowds
+// and groups that do not exist. Any thread.
+SWIVEL_API uint32_t swivel_packed_row(const swivel_crowd* crowd, uint32_t group, swivel_field field);
 // The rotation of three words that lie word_stride words apart, SWIVEL_LANES in rows. Any thread.
 SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
 // The value of any half float, exactly. Any thread.

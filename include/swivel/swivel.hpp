@@ -119,13 +119,7 @@ inline swivel_group_def look_group(std::initializer_list<std::uint32_t> joints,
     return look_group(std::span(joints.begin(), joints.size()), look);
 }
 
-// A limb's alignments and bone lengths from its rest pose: swivel_bind(), swivel_bind_joints().
-inline swivel_binding bind(const swivel_chain& chain)
-{
-    swivel_binding binding = swivel_default_binding();
-    check(swivel_bind(&chain, &binding));
-    return binding;
-}
+// A limb's alignments and bone lengths from its rest pose: swivel_bind_joints().
 inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_joints& joints)
 {
     swivel_binding binding = swivel_default_binding();
@@ -269,22 +263,13 @@ concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ran
 template <class Range>
 concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::ranges::range_value_t<Range>>;
 
-// Whether a field may be given in doubles.
-inline bool is_position(swivel_field field)
+// A field as swivel_describe_field() has it; all 0 if there is none.
+inline swivel_field_info described(swivel_field field)
 {
-    swivel_field_info info;
+    swivel_field_info info = {};
     for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-        if (info.field == field) return info.is_position != 0;
-    return false;
-}
-
-// The numbers in a value of a field, in whichever kind of group has it.
-inline std::uint32_t component_count(swivel_field field)
-{
-    std::uint32_t max = 0;
-    for (const swivel_features kind : {~SWIVEL_NO_LIMB, SWIVEL_FIT, SWIVEL_PROP, SWIVEL_LOOK})
-        max = std::max(max, swivel_component_count(field, kind));
-    return max;
+        if (info.field == field) return info;
+    return {};
 }
 
 // Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
@@ -294,7 +279,7 @@ void check_value(swivel_field field)
 {
     constexpr bool is_list = std::is_array_v<Value> || requires { typename Value::value_type; };
     if constexpr (is_list && sizeof(Value) > 4 * sizeof(float) && FieldValue<Value>)
-        if (component_count(field) <= 4)
+        if (described(field).max_components <= 4)
             fail(SWIVEL_INVALID_ARGUMENT, "an array of " + std::to_string(sizeof(Value) / sizeof(float)) +
                                               " floats is no value of field " + std::to_string(field));
 }
@@ -359,7 +344,7 @@ public:
     requires(FieldValue<Value> || DoubleValue<Value>) Streams& in(swivel_field field, const Stream<Value>& values)
     {
         check_value<std::remove_cv_t<Value>>(field);
-        if (is_position(field)) {
+        if (described(field).is_position) {
             if constexpr (FieldValue<Value> != DoubleValue<Value>)
                 say_positions(DoubleValue<Value> ? SWIVEL_DOUBLES : SWIVEL_FLOATS);
         } else if (!FieldValue<Value>) {
@@ -505,21 +490,15 @@ private:
 #endif
 };
 
-// One solve, as swivel_job. By default it solves every limb, from and to rows, on oneTBB. At most one of mask, limbs
-// and priorities is given.
+// One solve, as swivel_job. By default it solves every limb, from and to rows, on oneTBB.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
     Given<std::uint32_t> groups = everything;    // their numbers, which a solve allocates bits for
     Given<std::uint32_t> mask = everything;      // words of bits, (swivel_block_count() + 1) / 2 of them
-    Given<std::uint32_t> limbs = everything;     // numbers of limbs in the crowd
-    Given<swivel_in> priorities = everything;    // one for each group; of bodies one alone
-    std::span<float> urgency = {};               // with priorities: one for each block, kept by the caller
-    std::uint32_t max_blocks = 0;                // with priorities
     Given<swivel_streams> streams = everything;  // one for each group that is named, such as Streams with a name
     bool on_this_thread = false;
     void* workspace = nullptr;          // memory for this call alone; null: one of the crowd's workspaces
     const swivel_pose* pose = nullptr;  // of bodies; null in a crowd of free limbs
-    bool probes_only = false;           // finds SWIVEL_PROBE and changes nothing else
     // For groups WITH_GROUND. If it throws, no more feet ask, and they stand on the ground that they had. The solve
     // goes on to its end; then solve() throws the first of its exceptions.
     Sample sample = {};
@@ -600,8 +579,6 @@ public:
     std::uint32_t solve(const Job& wanted = {})
     {
         swivel_job job = swivel_default_job();
-        const swivel_limbs limbs =
-            wanted.limbs ? swivel_limbs{(*wanted.limbs).data(), count(*wanted.limbs)} : swivel_limbs{};
         std::vector<std::uint32_t> named;
         if (wanted.blocks) job.blocks = &*wanted.blocks;
         if (wanted.groups) {
@@ -614,10 +591,6 @@ public:
             job.mask = (*wanted.mask).empty() ? &no_words : (*wanted.mask).data();
             job.mask_word_count = count(*wanted.mask);
         }
-        if (wanted.limbs) job.limbs = &limbs;
-        if (wanted.priorities) job.priorities = checked(*wanted.priorities);
-        job.urgency = checked(wanted.urgency);
-        job.max_blocks = wanted.max_blocks;
         if (wanted.streams) {
             std::size_t named_count = 0;
             for (const std::uint32_t word : named) named_count += static_cast<std::size_t>(std::popcount(word));
@@ -628,7 +601,6 @@ public:
         job.on_this_thread = wanted.on_this_thread;
         job.workspace = wanted.workspace;
         job.pose = wanted.pose;
-        job.probes_only = wanted.probes_only;
         Sampling sampling(wanted.sample);
         if (wanted.sample) job.sample = &Sampling::answer, job.sample_user = &sampling;
         std::uint32_t solved = 0;
@@ -645,16 +617,6 @@ public:
         check(swivel_choose(crowd_, checked(priorities), checked(urgency), max_blocks, mask.data(), count(mask),
                             &chosen));
         return chosen;
-    }
-
-    // swivel_find(): the next limb with any of these flags, from a place on.
-    struct Place {
-        std::uint32_t group = 0, limb = 0;  // limb: counted within the group
-    };
-    std::optional<Place> find(std::uint32_t flags) const { return find(flags, {}); }
-    std::optional<Place> find(std::uint32_t flags, Place from) const
-    {
-        return swivel_find(crowd_, flags, &from.group, &from.limb) ? std::optional(from) : std::nullopt;
     }
 
     // swivel_explain(): why a limb is as it is, in words.
@@ -731,8 +693,8 @@ public:
     void pack(std::uint32_t group, std::span<std::uint16_t> words) const
     {
         const std::uint32_t blocks = (swivel_group_limb_count(crowd_, group) + SWIVEL_LANES - 1) / SWIVEL_LANES;
-        const std::size_t wanted = std::size_t{SWIVEL_LANES} * blocks *
-                                   swivel_packed_row(swivel_group_features(crowd_, group), SWIVEL_RESULT_END);
+        const std::size_t wanted =
+            std::size_t{SWIVEL_LANES} * blocks * swivel_packed_row(crowd_, group, SWIVEL_RESULT_END);
         if (blocks > 0 && words.size() != wanted)  // 0: the call says that there is no group
             fail(SWIVEL_INVALID_ARGUMENT, std::to_string(words.size()) + " words; group " + std::to_string(group) +
                                               " takes " + std::to_string(wanted));

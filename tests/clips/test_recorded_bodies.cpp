@@ -100,8 +100,9 @@ struct SolvedClip {
     SolvedClip(const ClipBodies& clip, swivel_features features)
         : bodies(clip.skeleton, clip.frames, {.translates = true, .scales = true}), solved(with_own_goals(features))
     {
-        std::uint32_t group = 0, limb = 0;
-        CHECK(!swivel_find(solved.crowd.get(), SWIVEL_BAD_INPUT, &group, &limb));
+        for (std::uint32_t g = 0; g < bodies.groups.size(); ++g)
+            for (const std::uint32_t flags : read<std::uint32_t>(solved.crowd, SWIVEL_FLAGS, g))
+                CHECK(!(flags & SWIVEL_BAD_INPUT));
     }
 
 private:

@@ -153,7 +153,7 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
              crowd.look->setup.look->joint_count = 1;
              crowd.look->setup.goals.holds = 1;
          }},
-        {"quaternion", [](CachedCrowd& crowd) { std::ranges::fill(crowd.limbs[1].setup.chain.elbow_rotation, 0.0f); }}};
+        {"quaternion", [](CachedCrowd& crowd) { std::ranges::fill(crowd.limbs[1].setup.rest.elbow_rotation, 0.0f); }}};
     CHECK_NOTHROW(crowd_of_attributes(attributes_of(whole), path));
     for (const auto& [what, change] : changes) {
         CachedCrowd changed = whole;

@@ -9,6 +9,8 @@
 #include <limits>
 #include <string_view>
 
+#include "tests/three_joints.h"
+
 namespace swivel::fuzz {
 namespace {
 
@@ -82,17 +84,15 @@ void turn_at_random(Random& random, float (&q)[4])
 
 swivel_binding binding_of(Random random)
 {
-    swivel_chain chain = swivel_default_chain();
-    for (auto* q : {&chain.shoulder_rotation, &chain.elbow_rotation, &chain.wrist_rotation})
-        for (float& x : *q) x = random.share();
-    for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.bend})
+    test::ThreeJoints limb;
+    for (auto& q : limb.rotations)
+        for (float& x : q) x = random.share();
+    for (auto* const v : {&limb.translations[1], &limb.translations[2], &limb.bend})
         for (float& x : *v) x = random.share();
+    const swivel_skeleton skeleton = limb.skeleton();
+    const swivel_limb_joints joints = limb.joints();
     swivel_binding binding = swivel_default_binding();
-    if (swivel_bind(&chain, &binding) != SWIVEL_OK) {
-        chain = swivel_default_chain();
-        chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
-        swivel_bind(&chain, &binding);
-    }
+    if (swivel_bind_joints(&skeleton, &joints, &binding) != SWIVEL_OK) binding = test::arm_frame_joints().bound();
     // Joints in between, and twist bones, with any rest rotations.
     turn_at_random(random, binding.elbow_parent_from_arm);
     turn_at_random(random, binding.wrist_parent_from_arm);

@@ -227,7 +227,7 @@ swivel_pose Pose::of_body(std::uint32_t body, std::array<std::vector<char>, 7>& 
     return pose;
 }
 
-void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body, const swivel_job& like)
+void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body, bool asks)
 {
     std::uint32_t named = 0;
     for (std::uint32_t group = 0; group < session.group_count; ++group)
@@ -243,15 +243,13 @@ void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t b
     const swivel_pose pose = of_body(body, memory);
     swivel_job job = swivel_default_job();
     job.groups = &named, job.group_word_count = 1;
-    job.pose = &pose;
-    job.probes_only = like.probes_only;  // ground that was sampled lies in rows by now
+    job.pose = &pose;  // ground that was asked for lies in rows by now
     solve_scalar(alone, &job);
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
         if (!chosen[group][body]) continue;
-        // Bad input keeps the probe that was sampled at, which another ground may have moved.
-        const bool was_sampled = like.sample && is_bad(session, group, body);
-        check_equal(session, group, body, alone, group, was_sampled ? SWIVEL_PROBE : SWIVEL_RESULT_END);
-        if (like.probes_only) continue;
+        // Bad input keeps the probe that was asked at, which another ground may have moved.
+        const bool has_asked = asks && is_bad(session, group, body);
+        check_equal(session, group, body, alone, group, has_asked ? SWIVEL_PROBE : SWIVEL_RESULT_END);
         for_each_written(session, group, [&](Array n, std::uint32_t joint) {
             const char* const value = &memory[n][joint * arrays[n]->value_bytes()];
             arrays[n]->expect(body, joint, is_overwritten(session, group, body) ? nullptr : value);
@@ -259,18 +257,9 @@ void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t b
     }
 }
 
-void Pose::check(Session& session, const SomeLimbs& chosen, const swivel_job& like)
+void Pose::check(Session& session, const SomeLimbs& chosen, bool asks)
 {
-    for (std::uint32_t body = 0; body < session.bodies->body_count; ++body) check_body(session, chosen, body, like);
-    check_all();
-}
-
-void Pose::check_others(const Session& session)
-{
-    for (std::uint32_t group = 0; group < session.group_count; ++group)
-        for (std::uint32_t body = 0; body < session.bodies->body_count; ++body)
-            for_each_written(session, group,
-                             [&](Array n, std::uint32_t joint) { arrays[n]->expect(body, joint, nullptr); });
+    for (std::uint32_t body = 0; body < session.bodies->body_count; ++body) check_body(session, chosen, body, asks);
     check_all();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/fuzz/interface_session.h"
+#include "tests/three_joints.h"
 
 namespace swivel::fuzz {
 namespace {
@@ -157,18 +158,21 @@ void call_bind_joints(Bytes& bytes)
     check_binding(status, bound);
 }
 
+// A limb alone, which is one in shape, and then joints as they come.
 void call_bind(Bytes& bytes)
 {
-    std::array<float, 21> numbers;
+    test::ThreeJoints limb;
     const bool any_bits = bytes.one_in(3);
-    for (float& x : numbers) x = any_bits ? bytes.any_float() : bytes.share();
-    swivel_chain chain = swivel_default_chain();
-    constexpr std::size_t first = offsetof(swivel_chain, shoulder_rotation);
-    static_assert(offsetof(swivel_chain, bend) + sizeof chain.bend == first + sizeof numbers);
-    std::memcpy(reinterpret_cast<char*>(&chain) + first, numbers.data(), sizeof numbers);
-    if (bytes.one_in(4)) chain.size = bytes.take<std::uint8_t>();
+    const auto fill = [&](auto& numbers) {
+        for (float& x : numbers) x = any_bits ? bytes.any_float() : bytes.share();
+    };
+    for (auto& rotation : limb.rotations) fill(rotation);
+    for (auto* const v : {&limb.translations[1], &limb.translations[2], &limb.bend}) fill(*v);
+    const swivel_skeleton skeleton = limb.skeleton();
+    swivel_limb_joints joints = limb.joints();
+    if (bytes.one_in(4)) joints.size = bytes.take<std::uint8_t>();
     swivel_binding bound = untouched_binding();
-    const swivel_status status = swivel_bind(&chain, &bound);
+    const swivel_status status = swivel_bind_joints(&skeleton, &joints, &bound);
     check_binding(status, bound);
     if (bytes.one_in(2)) call_bind_joints(bytes);
 }
@@ -367,7 +371,7 @@ void call_pack(Session& session)
 {
     const std::uint32_t group = session.bytes.below(session.group_count + 1),
                         blocks = (swivel_group_limb_count(session.crowd, group) + SWIVEL_LANES - 1) / SWIVEL_LANES,
-                        rows = swivel_packed_row(swivel_group_features(session.crowd, group), SWIVEL_RESULT_END);
+                        rows = swivel_packed_row(session.crowd, group, SWIVEL_RESULT_END);
     const swivel_blocks range{session.bytes.below(blocks + 2), session.bytes.below(blocks + 2)};
     const bool is_valid = blocks > 0 && range.first + range.count <= blocks;
     std::vector<std::uint16_t> words(is_valid ? std::size_t{range.count} * rows * SWIVEL_LANES + 1 : 1);

@@ -94,13 +94,13 @@ double JobStreams::from(const Session& session, std::uint32_t group, swivel_fiel
     return place;
 }
 
-void JobStreams::check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb, Sampling sampling) const
+void JobStreams::check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb, bool asks) const
 {
     const swivel_rows rows = swivel_input_rows(session.crowd, group);
     for (std::size_t n = 0; n < inputs.size(); ++n) {
         if (input_fields[n] == SWIVEL_INPUT_END || inputs[n].is_null()) continue;
         const bool is_ground = input_fields[n] == SWIVEL_GROUND || input_fields[n] == SWIVEL_GROUND_NORMAL;
-        if (is_ground && sampling == Sampling::asks) continue;  // it may be another by now
+        if (is_ground && asks) continue;  // it may be another by now
         const std::uint32_t components = component_count(session, group, input_fields[n]),
                             first_row = swivel_field_first_row(session.crowd, group, input_fields[n]);
         const bool is_wide = inputs[n].value_bytes() == components * sizeof(double);
@@ -116,22 +116,18 @@ void JobStreams::check_inputs(const Session& session, std::uint32_t group, std::
     }
 }
 
-void JobStreams::check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen,
-                       Sampling sampling) const
+void JobStreams::check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen, bool asks) const
 {
     const auto limb_count = static_cast<std::uint32_t>(chosen.size());
     const bool is_untouched = std::find(chosen.begin(), chosen.end(), true) == chosen.end();
     for (std::uint32_t limb = 0; limb < limb_count; ++limb)
-        if (chosen[limb]) check_inputs(session, group, limb, sampling);
+        if (chosen[limb]) check_inputs(session, group, limb, asks);
     for (std::size_t n = 0; n < outputs.size(); ++n) {
         outputs[n].check_gaps(is_untouched);
         if (is_untouched || outputs[n].is_null()) continue;
         std::array<char, 28 * sizeof(float)> result;  // seven twist bones
         for (std::uint32_t limb = 0; limb < limb_count; ++limb) {
-            const bool is_written = sampling == Sampling::probes_only
-                                        ? output_fields[n] == SWIVEL_PROBE
-                                        : output_fields[n] == SWIVEL_FLAGS || !is_kept(session, group, limb);
-            if (chosen[limb] && is_written)
+            if (chosen[limb] && (output_fields[n] == SWIVEL_FLAGS || !is_kept(session, group, limb)))
                 swivel_read(session.crowd, output_fields[n], group, limb, 1, {result.data(), result.size()});
             else
                 result.fill(Strided::kPattern);

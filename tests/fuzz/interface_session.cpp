@@ -40,8 +40,7 @@ Limbs take_limbs(Session& session)
 
 std::uint32_t component_count(const Session& session, std::uint32_t group, swivel_field field)
 {
-    if (group >= session.group_count) return 0;
-    return swivel_component_count(field, swivel_group_features(session.crowd, group));
+    return swivel_field_row_count(session.crowd, group, field);
 }
 
 bool has_features(const Session& session, std::uint32_t group, swivel_features features)

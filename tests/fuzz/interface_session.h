@@ -85,17 +85,12 @@ void solve_scalar(swivel_crowd* alone, const swivel_job* job);
 void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to,
                  swivel_field except = SWIVEL_RESULT_END);
 
-// A job for probes alone changed no other result.
-void check_probes(const Session& session, const SomeLimbs& chosen);
 // Inputs and results of limbs that are not chosen, and whole blocks without such a limb, have the bits that they
 // had before the call.
 void check_others(const Session& session, const SomeLimbs& chosen);
 
 // ---- parts of a job: a frame for each group, and the poses of bodies in all forms and at any distances:
 // interface_frame.cpp, interface_bodies.cpp
-
-// How a job has the ground sampled.
-enum class Sampling : std::uint8_t { none, asks, probes_only };
 
 // One group's frame and the arrays that it points to.
 struct JobStreams {
@@ -111,14 +106,13 @@ struct JobStreams {
     swivel_streams view() const;  // of this, which must outlive it
 
     // Inputs of chosen limbs are in the crowd's rows, and results are the crowd's. Values of others, and all of them if
-    // nothing is chosen, are as they were.
-    void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen,
-               Sampling sampling = Sampling::none) const;
+    // nothing is chosen, are as they were. asks: the job asks for ground, so that in the rows may be another.
+    void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen, bool asks) const;
 
 private:
     double from(const Session& session, std::uint32_t group, swivel_field field, std::uint32_t limb,
                 std::size_t c) const;
-    void check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb, Sampling sampling) const;
+    void check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb, bool asks) const;
     void take_origin(Session& session, std::uint32_t limb_count);
     void take_input(Session& session, std::uint32_t group, swivel_field field);
     void take_output(Session& session, std::uint32_t group, swivel_field field);
@@ -140,11 +134,9 @@ struct Pose {
     // named: the groups that are solved.
     bool is_valid(const Session& session, const std::vector<bool>& named) const;
     const std::optional<Strided>& root_position() const { return roots[0]; }
-    // Chosen limbs have the pose and the results of their body alone, with the ground that the job sampled, if it did.
-    // All other bytes are as they were.
-    void check(Session& session, const SomeLimbs& chosen, const swivel_job& like);
-    // The same where it is not known which limbs were chosen: those that might be may have changed.
-    void check_others(const Session& session);
+    // Chosen limbs have the pose and the results of their body alone, with the ground that the job asked for, if it
+    // did. All other bytes are as they were.
+    void check(Session& session, const SomeLimbs& chosen, bool asks);
 
 private:
     // One body's, in memory of its own.
@@ -152,7 +144,7 @@ private:
     // Calls take(array, joint) for each value of a body that a solve of a group may write.
     template <class Take>
     void for_each_written(const Session& session, std::uint32_t group, const Take& take);
-    void check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body, const swivel_job& like);
+    void check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body, bool asks);
     void check_all() const;
 };
 

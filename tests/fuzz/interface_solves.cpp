@@ -126,13 +126,10 @@ struct TakenJob {
     Session& session;
     swivel_job job = swivel_default_job();
     swivel_blocks blocks{0, 0};
-    swivel_limbs limbs_given{nullptr, 0};
-    std::vector<std::uint32_t> words = {}, list = {};
-    std::vector<Priorities> priorities = {};
+    std::vector<std::uint32_t> words = {};
     std::unique_ptr<Pose> pose = {};
     std::vector<JobStreams> frames = {};
     std::vector<std::uint32_t> framed_groups = {}, named = {};
-    std::vector<float> urgency = {};
     std::vector<swivel_streams> frame_array = {};
     std::vector<bool> lanes;
     bool is_valid = true;
@@ -154,34 +151,26 @@ struct TakenJob {
                 take_mask();
                 break;
             case 3:
-                take_list();
+                take_few();
                 break;
             case 4:
-                take_priorities();
+                take_urgent();
                 break;
         }
-        if (bytes.one_in(64) && !job.mask) take_mask();  // beside another choice, it may be
+        if (bytes.one_in(64) && !job.mask) take_mask();  // seeds have a byte for it
         if (bytes.one_in(4)) take_groups();
         if (session.bodies) take_pose();
         if (session.bodies) take_sampling();
         if (bytes.one_in(2)) take_frames();
         if (bytes.one_in(2)) job.solved_count = &solved_count;
         take_workspace();
-        const bool is_part = job.blocks || job.on_this_thread;
-        if ((job.limbs || job.priorities) && (is_part || job.mask)) is_valid = false;
-        if (job.probes_only && job.priorities) is_valid = false;
         if (bytes.one_in(64)) {
             job.size = bytes.one_in(2) ? 0 : sizeof job + 1 + bytes.take<std::uint8_t>();
             is_valid = false;
         }
     }
 
-    Sampling sampling() const
-    {
-        return job.probes_only ? Sampling::probes_only : job.sample ? Sampling::asks : Sampling::none;
-    }
-    // Not of one whose urgent blocks are not known here.
-    bool is_known() const { return !job.priorities; }
+    bool asks() const { return job.sample != nullptr; }
     SomeLimbs chosen() const
     {
         SomeLimbs limbs = session.limbs_that(true);
@@ -220,7 +209,6 @@ private:
         job.groups = named.data();
         job.group_word_count = static_cast<std::uint32_t>(named.size());
         if (session.bytes.one_in(32)) job.group_word_count = 2, is_valid = false;
-        if (job.priorities) is_valid = false;
     }
     void take_pose()
     {
@@ -249,12 +237,9 @@ private:
             has_ground = has_ground || (is_named(group) && has_features(session, group, SWIVEL_WITH_GROUND));
         if (!has_ground && !session.bytes.one_in(32)) return;
         const std::uint32_t kind = session.bytes.below(16);
-        if (kind % 4 == 1 || kind == 15) job.probes_only = 1;
-        if (kind % 4 == 2 || kind == 15) {
-            ground = {session.bytes.take<std::uint16_t>(), &session};
-            job.sample = sample_ground, job.sample_user = &ground;
-        }
-        if (kind == 15 || (job.probes_only && !has_ground)) is_valid = false;
+        if (kind % 4 != 2 && kind != 15) return;  // as seeds have it
+        ground = {session.bytes.take<std::uint16_t>(), &session};
+        job.sample = sample_ground, job.sample_user = &ground;
     }
     void take_workspace()
     {
@@ -268,6 +253,10 @@ private:
     void take_mask()
     {
         words = take_words(session);
+        give_words();
+    }
+    void give_words()
+    {
         words.reserve(1);  // never null
         job.mask = words.data();
         job.mask_word_count = static_cast<std::uint32_t>(words.size());
@@ -276,33 +265,33 @@ private:
         for (std::size_t lane = 0; lane < some.size(); ++lane) some[lane] = has(words, lane);
         keep(some);
     }
-    void take_list()
+    // A mask of a few limbs, or of any lanes.
+    void take_few()
     {
         const std::vector<bool> limbs = limbs_of(session);
         const bool any_lane = session.bytes.one_in(8);
-        std::vector<bool> some(limbs.size());
+        words.resize((swivel_block_count(session.crowd) + 1) / 2);
         for (std::uint32_t n = session.bytes.below(20); n > 0; --n) {
             std::uint32_t lane = session.bytes.below(session.lane_count() + (any_lane ? 20 : 0));
             while (!any_lane && !limbs[lane]) --lane;  // a group's padding comes after a limb
-            list.push_back(lane);
-            is_valid = is_valid && lane < limbs.size() && limbs[lane];
-            if (lane < some.size()) some[lane] = true;
+            if (lane < session.lane_count()) words[lane / 32] |= 1u << lane % 32;
         }
-        limbs_given = {list.data(), static_cast<std::uint32_t>(list.size())};
-        job.limbs = &limbs_given;
-        keep(some);
+        give_words();
     }
-    void take_priorities()
+    // The mask of the most urgent blocks; of priorities that are refused none.
+    void take_urgent()
     {
-        const Priorities& taken = priorities.emplace_back(session);
-        job.priorities = taken.in.data();
-        job.max_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
-        if (session.bytes.one_in(2)) {
-            urgency.resize(swivel_block_count(session.crowd));
+        const Priorities priorities(session);
+        const std::uint32_t block_count = swivel_block_count(session.crowd),
+                            max_blocks = session.bytes.below(block_count + 2);
+        std::vector<float> urgency(block_count);
+        if (session.bytes.one_in(2))
             for (float& each : urgency) each = session.bytes.any_float();
-            job.urgency = urgency.data();
-        }
-        is_valid = is_valid && taken.are_valid;
+        words.resize((block_count + 1) / 2);
+        const swivel_status status = swivel_choose(session.crowd, priorities.in.data(), urgency.data(), max_blocks,
+                                                   words.data(), static_cast<std::uint32_t>(words.size()), nullptr);
+        SWIVEL_REQUIRE((status == SWIVEL_OK) == priorities.are_valid);
+        give_words();
     }
     void take_frames()
     {
@@ -338,22 +327,12 @@ void call_solve(Session& session)
     check_status(session, status, taken.is_valid);
     const bool is_solved = status == SWIVEL_OK;
     if (taken.job.solved_count) SWIVEL_REQUIRE(is_solved == (taken.solved_count != ~0u));
-    if (!taken.is_known() && is_solved) {
-        if (taken.pose) taken.pose->check_others(session);
-        for (const JobStreams& frame : taken.frames)
-            for (const Strided& output : frame.outputs) output.check_gaps(false);
-        SWIVEL_REQUIRE(!taken.job.solved_count || taken.solved_count <= session.lane_count());
-        return;
-    }
     const SomeLimbs chosen = is_solved ? taken.chosen() : session.limbs_that(false);
     for (std::size_t n = 0; n < taken.frames.size(); ++n)
-        taken.frames[n].check(session, taken.framed_groups[n], chosen[taken.framed_groups[n]], taken.sampling());
-    if (taken.pose) taken.pose->check(session, chosen, taken.job);
+        taken.frames[n].check(session, taken.framed_groups[n], chosen[taken.framed_groups[n]], taken.asks());
+    if (taken.pose) taken.pose->check(session, chosen, taken.asks());
     if (!is_solved) return;
-    if (taken.job.probes_only)
-        check_probes(session, chosen);
-    else
-        check_solved(session, chosen);
+    check_solved(session, chosen);
     if (taken.job.solved_count) SWIVEL_REQUIRE(taken.count() == taken.solved_count);
 }
 

@@ -144,7 +144,7 @@ TEST_CASE("the instruction set in use gives the golden digests")
 constexpr Way kWays[] = {
     {.name = "in any order, alone and together", .memory = Way::Memory::gaps, .is_shuffled = true},
     {.name = "block by block, in a workspace of any bytes", .jobs = Way::Jobs::blocks},
-    {.name = "by lists, poses joint by joint", .jobs = Way::Jobs::lists, .memory = Way::Memory::joints},
+    {.name = "by masks, poses joint by joint", .jobs = Way::Jobs::masks, .memory = Way::Memory::joints},
     {.name = "from frames", .memory = Way::Memory::gaps, .has_frames = true},
     {.name = "from frames, by masks", .jobs = Way::Jobs::masks, .has_frames = true},
     {.name = "to other memory", .memory = Way::Memory::joints, .is_apart = true},
@@ -160,11 +160,10 @@ TEST_CASE("every crowd of the corpus has the same bits whatever the way, in ever
 
 TEST_CASE("memory of limbs that a job does not choose is not even read")
 {
-    constexpr Way kLockedWays[] = {
-        {.name = "by masks", .jobs = Way::Jobs::masks, .memory = Way::Memory::pages, .has_frames = true},
-        {.name = "by lists", .jobs = Way::Jobs::lists, .memory = Way::Memory::pages, .has_frames = true}};
+    constexpr Way kLocked{
+        .name = "by masks", .jobs = Way::Jobs::masks, .memory = Way::Memory::pages, .has_frames = true};
     const auto check_locked = [&](Scene& scene, Crowd& crowd, const Job& job) {
-        check_ways(scene, crowd, job, kLockedWays);
+        check_ways(scene, crowd, job, {&kLocked, 1});
     };
     for (const Recipe* recipe : few_crowds()) play(*recipe, check_locked, kLimbs, 2);
     for (const Recipe& recipe : recipes_of(Part::bodies)) play(recipe, check_locked, kLimbs, 2);
@@ -220,7 +219,7 @@ TEST_CASE("large crowds have the same bits on threads, ours and the caller's, fr
             large(*recipe), 4);
 }
 
-TEST_CASE("blocks of which no limb is chosen are not even read, whatever chooses")
+TEST_CASE("blocks of which no limb is chosen are not even read, by blocks as by masks")
 {
     // Rows of 512 and 448 bytes a block: 64 blocks of either are whole pages, and all but the middle 64 are locked
     // away.
@@ -248,14 +247,11 @@ TEST_CASE("blocks of which no limb is chosen are not even read, whatever chooses
                 REQUIRE(mprotect(base + 2 * part, part, rights) == 0);
             }
         };
-        std::vector<std::uint32_t> mask(blocks / 2), list;
-        for (std::uint32_t block = first; block < first + count; ++block)
-            for (const std::uint32_t lane : {3u, 7u, 15u}) list.push_back(block * SWIVEL_LANES + lane);
-        for (const std::uint32_t limb : list) mask[limb / 32] |= 1u << limb % 32;
+        std::vector<std::uint32_t> mask(blocks / 2);
+        std::fill_n(mask.begin() + first / 2, count / 2, 0x80888088u);  // lanes 3, 7 and 15 of each block
         lock_outside(PROT_NONE);
         CHECK(crowd.solve({.blocks = swivel_blocks{first, count}, .on_this_thread = true}) == count * SWIVEL_LANES);
-        CHECK(crowd.solve({.mask = mask}) == list.size());
-        CHECK(crowd.solve({.limbs = list}) == list.size());
+        CHECK(crowd.solve({.mask = mask}) == 3 * count);
         lock_outside(PROT_READ | PROT_WRITE);
     }
     munmap(pages, room);

@@ -115,34 +115,39 @@ Gait gait_of(HillWalkers& walkers, const Solve& solve, int first = 1)
     }
     return gauge.is;
 }
+
+// The ground that a function has stored, which is in the rows as any input.
+std::vector<GroundSample> ground_of(const Crowd& crowd, std::uint32_t leg)
+{
+    const auto places = read<Float3>(crowd, SWIVEL_GROUND, leg),
+               normals = read<Float3>(crowd, SWIVEL_GROUND_NORMAL, leg);
+    std::vector<GroundSample> ground;
+    for (std::size_t n = 0; n < places.size(); ++n) ground.push_back({places[n], normals[n]});
+    return ground;
+}
+// Asks for the ground. Given the same ground in its rows, another crowd gets the same bits.
+void ask_and_give(const HillWalkers& walkers, Crowd& asking, Crowd& given, PoseBuffer& poses)
+{
+    PoseBuffer given_poses = poses;
+    walkers.ask_and_solve(asking, poses);
+    for (std::uint32_t leg = 0; leg < 2; ++leg) HillWalkers::write(given, leg, ground_of(asking, leg));
+    walkers.solve(given, given_poses);
+    REQUIRE(given_poses.bytes == poses.bytes);
+    REQUIRE(swivel_digest(given.get()) == swivel_digest(asking.get()));
+}
 }  // namespace
 
-TEST_CASE("feet stand on hills, however their ground is sampled, with the same bits")
+TEST_CASE("feet stand on hills, with the same bits whether their ground is asked for or written")
 {
     HillWalkers walkers(1, 500, bumpy_field());
-    Crowd given = walkers.crowd(), probed = walkers.crowd(), asking = walkers.crowd();
+    Crowd given = walkers.crowd(), asking = walkers.crowd();
     Gauge gauge(walkers);
     for (int frame = 0; frame < kWalkedFrames; ++frame) {
         walkers.go_to(frame);
-        PoseBuffer poses = walkers.poses(), given_poses = poses, asking_poses = poses;
-        walkers.probe_and_solve(probed, poses);
-        for (std::uint32_t leg = 0; leg < 2; ++leg) {
-            const auto places = read<Float3>(probed, SWIVEL_GROUND, leg),
-                       normals = read<Float3>(probed, SWIVEL_GROUND_NORMAL, leg);
-            given.write(SWIVEL_GROUND, leg, places), given.write(SWIVEL_GROUND_NORMAL, leg, normals);
-        }
-        walkers.solve(given, given_poses);
-        walkers.ask_and_solve(asking, asking_poses);
-        REQUIRE(given_poses.bytes == poses.bytes);
-        REQUIRE(asking_poses.bytes == poses.bytes);
-        REQUIRE(swivel_digest(given.get()) == swivel_digest(probed.get()));
-        REQUIRE(swivel_digest(asking.get()) == swivel_digest(probed.get()));
-        if (frame % 100 == 0) REQUIRE(all_words(given) == all_words(probed));
-        // Ground that a function stores is input, in rows, too.
-        for (std::uint32_t leg = 0; leg < 2; ++leg)
-            for (const swivel_field field : {SWIVEL_GROUND, SWIVEL_GROUND_NORMAL})
-                REQUIRE(read<Float3>(asking, field, leg) == read<Float3>(probed, field, leg));
-        gauge.take(probed, poses, frame);
+        PoseBuffer poses = walkers.poses();
+        ask_and_give(walkers, asking, given, poses);
+        if (frame % 100 == 0) REQUIRE(all_words(given) == all_words(asking));
+        gauge.take(asking, poses, frame);
     }
     gauge.is.check_on_hills(1e-3);
     CHECK(gauge.is.short_toe <= 1e-5);
@@ -167,7 +172,7 @@ TEST_CASE("on flat ground feet walk as they are animated")
     int swing_count = 0;
     const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) {
         const PoseBuffer animated = poses;
-        walkers.probe_and_solve(crowd, poses);
+        walkers.ask_and_solve(crowd, poses);
         const auto shifts = read<Float3>(crowd, SWIVEL_SHIFT, 2);
         for (std::uint32_t n = 0; n < walkers.count(); ++n)
             for (std::uint32_t leg = 0; leg < 2; ++leg) {
@@ -189,7 +194,7 @@ TEST_CASE("on flat ground feet walk as they are animated")
 TEST_CASE("on stairs no sole goes through a tread that it is over")
 {
     HillWalkers walkers(3, 200, stairs());
-    const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) { walkers.probe_and_solve(crowd, poses); });
+    const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) { walkers.ask_and_solve(crowd, poses); });
     CHECK(is.heel <= 1e-3);
     CHECK(is.toe <= 1e-3);
     CHECK(is.slide <= 1e-4);
@@ -217,7 +222,7 @@ TEST_CASE("over creases a sole in the air turns slowly with its ground, and lies
         walkers.go_to(frame);
         PoseBuffer poses = walkers.poses();
         const PoseBuffer animated = poses;
-        walkers.probe_and_solve(crowd, poses);
+        walkers.ask_and_solve(crowd, poses);
         for (std::uint32_t n = 0; n < walkers.count(); ++n)
             for (std::uint32_t leg = 0; leg < 2; ++leg) {
                 std::vector<Turned>& swing = swings[2 * n + leg];
@@ -251,9 +256,9 @@ TEST_CASE("far from the origin, places are from the root, and feet stand as well
     HillWalkers walkers(5, kFewWalkers, bumpy_field());
     walkers.has_doubles = true;
     walkers.origin = {3e6 + 0.25, 0, -5e6 + 0.75};
-    const bool asks = GENERATE(true, false);
+    Crowd given = walkers.crowd();
     const Gait is = gait_of(walkers, [&](Crowd& crowd, PoseBuffer& poses) {
-        asks ? walkers.ask_and_solve(crowd, poses) : walkers.probe_and_solve(crowd, poses);
+        ask_and_give(walkers, crowd, given, poses);
         for (std::uint32_t leg = 0; leg < 2; ++leg)
             for (const Float3& probe : read<Float3>(crowd, SWIVEL_PROBE, leg)) REQUIRE(vec(probe).norm() < 1.5);
     });
@@ -322,10 +327,9 @@ TEST_CASE("a sample function runs in its thread's floating-point environment, wh
     HillWalkers walkers(5, kFewWalkers, bumpy_field());
     Crowd crowd = walkers.crowd(), usual = walkers.crowd();
     PoseBuffer poses = walkers.poses(), usual_poses = poses;
-    walkers.find_probes(usual, usual_poses);
+    walkers.ask_and_solve(usual, usual_poses);
     Seen seen;
-    for (std::uint32_t leg = 0; leg < 2; ++leg) seen.planes[leg] = walkers.samples(usual, leg);
-    walkers.probe_and_solve(usual, usual_poses);
+    for (std::uint32_t leg = 0; leg < 2; ++leg) seen.planes[leg] = ground_of(usual, leg);
     walkers.write_labels(crowd);
     const swivel_pose pose = walkers.view(poses);
     swivel_job job = swivel_default_job();
@@ -354,7 +358,7 @@ TEST_CASE("a sample function runs in its thread's floating-point environment, wh
     CHECK(swivel_digest(crowd.get()) == swivel_digest(usual.get()));
 }
 
-TEST_CASE("jobs that sample no ground are refused in one line")
+TEST_CASE("a sample function is not called where no limb of the job stands on ground")
 {
     const HillWalkers walkers(5, 4, bumpy_field());
     Crowd crowd = walkers.crowd(), without = walkers.crowd(HillWalkers::kFeatures & ~SWIVEL_WITH_GROUND),
@@ -362,30 +366,19 @@ TEST_CASE("jobs that sample no ground are refused in one line")
     PoseBuffer poses = walkers.poses();
     const swivel_pose pose = walkers.view(poses);
     const std::uint32_t shift_alone = 4;
+    int calls = 0;
     swivel_job job = swivel_default_job();
+    job.sample = [](const swivel_probes*, void* user) { ++*static_cast<int*>(user); };
+    job.sample_user = &calls;
+    CHECK(swivel_solve(free.get(), &job) == SWIVEL_OK);
     job.pose = &pose;
-    const auto refuses = [&](Crowd& of, const char* part) {
-        CHECK_REFUSED(swivel_solve(of.get(), &job), SWIVEL_INVALID_ARGUMENT);
-        CHECK(std::string(swivel_last_error()).find(part) != std::string::npos);
-    };
-    const auto before = all_words(crowd);
-    job.sample = [](const swivel_probes*, void*) {};
-    job.probes_only = 1;
-    refuses(crowd, "give one of them");
-    job.groups = &shift_alone, job.group_word_count = 1, job.sample = nullptr;
-    refuses(crowd, "is for probes_only, but names no group that is SWIVEL_WITH_GROUND");
-    CHECK(all_words(crowd) == before);
-    job.groups = nullptr, job.group_word_count = 0;
-    refuses(without, "probes_only");
-    swivel_job plain = swivel_default_job();
-    plain.probes_only = 1;
-    CHECK_REFUSED(swivel_solve(free.get(), &plain), SWIVEL_INVALID_ARGUMENT);
-    plain.probes_only = 0;
-    plain.sample = [](const swivel_probes*, void*) { FAIL("no limb of this crowd stands on ground"); };
-    CHECK(swivel_solve(free.get(), &plain) == SWIVEL_OK);
+    CHECK(swivel_solve(without.get(), &job) == SWIVEL_OK);
+    job.groups = &shift_alone, job.group_word_count = 1;
+    CHECK(swivel_solve(crowd.get(), &job) == SWIVEL_OK);
+    CHECK(calls == 0);
 }
 
-TEST_CASE("a job for probes alone gives them to a frame, also where the last solve kept the pose")
+TEST_CASE("a sample function is asked where the foot is about to be, also where the last solve kept the pose")
 {
     PlantedBodies stage(8, Ground::still);
     Crowd crowd = stage.crowd(kPlanted | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_GROUND);
@@ -396,17 +389,21 @@ TEST_CASE("a job for probes alone gives them to a frame, also where the last sol
     REQUIRE(flags_of(crowd, 0, kBad) == SWIVEL_BAD_INPUT);
     stage.go_to(1);
     stage.write_labels(crowd);
-    std::vector<Float3> probes(stage.body_count, {kNan, kNan, kNan});
-    const swivel_stream field = {SWIVEL_PROBE, probes.data(), sizeof probes[0]};
-    swivel_streams frames[3] = {swivel_default_streams(), swivel_default_streams(), swivel_default_streams()};
-    frames[0].fields = &field, frames[0].field_count = 1;
+    std::vector<Float3> places(stage.body_count, {kNan, kNan, kNan});
     const swivel_pose pose = stage.view();
     swivel_job job = swivel_default_job();
-    job.pose = &pose, job.streams = frames, job.probes_only = 1;
+    job.pose = &pose, job.sample_user = places.data();
+    job.sample = [](const swivel_probes* probes, void* user) {
+        if (probes->group > 0) return;
+        for (std::uint32_t n = 0; n < probes->count; ++n)
+            std::copy_n(probes->places[n], 3, static_cast<Float3*>(user)[probes->bodies[n]].begin());
+    };
     check(swivel_solve(crowd.get(), &job));
+    REQUIRE(flags_of(crowd, 0, kBad) == SWIVEL_BAD_INPUT);
     for (std::uint32_t body = 0; body < stage.body_count; ++body) {
         INFO("body " << body);
-        CHECK(std::isfinite(probes[body][0]));
-        CHECK(probes[body] == value_of<Float3>(crowd, SWIVEL_PROBE, 0, body));
+        CHECK(std::isfinite(places[body][0]));
+        CHECK(places[body] != Float3{});  // as at the start
+        if (body == kBad) CHECK(places[body] == value_of<Float3>(crowd, SWIVEL_PROBE, 0, body));
     }
 }

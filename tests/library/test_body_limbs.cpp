@@ -284,8 +284,8 @@ struct Twins : PosedBodies {
         swivel_field_info info;
         for (std::uint32_t f = 0; swivel_describe_field(f, &info); ++f)
             for (std::uint32_t limb = 0; limb < 2 * kPosedBodies; ++limb) {
-                const std::uint32_t count = swivel_component_count(info.field, features), g = limb / kPosedBodies,
-                                    n = limb % kPosedBodies;
+                const std::uint32_t g = limb / kPosedBodies, n = limb % kPosedBodies,
+                                    count = swivel_field_row_count(posed.get(), g, info.field);
                 if (info.kind == SWIVEL_FIELD_INPUT || count == 0 || is_between[limb]) continue;
                 if (info.field != SWIVEL_FLAGS && is_infeasible(g, n)) continue;
                 Numbers mine{}, twins[kTwins] = {};

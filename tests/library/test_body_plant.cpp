@@ -268,10 +268,15 @@ struct Stage {
     }
     // With the ground that is written.
     void step() { walkers.solve(crowd, poses); }
+    // The ground below each foot, as it is animated.
     void write_ground()
     {
-        walkers.find_probes(crowd, poses);
-        for (std::uint32_t leg = 0; leg < 2; ++leg) HillWalkers::write(crowd, leg, walkers.samples(crowd, leg));
+        for (std::uint32_t leg = 0; leg < 2; ++leg) {
+            std::vector<GroundSample> ground;
+            for (std::uint32_t n = 0; n < walkers.count(); ++n)
+                ground.push_back(walkers.sample(n, floats(walkers.leg(poses, n, leg, 0).toe)));
+            HillWalkers::write(crowd, leg, ground);
+        }
     }
     void play(int first, int end)
     {

@@ -44,7 +44,7 @@ TEST_CASE("the hand's ray goes through the target, with the flexion and the wris
 {
     constexpr std::uint32_t count = 300;
     Random random{1};
-    const Chained limb = chained(random);
+    const BoundLimb limb = bound_limb(random);
     Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM, count, limb.bound);
     std::vector<Limb> limbs;
     std::vector<Aim> aims;
@@ -68,17 +68,17 @@ TEST_CASE("the hand's ray goes through the target, with the flexion and the wris
         const Parent parent = limbs[n].parent();
         const LocalPose pose = local_pose(crowd, n);
         const Vector3d tip =
-            pose.wrist_place(limb.chain, parent) + parent.scale * (pose.hand(parent) * aims[n].effector);
+            pose.wrist_place(limb.rest, parent) + parent.scale * (pose.hand(parent) * aims[n].effector);
         const double length = parent.scale * (limb.bound.lengths[0] + limb.bound.lengths[1]);
         const double miss = off_ray(vec(limbs[n].target), tip, pose.hand(parent) * aims[n].axis) / length;
         CHECK(residuals[n] == Approx(miss).margin(1e-6));
         CHECK(distance(pose.wrist, quat(limbs[n].hand).normalized()) <= 1e-6);
-        const double bent = angle_between(vec(limb.chain.elbow_offset), pose.elbow * vec(limb.chain.wrist_offset));
+        const double bent = angle_between(vec(limb.rest.translations[1]), pose.elbow * vec(limb.rest.translations[2]));
         CHECK(bent == Approx(aims[n].flexion).margin(2e-6));
         if (flags[n] == SWIVEL_REACHED) {
             ++aimed;
             CHECK(miss <= 1e-5);  // 2e-6 of the target's distance at most
-            const Vector3d elbow = parent.rotation * pose.shoulder * vec(limb.chain.elbow_offset);
+            const Vector3d elbow = parent.rotation * pose.shoulder * vec(limb.rest.translations[1]);
             const Vector3d line = (vec(limbs[n].target) - parent.position).normalized();
             const Vector3d pole = vec(limbs[n].pole) - parent.position, across = pole - pole.dot(line) * line;
             const Vector3d out = elbow - elbow.dot(line) * line;
@@ -194,7 +194,7 @@ struct Shoulder {
     float share;
 };
 // Shares of none and of all among them, and targets up to half a degree from behind the bone.
-Shoulder random_shoulder(Random& random, const Chained& limb)
+Shoulder random_shoulder(Random& random, const BoundLimb& limb)
 {
     Shoulder made{random_limb(random, kFeatures, {limb.bound.lengths[0], limb.bound.lengths[1]}),
                   vec(floats(Vector3d(random.spread(0.1, 0.5) * random.direction()))), 0};
@@ -221,7 +221,7 @@ TEST_CASE("the clavicle takes its share, and the arm reaches from where it then 
 {
     constexpr std::uint32_t count = 300;
     Random random{1};
-    const Chained limb = chained(random);
+    const BoundLimb limb = bound_limb(random);
     Crowd crowd = crowd_of(kFeatures, count, limb.bound);
     Crowd kept = crowd_of(kFeatures | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound);
     std::vector<Shoulder> shoulders;
@@ -256,7 +256,7 @@ TEST_CASE("the clavicle takes its share, and the arm reaches from where it then 
         const Parent turned{parent.position + parent.scale * (parent.rotation * (turn * bone - bone)),
                             parent.rotation * turn, parent.scale};
         const double length = parent.scale * (limb.bound.lengths[0] + limb.bound.lengths[1]);
-        const Vector3d wrist = pose.wrist_place(limb.chain, turned);
+        const Vector3d wrist = pose.wrist_place(limb.rest, turned);
         CHECK((wrist - Vector3d(wrists[n].data())).norm() <= 1e-5 * (length + parent.position.norm()));
         CHECK(distance(pose.hand(turned), quat(each.hand).normalized()) <= 2e-6);
         CHECK(residuals[n] == Approx((wrist - vec(each.target)).norm() / length).margin(1e-5));

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: errors have their texts and belong to their thread, definitions of older headers are read as far as they
-// go, and swivel_find() finds every limb with a flag.
+// The promise: errors have their texts and belong to their thread, and definitions of older headers are read as far as
+// they go.
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
-#include "tests/test_random.h"
 
 #include <array>
 #include <limits>
@@ -38,12 +37,13 @@ TEST_CASE("statuses and errors have their texts, errors belong to their thread")
 
 TEST_CASE("a binding of an older header gets what it has room for")
 {
-    swivel_chain chain = swivel_default_chain();
-    chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
+    const ThreeJoints limb = arm_frame_joints();
+    const swivel_skeleton skeleton = limb.skeleton();
+    const swivel_limb_joints joints = limb.joints();
     swivel_binding whole = swivel_default_binding(), part = whole;
     part.size = offsetof(swivel_binding, lengths);
-    REQUIRE(swivel_bind(&chain, &whole) == SWIVEL_OK);
-    REQUIRE(swivel_bind(&chain, &part) == SWIVEL_OK);
+    REQUIRE(swivel_bind_joints(&skeleton, &joints, &whole) == SWIVEL_OK);
+    REQUIRE(swivel_bind_joints(&skeleton, &joints, &part) == SWIVEL_OK);
     CHECK(std::ranges::equal(part.wrist_rest, whole.wrist_rest));
     CHECK(part.lengths[0] == 0);
     CHECK(whole.lengths[0] == 1);
@@ -106,53 +106,7 @@ TEST_CASE("a crowd that is null has nothing")
     CHECK(swivel_group_limb_count(nullptr, 0) == 0);
     CHECK(swivel_field_first_row(nullptr, 0, SWIVEL_POLE) == 0);
     CHECK(swivel_field_row_count(nullptr, 0, SWIVEL_POLE) == 0);
+    CHECK(swivel_packed_row(nullptr, 0, SWIVEL_RESULT_END) == 0);
     CHECK((!swivel_input_rows(nullptr, 0).base && swivel_input_rows(nullptr, 0).row_count == 0));
     CHECK((!swivel_result_rows(nullptr, 0).base && swivel_result_rows(nullptr, 0).row_count == 0));
-}
-
-TEST_CASE("find gives the limbs with a flag one after the other, and no other")
-{
-    const std::uint32_t counts[] = {5, 16, 40};
-    std::vector<swivel_group_def> groups;
-    for (const std::uint32_t count : counts) groups.push_back(group_of(count));
-    {
-        Crowd crowd(groups);
-        for (std::uint32_t g = 0; g < groups.size(); ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
-        CHECK(!crowd.find(~0u));  // never solved
-        Random random{3};
-        for (std::uint32_t g = 0; g < groups.size(); ++g) {
-            std::vector<Float3> targets(counts[g]);
-            for (Float3& target : targets) target = {0, random.below(3) ? 0.5f : 9.0f, random.below(8) ? 0.1f : kNan};
-            crowd.write(SWIVEL_TARGET, g, targets);
-        }
-        crowd.solve();
-        for (const std::uint32_t flags : {std::uint32_t{SWIVEL_CLAMPED_FAR}, std::uint32_t{SWIVEL_BAD_INPUT},
-                                          std::uint32_t{SWIVEL_CLAMPED_FAR | SWIVEL_BAD_INPUT}, 1u << 29}) {
-            std::vector<std::pair<std::uint32_t, std::uint32_t>> found, expected;
-            std::uint32_t group = 0, limb = 0;
-            for (; swivel_find(crowd.get(), flags, &group, &limb); ++limb) found.emplace_back(group, limb);
-            for (std::uint32_t g = 0; g < groups.size(); ++g) {
-                const auto words = read<std::uint32_t>(crowd, SWIVEL_FLAGS, g);
-                for (std::uint32_t n = 0; n < words.size(); ++n)
-                    if (words[n] & flags) expected.emplace_back(g, n);
-            }
-            CHECK(found == expected);
-            CHECK(found.empty() == (flags == 1u << 29));
-        }
-    }
-}
-
-TEST_CASE("find changes nothing where there is nothing to find")
-{
-    Crowd crowd = crowd_of(0, 20);
-    crowd.solve();
-    std::uint32_t group = 0, limb = 0;
-    CHECK(swivel_find(nullptr, ~0u, &group, &limb) == 0);
-    CHECK(swivel_find(crowd.get(), ~0u, nullptr, &limb) == 0);
-    CHECK(swivel_find(crowd.get(), ~0u, &group, nullptr) == 0);
-    for (const auto& [g, n] : {std::pair{0u, 20u}, {0u, ~0u}, {1u, 0u}, {~0u, 3u}}) {
-        group = g, limb = n;
-        CHECK(swivel_find(crowd.get(), ~0u, &group, &limb) == 0);
-        CHECK((group == g && limb == n));
-    }
 }

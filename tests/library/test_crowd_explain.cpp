@@ -272,7 +272,7 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
           SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
           SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
           SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {
-        const Chained limb = chained(random);
+        const BoundLimb limb = bound_limb(random);
         swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | limits);
         group.shoulder_order = SWIVEL_ZXY;
         group.wrist_order = SWIVEL_YXZ;
@@ -357,7 +357,7 @@ TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every
                               aim = kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM;
     Random random{10};
     for (const swivel_features features : {all, aim}) {
-        Crowd crowd = crowd_of(features, 1, chained(random).bound);
+        Crowd crowd = crowd_of(features, 1, bound_limb(random).bound);
         // Written as twelve characters each; too long for some fields, too short for the others.
         for (const float bad : {-1.23456789e20f, -1.23456789e-20f, kNan, -kNan}) {
             for (int f = 0; f < SWIVEL_INPUT_END; ++f) {

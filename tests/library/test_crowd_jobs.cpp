@@ -133,12 +133,12 @@ TEST_CASE("the most urgent blocks are picked, of equals the lower")
     });
 }
 
-TEST_CASE("solving within a budget is choosing and solving what was chosen, on threads as in ranges")
+TEST_CASE("what is chosen within a budget is solved on threads as in ranges")
 {
     const swivel_group_def groups[] = {group_of(6000), group_of(100), group_of(3333)};
     for (const swivel_features features : {swivel_features{0}, kEverything}) {
         Crowd whole = crowd_with(features, groups), parts = crowd_with(features, groups);
-        std::vector<float> of_whole = no_urgency(whole), of_parts = of_whole;
+        std::vector<float> urgency = no_urgency(whole);
         for (Crowd* crowd : {&whole, &parts}) {
             Random random{7};
             write_arms(*crowd, features, 3, random);
@@ -147,10 +147,9 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on t
         for (int call = 0; call < 6; ++call) {
             const Priorities priorities(whole, 3, random);
             const std::uint32_t max = random.below(500), step = 1 + random.below(40);
-            const std::uint32_t solved =
-                whole.solve({.priorities = priorities.streams, .urgency = of_whole, .max_blocks = max});
             std::vector<std::uint32_t> words(mask_words(parts));
-            REQUIRE(parts.choose(priorities.streams, of_parts, max, words) == solved);
+            const std::uint32_t chosen = whole.choose(priorities.streams, urgency, max, words);
+            REQUIRE(whole.solve({.mask = words}) == chosen);
             const std::uint32_t block_count = swivel_block_count(parts.get());
             for (std::uint32_t first = 0; first < block_count; first += step)
                 parts.solve({.blocks = swivel_blocks{first, std::min(step, block_count - first)},
@@ -212,13 +211,14 @@ TEST_CASE("C++: budgets that cannot be are refused and change nothing")
     const float priority = 1;
     const swivel_in good{&priority, 0};
     std::vector<float> urgency = no_urgency(crowd);
-    CHECK_THROWS_AS(crowd.solve({.priorities = {}, .max_blocks = 1}), Error);
-    CHECK_THROWS_AS(crowd.solve({.urgency = urgency}), Error);
-    CHECK_THROWS_AS(crowd.solve({.groups = {0u}, .priorities = {good}, .max_blocks = 1}), Error);
-    CHECK_THROWS_AS(crowd.solve({.priorities = {good}, .urgency = std::span(urgency).first(3), .max_blocks = 1}),
-                    Error);
+    std::vector<std::uint32_t> words(mask_words(crowd));
+    CHECK_THROWS_WITH(crowd.choose({}, urgency, 1, words), "0 priorities for 1 groups; give one for each");
+    CHECK_THROWS_WITH(crowd.choose({&good, 1}, std::span(urgency).first(3), 1, words),
+                      "3 urgencies for 7 blocks; give one for each");
+    CHECK_THROWS_AS(crowd.choose({&good, 1}, urgency, 1, std::span(words).first(3)), Error);
     CHECK(urgency == no_urgency(crowd));
-    CHECK(crowd.solve({.priorities = {good}, .max_blocks = 100}) == 100);
+    CHECK(bit_count(words) == 0);
+    CHECK(crowd.choose({&good, 1}, urgency, 100, words) == 100);
 }
 
 // ---- groups and frames
@@ -234,7 +234,7 @@ TEST_CASE("jobs name groups; frames are given for those alone")
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 0)[19] == SWIVEL_REACHED);
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 1)[4] == 0);  // never solved
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 2)[39] == SWIVEL_REACHED);
-    CHECK(crowd.solve({.groups = {1u}, .limbs = {3u, 32u}}) == 1);
+    CHECK(crowd.solve({.groups = {1u}, .mask = {1u << 3, 1u, 0u}}) == 1);  // limb 32 is group 1's first
     CHECK(crowd.solve({.groups = std::vector<std::uint32_t>()}) == 0);
     CHECK_THROWS_WITH(crowd.solve({.groups = {1u}, .streams = {frame, frame}}),
                       "2 streams for 1 groups; give one for each");

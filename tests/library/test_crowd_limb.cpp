@@ -23,7 +23,7 @@ TEST_CASE("whole limbs at rest are the plain arms")
           kWorldJointsHand | SWIVEL_POLE_DIRECTION, swivel_features{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
         for (const swivel_features more : {SWIVEL_WITH_ANGLE, features & SWIVEL_WITH_HAND ? at_rest : 0u}) {
             Random random{features + more};
-            const Chained limb = chained(random);
+            const BoundLimb limb = bound_limb(random);
             Crowd plain = crowd_of(features, count, limb.bound), whole = crowd_of(features | more, count, limb.bound);
             for (std::uint32_t n = 0; n < count; ++n) {
                 const Limb each = random_limb(random, features, {limb.bound.lengths[0], limb.bound.lengths[1]});
@@ -82,7 +82,7 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
 {
     constexpr std::uint32_t count = 300;
     Random random{11};
-    const Chained limb = chained(random);
+    const BoundLimb limb = bound_limb(random);
     const double upper = limb.bound.lengths[0], fore = limb.bound.lengths[1];
     Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_FLEXION_LIMIT, count, limb.bound);
     std::vector<double> wanted, min, max;
@@ -102,7 +102,8 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
     int straight = 0, bent = 0;
     for (std::uint32_t n = 0; n < count; ++n) {
-        const Vector3d a = vec(limb.chain.elbow_offset), b = local_pose(crowd, n).elbow * vec(limb.chain.wrist_offset);
+        const Vector3d a = vec(limb.rest.translations[1]),
+                       b = local_pose(crowd, n).elbow * vec(limb.rest.translations[2]);
         const double flexion = std::atan2(a.cross(b).norm(), a.dot(b));
         INFO("limb " << n << ", wanted " << wanted[n] << " of " << min[n] << " to " << max[n]);
         CHECK(flexion == Approx(std::clamp(wanted[n], min[n], max[n])).margin(2e-5));
@@ -132,7 +133,7 @@ TEST_CASE("joint angles turn back into the rotations they are of, in every order
 {
     constexpr std::uint32_t count = 60;
     Random random{7};
-    const Chained limb = chained(random);
+    const BoundLimb limb = bound_limb(random);
     Crowd crowd = crowd_of(kWorldJointsHand, count, limb.bound);
     for (std::uint32_t n = 0; n < count; ++n)
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
@@ -197,7 +198,7 @@ void write_more(Crowd& crowd, std::uint32_t n, const More& more)
 }
 
 // How far the limb is from its target, or from its blended target, in arm lengths.
-double off_target(const Crowd& crowd, std::uint32_t n, const Chained& limb, const Limb& goal, const More& more,
+double off_target(const Crowd& crowd, std::uint32_t n, const BoundLimb& limb, const Limb& goal, const More& more,
                   swivel_features features)
 {
     Parent parent = goal.parent();
@@ -215,10 +216,10 @@ double off_target(const Crowd& crowd, std::uint32_t n, const Chained& limb, cons
     if (features & SWIVEL_WITH_WEIGHTS) {
         const LocalPose incoming{quat(more.shoulder).normalized(), quat(more.elbow).normalized(), {}};
         const double weight = more.weights[0];
-        wanted = (1 - weight) * incoming.wrist_place(limb.chain, parent) + weight * wanted;
+        wanted = (1 - weight) * incoming.wrist_place(limb.rest, parent) + weight * wanted;
     }
     const double length = parent.scale * (double{limb.bound.lengths[0]} + limb.bound.lengths[1]);
-    return (pose.wrist_place(limb.chain, parent) - wanted).norm() / length;
+    return (pose.wrist_place(limb.rest, parent) - wanted).norm() / length;
 }
 
 }  // namespace
@@ -235,7 +236,7 @@ TEST_CASE("with SWIVEL_REACHED and features, the random limbs of skeletons are w
         int reached = 0;
         for (int skeletons = 0; skeletons < 10; ++skeletons) {
             constexpr std::uint32_t count = 1000;
-            const Chained limb = chained(random);
+            const BoundLimb limb = bound_limb(random);
             Crowd crowd = crowd_of(features, count, limb.bound);
             std::vector<Limb> limbs;
             std::vector<More> more;

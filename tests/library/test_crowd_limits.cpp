@@ -22,7 +22,7 @@ TEST_CASE("limits made of angles are kept through a skeleton")
 {
     constexpr std::uint32_t count = 1000;
     Random random{4};
-    const Chained limb = chained(random);
+    const BoundLimb limb = bound_limb(random);
     swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | kLimits);
     group.shoulder_order = SWIVEL_YZX;
     group.wrist_order = SWIVEL_ZYX;
@@ -63,12 +63,12 @@ TEST_CASE("the body's other side is the mirror image")
     constexpr std::uint32_t count = 300;
     const swivel_features features = kWorldJointsHand | SWIVEL_WITH_ANGLE | kLimits;
     Random random{5};
-    const swivel_chain right = skewed_chain(random);
-    swivel_chain left = right;
-    for (auto* const q : {&left.shoulder_rotation, &left.elbow_rotation, &left.wrist_rotation}) mirror_turn(*q);
-    for (auto* const v : {&left.elbow_offset, &left.wrist_offset, &left.bend}) mirror_place(*v);
-    Crowd r = crowd_of(features, count, bind(right)), l = crowd_of(features, count, bind(left));
-    const swivel_binding bound = bind(right);
+    const ThreeJoints right = skewed_joints(random);
+    ThreeJoints left = right;
+    for (Float4& q : left.rotations) mirror_turn(q);
+    for (Float3* const v : {&left.translations[1], &left.translations[2], &left.bend}) mirror_place(*v);
+    const swivel_binding bound = right.bound();
+    Crowd r = crowd_of(features, count, bound), l = crowd_of(features, count, left.bound());
     const swivel_euler_order order = SWIVEL_XYZ;
     const auto both = [&](swivel_field field, std::uint32_t n, const auto& value) {
         auto other = value;
@@ -146,7 +146,7 @@ TEST_CASE("a cone said in the character's axes holds in the character's axes")
     std::size_t kept = 0;
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         Random random{seed + 50};
-        const Chained limb = chained(random);
+        const BoundLimb limb = bound_limb(random);
         Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_SHOULDER_CONE, count, limb.bound);
         const Quaterniond parent = random.rotation();  // at rest, and in every pose here
         const Vector3d direction = random.direction();
@@ -167,7 +167,7 @@ TEST_CASE("a cone said in the character's axes holds in the character's axes")
         const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
         for (std::uint32_t n = 0; n < count; ++n) {
             if (flags[n] & SWIVEL_INFEASIBLE) continue;
-            const Vector3d upper = parent * (local_pose(crowd, n).shoulder * vec(limb.chain.elbow_offset));
+            const Vector3d upper = parent * (local_pose(crowd, n).shoulder * vec(limb.rest.translations[1]));
             CHECK(upper.normalized().dot(direction) >= std::cos(max) - 2e-6);
             ++kept;
         }

@@ -189,19 +189,16 @@ TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, 
             }
 }
 
-TEST_CASE("skeletons by joints: the binding is the chain's where nothing is in between, in any memory, bit for bit")
+TEST_CASE("skeletons by joints: the binding is that of the three joints alone, in any memory, bit for bit")
 {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         Random random{seed};
         const BodySkeleton s = random_skeleton(random, {seed % 2 == 0 ? 3u : 0u, 0, 0}, 0);
         const BodyLimbJoints& limb = s.limbs[0];
-        swivel_chain chain = swivel_default_chain();
-        std::ranges::copy(s.rotations[limb.shoulder], chain.shoulder_rotation);
-        std::ranges::copy(s.rotations[limb.elbow], chain.elbow_rotation);
-        std::ranges::copy(s.rotations[limb.wrist], chain.wrist_rotation);
-        std::ranges::copy(s.translations[limb.elbow], chain.elbow_offset);
-        std::ranges::copy(s.translations[limb.wrist], chain.wrist_offset);
-        std::ranges::copy(limb.bend, chain.bend);
+        ThreeJoints alone;
+        alone.rotations = {s.rotations[limb.shoulder], s.rotations[limb.elbow], s.rotations[limb.wrist]};
+        alone.translations = {Float3{}, s.translations[limb.elbow], s.translations[limb.wrist]};
+        alone.bend = limb.bend;
         struct Joint {
             Float3 place;
             std::int32_t parent;
@@ -215,13 +212,13 @@ TEST_CASE("skeletons by joints: the binding is the chain's where nothing is in b
         apart.parents = stream(joints, &Joint::parent);
         apart.translations = stream(joints, &Joint::place);
         apart.rotations = stream(joints, &Joint::rotation);
-        const swivel_binding by_joints = bind(s.view(), s.joints(0)), by_chain = bind(chain),
+        const swivel_binding by_joints = bind(s.view(), s.joints(0)), by_three = alone.bound(),
                              by_apart = bind(apart, s.joints(0));
         CHECK(std::memcmp(&by_joints, &by_apart, sizeof by_apart) == 0);
-        CHECK(std::memcmp(&by_joints, &by_chain, sizeof by_chain) == 0);
-        CHECK(std::memcmp(by_chain.elbow_parent_from_arm, by_chain.upper_from_arm, 16) == 0);
-        CHECK(std::memcmp(by_chain.wrist_parent_from_arm, by_chain.fore_from_arm, 16) == 0);
-        CHECK(by_chain.twist_bone_count == 0);
+        CHECK(std::memcmp(&by_joints, &by_three, sizeof by_three) == 0);
+        CHECK(std::memcmp(by_three.elbow_parent_from_arm, by_three.upper_from_arm, 16) == 0);
+        CHECK(std::memcmp(by_three.wrist_parent_from_arm, by_three.fore_from_arm, 16) == 0);
+        CHECK(by_three.twist_bone_count == 0);
     }
 }
 
@@ -345,23 +342,24 @@ TEST_CASE("a rest pose bent by more than 10 degrees shows where the limb bends t
     Random random{12};
     for (const double bent : {10.01, 45.0, 170.0, 9.99, 0.5, 0.0, 180.0}) {
         INFO(bent << " degrees");
-        swivel_chain chain = skewed_chain(random);
-        const Vector3d upper = vec(chain.elbow_offset), hinge = vec(chain.bend).cross(upper).normalized();
-        const Vector3d fore = quat(chain.elbow_rotation).normalized().conjugate() *
-                              (Eigen::AngleAxisd(-bent * degrees(1), hinge) * upper);
-        std::ranges::copy(floats(fore), chain.wrist_offset);
-        const swivel_binding given = bind(chain);
-        std::ranges::fill(chain.bend, 0.0f);
+        ThreeJoints limb = skewed_joints(random);
+        const Vector3d upper = vec(limb.translations[1]), hinge = vec(limb.bend).cross(upper).normalized();
+        const Vector3d fore =
+            quat(limb.rotations[1]).normalized().conjugate() * (Eigen::AngleAxisd(-bent * degrees(1), hinge) * upper);
+        limb.translations[2] = floats(fore);
+        const swivel_binding given = limb.bound();
+        limb.bend = {};
         if (bent < 10 || bent == 180) {
-            CHECK_THROWS_AS(bind(chain), Error);
+            CHECK_THROWS_AS(limb.bound(), Error);
             continue;
         }
-        const swivel_binding shown = bind(chain);
+        const swivel_binding shown = limb.bound();
         CHECK(distance(quat(given.parent_from_arm), quat(shown.parent_from_arm)) <= 2e-6);
         CHECK(distance(quat(given.fore_from_arm), quat(shown.fore_from_arm)) <= 2e-6);
-        chain.size = offsetof(swivel_chain, bend);  // of an older header
-        std::ranges::fill(chain.bend, kNan);
-        const swivel_binding shorter = bind(chain);
+        swivel_limb_joints joints = limb.joints();
+        joints.size = offsetof(swivel_limb_joints, bend);  // of an older header
+        std::ranges::fill(joints.bend, kNan);
+        const swivel_binding shorter = bind(limb.skeleton(), joints);
         CHECK(std::memcmp(&shown, &shorter, sizeof shown) == 0);
     }
 }

@@ -234,8 +234,8 @@ constexpr std::uint32_t kCount = 37, kSecond = 6;  // limbs of the two groups: a
 std::array<swivel_binding, 2> bindings(swivel_features features)
 {
     Random random{features + 1};
-    const swivel_binding first = chained(random).bound;
-    return {first, chained(random).bound};
+    const swivel_binding first = bound_limb(random).bound;
+    return {first, bound_limb(random).bound};
 }
 // The first group's limbs rest after bad input, the second group's keep their pose.
 Crowd good_crowd(swivel_features features)

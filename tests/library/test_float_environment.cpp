@@ -72,7 +72,7 @@ struct CallInputs {
     std::array<float, 60> values;
     std::array<float, kLimbs> priorities;
     std::array<std::uint16_t, 3> words;
-    swivel_chain chain = swivel_default_chain();
+    ThreeJoints limb;
     swivel_group_def group = group_of(3);
     Crowd crowd;
     std::vector<Float3> targets;  // of its first group
@@ -87,8 +87,8 @@ struct CallInputs {
         fill(values, random);
         for (float& priority : priorities) priority = as_float(any_number(random));
         for (std::uint16_t& word : words) word = static_cast<std::uint16_t>(random.word());
-        for (auto* q : {&chain.shoulder_rotation, &chain.elbow_rotation, &chain.wrist_rotation}) fill(*q, random);
-        for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.bend}) fill(*v, random);
+        for (auto& q : limb.rotations) fill(q, random);
+        for (auto* v : {&limb.translations[1], &limb.translations[2], &limb.bend}) fill(*v, random);
         group.features = SWIVEL_JOINTS;
         if (random.below(4) == 0) group.binding.lengths[0] = as_float(number(random));
         // On the edge of unit length: 1e-5 is allowed.
@@ -127,7 +127,9 @@ void bind_limbs(const CallInputs& in, Record& record)
 {
     swivel_binding binding = group_of(1).binding;
     double axis[3] = {};
-    record.add(swivel_bind(&in.chain, &binding)), record.add(binding);
+    const swivel_skeleton alone = in.limb.skeleton();
+    const swivel_limb_joints bent = in.limb.joints();
+    record.add(swivel_bind_joints(&alone, &bent, &binding)), record.add(binding);
     record.add(swivel_arm_axis(&binding, in.values.data(), in.numbers.data(), axis)), record.add(axis);
     const std::int32_t parents[] = {-1, 0, 1, 2, 3};
     swivel_skeleton skeleton = swivel_default_skeleton();
@@ -149,7 +151,7 @@ void use_group(swivel_crowd* crowd, std::uint32_t group, Record& record)
 {
     const swivel_features features = swivel_group_features(crowd, group);
     const std::uint32_t limbs = swivel_group_limb_count(crowd, group), blocks = (limbs + 15) / 16;
-    std::vector<std::uint16_t> words(std::size_t{blocks} * swivel_packed_row(features, SWIVEL_RESULT_END) *
+    std::vector<std::uint16_t> words(std::size_t{blocks} * swivel_packed_row(crowd, group, SWIVEL_RESULT_END) *
                                      SWIVEL_LANES);
     record.add(swivel_pack(crowd, group, {0, blocks}, words.data()));
     for (const std::uint16_t word : words) record.add(word);
@@ -279,8 +281,8 @@ constexpr Calls kCalls[] = {
 // These copy, count, or answer from integers.
 constexpr std::string_view kWithoutFloats =
     " version status_text last_error crowd_destroy block_count group_first_limb digest group_limb_count "
-    "field_first_row field_row_count input_rows result_rows packed_row write reset find isa_name use_isa "
-    "isa_at isa_runs group_count group_features component_count describe_field describe_feature "
+    "field_first_row field_row_count input_rows result_rows packed_row write reset isa_name use_isa "
+    "isa_at isa_runs group_count group_features describe_field describe_feature "
     "flag_name workspace_bytes ";
 
 #ifdef __x86_64__

@@ -29,7 +29,7 @@ const long double kSteps = 16383 * std::sqrt(2.0L);
 
 std::uint32_t row_count_of(const Crowd& crowd, std::uint32_t group)
 {
-    return swivel_packed_row(swivel_group_features(crowd.get(), group), SWIVEL_RESULT_END);
+    return swivel_packed_row(crowd.get(), group, SWIVEL_RESULT_END);
 }
 std::uint32_t block_count_of(const Crowd& crowd, std::uint32_t group)
 {
@@ -226,17 +226,16 @@ TEST_CASE("a group's words are those of its results, for every set of features")
     std::size_t rotations = 0, halves = 0;
     for_each_crowd([&](const Crowd& crowd) {
         for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
-            const swivel_features features = swivel_group_features(crowd.get(), group);
             const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group), rows = row_count_of(crowd, group);
             const Words all = words_of(crowd, group);
             std::uint32_t row = 0;
             for (int n = SWIVEL_SHOULDER; n < SWIVEL_RESULT_END; ++n) {
                 const auto field = static_cast<swivel_field>(n);
-                const std::uint32_t count = swivel_component_count(field, features);
+                const std::uint32_t count = swivel_field_row_count(crowd.get(), group, field);
                 std::vector<float> values(std::size_t{limbs} * count);
                 if (count > 0)
                     swivel::check(swivel_read(crowd.get(), field, group, 0, limbs, {values.data(), 4 * count}));
-                REQUIRE(swivel_packed_row(features, field) == row);
+                REQUIRE(swivel_packed_row(crowd.get(), group, field) == row);
                 std::uint32_t words = 0;  // of a value
                 for (std::uint32_t limb = 0; limb < limbs; ++limb) {
                     const float* const value = values.data() + std::size_t{limb} * count;
@@ -268,8 +267,9 @@ TEST_CASE("a group's words are those of its results, for every set of features")
                 row += words;
             }
             REQUIRE(rows == row);
-            REQUIRE(swivel_packed_row(0, SWIVEL_TARGET) == 0);
+            REQUIRE(swivel_packed_row(crowd.get(), group, SWIVEL_TARGET) == 0);
         }
+        REQUIRE(swivel_packed_row(crowd.get(), swivel_group_count(crowd.get()), SWIVEL_RESULT_END) == 0);
     });
     CHECK(rotations > 10000);
     CHECK(halves > 1000);
@@ -322,15 +322,14 @@ TEST_CASE("wrists of random arms stay within the stated distance of the results'
         crowd.wrists(0, wrists);
 
         // The words as floats, in place of the results.
-        const swivel_features features = swivel_group_features(crowd.get(), 0);
         const Words words = words_of(crowd, 0);
         const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
         for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST})
             for (std::uint32_t n = 0; n < limbs; ++n) {
-                const std::uint32_t count = swivel_component_count(field, features),
+                const std::uint32_t count = swivel_field_row_count(crowd.get(), 0, field),
                                     words_each = count == 4 ? 3 : count;
                 const Words value =
-                    words_of(words, row_count_of(crowd, 0), n, swivel_packed_row(features, field), words_each);
+                    words_of(words, row_count_of(crowd, 0), n, swivel_packed_row(crowd.get(), 0, field), words_each);
                 Float4 back{};
                 if (count == 4) swivel_unpack_rotation(value.data(), 1, back.data());
                 if (count == 2) back = {swivel_unpack_half(value[0]), swivel_unpack_half(value[1]), 0, 0};

@@ -47,7 +47,7 @@ struct Called : Outputs {
     Crowd bodies = made.crowd();
     PoseBuffer poses{made.layout, made.bodies};
     swivel_pose pose = made.view(poses);
-    swivel_binding binding = chained(random).bound;
+    swivel_binding binding = bound_limb(random).bound;
     float in[16] = {1, 2, 3}, priority = 1;
     const double zeros[3] = {}, nans[3] = {0, std::nan(""), 0}, up[3] = {0, 1, 0}, far[3] = {0, 2e15, 0};
 
@@ -74,12 +74,6 @@ struct Called : Outputs {
         swivel_job job = job_with(&pose);
         job.groups = &bits, job.group_word_count = 1;
         return solve_bodies(job);
-    }
-    swivel_status solve_budget(const swivel_in* priorities)
-    {
-        swivel_job job = swivel_default_job();
-        job.priorities = priorities, job.max_blocks = 1, job.solved_count = &count;
-        return swivel_solve(crowd.get(), &job);
     }
     swivel_status choose(const swivel_in* priorities, std::uint32_t* mask, std::uint32_t word_count)
     {
@@ -216,7 +210,7 @@ TEST_CASE("questions about limbs are refused where nothing answers them")
     refused(swivel_allowed_arcs(unrecorded.get(), 0, 0, nullptr, 0, &c.count), no_record);
 }
 
-TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that names a part of what is linked")
+TEST_CASE("jobs and choices that cannot be are refused, and so is a job that names a part of what is linked")
 {
     Called c;
     {
@@ -225,11 +219,9 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
                         null[] = {{nullptr, 4}, good[1]};
         refused(swivel_solve(nullptr, nullptr), "crowd is null");
         refused(swivel_choose(nullptr, good, c.urgency, 1, c.words, 2, &c.count), "crowd is null");
-        refused(c.solve_budget(nullptr), "max_blocks goes with priorities");
         refused(c.choose(nullptr, c.words, 2), "priorities are missing; give one for each of this crowd's 2 groups");
-        refused(c.solve_budget(narrow), "group 1, priority: stride 3 is smaller than a value, 4 bytes");
         refused(c.choose(narrow, c.words, 2), "group 1, priority: stride 3 is smaller than a value, 4 bytes");
-        refused(c.solve_budget(null), "group 0, priority: data is null");
+        refused(c.choose(null, c.words, 2), "group 0, priority: data is null");
         refused(c.choose(good, nullptr, 2), "the mask is null");
         for (const std::uint32_t count : {0u, 1u, 3u})
             refused(c.choose(good, c.words, count), "words; this crowd of 3 blocks has 2, a bit for each lane");
@@ -240,41 +232,15 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
             refused(swivel_solve(c.crowd.get(), &job), words);
         };
         const std::uint32_t mask[] = {~0u, ~0u};
-        const swivel_blocks all{0, 3}, beyond{3, 1}, wrapped{1, ~0u};
-        std::uint32_t limbs[] = {3, 16, 36, 0};
-        const swivel_limbs list{limbs, 4};
-        const auto give_mask = [&](swivel_job& job) { job.mask = mask, job.mask_word_count = 2; };
-        const auto give_list = [&](swivel_job& job) { job.limbs = &list; };
-        const auto give_priorities = [&](swivel_job& job) { job.priorities = good, job.max_blocks = 1; };
-        refused_job("give one of them", [&](auto& job) { give_mask(job), give_list(job); });
-        refused_job("give one of them", [&](auto& job) { give_list(job), give_priorities(job); });
-        refused_job("give one of them", [&](auto& job) { give_mask(job), give_priorities(job); });
-        refused_job("a job with a list of limbs is for the whole crowd",
-                    [&](auto& job) { give_list(job), job.blocks = &all; });
-        refused_job("leave on_this_thread out", [&](auto& job) { give_list(job), job.on_this_thread = 1; });
-        refused_job("leave blocks out", [&](auto& job) { give_priorities(job), job.blocks = &all; });
-        refused_job("a job with priorities is for the whole",
-                    [&](auto& job) { give_priorities(job), job.on_this_thread = 1; });
+        const swivel_blocks beyond{3, 1}, wrapped{1, ~0u};
         refused_job("the mask is null", [](auto& job) { job.mask_word_count = 2; });
         refused_job("a mask of 1 words; this crowd of 3 blocks has 2, a bit for each lane",
                     [&](auto& job) { job.mask = mask, job.mask_word_count = 1; });
-        refused_job("max_blocks goes with priorities", [](auto& job) { job.max_blocks = 2; });
-        refused_job("max_blocks goes with priorities", [&](auto& job) { give_mask(job), job.max_blocks = 2; });
         refused_job("job has size 0", [](auto& job) { job.size = 0; });
         refused_job("build with the header", [](auto& job) { job.size += 8; });
         refused_job("start from its default", [](auto& job) { job.size -= 4; });  // half a member
         for (const swivel_blocks* const blocks : {&beyond, &wrapped})
             refused_job("blocks ", [&](auto& job) { job.blocks = blocks; });
-        for (const std::uint32_t wrong : {20u, 31u, 37u, 47u}) {
-            limbs[3] = wrong;
-            refused_job(
-                ("entry 3 of the list: " + std::to_string(wrong) + " is no limb of this crowd, but padding").c_str(),
-                give_list);
-        }
-        for (const std::uint32_t wrong : {48u, 1u << 31, ~0u}) {
-            limbs[3] = wrong;
-            refused_job(" is no limb of this crowd, but past its end", give_list);
-        }
         refused(c.solve_groups({H::follower}), "the job names group 5, but not group 4; they are linked, name both");
         refused(c.solve_groups({H::third}), "the job names group 3, but not group 1; they are linked, name both");
         refused(c.solve_groups({H::left, H::right}), "they are linked, name both");
@@ -282,7 +248,7 @@ TEST_CASE("jobs and budgets that cannot be are refused, and so is a job that nam
         refused(c.solve_groups({H::prop, H::left}), "they are linked, name both");
         refused(c.solve_groups({H::handle}), "they are linked, name both");
     }
-    CHECK(c.crowd.solve({.limbs = std::vector<std::uint32_t>{19, 36, 19}}) == 2);  // nothing is left of the lists
+    CHECK(c.crowd.solve({.mask = {~0u, ~0u}}) == 25);  // bits of padding are ignored
     CHECK(c.solve_groups({H::free}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::free, H::follower}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::prop, H::left, H::right}) == SWIVEL_OK);
@@ -425,13 +391,10 @@ TEST_CASE("angles and axes that make no limit, and bindings that are none, are r
     refused(swivel_arm_axis(&binding, turned, c.zeros, c.doubles), "direction (0, 0, 0) is not 1e-15..1e15 long");
     refused(swivel_arm_axis(&binding, turned, c.nans, c.doubles), "direction (0, nan, 0) is not 1e-15..1e15 long");
     refused(swivel_arm_axis(&no_binding, turned, c.up, c.doubles), "the binding holds a quaternion not of unit length");
-    const swivel_chain chain = skewed_chain(c.random);
     const swivel_skeleton skeleton = c.made.skeleton.view();
-    refused(swivel_bind(nullptr, &binding), "swivel_bind: chain or binding is null");
-    refused(swivel_bind(&chain, nullptr), "swivel_bind: chain or binding is null");
     refused(swivel_bind_joints(nullptr, &c.made.joints[0], &binding), "skeleton, joints or binding is null");
     refused(swivel_bind_joints(&skeleton, nullptr, &binding), "skeleton, joints or binding is null");
     refused(swivel_bind_joints(&skeleton, &c.made.joints[0], nullptr), "skeleton, joints or binding is null");
     no_binding.size = 0;
-    refused(swivel_bind(&chain, &no_binding), "binding has size 0");
+    refused(swivel_bind_joints(&skeleton, &c.made.joints[0], &no_binding), "binding has size 0");
 }

@@ -296,7 +296,7 @@ TEST_CASE("results as joints need bindings of unit rotations and of their twist 
 {
     swivel_group_def group = swivel::group(3, SWIVEL_JOINTS);
     const swivel_crowd_def def = def_of(group);
-    check_refused(&def, "group 0 has no binding; make it with swivel_bind()");
+    check_refused(&def, "group 0 has no binding; make it with swivel_bind_joints()");
     group = group_of(3), group.features = SWIVEL_JOINTS | SWIVEL_WITH_HAND;
     CHECK(swivel_crowd_bytes(&def) > 0);
     swivel_binding& b = group.binding;
@@ -318,7 +318,7 @@ TEST_CASE("results as joints need bindings of unit rotations and of their twist 
             CHECK(swivel_crowd_bytes(&def) > 0);
     }
     b = group_of(3).binding;
-    for (const std::uint32_t bound : {0u, 2u})  // bindings of chains do not know their twist bones
+    for (const std::uint32_t bound : {0u, 2u})  // 0: then twist bones need not be bound
         for (std::uint32_t bones = 0; bones <= 7; ++bones) {
             b.twist_bone_count = bound;
             group.features = SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES;
@@ -351,11 +351,16 @@ struct Figure {
     swivel_status bind(swivel_binding* binding) const { return swivel_bind_joints(&skeleton, &joints, binding); }
 };
 // A limb with nothing aligned.
-struct BoundChain {
+struct SkewedLimb {
     Random random{9};
-    swivel_chain chain = skewed_chain(random);
+    ThreeJoints rest = skewed_joints(random);
 
-    swivel_status bind(swivel_binding* binding) const { return swivel_bind(&chain, binding); }
+    swivel_status bind(swivel_binding* binding) const
+    {
+        const swivel_skeleton skeleton = rest.skeleton();
+        const swivel_limb_joints joints = rest.joints();
+        return swivel_bind_joints(&skeleton, &joints, binding);
+    }
 };
 
 // Binds, and then once more as it was changed.
@@ -415,6 +420,9 @@ TEST_CASE("swivel_bind_joints refuses joints that do not exist or are no limb, b
         {"rotations have stride 12", [](auto& f) { f.skeleton.rotations.stride = 12; }},
         {"skeleton has size 0", [](auto& f) { f.skeleton.size = 0; }},
         {"limb joints has size 4096", [](auto& f) { f.joints.size = 4096; }},
+        {"build with the header", [](auto& f) { f.joints.size += 8; }},
+        {"reserved is not 0", [](auto& f) { f.joints.reserved = 1; }},
+        {"reserved is not 0", [](auto& f) { f.skeleton.reserved = 1; }},
     };
     for (const auto& [words, change] : refusals) check_unbound<Figure>(words, change);
     for (const std::uint32_t joint : {1u, 2u, 3u, 4u, 5u, 7u})
@@ -427,26 +435,22 @@ TEST_CASE("swivel_bind_joints refuses joints that do not exist or are no limb, b
                                   [&](Figure& f) { f.translations[joint][1] = bad; });
 }
 
-TEST_CASE("swivel_bind refuses what is not a limb")
+TEST_CASE("swivel_bind_joints refuses bones and bends that are no limb's, whatever is aligned")
 {
-    for (const float bad : {0.0f, kNan, kInf, 1e-20f, 3e38f}) {
-        check_unbound<BoundChain>("rotation", [&](BoundChain& c) { std::ranges::fill(c.chain.elbow_rotation, bad); });
-        check_unbound<BoundChain>("forearm has no direction",
-                                  [&](BoundChain& c) { std::ranges::fill(c.chain.wrist_offset, bad); });
+    for (const float bad : {0.0f, 1e-20f}) {
+        check_unbound<SkewedLimb>("joint 1's rest rotation", [&](auto& s) { s.rest.rotations[1].fill(bad); });
+        check_unbound<SkewedLimb>("forearm has no direction", [&](auto& s) { s.rest.translations[2].fill(bad); });
     }
-    const Refusal<BoundChain> refusals[] = {
-        {"the bend is not finite", [](auto& c) { c.chain.bend[1] = kInf; }},
-        {"rotation is zero or not finite", [](auto& c) { c.chain.wrist_rotation[1] = kNan; }},
-        {"the bend lies along the upper arm", [](auto& c) { std::ranges::copy(c.chain.elbow_offset, c.chain.bend); }},
+    const Refusal<SkewedLimb> refusals[] = {
+        {"the bend is not finite", [](auto& s) { s.rest.bend[1] = kInf; }},
+        {"the bend is not finite or longer than 1e15", [](auto& s) { s.rest.bend[1] = 3e38f; }},
+        {"the bend lies along the upper arm", [](auto& s) { s.rest.bend = s.rest.translations[1]; }},
         {"the forearm at rest lies along the axis",
-         [](auto& c) {
-             const Vector3d hinge = vec(c.chain.bend).cross(vec(c.chain.elbow_offset));
-             const Quaterniond elbow = quat(c.chain.elbow_rotation).normalized();
-             std::ranges::copy(floats(Vector3d(elbow.conjugate() * hinge)), c.chain.wrist_offset);
+         [](auto& s) {
+             const Vector3d hinge = vec(s.rest.bend).cross(vec(s.rest.translations[1]));
+             const Quaterniond elbow = quat(s.rest.rotations[1]).normalized();
+             s.rest.translations[2] = floats(Vector3d(elbow.conjugate() * hinge));
          }},
-        {"chain has size 0", [](auto& c) { c.chain.size = 0; }},
-        {"build with the header", [](auto& c) { c.chain.size += 8; }},
-        {"reserved is not 0", [](auto& c) { c.chain.reserved = 1; }},
     };
-    for (const auto& [words, change] : refusals) check_unbound<BoundChain>(words, change);
+    for (const auto& [words, change] : refusals) check_unbound<SkewedLimb>(words, change);
 }

@@ -105,14 +105,11 @@ void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Mo
 {
     const std::uint32_t blocks = swivel_block_count(crowd.get());
     const std::vector<std::uint32_t> few((blocks + 1) / 2, 0x00018001u), many((blocks + 1) / 2, 0xfff70ff7u);
-    const std::uint32_t indices[] = {0, 3, 4, 17, 18, 19};
-    const swivel_limbs list{indices, std::size(indices)};
     std::vector<std::pair<const char*, swivel_job>> jobs;
     const auto add = [&](const char* kind) -> swivel_job& {
         return jobs.emplace_back(kind, swivel_default_job()).second;
     };
     add("whole");
-    add("list").limbs = &list;
     add("on this thread").on_this_thread = 1;
     add("few limbs of a mask").mask = few.data();
     add("many limbs of a mask").mask = many.data();

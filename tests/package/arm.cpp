@@ -37,8 +37,8 @@ int main(int argc, char** argv)
     crowd.write(SWIVEL_TARGET, 0, make_targets());
     crowd.write_all(SWIVEL_POLE, 0, std::array{0.25f, -1.0f, 0.125f});
     crowd.write_all(SWIVEL_LENGTHS, 0, std::array{0.30f, 0.26f});
-    if (argc > 1 && std::strcmp(argv[1], "fail") == 0) crowd.solve({.limbs = {5000u}});
-    const swivel::Job job{.limbs = {0u}};
+    if (argc > 1 && std::strcmp(argv[1], "fail") == 0) crowd.solve({.mask = {1u}});
+    const swivel::Job job{.mask = std::array<std::uint32_t, 32>{1u}};  // the first arm
     const std::uint32_t solved = crowd.solve() * crowd.solve(job);
     std::vector<double> distances(kArmCount);
     crowd.residuals(0, distances);

@@ -38,12 +38,12 @@ struct Member {
 // clang 14 deduces the arguments of no aggregate by itself.
 template <class Struct, class Value>
 Member(const char*, Value Struct::*, std::uint32_t = 0, std::uint32_t = 1) -> Member<Struct, Value>;
-constexpr std::tuple kChain{Member{"shoulder_rotation", &swivel_chain::shoulder_rotation},
-                            Member{"elbow_rotation", &swivel_chain::elbow_rotation},
-                            Member{"wrist_rotation", &swivel_chain::wrist_rotation},
-                            Member{"elbow_offset", &swivel_chain::elbow_offset},
-                            Member{"wrist_offset", &swivel_chain::wrist_offset},
-                            Member{"bend", &swivel_chain::bend}};
+constexpr std::tuple kRest{Member{"shoulder_rotation", &formats::LimbRest::shoulder_rotation},
+                           Member{"elbow_rotation", &formats::LimbRest::elbow_rotation},
+                           Member{"wrist_rotation", &formats::LimbRest::wrist_rotation},
+                           Member{"elbow_offset", &formats::LimbRest::elbow_offset},
+                           Member{"wrist_offset", &formats::LimbRest::wrist_offset},
+                           Member{"bend", &formats::LimbRest::bend}};
 constexpr std::tuple kGoals{Member{"target_point", &goal_plan::target_point},
                             Member{"target_offset", &goal_plan::target_offset},
                             Member{"effector", &goal_plan::effector},
@@ -145,11 +145,11 @@ void take(const Json& json, const std::tuple<Members...>& members, Struct& to)
     std::apply([&](const Members&... each) { (take_one(each), ...); }, members);
 }
 
-swivel_chain chain_of(const Json& json)
+formats::LimbRest rest_of(const Json& json)
 {
-    swivel_chain chain = swivel_default_chain();
-    take(json, kChain, chain);
-    return chain;
+    formats::LimbRest rest;
+    take(json, kRest, rest);
+    return rest;
 }
 
 goal_plan goals_of(const Json& json)
@@ -222,7 +222,7 @@ Json json_of(const CachedLimb& limb)
               {"shoulder_order", setup.shoulder_order},
               {"wrist_order", setup.wrist_order},
               {"mirrored", setup.mirrored ? 1 : 0},
-              {"chain", json_of(setup.chain, kChain)},
+              {"chain", json_of(setup.rest, kRest)},
               {"goals", json_of(setup.goals, kGoals)},
               {"fixed", std::move(fixed)}};
     if (setup.region) json["region"] = json_of(*setup.region);
@@ -243,7 +243,7 @@ CachedLimb limb_of(const Json& json)
     setup.shoulder_order = one_of(json, "shoulder_order", SWIVEL_ZYX);
     setup.wrist_order = one_of(json, "wrist_order", SWIVEL_ZYX);
     setup.mirrored = yes_or_no(json, "mirrored");
-    setup.chain = chain_of(json.at("chain"));
+    setup.rest = rest_of(json.at("chain"));
     setup.goals = goals_of(json.at("goals"));
     for (const Json& each : json.at("fixed")) {
         FixedField& fixed = setup.fields.emplace_back();
@@ -275,7 +275,7 @@ std::array<double, 4> box_of(const Json& json)
 Json json_of(const CachedLook& look)
 {
     const swivel_look& how = *look.setup.look;
-    return {{"chain", json_of(look.setup.chain, kChain)},
+    return {{"chain", json_of(look.setup.rest, kRest)},
             {"goals", json_of(look.setup.goals, kGoals)},
             {"joint_count", how.joint_count},
             {"axis", how.axis},
@@ -287,7 +287,7 @@ CachedLook look_of(const Json& json)
     CachedLook look;
     LimbSetup& setup = look.setup;
     setup.features = SWIVEL_LOOK;
-    setup.chain = chain_of(json.at("chain"));
+    setup.rest = rest_of(json.at("chain"));
     setup.goals = goals_of(json.at("goals"));
     setup.goals.is_look = 1;
     if (setup.goals.holds > 0) throw std::invalid_argument("a look holds a hand");
@@ -325,7 +325,8 @@ void require_kept(const CachedCrowd& crowd)
         all |= limb.features;
         swivel_field_info info;
         for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-            if (info.kind == SWIVEL_FIELD_CARRIED && swivel_component_count(info.field, limb.features) > 0 &&
+            if (info.kind == SWIVEL_FIELD_CARRIED && (limb.features & info.needs) == info.needs &&
+                !(limb.features & info.excludes) &&
                 std::ranges::find(kept, info.field, &ResultField::field) == kept.end())
                 throw std::invalid_argument(fmt::format("a limb carries {}, which no cache keeps", info.name));
     }

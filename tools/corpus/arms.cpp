@@ -6,7 +6,6 @@
 #include <string>
 
 #include "tools/corpus/hard_cases.h"
-#include "tools/corpus/interface.h"
 #include "tools/corpus/random.h"
 #include "tools/corpus/vectors.h"
 
@@ -220,11 +219,11 @@ std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::u
     return arms;
 }
 
-std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t group, std::span<const Arm> arms)
+std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t components, std::uint32_t group,
+                               std::span<const Arm> arms)
 {
     Random random = stream(recipe.seed, group, field, Use::value, 0),
            spoiling = stream(recipe.seed, group, field, Use::spoil, 0);
-    const std::uint32_t components = component_count(recipe, field, group);
     std::vector<float> values;
     values.reserve(components * arms.size());
     std::vector<double> value(components);

@@ -41,7 +41,8 @@ std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::u
 inline constexpr std::uint32_t kRunLimbs = 64;
 inline bool is_spoilt_run(std::uint32_t limb) { return limb / kRunLimbs % 2 == 0; }
 
-// component_count() floats for each limb of a group.
-std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t group, std::span<const Arm> arms);
+// A field's value, of so many floats, for each limb of a group.
+std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t components, std::uint32_t group,
+                               std::span<const Arm> arms);
 
 }  // namespace swivel::corpus

@@ -110,17 +110,18 @@ void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, 
     for (std::uint32_t group = 0; group < counts.size(); ++group) {
         const std::vector<Arm> ordinary = good_arms(recipe, group, counts[group], frame);
         std::vector<Arm> arms = arms_of(recipe, group, ordinary, frame);
-        for (const Field field : inputs_of(recipe)) {
+        for (const Field field : inputs_of(crowd)) {
             if (!is_wanted(field) || !is_in_rows(recipe, field)) continue;
             if (is_of_arms(field))
                 write_arms(crowd, field, group, arms);
             else
-                write_field(crowd, field, group, limb_values(recipe, field, group, ordinary));
+                write_field(crowd, field, group,
+                            limb_values(recipe, field, component_count(crowd, field, group), group, ordinary));
         }
     }
 }
 
-// The rows that the features bring must be all that the crowd has.
+// The rows of the fields that the corpus knows must be all that the crowd has.
 void check_rows(const Recipe& recipe, const Crowd& crowd)
 {
     const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {
@@ -130,8 +131,8 @@ void check_rows(const Recipe& recipe, const Crowd& crowd)
     };
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
         std::uint32_t inputs = 0, results = 0;
-        for (const Field field : inputs_of(recipe, group)) inputs += component_count(recipe, field, group);
-        for (const Field field : results_of(recipe, group)) results += component_count(recipe, field, group);
+        for (const Field field : inputs_of(crowd, group)) inputs += component_count(crowd, field, group);
+        for (const Field field : results_of(crowd, group)) results += component_count(crowd, field, group);
         require(inputs, input_row_count(crowd, group), "inputs");
         require(results, result_row_count(crowd, group), "results");
     }
@@ -223,7 +224,7 @@ Poses poses_of(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
 
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash)
 {
-    for (const Field field : results_of(recipe))
+    for (const Field field : results_of(crowd))
         for (std::uint32_t group = 0; group < kGroupCount; ++group)
             for (const std::uint32_t word : read_field(crowd, recipe, field, group)) hash = add_bytes(hash, word, 4);
     return hash;

@@ -24,30 +24,22 @@ swivel_features library_features(const Recipe& recipe, std::uint32_t group)
     return named | recipe.twist_bones * SWIVEL_WITH_TWIST_BONES;
 }
 
-// With those that it adds to bodies.
-swivel_features all_features(const Recipe& recipe, std::uint32_t group)
-{
-    constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
-    const swivel_features features = library_features(recipe, group);
-    if (!is_of_bodies(recipe.part)) return features;
-    return features | kOfBodies | (features & (kPlant | kLink) ? SWIVEL_SENT : 0);
-}
-
-std::vector<Field> fields_of(const Recipe& recipe, std::uint32_t group, std::span<const Field> all)
+std::vector<Field> fields_of(const Crowd& crowd, std::uint32_t group, std::span<const Field> all)
 {
     std::vector<Field> fields;
     std::copy_if(all.begin(), all.end(), std::back_inserter(fields),
-                 [&](Field field) { return component_count(recipe, field, group) > 0; });
+                 [&](Field field) { return component_count(crowd, field, group) > 0; });
     return fields;
 }
 
 // The 16-bit words of a field, limb by limb.
 std::vector<std::uint32_t> packed_field(const Crowd& crowd, Field field, std::uint32_t group)
 {
-    const swivel_features features = swivel_group_features(crowd.get(), group);
     const swivel_field of = library_field(field), next = static_cast<swivel_field>(of + 1);
-    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group), first = swivel_packed_row(features, of),
-                        end = swivel_packed_row(features, next), rows = swivel_packed_row(features, SWIVEL_RESULT_END);
+    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group),
+                        first = swivel_packed_row(crowd.get(), group, of),
+                        end = swivel_packed_row(crowd.get(), group, next),
+                        rows = swivel_packed_row(crowd.get(), group, SWIVEL_RESULT_END);
     std::vector<std::uint16_t> packed(std::size_t{(limbs + 15) / 16} * 16 * rows);
     crowd.pack(group, packed);
     std::vector<std::uint32_t> words;
@@ -298,8 +290,8 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
     return std::move(*crowd);
 }
 
-std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, kDrawn); }
-std::vector<Field> results_of(const Recipe& recipe, std::uint32_t group) { return fields_of(recipe, group, kResults); }
+std::vector<Field> inputs_of(const Crowd& crowd, std::uint32_t group) { return fields_of(crowd, group, kDrawn); }
+std::vector<Field> results_of(const Crowd& crowd, std::uint32_t group) { return fields_of(crowd, group, kResults); }
 
 LimbCounts limb_counts(const Crowd& crowd)
 {
@@ -318,9 +310,9 @@ std::uint32_t result_row_count(const Crowd& crowd, std::uint32_t group)
     return swivel_result_rows(crowd.get(), group).row_count;
 }
 
-std::uint32_t component_count(const Recipe& recipe, Field field, std::uint32_t group)
+std::uint32_t component_count(const Crowd& crowd, Field field, std::uint32_t group)
 {
-    return swivel_component_count(library_field(field), all_features(recipe, group));
+    return swivel_field_row_count(crowd.get(), group, library_field(field));
 }
 
 void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values)
@@ -333,7 +325,7 @@ std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, 
     if ((recipe.features & kCompact) && field >= Field::shoulder && field != Field::flags)
         return packed_field(crowd, field, group);
     const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group);
-    std::vector<std::uint32_t> words(std::size_t{limbs} * component_count(recipe, field, group));
+    std::vector<std::uint32_t> words(std::size_t{limbs} * component_count(crowd, field, group));
     const swivel_out out{words.data(), words.size() / limbs * sizeof(std::uint32_t)};
     check(swivel_read(crowd.get(), library_field(field), group, 0, limbs, out));
     if (field == Field::flags)

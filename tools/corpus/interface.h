@@ -26,13 +26,13 @@ void with_definition(const Recipe& recipe, const LimbCounts& limb_counts,
                      const std::function<void(const void* definition)>& take);
 LimbCounts limb_counts(const Crowd& crowd);
 
-// The fields that the features of a group bring, in the order of enum Field: inputs, which are written, and results,
-// which are digested in this order.
-std::vector<Field> inputs_of(const Recipe& recipe, std::uint32_t group = 0);
-std::vector<Field> results_of(const Recipe& recipe, std::uint32_t group = 0);
+// The fields that a group has, in the order of enum Field: inputs, which are written, and results, which are digested
+// in this order.
+std::vector<Field> inputs_of(const Crowd& crowd, std::uint32_t group = 0);
+std::vector<Field> results_of(const Crowd& crowd, std::uint32_t group = 0);
 
-// Floats of a field's value, or the one word of flags.
-std::uint32_t component_count(const Recipe& recipe, Field field, std::uint32_t group = 0);
+// Floats of a field's value, or the one word of flags; 0 if the group lacks it.
+std::uint32_t component_count(const Crowd& crowd, Field field, std::uint32_t group);
 
 // A group's own numbers of rows: what the fields of a recipe must add up to.
 std::uint32_t input_row_count(const Crowd& crowd, std::uint32_t group);

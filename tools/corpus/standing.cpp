@@ -116,11 +116,11 @@ void Standing::write_constants(Crowd& crowd) const
     for (const Field field : {Field::effector, Field::cap, Field::pelvis_fit_weight, Field::clavicle,
                               Field::ground_weight, Field::reach, Field::weights})
         for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-            const std::vector<Field> fields = inputs_of(recipe_, group);
+            const std::vector<Field> fields = inputs_of(crowd, group);
             if (std::find(fields.begin(), fields.end(), field) == fields.end()) continue;
             if (field == Field::weights && !is_holding(recipe_, group)) continue;  // theirs stay as at the start
             Random random = stream(recipe_.seed, group, field, Use::value, 0);
-            std::vector<float> values(std::size_t{body_count} * component_count(recipe_, field, group));
+            std::vector<float> values(std::size_t{body_count} * component_count(crowd, field, group));
             for (float& x : values) {
                 const std::uint32_t kind = random.below(4);
                 const double share = random.unit();

@@ -69,13 +69,13 @@ LimbSkeleton skeleton_of(std::span<const LimbSetup> limbs)
         std::ranges::transform(limb.goals.shoulder_place, place.begin(),
                                [](double x) { return static_cast<float>(x); });
         const std::int32_t above = add(-1, {0, 0, 0}, still);
-        const std::int32_t shoulder = add(above, place, std::to_array(limb.chain.shoulder_rotation));
+        const std::int32_t shoulder = add(above, place, std::to_array(limb.rest.shoulder_rotation));
         const std::int32_t elbow =
-            add(shoulder, std::to_array(limb.chain.elbow_offset), std::to_array(limb.chain.elbow_rotation));
-        add(elbow, std::to_array(limb.chain.wrist_offset), std::to_array(limb.chain.wrist_rotation));
+            add(shoulder, std::to_array(limb.rest.elbow_offset), std::to_array(limb.rest.elbow_rotation));
+        add(elbow, std::to_array(limb.rest.wrist_offset), std::to_array(limb.rest.wrist_rotation));
         LimbSkeleton::OfLimb& of = skeleton.limbs.emplace_back();
         of.shoulder = static_cast<std::uint32_t>(shoulder);
-        of.bend = std::to_array(limb.chain.bend);
+        of.bend = std::to_array(limb.rest.bend);
         for (unsigned n = 0; n < limb.twist_bone_count(); ++n)
             of.twist_bones.push_back(static_cast<std::uint32_t>(add(elbow, {0, 0, 0}, still)));
     }

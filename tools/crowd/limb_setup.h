@@ -11,6 +11,7 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/crowd/goals.h"
+#include "tools/formats/limb_rest.h"
 
 namespace swivel::tools {
 
@@ -21,7 +22,7 @@ struct FixedField {
 };
 
 struct LimbSetup {
-    swivel_chain chain = swivel_default_chain();  // at rest; the clip's unit
+    formats::LimbRest rest;  // in the clip's unit
     swivel_features features;
     swivel_euler_order shoulder_order, wrist_order;
     std::vector<FixedField> fields;

@@ -81,11 +81,11 @@ LookPlan plan_look(const Clip& clip, std::vector<int> joints, const Vector3d& fa
     put(target_w, setup.goals.target_offset);
     for (std::size_t n = 0; n < kMax - 1; ++n)
         if (!at_rest.bones[n].isZero(0)) put(at_rest.bones[n].normalized(), setup.goals.bones[n]);
-    put(at_rest.local[1].coeffs(), setup.chain.shoulder_rotation);
-    put(at_rest.local[2].coeffs(), setup.chain.elbow_rotation);
-    put(at_rest.local[3].coeffs(), setup.chain.wrist_rotation);
-    put(at_rest.bones[0], setup.chain.elbow_offset);
-    put(at_rest.bones[1], setup.chain.wrist_offset);
+    put(at_rest.local[1].coeffs(), setup.rest.shoulder_rotation);
+    put(at_rest.local[2].coeffs(), setup.rest.elbow_rotation);
+    put(at_rest.local[3].coeffs(), setup.rest.wrist_rotation);
+    put(at_rest.bones[0], setup.rest.elbow_offset);
+    put(at_rest.bones[1], setup.rest.wrist_offset);
     swivel_look& look = setup.look.emplace(swivel_default_look());
     look.joint_count = static_cast<std::uint32_t>(plan.joints.size());
     for (std::uint32_t n = 0; n < look.joint_count; ++n) look.joints[n] = n;

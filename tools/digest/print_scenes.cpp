@@ -297,7 +297,7 @@ private:
         const std::uint32_t count = swivel_group_limb_count(corpus_.get(), group);
         swivel_field_info info;
         for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n) {
-            const std::uint32_t each = swivel_component_count(info.field, swivel_group_features(corpus_.get(), group));
+            const std::uint32_t each = swivel_field_row_count(corpus_.get(), group, info.field);
             if (info.kind != SWIVEL_FIELD_INPUT || each == 0) continue;
             std::vector<float> values(std::size_t{count} * each);
             check(swivel_read(corpus_.get(), info.field, group, 0, count, {values.data(), each * sizeof(float)}));

@@ -227,11 +227,16 @@ std::vector<TurnedJoint> turn_legs(const Clip& clip, std::span<const Limb> legs,
     }
     const swivel_pose pose = poses.view();
     crowd.solve({.pose = &pose});
-    if (const auto bad = crowd.find(SWIVEL_BAD_INPUT))
-        throw formats::InputError(
-            file, fmt::format("{}, frame {}: it lies below a mirror or a scale that is not uniform, or too far out; "
-                              "apply scales where the rig was made",
-                              plain_name(legs[bad->group].name), bad->limb));
+    std::vector<std::uint32_t> flags(clip.frame_count);
+    for (std::uint32_t n = 0; n < legs.size(); ++n) {
+        crowd.read(SWIVEL_FLAGS, n, flags);
+        const auto bad = std::ranges::find_if(flags, [](std::uint32_t each) { return each & SWIVEL_BAD_INPUT; });
+        if (bad != flags.end())
+            throw formats::InputError(
+                file, fmt::format("{}, frame {}: it lies below a mirror or a scale that is not uniform, or too far "
+                                  "out; apply scales where the rig was made",
+                                  plain_name(legs[n].name), bad - flags.begin()));
+    }
     for (const Limb& leg : legs)
         for (const int joint : leg.joints) {
             TurnedJoint turned{joint, {}, {}};

@@ -88,23 +88,9 @@ swivel_binding make_binding(const py::object& parent_from_arm, const py::object&
     return binding;
 }
 
-swivel_binding bind_chain(const py::object& elbow_offset, const py::object& wrist_offset, const py::object& bend,
-                          const py::object& shoulder_rotation, const py::object& elbow_rotation,
-                          const py::object& wrist_rotation)
-{
-    swivel_chain chain = swivel_default_chain();
-    copy("elbow_offset", elbow_offset, chain.elbow_offset);
-    copy("wrist_offset", wrist_offset, chain.wrist_offset);
-    copy("bend", bend, chain.bend);
-    copy("shoulder_rotation", shoulder_rotation, chain.shoulder_rotation);
-    copy("elbow_rotation", elbow_rotation, chain.elbow_rotation);
-    copy("wrist_rotation", wrist_rotation, chain.wrist_rotation);
-    return bind(chain);
-}
-
-swivel_binding bind_skeleton(const py::object& parents, const py::object& translations, std::int64_t shoulder,
-                             std::int64_t elbow, std::int64_t wrist, const py::object& rotations,
-                             const std::vector<std::int64_t>& twist_bones, const py::object& bend)
+swivel_binding bind_joints(const py::object& parents, const py::object& translations, std::int64_t shoulder,
+                           std::int64_t elbow, std::int64_t wrist, const py::object& rotations,
+                           const std::vector<std::int64_t>& twist_bones, const py::object& bend)
 {
     const SkeletonArrays skeleton = skeleton_of(parents, translations, rotations);
     const LimbJoints joints = joints_of(shoulder, elbow, wrist, twist_bones, bend);
@@ -118,7 +104,7 @@ void add_bindings(py::module_& module)
     py::class_<swivel_binding> binding(
         module, "Binding",
         "How the arm frame lies in a skeleton's joints, and their rest pose, unit quaternions x, y, z, w, and the\n"
-        "bones' lengths. Made by bind() or bind_joints(); an entry of Crowd's groups is Group(limb_count, this). The\n"
+        "bones' lengths. Made by bind_joints(); an entry of Crowd's groups is Group(limb_count, this). The\n"
         "constructor takes all of it as keywords, to keep and restore one.");
     binding.attr("__module__") = "swivel";
     binding.def(py::init(&make_binding), py::kw_only(), py::arg("parent_from_arm"), py::arg("upper_from_arm"),
@@ -150,28 +136,21 @@ void add_bindings(py::module_& module)
     });
     binding.def_property_readonly(
         "lengths", [](const swivel_binding& b) { return py::array_t<float>(2, b.lengths); },
-        "Upper arm and forearm, in the chain's unit, with which limbs start: (2,) float32.");
-    const py::tuple identity = py::make_tuple(0, 0, 0, 1), none = py::make_tuple(0, 0, 0);
-    module.def("bind", &bind_chain, py::arg("elbow_offset"), py::arg("wrist_offset"), py::arg("bend") = none,
-               py::arg("shoulder_rotation") = identity, py::arg("elbow_rotation") = identity,
-               py::arg("wrist_rotation") = identity,
-               "The binding of a limb from its rest pose, as a skeleton stores it.\n\n"
-               "elbow_offset (3,): the elbow's place in the shoulder joint's frame; wrist_offset (3,): the wrist's\n"
-               "in the elbow joint's; bend (3,): where flexion carries the forearm, in the shoulder joint's frame, of\n"
-               "any length, or zeros: as the rest pose is bent, by more than 10 degrees. Rotations (4,) are\n"
-               "x, y, z, w: each joint's at rest, relative to its parent joint. ValueError for a straight rest pose\n"
-               "without a bend, a bend along the upper arm, bones of no length and quaternions without a direction.");
+        "Upper arm and forearm, in the skeleton's unit, with which limbs start: (2,) float32.");
     module.def(
-        "bind_joints", &bind_skeleton, py::arg("parents"), py::arg("translations"), py::arg("shoulder"),
-        py::arg("elbow"), py::arg("wrist"), py::arg("rotations") = py::none(), py::arg("twist_bones") = py::tuple(),
-        py::arg("bend") = none,
+        "bind_joints", &bind_joints, py::arg("parents"), py::arg("translations"), py::arg("shoulder"), py::arg("elbow"),
+        py::arg("wrist"), py::arg("rotations") = py::none(), py::arg("twist_bones") = py::tuple(),
+        py::arg("bend") = py::make_tuple(0, 0, 0),
         "The binding of a limb in a skeleton at rest, by its joints' indices.\n\n"
         "parents (n,): each joint's parent, -1 for a root, in any order; translations (n, 3): its place in its\n"
         "parent's frame; rotations (n, 4): relative to its parent, x, y, z, w, or None if no joint is turned.\n"
         "The elbow is below the shoulder, the wrist below the elbow; joints in between keep their rest\n"
         "rotations. twist_bones: joints below the elbow that share the hand's twist, from elbow to wrist; none of\n"
-        "them carries another or the wrist. bend (3,) as in bind(). Results are local rotations relative to the\n"
-        "joints' own parents. ValueError for joints that do not exist or are no limb, and as in bind().");
+        "them carries another or the wrist. bend (3,): where flexion carries the forearm, in the shoulder joint's\n"
+        "frame, of any length, or zeros: as the rest pose is bent, by more than 10 degrees. Results are local\n"
+        "rotations relative to the joints' own parents. ValueError for joints that do not exist or are no limb, a\n"
+        "straight rest pose without a bend, a bend along the upper arm, bones of no length and quaternions without a\n"
+        "direction.");
 }
 
 }  // namespace swivel::python

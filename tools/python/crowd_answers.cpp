@@ -89,15 +89,6 @@ py::array allowed_arcs(HeldCrowd& held, std::int64_t limb, std::int64_t group)
     return py::array(py::dtype::of<float>(), shape, arcs.data());  // without a base: a copy
 }
 
-std::optional<std::pair<std::uint32_t, std::uint32_t>> find(HeldCrowd& held, std::uint32_t flags, std::int64_t group,
-                                                            std::int64_t limb)
-{
-    const Crowd::Place from{count_of("group", group), count_of("limb", limb)};
-    const auto place = run(held, Way::kReading, [&] { return held.crowd.find(flags, from); });
-    if (!place) return std::nullopt;
-    return std::pair(place->group, place->limb);
-}
-
 std::pair<bool, std::string> compare(HeldCrowd& held, const py::object& pose, std::int64_t body,
                                      const py::object& shoulder, const py::object& elbow, const py::object& wrist,
                                      std::int64_t group)
@@ -185,8 +176,6 @@ void add_answers(CrowdClass& crowd)
               "Three of the shoulder in the given order of axes, the flexion, three of the wrist (0 without\n"
               "Feature.WITH_HAND). Of the two triples for a rotation, family 0 has the middle one within\n"
               "-pi/2..pi/2, family 1 the other.");
-    crowd.def("find", &find, py::arg("flags"), py::arg("group") = 0, py::arg("limb") = 0,
-              "The first limb with any of these flags, from a limb of a group on: (group, limb), or None.");
     crowd.def(
         "explain",
         [](HeldCrowd& held, std::int64_t limb, std::int64_t group) {
@@ -198,8 +187,8 @@ void add_answers(CrowdClass& crowd)
         },
         py::kw_only(), py::arg("limb"), py::arg("group") = 0,
         "Why a limb is as it is, from its present inputs, in a sentence or two.\n\n"
-        "By keywords, as find() gives the group first: group, limb = crowd.find(Flag.BAD_INPUT);\n"
-        "crowd.explain(limb=limb, group=group).");
+        "By keywords, so that limb and group are not mixed up. Of all limbs with bad input:\n"
+        "for limb in numpy.flatnonzero(crowd.read(Field.FLAGS) & Flag.BAD_INPUT): print(crowd.explain(limb=limb))");
     crowd.def("compare", &compare, py::arg("pose"), py::kw_only(), py::arg("body"), py::arg("shoulder"),
               py::arg("elbow"), py::arg("wrist"), py::arg("group") = 0,
               "Compares a Pose with where your engine has a limb of a body: (agrees, text). The text names the input\n"

@@ -24,7 +24,7 @@ constexpr const char* kCrowdText =
     "Groups of limbs that are solved together.\n\n"
     "groups is the number of limbs, a Group, or a sequence with an entry for each group of limbs that share\n"
     "features and a binding: a number, a Group, or (number, binding), which is short for Group(number,\n"
-    "binding). Feature.JOINTS needs the binding that bind() gave. features, on_bad_input and the orders are\n"
+    "binding). Feature.JOINTS needs the binding that bind_joints() gave. features, on_bad_input and the orders are\n"
     "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
     "With a skeleton it is a crowd of body_count bodies, whose groups are BodyGroups: limb i of each is body i's.\n"
     "A FitGroup among them shifts the bodies, a PropGroup is a thing that hands hold, a LookGroup looks. solve() then\n"

@@ -41,14 +41,13 @@ py::array view(const py::object& self, const py::dtype& type, void* base, py::ss
 std::uint32_t packed_row(const HeldCrowd& held, std::int64_t field, std::int64_t group)
 {
     const std::uint32_t g = limbs_of(held, group, 0, {}).group;
-    return swivel_packed_row(swivel_group_features(held.crowd.get(), g), field_of(field));
+    return swivel_packed_row(held.crowd.get(), g, field_of(field));
 }
 
 py::array pack(const HeldCrowd& held, std::int64_t number)
 {
     const Limbs limbs = limbs_of(held, number, 0, {});
-    const std::uint32_t rows =
-        swivel_packed_row(swivel_group_features(held.crowd.get(), limbs.group), SWIVEL_RESULT_END);
+    const std::uint32_t rows = swivel_packed_row(held.crowd.get(), limbs.group, SWIVEL_RESULT_END);
     const std::vector<py::ssize_t> shape{(limbs.count + SWIVEL_LANES - 1) / SWIVEL_LANES, rows, SWIVEL_LANES};
     py::array_t<std::uint16_t> words(shape);
     held.crowd.pack(limbs.group, {words.mutable_data(), static_cast<std::size_t>(words.size())});
@@ -112,8 +111,7 @@ Values values_of(const HeldCrowd& held, swivel_field field, const Limbs& limbs)
 {
     float none[1];
     check(swivel_read(held.crowd.get(), field, limbs.group, 0, 0, {none, SIZE_MAX}));
-    const swivel_features features = swivel_group_features(held.crowd.get(), limbs.group);
-    return {info_of(field).name, limbs.count, swivel_component_count(field, features)};
+    return {info_of(field).name, limbs.count, swivel_field_row_count(held.crowd.get(), limbs.group, field)};
 }
 
 void add_shape(CrowdClass& crowd)
@@ -145,12 +143,12 @@ void add_shape(CrowdClass& crowd)
         "limb_count", [](const HeldCrowd& held, std::int64_t group) { return limbs_of(held, group, 0, {}).count; },
         py::arg("group") = 0, "Number of limbs in a group. ValueError if there is no such group.");
     crowd.def("limbs", &limb_range, py::arg("group") = 0,
-              "The lanes of a group's limbs as a range: indices for solve(limbs=...) and into a mask.");
+              "The lanes of a group's limbs as a range: indices into a mask.");
     crowd.def(
         "component_count",
         [](const HeldCrowd& held, std::int64_t field, std::int64_t group) {
             const std::uint32_t g = limbs_of(held, group, 0, {}).group;
-            return swivel_component_count(field_of(field), swivel_group_features(held.crowd.get(), g));
+            return swivel_field_row_count(held.crowd.get(), g, field_of(field));
         },
         py::arg("field"), py::arg("group") = 0,
         "How many numbers a value of the field has; 0 if the group does not have it.");

@@ -53,19 +53,6 @@ py::array lanes_of(const HeldCrowd& held, const std::vector<std::uint32_t>& word
     return flags;
 }
 
-std::vector<std::uint32_t> indices_of(const py::object& limbs)
-{
-    py::array given = py::array::ensure(limbs);
-    if (!given || (given.dtype().kind() != 'i' && given.dtype().kind() != 'u' && given.size() > 0))
-        throw py::type_error("limbs: expected whole numbers, such as Crowd.limbs() gives");
-    if (given.ndim() != 1) throw py::value_error("limbs: expected shape (count,), got " + shape_text(given));
-    const auto numbers = py::array_t<std::int64_t, py::array::forcecast>(given).unchecked<1>();
-    std::vector<std::uint32_t> indices;
-    indices.reserve(static_cast<std::size_t>(numbers.shape(0)));
-    for (py::ssize_t n = 0; n < numbers.shape(0); ++n) indices.push_back(count_of("limb", numbers(n)));
-    return indices;
-}
-
 std::vector<Input> priorities_of(const HeldCrowd& held, const py::object& given)
 {
     const py::list each(given);
@@ -161,9 +148,7 @@ void* workspace_of(const HeldCrowd& held)
 }
 
 std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups, const py::object& mask,
-                    const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> max_blocks,
-                    const py::object& urgency, const py::object& streams, const py::object& pose, bool on_this_thread,
-                    bool probes_only)
+                    const py::object& streams, const py::object& pose, bool on_this_thread)
 {
     Job job;
     if (blocks) job.blocks = {count_of("first block", blocks->first), count_of("block count", blocks->second)};
@@ -171,25 +156,15 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     if (groups) job.groups = named;
     const auto words = mask.is_none() ? std::vector<std::uint32_t>() : words_of(held, mask);
     if (!mask.is_none()) job.mask = words;
-    const auto indices = limbs.is_none() ? std::vector<std::uint32_t>() : indices_of(limbs);
-    if (!limbs.is_none()) job.limbs = indices;
-    const auto inputs = priorities.is_none() ? std::vector<Input>() : priorities_of(held, priorities);
-    const std::vector<swivel_in> pointers = pointers_of(inputs);
-    if (!priorities.is_none()) job.priorities = pointers;
-    if (max_blocks.has_value() == priorities.is_none())
-        throw py::type_error("solve() takes priorities and max_blocks together");
-    if (max_blocks) job.max_blocks = count_of("max_blocks", *max_blocks);
-    job.urgency = urgency_of(held, urgency);
     const PoseArrays poses = pose.is_none() ? PoseArrays() : pose_of(held, pose);
     if (!pose.is_none()) job.pose = &poses.view;
     require_streams(held, named, poses, streams);
     const StreamArrays arrays =
         streams.is_none() ? StreamArrays() : streams_of(held, streams, named, poses.view.root_is_double != 0);
-    if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
+    if (blocks || !mask.is_none()) require_direct(arrays);
     const std::vector<swivel_streams> views(arrays.streams.begin(), arrays.streams.end());
     if (!streams.is_none()) job.streams = views;
     job.on_this_thread = on_this_thread;
-    job.probes_only = probes_only;
     job.workspace = workspace_of(held);
     const Way way = on_this_thread ? Way::kSolvingBlocks : Way::kAlone;
     const std::uint32_t solved = run(held, way, [&] { return held.crowd.solve(job); });
@@ -228,16 +203,13 @@ void add_solving(CrowdClass& crowd)
 {
     crowd.def(
         "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("groups") = py::none(),
-        py::arg("mask") = py::none(), py::arg("limbs") = py::none(), py::arg("priorities") = py::none(),
-        py::arg("max_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("streams") = py::none(),
-        py::arg("pose") = py::none(), py::arg("on_this_thread") = false, py::arg("probes_only") = false,
+        py::arg("mask") = py::none(), py::arg("streams") = py::none(), py::arg("pose") = py::none(),
+        py::arg("on_this_thread") = false,
         "Solves limbs, all of them if nothing is given, and gives how many. Equal inputs give equal bits on every "
         "CPU.\n\n"
         "blocks is (first, count), of LANES limbs each. groups: numbers of groups; others are neither read nor\n"
-        "written. Of mask, limbs and priorities at most one is given. mask: bool of shape (lane_count,), True for\n"
-        "limbs to solve; lanes of padding mean nothing. limbs: whole numbers of shape (count,) in any order, as\n"
-        "limbs(group) gives them. priorities, max_blocks and urgency: as choose() has them. Limbs that are not\n"
-        "chosen keep their results bit for bit.\n\n"
+        "written. mask: bool of shape (lane_count,), True for limbs to solve, as choose() gives it; lanes of padding\n"
+        "mean nothing. Limbs that are not chosen keep their results bit for bit.\n\n"
         "streams solve from and to your own arrays. They take a run of blocks of each group in turn, while they are "
         "in\n"
         "the nearest cache. Give a dict for each group, or one dict if there is one group; with groups, for each of\n"
@@ -247,17 +219,13 @@ void add_solving(CrowdClass& crowd)
         "left out keeps its rows, or is not written. A limb's results may be its own inputs; no other arrays may\n"
         "overlap results. Where not all limbs of a group are solved, results need each value's numbers side by "
         "side.\n\n"
-        "pose, a Pose, is what a crowd of bodies is solved from and to; no other crowd takes one. Counts, blocks, "
-        "masks,\n"
-        "lists and the one entry of priorities are of bodies then. Bodies that are not chosen are neither read nor\n"
-        "written. Targets, poles and hands are in the world.\n\n"
-        "probes_only finds Field.PROBE of groups with Feature.WITH_GROUND, and changes nothing else. Sample the "
-        "ground\n"
-        "there, write Field.GROUND and Field.GROUND_NORMAL, and solve. No function of yours is called in a solve.\n\n"
+        "pose, a Pose, is what a crowd of bodies is solved from and to; no other crowd takes one. Counts, blocks and\n"
+        "masks are of bodies then. Bodies that are not chosen are neither read nor written. Targets, poles and hands\n"
+        "are in the world.\n\n"
+        "For groups with Feature.WITH_GROUND, read Field.PROBE after a solve, sample the ground there, and write\n"
+        "Field.GROUND and Field.GROUND_NORMAL for the next one. No function of yours is called in a solve.\n\n"
         "On all cores if the library was built with oneTBB; on_this_thread on one, and then several threads may\n"
-        "solve blocks that do not overlap at once, with the same mask and streams. Lists and priorities are for the\n"
-        "whole crowd and exclude both, and priorities exclude groups. ValueError for limbs that do not exist or are\n"
-        "padding.");
+        "solve blocks that do not overlap at once, with the same mask and streams.");
     crowd.def("choose", &choose, py::arg("priorities"), py::arg("max_blocks"), py::arg("urgency") = py::none(),
               "Picks at most max_blocks blocks, the most urgent ones; solves nothing.\n\n"
               "priorities has one entry for each group, of bodies one alone: (n,) float32, one number for each limb,\n"
@@ -265,7 +233,7 @@ void add_solving(CrowdClass& crowd)
               "and give it to\n"
               "every call. Each call adds a block's largest priority to its urgency, which is 0 again for those\n"
               "picked, so none starves. Only its magnitude counts. None: priorities alone decide. Gives a mask for\n"
-              "solve(), which chooses and solves in one if it gets the priorities.");
+              "solve().");
     crowd.def(
         "reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
         "Forgets what is carried from solve to solve: swivels, planted points, shifts and lifts. After a teleport.");

@@ -37,7 +37,7 @@ py::array mirror(std::int64_t number, const py::object& values, std::int64_t ord
 {
     const swivel_field field = field_of(number);
     const swivel_euler_order axes = order_of(order);
-    const std::uint32_t k = swivel_component_count(field, needed_features(field));
+    const std::uint32_t k = info_of(field).max_components;
     const py::array given = py::module_::import("numpy").attr("asarray")(values);
     const bool many = given.ndim() == (k > 1 ? 2 : 1);
     const std::size_t count = many ? static_cast<std::size_t>(given.shape(0)) : 1;

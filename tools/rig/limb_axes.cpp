@@ -55,10 +55,10 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
     if (clip.frame_count < 2) return std::nullopt;
     LimbRange range{};
     range.bend = to_three_decimals(limb.bend);
-    swivel_chain rest = limb.rest;
+    formats::LimbRest rest = limb.rest;
     const Eigen::Vector3f bend = limb.as_solved(Vector3d(range.bend.stableNormalized())).cast<float>();
     std::copy_n(bend.data(), 3, rest.bend);
-    const Quaterniond arm_from_parent = quaternion(bind(rest).parent_from_arm).conjugate();
+    const Quaterniond arm_from_parent = quaternion(binding_of(rest).parent_from_arm).conjugate();
     std::vector<Vector3d> upper;
     Vector3d sum = Vector3d::Zero();
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {

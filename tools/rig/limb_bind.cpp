@@ -272,30 +272,30 @@ void store(const Eigen::Matrix<double, size, 1>& v, float (&to)[size])
     for (int n = 0; n < size; ++n) to[n] = static_cast<float>(v[n]);
 }
 
-swivel_chain chain_at(const ChainPose& rest, const Vector3d& bend)
+formats::LimbRest rest_of(const ChainPose& pose, const Vector3d& bend)
 {
-    swivel_chain chain = swivel_default_chain();
-    store<4>(rest.turn[0].coeffs(), chain.shoulder_rotation);
-    store<4>((rest.turn[0].conjugate() * rest.turn[1]).coeffs(), chain.elbow_rotation);
-    store<4>((rest.turn[1].conjugate() * rest.turn[2]).coeffs(), chain.wrist_rotation);
-    store<3>(rest.upper_bone(), chain.elbow_offset);
-    store<3>(rest.lower_bone(), chain.wrist_offset);
-    store<3>(bend, chain.bend);
-    return chain;
+    formats::LimbRest rest;
+    store<4>(pose.turn[0].coeffs(), rest.shoulder_rotation);
+    store<4>((pose.turn[0].conjugate() * pose.turn[1]).coeffs(), rest.elbow_rotation);
+    store<4>((pose.turn[1].conjugate() * pose.turn[2]).coeffs(), rest.wrist_rotation);
+    store<3>(pose.upper_bone(), rest.elbow_offset);
+    store<3>(pose.lower_bone(), rest.wrist_offset);
+    store<3>(bend, rest.bend);
+    return rest;
 }
 
 // The limb at rest in the axes that it is solved in, with lengths as they are in the world.
-swivel_chain solved_chain(const Limb& limb, ChainPose rest)
+formats::LimbRest solved_rest(const Limb& limb, ChainPose pose)
 {
-    for (Quaterniond& turn : rest.turn) turn = limb.as_solved(turn);
-    for (Vector3d& position : rest.position) position = limb.scale * limb.as_solved(position);
-    return chain_at(rest, limb.as_solved(limb.bend));
+    for (Quaterniond& turn : pose.turn) turn = limb.as_solved(turn);
+    for (Vector3d& position : pose.position) position = limb.scale * limb.as_solved(position);
+    return rest_of(pose, limb.as_solved(limb.bend));
 }
 
-swivel_binding bind_chain(const swivel_chain& chain)
+swivel_binding bind_rest(const formats::LimbRest& rest)
 {
     try {
-        return bind(chain);
+        return binding_of(rest);
     } catch (const Error& error) {
         throw CannotBind(error.what(), "");
     }
@@ -347,9 +347,31 @@ void require_still_between(const Clip& clip, const LimbChain& chain, std::size_t
 
 }  // namespace
 
-swivel_chain rest_chain(const Clip& clip, const LimbChain& chain, const Vector3d& bend)
+formats::LimbRest limb_rest(const Clip& clip, const LimbChain& chain, const Vector3d& bend)
 {
-    return chain_at(rest_pose(clip, chain), bend);
+    return rest_of(rest_pose(clip, chain), bend);
+}
+
+swivel_binding binding_of(const formats::LimbRest& rest)
+{
+    struct Joint {
+        std::int32_t parent;
+        std::array<float, 3> translation;
+        std::array<float, 4> rotation;
+    };
+    const std::array joints = {
+        Joint{-1, {0, 0, 0}, std::to_array(rest.shoulder_rotation)},
+        Joint{0, std::to_array(rest.elbow_offset), std::to_array(rest.elbow_rotation)},
+        Joint{1, std::to_array(rest.wrist_offset), std::to_array(rest.wrist_rotation)},
+    };
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = 3;
+    skeleton.parents = stream(joints, &Joint::parent);
+    skeleton.translations = stream(joints, &Joint::translation);
+    skeleton.rotations = stream(joints, &Joint::rotation);
+    swivel_limb_joints limb = swivel_default_limb_joints(0, 1, 2);
+    std::ranges::copy(rest.bend, limb.bend);
+    return bind(skeleton, limb);
 }
 
 Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joints, const Facing& facing,
@@ -382,8 +404,8 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
         if (std::string note = clip_against(clip, name, limb.chain, rest, bend.direction); !note.empty())
             limb.notes.push_back(std::move(note));
     }
-    limb.rest = solved_chain(limb, rest);
-    limb.bound = bind_chain(limb.rest);
+    limb.rest = solved_rest(limb, rest);
+    limb.bound = bind_rest(limb.rest);
     limb.axes_w = axes_of(limb.bound, parent_w);
     return limb;
 }

@@ -10,6 +10,7 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/formats/clip.h"
+#include "tools/formats/limb_rest.h"
 #include "tools/rig/facing.h"
 #include "tools/rig/limb_chain.h"
 #include "tools/rig/limb_joints.h"
@@ -21,7 +22,7 @@ struct Limb {
     LimbJoints joints{-1, -1, -1};                         // shoulder, elbow and wrist, or hip, knee and ankle
     LimbChain chain;                                       // these and what lies between
     std::string from;                                      // who names these, for people; see FoundJoints
-    swivel_chain rest = swivel_default_chain();            // as the solver takes it, in the world's unit
+    formats::LimbRest rest;                                // in the axes that it is solved in, in the world's unit
     swivel_binding bound = swivel_default_binding();       // of it
     Eigen::Vector3d upper_bone = Eigen::Vector3d::Zero();  // its direction at rest, in the upper joint's axes
     Eigen::Vector3d lower_bone = Eigen::Vector3d::Zero();  // the same of the lower bone, in the lower joint's
@@ -59,9 +60,11 @@ struct GivenBend {
     std::string key, file;      // "limb.left_arm.bend"; for people
 };
 
-// The argument of bind(): the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are
+// The limb at rest in the clip's own axes, its lengths in those of its upper joint's parent (times Limb::scale they are
 // the world's). bend: in the upper joint's axes.
-swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const Eigen::Vector3d& bend);
+formats::LimbRest limb_rest(const formats::Clip& clip, const LimbChain& chain, const Eigen::Vector3d& bend);
+// What the library binds it to, as a skeleton of three joints. Throws swivel::Error as bind() does.
+swivel_binding binding_of(const formats::LimbRest& rest);
 
 // The limb of these joints, bound. joints: as is_chain() says. At, above and between them it looks at the rest pose and
 // at every frame. Throws CannotBind for one of these:

@@ -56,12 +56,12 @@ nlohmann::ordered_json json_of_frame(const Clip& clip, const Limb& limb, const F
     return out;
 }
 
-// The argument of bind(), field by field.
-nlohmann::ordered_json json_of_chain(const swivel_chain& chain)
+// The limb alone, as Python's bind_joints() takes a skeleton: joint 0 is the shoulder, 1 the elbow, 2 the wrist.
+nlohmann::ordered_json json_of(const formats::LimbRest& rest)
 {
-    return {{"elbow_offset", chain.elbow_offset},           {"wrist_offset", chain.wrist_offset},
-            {"shoulder_rotation", chain.shoulder_rotation}, {"elbow_rotation", chain.elbow_rotation},
-            {"wrist_rotation", chain.wrist_rotation},       {"bend", chain.bend}};
+    return {{"parents", {-1, 0, 1}},
+            {"translations", {{0, 0, 0}, rest.elbow_offset, rest.wrist_offset}},
+            {"rotations", {rest.shoulder_rotation, rest.elbow_rotation, rest.wrist_rotation}}};
 }
 
 nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, const Facing& facing)
@@ -87,7 +87,7 @@ nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, con
     out["lower_bone"] = vector_of(limb.lower_bone);
     out["bend"] = vector_of(limb.bend);
     out["bend_source"] = limb.bend_source;
-    out["chain"] = json_of_chain(rest_chain(clip, limb.chain, limb.bend));
+    out["skeleton"] = json_of(limb_rest(clip, limb.chain, limb.bend));
     out.update(json_of_frame(clip, limb, facing));
     out["joints_between"] = names(limb.chain.between());
     out["unevenness"] = limb.unevenness;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The promise: poses of bodies are views of swivel's own memory, at rest at first, in every form, of floats or of doubles. Solves of them are in
-// scenes.test.mjs.
+// The promise: poses of bodies are views of swivel's own memory, at rest at first, in every form, of floats or of doubles. Feet stand on ground
+// that is given a frame late. Other solves are in scenes.test.mjs.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Feature, Field, PoseForm, PoseSpace } from 'swivel-wasm';
+import { Feature, Field, Flag, PoseForm, PoseSpace } from 'swivel-wasm';
 import { close, refuses, swivel, unit } from './common.mjs';
 
 // A body: hips, an arm with a joint in the upper arm, and a leg. Joints are turned at rest.
@@ -49,6 +49,37 @@ test('parts start at rest, in every form and space', () => {
   matrices.dispose();
 });
 
+test("feet stand on the ground below the last solve's probes", () => {
+  const walker = { parents: [-1, 0, 1, 2], translations: [0, 0.93, 0, 0.1, 0, 0, 0, -0.45, 0, 0, -0.42, 0] }, toe = [0, -0.06, 0.12];
+  const features = Feature.POLE_INCOMING | Feature.WITH_HAND | Feature.WITH_EFFECTOR | Feature.WITH_PLANT | Feature.WITH_GROUND | Feature.WITH_HAND_TRANSFORM;
+  const foot = { joints: { shoulder: 1, elbow: 2, wrist: 3, bend: [0, 0, -1] }, features, ground: { heel: [0, -0.06, -0.06] } };
+  const crowd = swivel.bodies({ skeleton: walker, bodyCount, groups: [foot] }), rotations = crowd.pose('rotations'), rest = rotations.slice();
+  crowd.write(Field.EFFECTOR, toe), crowd.write(Field.GROUND_NORMAL, [0, 1, -0.2]), crowd.pose('time').fill(1 / 60);
+  const [probes, feet, ground, contact] = [Field.PROBE, Field.HAND_TRANSFORM, Field.GROUND, Field.CONTACT].map((field) => crowd.values(field));
+  const cross = (a, b) => [0, 1, 2].map((n) => a[(n + 1) % 3] * b[(n + 2) % 3] - a[(n + 2) % 3] * b[(n + 1) % 3]);
+  // How far a toe is above a slope that begins 0.1 above its root, and beside its probe.
+  const places = (body) => {
+    const [x, y, z, i, j, k, w] = at(feet, 7, body), once = cross([i, j, k], toe), twice = cross([i, j, k], once);
+    const found = [x, y, z].map((value, n) => value + toe[n] + 2 * (w * once[n] + twice[n])), probe = at(probes, 3, body);
+    return [found[1] - 0.1 - 0.2 * found[2], found[0] - probe[0], found[2] - probe[2]];
+  };
+  for (let frame = 0; frame < 60; ++frame) {
+    for (let body = 0; body < bodyCount; ++body) {
+      const z = 0.1 * body + 0.02 * Math.min(frame, 30);
+      crowd.pose('rootPosition').set([0, 0.2 * z, z], 3 * body);
+    }
+    rotations.set(rest), contact.fill(frame < 30 ? 0 : 1);
+    assert.equal(crowd.solve(), bodyCount);
+    for (let body = 0; body < bodyCount; ++body) {
+      close(places(body), [frame === 0 ? -0.124 : 0, 0, 0], 1e-5);  // no ground is known in the first frame
+      const [x, , z] = at(probes, 3, body);
+      ground.set([x, 0.1 + 0.2 * z, z], 3 * body);
+    }
+  }
+  assert.ok(crowd.read(Field.FLAGS).every((flags) => flags & Flag.PLANTED));
+  crowd.dispose();
+});
+
 test('what is wrong with bodies is refused in one line', () => {
   const bodies = (given) => swivel.bodies({ skeleton, bodyCount, groups, ...given });
   refuses(() => bodies({ features: 1 }), 'features is 1; give a BigInt');
@@ -64,7 +95,7 @@ test('what is wrong with bodies is refused in one line', () => {
   refuses(() => bodies({ skeleton: { ...skeleton, translations: [0] } }), 'translations has 1 numbers; give 24');
   refuses(() => swivel.crowd([{ limbCount: 1, joints: arm }]), 'not joints');
   const crowd = bodies();
-  refuses(() => crowd.solve({ priorities: [[1], [1]], maxBlocks: 1 }), '2 priorities for bodies; give one list');
+  refuses(() => crowd.choose([[1], [1]], 1), '2 priorities for bodies; give one list');
   refuses(() => crowd.pose('rotation'), 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPositions, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, weight, not "rotation"');
   refuses(() => crowd.pose('translationResults'), "only translations in the body's space change");
   crowd.dispose();

@@ -15,5 +15,6 @@ export const close = (a, b, within) => a.forEach((x, n) => assert.ok(Math.abs(x 
 export const unit = (q) => q.map((x) => x / Math.hypot(...q));
 
 const slant = unit([0.2, 0.4, -0.4, 0.8]);
-// A chain with joints that are turned at rest.
-export const chain = { shoulderRotation: slant, elbowRotation: unit([0.1, 0, 0, 1]), wristRotation: slant, elbowOffset: [0.3, 0, 0], wristOffset: [0.25, 0.02, 0], bend: [0, 0, 1] };
+// A skeleton of three joints that are turned at rest, and the limb that they are.
+export const slanted = { parents: [-1, 0, 1], translations: [0, 0, 0, 0.3, 0, 0, 0.25, 0.02, 0], rotations: [...slant, ...unit([0.1, 0, 0, 1]), ...slant] };
+export const limb = { shoulder: 0, elbow: 1, wrist: 2, bend: [0, 0, 1] };

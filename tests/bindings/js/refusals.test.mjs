@@ -2,8 +2,8 @@
 // The promise: what is wrong is refused in one line, and changes nothing.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Field, Flag } from 'swivel-wasm';
-import { chain, refuses, swivel } from './common.mjs';
+import { Field } from 'swivel-wasm';
+import { limb, refuses, slanted, swivel } from './common.mjs';
 
 test('what is wrong is refused in one line, and changes nothing', async () => {
   const crowd = swivel.crowd([4, 2]);
@@ -27,8 +27,6 @@ test('what is wrong is refused in one line, and changes nothing', async () => {
   refuses(() => crowd.read(Field.TARGET, { first: -1 }), 'first is -1');
   refuses(() => crowd.explain(undefined), 'limb is undefined');
   refuses(() => crowd.explain(4), 'limb is 4; give a whole number from 0 to 3');
-  refuses(() => crowd.find('BAD_INPUT'), 'flags is "BAD_INPUT"');
-  refuses(() => crowd.find(Flag.TYPO), 'flags is undefined');
   refuses(() => crowd.jointAngles({ order: 2 }), 'not order');
   refuses(() => crowd.firstLimb(9), 'group 9');
   refuses(() => crowd.mirror(Field.ANGLE, [1, 0]), 'this crowd has no ANGLE');
@@ -44,14 +42,15 @@ test('what is wrong is refused in one line, and changes nothing', async () => {
   refuses(() => swivel.crowd([{ limbCount: 1, onBadInput: 'KEEP_POSE' }]), 'onBadInput is "KEEP_POSE"');
   refuses(() => crowd.componentCount(Field.TARGET, 2), 'group 2 does not exist; the crowd has 2');
   for (const call of ['inputRows', 'resultRows', 'pack', 'features']) refuses(() => crowd[call](2), 'group 2 does not exist; the crowd has 2');
-  for (const call of ['fieldFirstRow', 'fieldRowCount']) refuses(() => crowd[call](Field.TARGET, 2), 'group 2 does not exist; the crowd has 2');
+  for (const call of ['fieldFirstRow', 'packedRow']) refuses(() => crowd[call](Field.TARGET, 2), 'group 2 does not exist; the crowd has 2');
   refuses(() => crowd.solve({ groups: [0, 2] }), 'group 2 does not exist; the crowd has 2');
   refuses(() => crowd.solve({ groups: 1 }), 'groups is 1; give an array of numbers');
   refuses(() => swivel.crowd([71_582_800]), 'beyond what a pointer reaches');
   refuses(() => swivel.crowd([5_000_000]), 'give load() more megabytes');
-  refuses(() => swivel.bind(), 'bind() takes shoulderRotation');
-  refuses(() => swivel.bind({ elbowOffset: [0, 0, 1] }), 'wristOffset is undefined; give an array of numbers');
-  refuses(() => swivel.bind({ ...chain, bend: [1, 0] }), 'bend has 2 numbers; give 3');
+  refuses(() => swivel.bindJoints(), 'a skeleton takes parents, translations, rotations');
+  refuses(() => swivel.bindJoints(slanted), "a limb's joints takes shoulder");
+  refuses(() => swivel.bindJoints({ parents: [-1] }, limb), 'translations is undefined; give an array of numbers');
+  refuses(() => swivel.bindJoints(slanted, { ...limb, bend: [1, 0] }), 'bend has 2 numbers; give 3');
   refuses(() => swivel.cone([0, 0], 1), 'axis has 2 numbers; give 3');
   assert.equal(crowd.digest(), before);
   assert.deepEqual(crowd.read(Field.TARGET), targets);

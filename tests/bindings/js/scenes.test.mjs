@@ -126,15 +126,6 @@ test('what is carried can be saved and set back in another crowd, views too, and
   assert.deepEqual([...seen].sort((a, b) => a - b), carried.sort((a, b) => a - b));
 });
 
-test('probesOnly finds probes and moves nobody', () => {
-  const scene = scenes.find(({ name }) => name === 'standing ground'), crowd = crowdOf(scene), [first, second] = scene.frames;
-  give(crowd, first, []), crowd.solve(), give(crowd, second, []);
-  const probes = crowd.values(Field.PROBE), look = () => [crowd.read(Field.PLANT), crowd.pose('rotations').slice()], before = [probes.slice(), look()];
-  assert.equal(crowd.solve({ probesOnly: true, groups: [0] }), scene.body_count);
-  assert.notDeepEqual(probes, before[0]), assert.deepEqual(look(), before[1]);
-  crowd.dispose();
-});
-
 test('regions have the room of C++', () => {
   const { probes, rooms, ...given } = scenes.flatMap(({ groups }) => groups).find(({ region }) => region).region, region = regionOf(given);
   assert.deepEqual(rooms.map((_, n) => region.room(probes.slice(3 * n, 3 * n + 3))), rooms.map(Math.fround));

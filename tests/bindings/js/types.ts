@@ -3,15 +3,16 @@
 import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultGround, defaultPlant, Feature, Field, type Fit, type FitGroup, Flag, type Ground, type Group, load, type Look, type LookGroup, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Prop, type PropGroup, type Support, type Swivel, SwivelError } from 'swivel-wasm';
 
 const swivel: Swivel = await load({ megabytes: 4 });
-const binding: Binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: new Float32Array([0, 0, 1]), bend: [0, 1, 0] });
+const binding: Binding = swivel.bindJoints({ parents: [-1, 0, 1], translations: new Float32Array(9), rotations: [0, 0, 0, 1] }, { shoulder: 0, elbow: 1, wrist: 2, bend: [0, 1, 0] });
 const legs: Group = { limbCount: 3, features: Feature.WITH_SHOULDER_BOX, shoulderOrder: Order.ZXY, onBadInput: OnBadInput.KEEP_POSE };
 const crowd: Crowd = swivel.crowd([{ limbCount: 3, binding }, 5, legs], Feature.WORLD | 2n * Feature.WITH_TWIST_BONES);
 const flags: Uint32Array = crowd.values(Field.FLAGS);
 const shoulders: Float32Array = crowd.read(Field.SHOULDER, { group: 1 });
-const solved: number = crowd.solve({ limbs: [1, 2], groups: [0] }) + crowd.solve({ priorities: [[1], [2], [3]], maxBlocks: 1, urgency: new Float32Array(crowd.blockCount) });
+const mask: Uint32Array = crowd.choose([[1], new Float32Array(5), [3]], 1, new Float32Array(crowd.blockCount));
+const solved: number = crowd.solve({ mask: [1, 2], groups: [0] }) + crowd.solve({ mask }) + crowd.solve({ mask: crowd.choose([[1], [2], [3]], 1), blocks: { first: 0, count: 1 } });
 const digest: bigint = crowd.digest();
 const closing: number = swivel.steps([1, 0, 1], [0, 1, 0], 1, 1).closingError;
-const place: { group: number; limb: number } | undefined = crowd.find(Flag.BAD_INPUT | Flag.INFEASIBLE);
+const isBad: boolean = (flags[0] & (Flag.BAD_INPUT | Flag.INFEASIBLE)) !== 0;
 const arm: BodyGroup = { joints: { shoulder: 1, elbow: 2, wrist: 3 }, features: Feature.WITH_HAND, onBadInput: OnBadInput.REST_POSE };
 const skeleton = { parents: [-1, 0, 1, 2], translations: new Float32Array(12) };
 const bodies: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], form: PoseForm.MATRIX_ROWS, space: PoseSpace.IN_BODY });
@@ -20,23 +21,24 @@ const standing: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...a
 const ground: Ground = { ...defaultGround, heel: [0, -0.06, -0.06] }, prop: Prop = { joint: 0, maxMove: 0.1 }, rifle: PropGroup = { prop };
 const look: Look = { joints: [0, 1], share: [1, 2], cosMax: 0.5 }, watch: LookGroup = { look };
 const holding: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, features: Feature.WITH_HAND | Feature.WITH_LINK, ground, link: 1 }, rifle] });
-const probed: number = holding.solve({ probesOnly: true });
 const support: Support = { position: new Float64Array(3), rotation: [0, 0, 0, 1] };
 standing.changeSupport(support, {}, { first: 1 });
 const near: Float32Array[] = [bodies.pose('rotations'), bodies.pose('rootPosition'), bodies.pose('supportPosition'), bodies.pose('time'), bodies.positions(Field.TARGET)];
 const far: Float64Array[] = [swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], rootIsDouble: true }).pose('supportPosition')];
-export { closing, far, near, digest, flags, place, probed, shoulders, solved, SwivelError };
+export { closing, far, near, digest, flags, isBad, shoulders, solved, SwivelError };
 
 // @ts-expect-error: features are BigInts
 swivel.crowd([3], 1);
 // @ts-expect-error: of groups, too
 swivel.crowd([{ limbCount: 3, features: 1 }]);
-// @ts-expect-error: solves change it
-crowd.solve({ urgency: [0] });
+// @ts-expect-error: it is changed
+crowd.choose([[1]], 1, [0]);
+// @ts-expect-error: for each group an array
+crowd.choose([1], 1);
 // @ts-expect-error: there is no such field
 crowd.values(7000);
 // @ts-expect-error: the wrist is missing
-swivel.bind({ elbowOffset: [0, 0, 1] });
+swivel.bindJoints({ parents: [-1, 0, 1], translations: new Float32Array(9) }, { shoulder: 0, elbow: 1 });
 // @ts-expect-error: flags are integers
 const floats: Float32Array = crowd.values(Field.FLAGS);
 // @ts-expect-error: an arm has no such limit

@@ -42,6 +42,16 @@ PLACES = np.float32([(0, -0.4, 0), (0, -0.45, 0), (0.1, -0.1, 0), (0.25, 0, 0), 
 LIMBS = [(UPPER_ARM, FOREARM, HAND), (THIGH, SHIN, FOOT)]
 
 
+def limb_of(elbow, wrist, bend=(0, 0, 1)):
+    """The binding of three joints that are not turned at rest."""
+    return swivel.bind_joints([-1, 0, 1], [(0, 0, 0), elbow, wrist], 0, 1, 2, bend=bend)
+
+
+def flags_of(crowd):
+    """Of all limbs, group by group."""
+    return np.concatenate([crowd.read(Field.FLAGS, group) for group in range(crowd.group_count)])
+
+
 def crowd_of(n, features=0):
     """An arm and a leg of n bodies, and their shift if they fit."""
     groups = [swivel.BodyGroup(*limb, bend=(0, 0, side)) for limb, side in zip(LIMBS, (1, -1))]

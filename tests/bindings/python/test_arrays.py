@@ -146,8 +146,6 @@ class Mistakes(Refusals):
                    Field.TARGET, np.zeros(3), (1, 2))
         self.refuses(ValueError, "mask: expected shape (112,), one for each lane, got (100,)", crowd.solve, mask=np.ones(N, bool))
         self.refuses(TypeError, "mask: expected an array of bool", crowd.solve, mask=np.ones(112))
-        self.refuses(TypeError, "limbs: expected whole numbers", crowd.solve, limbs=[0.5])
-        self.refuses(ValueError, "limb is -1", crowd.solve, limbs=[-1])
         self.refuses(ValueError, "pole: expected shape (5, 3)", swivel.solve, np.zeros((5, 3)), np.zeros((4, 3)), (1, 1))
 
     def test_the_librarys_own_words(self):
@@ -172,15 +170,13 @@ class Mistakes(Refusals):
         self.refuses(ValueError, "streams of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve,
                    streams={"tagret": 0})
         self.refuses(ValueError, "streams: expected one for each of 1 groups, got 2", crowd.solve, streams=[{}, {}])
-        self.refuses(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve, priorities=[1, 1],
-                   max_blocks=1)
-        self.refuses(TypeError, "takes priorities and max_blocks together", crowd.solve, max_blocks=1)
+        self.refuses(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.choose, [1, 1], 1)
+        self.refuses(ValueError, "max_blocks is -1", crowd.choose, [1], -1)
         self.refuses(ValueError, "urgency: expected shape (7,), got (6,)", crowd.choose, [1], 1, np.zeros(6, np.float32))
         self.refuses(TypeError, "urgency: expected dtype float32, got float64", crowd.choose, [1], 1, np.zeros(7))
         self.refuses(ValueError, "urgency: its numbers must lie side by side", crowd.choose, [1], 1, np.zeros(14, np.float32)[::2])
         self.refuses(ValueError, "urgency: its numbers must lie side by side, and aligned", crowd.choose, [1], 1,
                    np.zeros(29, np.uint8)[1:].view(np.float32))
-        self.refuses(ValueError, "urgency goes with priorities", crowd.solve, urgency=np.zeros(7, np.float32))
         self.refuses(ValueError, "group 1 does not exist; this crowd has 1", crowd.solve, groups=[1])
         self.refuses(ValueError, "group 0 is named twice", crowd.solve, groups=[0, 0])
         self.refuses(ValueError, "streams: expected one for each of 0 groups, got 1", crowd.solve, groups=[], streams={})

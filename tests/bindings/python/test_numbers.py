@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 import swivel
-from figures import Refusals, Sample, quaternions
+from figures import Refusals, Sample, limb_of, quaternions
 from swivel import Feature, Field, Flag
 
 N = 1000
@@ -35,11 +35,15 @@ class Calls(Refusals):
                                  ("wrist_position", crowd.wrists()), ("residual", crowd.residuals()), ("wrist", crowd.read(Field.WRIST) if "hand" in given else None)):
                 np.testing.assert_array_equal(getattr(arms, name), values, name)
 
-    def test_a_binding_of_joints_is_that_of_the_chain(self):
+    def test_a_binding_is_that_of_its_joints(self):
+        """In any order, and it may be kept and restored."""
         places, rest, bend = [(0, 0, 0), (0.3, 0, 0), (0.25, 0.1, 0)], quaternions(np.random.default_rng(5), 3), (0, 0, 1)
-        chain = swivel.bind(*places[1:], bend, *rest)
-        self.assertEqual(repr(swivel.bind_joints([-1, 0, 1], places, 0, 1, 2, rotations=rest, bend=bend)), repr(chain))
-        self.assertEqual(repr(swivel.Binding(**{name: getattr(chain, name) for name in dir(swivel.Binding) if name[0] != "_"})), repr(chain))
+        bound = swivel.bind_joints([-1, 0, 1], places, 0, 1, 2, rotations=rest, bend=bend)
+        self.assertEqual(repr(swivel.bind_joints([1, 2, -1], places[::-1], 2, 1, 0, rotations=rest[::-1], bend=bend)), repr(bound))
+        np.testing.assert_allclose([abs(np.sum(turn * getattr(bound, name))) for turn, name in zip(rest, ("shoulder_rest", "elbow_rest", "wrist_rest"))],
+                                   np.linalg.norm(rest, axis=1), rtol=1e-6)
+        np.testing.assert_allclose(bound.lengths, np.linalg.norm(places[1:], axis=1), rtol=1e-6)
+        self.assertEqual(repr(swivel.Binding(**{name: getattr(bound, name) for name in dir(swivel.Binding) if name[0] != "_"})), repr(bound))
         self.assertEqual(swivel.bind_joints([-1, 0, 1, 1], [*places, (0.1, 0, 0)], 0, 1, 2, twist_bones=[3]).twist_from_arm.shape, (1, 4))
         self.refuses(ValueError, "bind_joints: the elbow, joint 0, is not below the shoulder, joint 1", swivel.bind_joints, [-1, 0, 1], places, 1, 0, 2)
         self.refuses(ValueError, "translations: expected shape (3, 3)", swivel.bind_joints, [-1, 0, 1], places[1:], 0, 1, 2)
@@ -51,7 +55,7 @@ class Calls(Refusals):
             self.assertEqual(getattr(none, name).shape, shape)
 
     def test_things_say_what_they_are(self):
-        binding = swivel.bind((0.5, 0, 0), (0.25, 0, 0), (0, 0, 1))
+        binding = limb_of((0.5, 0, 0), (0.25, 0, 0))
         np.testing.assert_array_equal(eval(repr(binding), {"Binding": swivel.Binding}).upper_from_arm, binding.upper_from_arm)
         self.assertIn("lengths=[0.5, 0.25]", repr(binding))
         self.assertIn("<Crowd of [5, 40] limbs", repr(swivel.Crowd([5, 40], Feature.WORLD)))
@@ -64,7 +68,7 @@ class Groups(unittest.TestCase):
 
     def test_frames_are_those_of_the_groups_as_named(self):
         """Groups have fields and rows of their own, and what a group does not say is the crowd's."""
-        limb = swivel.bind((0.3, 0, 0), (0.25, 0, 0), (0, 0, 1))
+        limb = limb_of((0.3, 0, 0), (0.25, 0, 0))
         bound = swivel.Group(20, limb, Feature.WORLD | Feature.JOINTS | Feature.WITH_HAND)
         crowd = swivel.Crowd([swivel.Group(40), bound, swivel.Group(5, features=0), (6, limb)], Feature.WITH_SHOULDER_CONE)
         self.assertEqual([crowd.features(group) for group in range(4)], [Feature.WITH_SHOULDER_CONE, bound.features, 0, Feature.WITH_SHOULDER_CONE])
@@ -124,7 +128,7 @@ class Groups(unittest.TestCase):
             self.assertEqual(picked(crowd.choose([1, 3, 1], 1)), [False, True, False])
         crowd.choose([1, 2, 4], 1, others)
         np.testing.assert_array_equal(abs(others), (1, 2, 0))
-        crowd.solve(priorities=[1, 1, 1], max_blocks=1, urgency=others)
+        self.assertEqual(crowd.solve(mask=crowd.choose([1, 1, 1], 1, others)), 16)
         np.testing.assert_array_equal(abs(others), (2, 0, 1))
 
 
@@ -148,20 +152,19 @@ class Bits(Refusals):
         whole = crowd_of(sample)
         whole.solve()
         wanted, count = self.results(whole), whole.block_count
-        even, urgency = np.zeros(whole.lane_count, bool), np.zeros((2, count), np.float32)
+        even, urgency = np.zeros(whole.lane_count, bool), np.zeros(count, np.float32)
         even[whole.limbs()] = np.arange(N) % 2 == 0
-        choose = lambda crowd: {"mask": crowd.choose([np.ones(N)], count // 4 + 1, urgency[0])}
+        choose = lambda crowd: {"mask": crowd.choose([np.ones(N)], count // 4 + 1, urgency)}
         out, some = ({"shoulder": np.full((N, 4), 7, np.float32), "flags": np.full(N, 7, np.uint32)} for _ in range(2))
         inputs, here = {"target": sample.targets, "pole": sample.poles}, {"on_this_thread": True}
         ways = [  # jobs, and how many limbs each of them solves
             ([{"blocks": (block, 1), **here} for block in range(count)], [min(16, N - 16 * block) for block in range(count)]),
             ([{"mask": even}, {"blocks": (0, count), "mask": ~even, **here}], [N // 2, N // 2]),
-            ([{"limbs": []}, {"limbs": np.random.default_rng(4).permutation(N)}], [0, N]),
+            ([{"mask": np.zeros(whole.lane_count, bool)}, {"mask": np.ones(whole.lane_count, bool)}], [0, N]),  # padding, too
             ([{"streams": {**inputs, **out}}], [N]),
             ([{"streams": [inputs], "blocks": (first, 9), **here} for first in range(0, count, 9)], [9 * 16] * 6 + [N - 6 * 9 * 16]),
-            ([{"limbs": whole.limbs()[1::2], "streams": {"target": sample.targets, **some}}, {"limbs": whole.limbs()[::2]}], [N // 2, N // 2]),
+            ([{"mask": ~even, "streams": {"target": sample.targets, **some}}, {"mask": even}], [N // 2, N // 2]),
             ([choose] * 4, [16 * 16] * 3 + [N - 3 * 16 * 16 + 16]),
-            ([{"priorities": [1.0], "max_blocks": 20, "urgency": urgency[1]}] * 4, [320, 320, 320, 312]),
         ]
         for jobs, solved in ways:
             crowd = crowd_of(sample)

@@ -195,19 +195,6 @@ class Scenes(unittest.TestCase):
                     seen |= {field} if np.any(saved) else set()
         self.assertEqual(seen, set(CARRIED))
 
-    def test_probes_only_finds_probes_and_moves_nobody(self):
-        [scene] = [scene for scene in scenes() if scene["name"] == "standing ground"]
-        player = Player(scene)
-        player.solve(scene["frames"][0])
-        player.write(scene["frames"][1])
-        crowd, (pose, written) = player.crowd, player.pose(scene["frames"][1])
-        before, probes = (crowd.read(Field.PLANT), crowd.read(Field.PROBE), digest(written)), np.zeros((player.bodies, 3), np.float32)
-        self.assertEqual(crowd.solve(groups=[0], pose=pose, streams={"probe": probes}, probes_only=True), player.bodies)
-        np.testing.assert_array_equal(probes, crowd.read(Field.PROBE))
-        self.assertTrue(np.any(probes != before[1]))
-        np.testing.assert_array_equal(crowd.read(Field.PLANT), before[0])
-        self.assertEqual(digest(written), before[2])
-
     def test_regions_have_the_room_of_cpp(self):
         given = next(group["region"] for scene in scenes() for group in scene["groups"] if "region" in group)
         np.testing.assert_array_equal(region_of(given).room(array(given["probes"]).reshape(-1, 3)), array(given["rooms"]))

@@ -50,13 +50,12 @@ class Threads(unittest.TestCase):
 
     def test_long_calls_release_the_gil(self):
         crowd, ones = self.crowd, np.ones(N, np.float32)
-        lanes, active = np.arange(N), np.ones(self.crowd.lane_count, bool)
+        active = np.ones(self.crowd.lane_count, bool)
         out, target = np.zeros((N, 4), np.float32), self.sample.targets
         place = np.zeros((N, 3))
         blocks = (0, crowd.block_count)
         bodies, pose = crowd_of(20000, swivel.Feature.POLE_INCOMING), swivel.Pose(Bodies(20000).rotations)
         for call in (crowd.solve, lambda: crowd.solve(blocks=blocks, on_this_thread=True), lambda: crowd.solve(mask=active),
-                     lambda: crowd.solve(limbs=lanes), lambda: crowd.solve(priorities=[ones], max_blocks=1000),
                      lambda: crowd.choose([ones], 1000), crowd.reset,
                      lambda: crowd.solve(streams={"target": target, "shoulder": out}),
                      lambda: crowd.solve(streams={"target": target}, blocks=blocks, on_this_thread=True),

@@ -43,7 +43,7 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
 
     Further keywords are the input fields' lower-case names, and bring the features they need: hand=, parent_rotation=, reach=,
     shoulder_cone=, ...; docs/python.md lists them with their shapes. features adds those without a field, such as
-    Feature.POLE_DIRECTION. binding, from bind(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): all
+    Feature.POLE_DIRECTION. binding, from bind_joints(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): all
     positions are taken from there in double precision.
 
     No arms, arrays of length 0, give none. ValueError for shapes that do not go together, for lengths that nobody gave and for a

@@ -9,7 +9,7 @@ class Group(NamedTuple):
     """Limbs that share features and a binding, for Crowd. None: as the crowd says for all of its groups.
 
     limb_count      1 or more
-    binding         from bind() or bind_joints(); Feature.JOINTS needs it
+    binding         from bind_joints(); Feature.JOINTS needs it
     features        members of Feature, combined with |
     on_bad_input    what a limb with bad input gets
     shoulder_order  of Field.SHOULDER_BOX

@@ -47,7 +47,7 @@ export class LimbRows {
         const group = limb.index, { blockCount } = crowd;
         this.inputs = this.texture(crowd.inputRows(group), blockCount);
         this.results = this.texture(crowd.resultRows(group), blockCount);
-        const row = (name) => (crowd.fieldRowCount(Field[name], group) > 0 ? crowd.fieldFirstRow(Field[name], group) : -1);
+        const row = (name) => (crowd.componentCount(Field[name], group) > 0 ? crowd.fieldFirstRow(Field[name], group) : -1);
         this.uniforms = {
             uInputs: this.inputs, uResults: this.results,
             uTargetRow: row("TARGET"), uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"), uWeightsRow: row("WEIGHTS"),

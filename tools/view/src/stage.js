@@ -99,7 +99,7 @@ export class Stage {
         this.crowd?.dispose();
         this.crowd = made;
         this.poses ??= this.zeros(this.memory.calls.swivel_goal_pose_size(made.crowd) * this.characterCount);
-        this.urgency ??= this.zeros(made.blockCount);  // of a budget
+        this.urgency ??= new Float32Array(made.blockCount);  // of a budget
         this.urgency.fill(0);
         this.groups = Array.from({ length: made.groupCount }, (_, group) => group);
         this.carriesState = this.data.budget_blocks > 0 || this.groups.some((group) => this.carries(group));
@@ -196,8 +196,8 @@ export class Stage {
     job(borrowed) {
         const job = borrowed.structure("swivel_job");
         if (this.data.budget_blocks === 0 || !this.hasSolved) return job;
-        const alike = borrowed.words([borrowed.floats([1]), 0]);
-        return job.words("priorities", alike).words("urgency", this.urgency.byteOffset).words("max_blocks", this.data.budget_blocks);
+        const mask = this.crowd.choose([[1]], this.data.budget_blocks, this.urgency);
+        return job.words("mask", borrowed.words(mask)).words("mask_word_count", mask.length);
     }
     /** From the clip's end to its start is no motion. */
     forgetEnds() {

@@ -3,20 +3,10 @@ import { Numbers, numbers, options, whole } from "./arguments.js";
 import { layout } from "./layout.js";
 import type { Borrowed, Memory, Structure } from "./memory.js";
 
-/** A shoulder, elbow and wrist joint at rest, as swivel_chain: rotations x, y, z, w are the identity if left out. */
-export interface Chain {
-    /** Rest rotations, each relative to the joint above: the shoulder's to its parent, the elbow's to the shoulder. */
-    shoulderRotation?: Numbers;
-    elbowRotation?: Numbers;
-    wristRotation?: Numbers;
-    /** The elbow's place in the shoulder joint's frame, and the wrist's in the elbow joint's. */
-    elbowOffset: Numbers;
-    wristOffset: Numbers;
-    /** Where flexion carries the forearm, in the shoulder joint's frame. Left out: the rest pose shows it. */
-    bend?: Numbers;
-}
-
-/** A skeleton at rest, joint after joint: parents (-1 for a root), translations (3), rotations (4; left out: none). */
+/**
+ * A skeleton at rest, joint after joint: parents (-1 for a root), translations (3, in the parent's frame), rotations (4, x, y, z, w, relative to
+ * the parent; left out: no joint is turned).
+ */
 export interface Skeleton {
     parents: Numbers;
     translations: Numbers;
@@ -29,14 +19,14 @@ export interface LimbJoints {
     elbow: number;
     wrist: number;
     twistBones?: Numbers;
-    /** As Chain's. */
+    /** Where flexion carries the forearm, in the shoulder joint's frame. Left out: the rest pose shows it. */
     bend?: Numbers;
 }
 
 /** Where a binding's numbers begin, behind its size. Their bytes are the same on every platform. */
 const BEGIN = layout.swivel_binding.parent_from_arm;
 
-/** Maps the arm frame to a skeleton's joints: a swivel_binding. Swivel.bind() and Swivel.bindJoints() make it. */
+/** Maps the arm frame to a skeleton's joints: a swivel_binding. Swivel.bindJoints() makes it. */
 export class Binding {
     readonly bytes = new Uint8Array(layout.swivel_binding.bytes);
     /** @internal */
@@ -51,31 +41,7 @@ export class Binding {
     }
 }
 
-/** Makes a binding by a call that writes it. */
-function make(memory: Memory, write: (borrowed: Borrowed, binding: number) => number): Binding {
-    return memory.borrow((borrowed) => {
-        const binding = borrowed.structure("swivel_binding");
-        memory.check(write(borrowed, binding.at));
-        return new Binding(memory.bytes(binding.at + BEGIN, layout.swivel_binding.bytes - BEGIN));
-    });
-}
-
-const identity = [0, 0, 0, 1], shownByPose = [0, 0, 0];
-
-/** @internal */
-export function bind(memory: Memory, given: Chain): Binding {
-    const of = options("bind()", given, "shoulderRotation", "elbowRotation", "wristRotation", "elbowOffset", "wristOffset", "bend");
-    return make(memory, (borrowed, binding) => {
-        const chain = borrowed.structure("swivel_chain");
-        chain.floats("shoulder_rotation", numbers("shoulderRotation", of.shoulderRotation ?? identity, 4));
-        chain.floats("elbow_rotation", numbers("elbowRotation", of.elbowRotation ?? identity, 4));
-        chain.floats("wrist_rotation", numbers("wristRotation", of.wristRotation ?? identity, 4));
-        chain.floats("elbow_offset", numbers("elbowOffset", of.elbowOffset, 3));
-        chain.floats("wrist_offset", numbers("wristOffset", of.wristOffset, 3));
-        chain.floats("bend", numbers("bend", of.bend ?? shownByPose, 3));
-        return memory.calls.swivel_bind(chain.at, binding);
-    });
-}
+const shownByPose = [0, 0, 0];
 
 /** @internal */
 export function putSkeleton(given: Skeleton, borrowed: Borrowed): Structure<"swivel_skeleton"> {
@@ -98,6 +64,9 @@ export function putJoints(given: LimbJoints, borrowed: Borrowed): Structure<"swi
 
 /** @internal */
 export function bindJoints(memory: Memory, skeleton: Skeleton, joints: LimbJoints): Binding {
-    return make(memory, (borrowed, binding) =>
-        memory.calls.swivel_bind_joints(putSkeleton(skeleton, borrowed).at, putJoints(joints, borrowed).at, binding));
+    return memory.borrow((borrowed) => {
+        const binding = borrowed.structure("swivel_binding");
+        memory.check(memory.calls.swivel_bind_joints(putSkeleton(skeleton, borrowed).at, putJoints(joints, borrowed).at, binding.at));
+        return new Binding(memory.bytes(binding.at + BEGIN, layout.swivel_binding.bytes - BEGIN));
+    });
 }

@@ -7,37 +7,13 @@ import { CrowdRows, Limbs } from "./rows.js";
 export type { BodiesGroup, BodyGroup, Fit, FitGroup, Ground, Group, GroupOptions, Look, LookGroup, Plant, Prop, PropGroup } from "./groups.js";
 export type { Limbs } from "./rows.js";
 
-/**
- * What a solve does, as swivel_job: at most one of mask, limbs and priorities. Left out: every limb. In a crowd of bodies blocks, masks,
- * lists and priorities count bodies.
- */
+/** What a solve does, as swivel_job. Left out: every limb. In a crowd of bodies blocks and masks count bodies. */
 export interface Job {
     blocks?: { first: number; count: number };
-    /** Numbers of groups: no others are solved. Not with priorities. */
+    /** Numbers of groups: no others are solved. */
     groups?: Numbers;
-    /** Bit i % 32 of word i / 32 is limb i = firstLimb(group) + n. Two blocks of 16 limbs share a word. */
+    /** Bit i % 32 of word i / 32 is limb i = firstLimb(group) + n. Two blocks of 16 limbs share a word. choose() makes one. */
     mask?: Numbers;
-    /** Limbs as firstLimb(group) + n. */
-    limbs?: Numbers;
-    /** For each group, or once for bodies: one number for each limb, or one for all. The maxBlocks most urgent blocks are solved. */
-    priorities?: readonly Numbers[];
-    maxBlocks?: number;
-    /**
-     * How long blocks have waited: blockCount numbers, zeros at first. Give the same array each time; each solve changes it, so that
-     * blocks take turns. Left out: priorities alone decide.
-     */
-    urgency?: Float32Array;
-    /**
-     * Finds Field.PROBE of groups with Feature.WITH_GROUND, and changes nothing else. Sample the ground there, give Field.GROUND and
-     * Field.GROUND_NORMAL, and solve. A solve calls no function of yours.
-     */
-    probesOnly?: boolean;
-}
-
-/** A limb, counted within its group. */
-export interface Place {
-    group: number;
-    limb: number;
 }
 
 /** Swivels allowed, from one to the other by the right hand: cosine and sine of each end, angle 0 being the wish. */
@@ -57,20 +33,52 @@ type Answer = (group: number, first: number, count: number, out: number) => numb
 
 /** A crowd: the limbs that one call solves. Swivel.crowd() makes it. */
 export class Crowd extends CrowdRows {
-    /** Solves limbs, and returns how many. */
+    /**
+     * Solves limbs, and returns how many. It calls no function of yours: with Feature.WITH_GROUND read Field.PROBE after a solve, sample the
+     * ground there, and give Field.GROUND and Field.GROUND_NORMAL for the next one.
+     */
     solve(job: Job = {}): number {
         const { memory } = this;
         return memory.borrow((borrowed) => {
             const solved = borrowed.bytes(4);
             const to = borrowed.structure("swivel_job").words("solved_count", solved).words("pose", this.posed);
-            const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "maxBlocks", "urgency", "probesOnly");
-            this.name(chosen.groups, to, borrowed);
-            const urgency = this.wait(chosen.urgency, to, borrowed);
-            this.choose(chosen, to, borrowed);
-            to.words("probes_only", Number(Boolean(chosen.probesOnly)));
+            const { blocks, groups, mask } = options("solve()", job, "blocks", "groups", "mask");
+            const words = (name: string, values: Numbers): number => {
+                if (!(values instanceof Uint32Array)) for (const value of Array.from(numbers(name, values))) whole(name, value);
+                return borrowed.words(values);
+            };
+            this.name(groups, to, borrowed);
+            if (blocks) to.words("blocks", words("blocks", [blocks.first, blocks.count]));
+            if (mask) to.words("mask", words("mask", mask)).words("mask_word_count", mask.length);
             memory.check(memory.calls.swivel_solve(this.crowd, to.at));
-            chosen.urgency?.set(urgency);
             return memory.words(solved, 1)[0];
+        });
+    }
+    /**
+     * Picks at most maxBlocks blocks of 16 limbs, the most urgent ones, and solves nothing. Returns the mask of their limbs, for solve().
+     * priorities: for each group, or once for bodies, one number for each limb, or one for all. urgency: how long blocks have waited:
+     * blockCount numbers, zeros at first. Give the same array each time; each call changes it, so that blocks take turns. Left out:
+     * priorities alone decide.
+     */
+    choose(priorities: readonly Numbers[], maxBlocks: number, urgency?: Float32Array): Uint32Array {
+        const { memory } = this;
+        const [count, of] = this.posed ? [1, "bodies; give one list"] : [this.groupCount, `${this.groupCount} groups; give one list for each`];
+        if (!Array.isArray(priorities)) refuse(`priorities is ${shown(priorities)}; give a list for each group`);
+        if (priorities.length !== count) refuse(`${priorities.length} priorities for ${of}`);
+        if (urgency !== undefined && !(urgency instanceof Float32Array)) refuse(`urgency is ${shown(urgency)}; give a Float32Array, which choose() changes`);
+        return memory.borrow((borrowed) => {
+            const streams = priorities.map((values, group) => {
+                const { length } = numbers("priorities", values);
+                if (length !== 1 && length !== this.limbCount(group))
+                    refuse(`${length} priorities for the ${this.limbCount(group)} limbs of group ${group}; give one for each, or one for all`);
+                return [borrowed.floats(values), length === 1 ? 0 : 4];
+            });
+            const waited = urgency === undefined ? 0 : borrowed.floats(numbers("urgency", urgency, this.blockCount));
+            const wordCount = Math.ceil(this.blockCount / 2), mask = borrowed.bytes(4 * wordCount);
+            memory.check(memory.calls.swivel_choose(
+                this.crowd, borrowed.words(streams.flat()), waited, whole("maxBlocks", maxBlocks), mask, wordCount, 0));
+            if (urgency !== undefined) urgency.set(memory.floats(waited, urgency.length));
+            return memory.words(mask, wordCount).slice();
         });
     }
     /** A bit for each group that a job names, and their streams. */
@@ -87,50 +95,12 @@ export class Crowd extends CrowdRows {
     }
     /** Whether a group's streams list any field. */
     private lists(group: number): boolean { return this.listOf(group)[1] > 0; }
-    /** Lends the library the urgency of blocks, which a solve changes. */
-    private wait(urgency: Float32Array | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): Float32Array {
-        if (urgency === undefined) return new Float32Array();
-        if (!(urgency instanceof Float32Array)) refuse(`urgency is ${shown(urgency)}; give a Float32Array, which solves change`);
-        const at = borrowed.floats(numbers("urgency", urgency, this.blockCount));
-        to.words("urgency", at);
-        return this.memory.floats(at, urgency.length);
-    }
-    private choose({ blocks, mask, limbs, priorities, maxBlocks }: Job, to: Structure<"swivel_job">, borrowed: Borrowed): void {
-        const indices = (name: string, values: Numbers): number => {
-            if (!(values instanceof Uint32Array)) for (const value of Array.from(numbers(name, values))) whole(name, value);
-            return borrowed.words(values);
-        };
-        if (blocks) to.words("blocks", indices("blocks", [blocks.first, blocks.count]));
-        if (mask) to.words("mask", indices("mask", mask)).words("mask_word_count", mask.length);
-        if (limbs) to.words("limbs", borrowed.words([indices("limbs", limbs), limbs.length]));
-        if ((priorities === undefined) !== (maxBlocks === undefined)) refuse("solve() takes priorities and maxBlocks together");
-        if (!priorities) return;
-        const [count, of] = this.posed ? [1, "bodies; give one list"] : [this.groupCount, `${this.groupCount} groups; give one list for each`];
-        if (priorities.length !== count) refuse(`${priorities.length} priorities for ${of}`);
-        const streams = priorities.map((values, group) => {
-            const { length } = numbers("priorities", values);
-            if (length !== 1 && length !== this.limbCount(group))
-                refuse(`${length} priorities for the ${this.limbCount(group)} limbs of group ${group}; give one for each, or one for all`);
-            return [borrowed.floats(values), length === 1 ? 0 : 4];
-        });
-        to.words("priorities", borrowed.words(streams.flat())).words("max_blocks", whole("maxBlocks", maxBlocks as number));
-    }
 
     /** Forgets what limbs carry from solve to solve: swivels, planted points, shifts and lifts. */
     reset(limbs: Limbs = {}): void {
         const { group, first, count } = this.place(limbs);
         this.memory.check(this.memory.calls.swivel_reset(this.crowd, group, first, count));
         for (const field of carried) this.refresh(field, group);
-    }
-
-    /** The first limb with any of these flags, from a place on. To go on, add 1 to its limb. */
-    find(flags: number, from: Place = { group: 0, limb: 0 }): Place | undefined {
-        return this.memory.borrow((borrowed) => {
-            const at = borrowed.words([whole("group", from.group), whole("limb", from.limb)]);
-            if (!this.memory.calls.swivel_find(this.crowd, whole("flags", flags), at, at + 4)) return undefined;
-            const [group, limb] = this.memory.words(at, 2);
-            return { group, limb };
-        });
     }
 
     /** Why a limb is as it is, from its present inputs, in a sentence or two. */

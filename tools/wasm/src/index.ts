@@ -6,10 +6,10 @@ import { Swivel } from "./swivel.js";
 
 export { SwivelError } from "./arguments.js";
 export type { FieldNumber, Numbers } from "./arguments.js";
-export type { Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
+export type { Binding, LimbJoints, Skeleton } from "./binding.js";
 export type { Bodies, BodiesOptions, Comparison, LimbPlaces, PosePart, Support } from "./bodies.js";
 export type {
-    Arc, BodiesGroup, BodyGroup, Crowd, Fit, FitGroup, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Place, Plant, Prop, PropGroup,
+    Arc, BodiesGroup, BodyGroup, Crowd, Fit, FitGroup, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Plant, Prop, PropGroup,
 } from "./crowd.js";
 export {
     defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, featureRules, Field, Flag, LANES, MAX_TWIST_BONES, OnBadInput, Order, PoseForm,

@@ -6,14 +6,12 @@ import type { FunctionName } from "./functions.js";
 import { layout, Status } from "./layout.js";
 
 /** Functions that take or give numbers of 64 bits. */
-type Wide = "swivel_digest" | "swivel_group_features" | "swivel_component_count" | "swivel_packed_row";
+type Wide = "swivel_digest" | "swivel_group_features";
 
 /** The functions of swivel.h as WebAssembly has them: pointers and counts are numbers. */
 export interface Exports extends Record<Exclude<FunctionName, Wide>, (...values: number[]) => number> {
     swivel_digest(crowd: number): bigint;
     swivel_group_features(crowd: number, group: number): bigint;
-    swivel_component_count(field: number, features: bigint): number;
-    swivel_packed_row(features: bigint, field: number): number;
     malloc(bytes: number): number;
     free(at: number): void;
     _initialize(): void;

@@ -79,11 +79,11 @@ export class CrowdRows {
     private group(group: number): CheckedGroup {
         return this.groups[group] ?? refuse(`group ${shown(group)} does not exist; the crowd has ${this.groupCount}`);
     }
-    /** The index of a group's first limb in rows, masks and lists of limbs. */
+    /** The index of a group's first limb in rows and masks. */
     firstLimb(group = 0): number { return this.limbCount(group) && this.memory.calls.swivel_group_first_limb(this.crowd, group); }
-    /** The numbers of a field's value; 0 if the group's features do not bring the field. */
+    /** The numbers of a field's value, each of which is a row of a block; 0 if the group does not have the field. */
     componentCount(field: FieldNumber, group = 0): number {
-        return nameOf(field) ? this.memory.calls.swivel_component_count(field, this.features(group)) : 0;
+        return nameOf(field) ? this.rowsOf("swivel_field_row_count", field, group) : 0;
     }
 
     /**
@@ -147,7 +147,7 @@ export class CrowdRows {
     }
     /** A group's results in 16-bit words, a copy, as swivel_pack says. */
     pack(group = 0): Uint16Array {
-        const count = Math.ceil(this.limbCount(group) / LANES), rows = this.memory.calls.swivel_packed_row(this.features(group), RESULT_END);
+        const count = Math.ceil(this.limbCount(group) / LANES), rows = this.rowsOf("swivel_packed_row", RESULT_END, group);
         return this.memory.borrow((borrowed) => {
             const words = borrowed.bytes(2 * rows * count * LANES);
             this.memory.check(this.memory.calls.swivel_pack(this.crowd, group, borrowed.words([0, count]), words));
@@ -155,11 +155,9 @@ export class CrowdRows {
         });
     }
     /** The row of words in which a field begins. */
-    packedRow(field: FieldNumber, group = 0): number { return this.memory.calls.swivel_packed_row(this.features(group), field); }
+    packedRow(field: FieldNumber, group = 0): number { return this.rowsOf("swivel_packed_row", field, group); }
     /** A field's first row in a block of the group. */
     fieldFirstRow(field: FieldNumber, group = 0): number { return this.rowsOf("swivel_field_first_row", field, group); }
-    /** A field's rows in a block; 0 if the group does not have the field. */
-    fieldRowCount(field: FieldNumber, group = 0): number { return this.rowsOf("swivel_field_row_count", field, group); }
 
     /** Checked, because WebAssembly takes everything for a number. */
     protected place(limbs: Limbs): Required<Limbs> {
@@ -212,7 +210,7 @@ export class CrowdRows {
             this.memory.check(this.memory.calls.swivel_read(this.crowd, field, group, first, count, out));
         });
     }
-    private rowsOf(call: "swivel_field_first_row" | "swivel_field_row_count", field: FieldNumber, group: number): number {
+    private rowsOf(call: "swivel_field_first_row" | "swivel_field_row_count" | "swivel_packed_row", field: number, group: number): number {
         this.group(group);
         return this.memory.calls[call](this.crowd, group, field);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { Numbers, numbers, refuse, shown, whole } from "./arguments.js";
-import { bind, bindJoints, Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
+import { bindJoints, Binding, LimbJoints, Skeleton } from "./binding.js";
 import { Bodies, BodiesOptions } from "./bodies.js";
 import { Crowd } from "./crowd.js";
 import { freeGroups, Group } from "./groups.js";
@@ -30,7 +30,7 @@ export class Swivel {
     bodies(given: BodiesOptions & { rootIsDouble: true }): Bodies<Float64Array>;
     bodies(given: BodiesOptions): Bodies;
     bodies(given: BodiesOptions): Bodies<Float32Array | Float64Array> { return new Bodies(this.memory, given); }
-    bind(chain: Chain): Binding { return bind(this.memory, chain); }
+    /** The alignments of a limb, from a skeleton's rest pose, and the lengths of its bones. */
     bindJoints(skeleton: Skeleton, joints: LimbJoints): Binding { return bindJoints(this.memory, skeleton, joints); }
     /** A region that is empty: add to it what upper arms may do. Or one from its bytes behind its size, as the command stores them. */
     region(behindSize?: Uint8Array): Region { return new Region(this.memory, behindSize); }
