@@ -24,7 +24,10 @@ public:
         pose_.root_rotation = {bodies[0].root_rotation, sizeof(BodyCharacter)};
     }
     swivel::Crowd& crowd() { return crowd_; }
-    swivel::Job job() const { return {.streams = frames_, .on_this_thread = true, .pose = &pose_}; }
+    swivel::Job job() const
+    {
+        return {.streams = {frames_.begin(), frames_.end()}, .on_this_thread = true, .pose = &pose_};
+    }
 
     std::vector<BodyCharacter> bodies;
 
@@ -33,9 +36,12 @@ private:
     {
         const swivel_skeleton skeleton = body_skeleton();
         const auto joints = body_limbs();
-        std::vector<swivel_group_def> groups;
+        std::array<swivel_body_limb_def, kBodyLimbs> limbs;
+        std::array<swivel_group_def, kBodyLimbs> groups;
         for (std::size_t limb = 0; limb < kBodyLimbs; ++limb) {
-            groups.push_back(swivel::body_group(joints[limb], SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING));
+            limbs[limb] = swivel::body_limb(joints[limb], SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING);
+            groups[limb] = swivel_default_group_def();
+            groups[limb].body_limb = &limbs[limb];
             BodyGoal& goal = bodies[0].goals[limb];
             fields_[limb] = {
                 {{SWIVEL_TARGET, goal.target, sizeof(BodyCharacter)}, {SWIVEL_HAND, goal.hand, sizeof(BodyCharacter)}}};
@@ -79,10 +85,11 @@ void add_swivel(const Suite& suite, const SharedCrowd& crowd)
         add_job("bodies/" + isa, isa, crowd, crowd->job(), checked("bodies/" + isa, worst_miss(crowd->bodies)));
     }
     // Without the other limbs; and with goals that lie in rows, where earlier jobs have left them.
+    static constexpr std::array first_limb = {0u};
     swivel::Job one_limb = crowd->job(), from_rows = crowd->job();
-    one_limb.groups = {0};
-    one_limb.streams = (*one_limb.streams).first(1);
-    from_rows.streams = swivel::everything;
+    one_limb.groups = first_limb;
+    one_limb.streams.resize(1);
+    from_rows.streams.clear();
     add_job("bodies_one_limb/" + suite.best_isa(), suite.best_isa(), crowd, one_limb);
     add_job("bodies_from_rows/" + suite.best_isa(), suite.best_isa(), crowd, from_rows);
 }

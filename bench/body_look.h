@@ -8,13 +8,13 @@
 
 namespace bench {
 
-inline swivel_group_def body_look()
+inline swivel_look_def body_look()
 {
-    swivel_group_def def = swivel::look_group(kLookChain);
-    std::ranges::copy(kLookShares, def.look.share);
-    std::ranges::copy(kLookMax, def.look.cos_max);
-    std::ranges::copy(kEye, def.look.eye);
-    return def;
+    swivel_look_def look = swivel::look(kLookChain);
+    std::ranges::copy(kLookShares, look.share);
+    std::ranges::copy(kLookMax, look.cos_max);
+    std::ranges::copy(kEye, look.eye);
+    return look;
 }
 
 }  // namespace bench

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/rivals/bodies.h"
-#include "swivel/swivel.hpp"
+#include "swivel/swivel_bodies.hpp"
 
 namespace bench {
 

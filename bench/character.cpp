@@ -53,18 +53,20 @@ private:
     static swivel::Crowd make(const Parts& parts)
     {
         const auto joints = body_limbs();
-        std::vector<swivel_group_def> groups;
+        std::vector<swivel::Definition> groups;
         if (parts.arms) {
-            groups.push_back(swivel::body_group(joints[kRightArm], kRifle));
-            groups.back().region = &rifle_region();
-            groups.push_back(swivel::body_group(joints[0], kEvery | SWIVEL_WITH_LINK));
-            groups.back().link = 0;
+            swivel_body_limb_def rifle = swivel::body_limb(joints[kRightArm], kRifle);
+            rifle.region = &rifle_region();
+            swivel_body_limb_def other = swivel::body_limb(joints[0], kEvery | SWIVEL_WITH_LINK);
+            other.link = 0;
+            groups = {rifle, other};
         }
-        for (std::size_t leg = 0; parts.legs && leg < 2; ++leg) {
-            groups.push_back(swivel::body_group(joints[kLegs + leg], kLeg));
-            std::ranges::copy(kHeel, groups.back().ground.heel);
+        for (std::size_t n = 0; parts.legs && n < 2; ++n) {
+            swivel_body_limb_def leg = swivel::body_limb(joints[kLegs + n], kLeg);
+            std::ranges::copy(kHeel, leg.ground.heel);
+            groups.push_back(leg);
         }
-        if (parts.legs) groups.push_back(swivel::fit_group());
+        if (parts.legs) groups.push_back(swivel_default_shift_def());
         if (parts.look) groups.push_back(body_look());
         return swivel::Crowd(body_skeleton(), kCharacters, groups);
     }

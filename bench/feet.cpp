@@ -54,27 +54,26 @@ private:
     swivel::Crowd make(const Cast& cast)
     {
         const auto joints = body_limbs();
-        std::vector<swivel_group_def> groups;
+        std::vector<swivel_body_limb_def> limbs;
         for (std::size_t limb = 0; limb < kBodyLimbs; ++limb) {
             const bool is_leg = limb >= 2;
             if (!(is_leg ? cast.has_legs : cast.has_arms)) continue;
             const bool is_linked = !is_leg && (cast.hold == Hold::prop || (cast.hold == Hold::hand && limb == 0));
-            group[limb] = static_cast<std::uint32_t>(groups.size());
-            groups.push_back(swivel::body_group(joints[limb], kEvery | (is_leg      ? cast.legs | SWIVEL_WITH_EFFECTOR
-                                                                        : is_linked ? SWIVEL_WITH_LINK
-                                                                                    : 0)));
-            groups.back().ground.heel[1] = -0.05f;
+            group[limb] = static_cast<std::uint32_t>(limbs.size());
+            limbs.push_back(swivel::body_limb(joints[limb], kEvery | (is_leg      ? cast.legs | SWIVEL_WITH_EFFECTOR
+                                                                      : is_linked ? SWIVEL_WITH_LINK
+                                                                                  : 0)));
+            limbs.back().ground.heel[1] = -0.05f;
         }
         if (cast.hold == Hold::hand) {  // the leader first
-            std::swap(groups[0], groups[1]);
+            std::swap(limbs[0], limbs[1]);
             std::swap(group[0], group[1]);
-            groups[1].link = 0;
+            limbs[1].link = 0;
         }
-        if (cast.hold == Hold::prop) {
-            groups[0].link = groups[1].link = static_cast<std::uint32_t>(groups.size());
-            groups.push_back(swivel_default_prop_group_def());
-        }
-        if (cast.legs & SWIVEL_WITH_PELVIS_FIT) groups.push_back(swivel::fit_group());
+        if (cast.hold == Hold::prop) limbs[0].link = limbs[1].link = static_cast<std::uint32_t>(limbs.size());
+        std::vector<swivel::Definition> groups(limbs.begin(), limbs.end());
+        if (cast.hold == Hold::prop) groups.push_back(swivel_default_prop_def());
+        if (cast.legs & SWIVEL_WITH_PELVIS_FIT) groups.push_back(swivel_default_shift_def());
         return swivel::Crowd(body_skeleton(), kBodies, groups);
     }
     void write_goals(std::size_t limb)

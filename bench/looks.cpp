@@ -33,9 +33,9 @@ private:
     static swivel::Crowd make(bool look)
     {
         const auto joints = body_limbs();
-        std::vector<swivel_group_def> groups;
+        std::vector<swivel::Definition> groups;
         for (std::size_t arm = 0; arm < kArms; ++arm)
-            groups.push_back(swivel::body_group(joints[arm], SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING));
+            groups.push_back(swivel::body_limb(joints[arm], SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING));
         if (look) groups.push_back(body_look());
         return swivel::Crowd(body_skeleton(), kBodies, groups);
     }

@@ -6,6 +6,7 @@
 
 #include "bench/rivals/production_limb.h"
 #include "bench/shares.h"
+#include "swivel/swivel_regions.hpp"
 
 namespace bench {
 

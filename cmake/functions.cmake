@@ -1,29 +1,44 @@
 # SPDX-License-Identifier: MIT
-# swivel_functions(header variable): the names of the functions that swivel.h declares.
-function(swivel_functions header variable)
-  file(READ ${header} text)
+# swivel_headers(folder variable): the C headers that declare the library's functions, in the folder that has them.
+function(swivel_headers folder variable)
+  set(headers swivel.h swivel_bodies.h swivel_regions.h swivel_explain.h)
+  list(TRANSFORM headers PREPEND ${folder}/)
+  set(${variable} ${headers} PARENT_SCOPE)
+endfunction()
+
+# swivel_code(headers variable): the text of headers without comments, with ends of lines for semicolons.
+function(swivel_code headers variable)
+  set(text "")
+  foreach(header IN LISTS headers)
+    file(READ ${header} one)
+    string(APPEND text "${one}")
+  endforeach()
   string(REGEX REPLACE "//[^\n]*" "" text "${text}")
   string(REPLACE ";" "\n" text "${text}")
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# swivel_functions(headers variable): the names of the functions that headers declare.
+function(swivel_functions headers variable)
+  swivel_code("${headers}" text)
   string(REGEX MATCHALL "SWIVEL_API[^(]*[ *]swivel_[a-z_]+[(]" functions "${text}")
   list(TRANSFORM functions REPLACE ".*[ *](swivel_[a-z_]+)[(]" "\\1")
   list(SORT functions)
   list(FIND functions swivel_solve solve)
   if(solve EQUAL -1)
-    message(FATAL_ERROR "no functions found in ${header}")
+    message(FATAL_ERROR "no functions found in ${headers}")
   endif()
   set(${variable} ${functions} PARENT_SCOPE)
 endfunction()
 
-# swivel_members(header structure variable): the names of the members of a structure of a public header, without pointers to functions and to arrays.
-function(swivel_members header structure variable)
-  file(READ ${header} text)
-  string(REGEX REPLACE "//[^\n]*" "" text "${text}")
-  string(REPLACE ";" "\n" text "${text}")
+# swivel_members(headers structure variable): the names of the members of a structure of public headers, without pointers to functions and to arrays.
+function(swivel_members headers structure variable)
+  swivel_code("${headers}" text)
   string(REGEX REPLACE "\\[[^]]*]|[(][^)]*[)]" "" text "${text}")
   string(REGEX MATCH "typedef struct ${structure} {[^}]*}" text "${text}")
   string(REGEX MATCHALL "[a-z_]+[,\n]" members "${text}")
   if(NOT members)
-    message(FATAL_ERROR "${structure} not found in ${header}")
+    message(FATAL_ERROR "${structure} not found in ${headers}")
   endif()
   list(TRANSFORM members REPLACE "[,\n]" "")
   set(${variable} ${members} PARENT_SCOPE)

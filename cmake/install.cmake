@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
-# `cmake --install` puts these under the prefix: the headers, both libraries, the command with its benchmarks and page,
+# `cmake --install` puts these under the prefix: the headers, the libraries, the command with its benchmarks and page,
 # package files and the licence. You may move the whole prefix, because no file names its place.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(FILES include/swivel/swivel.h include/swivel/swivel.hpp include/swivel/lecture.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swivel)
+set(headers include/swivel/lecture.h)
+foreach(header swivel swivel_bodies swivel_regions swivel_explain)
+  list(APPEND headers include/swivel/${header}.h include/swivel/${header}.hpp)
+endforeach()
+install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swivel)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-foreach(library swivel swivel_lecture)
+foreach(library swivel swivel_explain swivel_lecture)
   target_include_directories(${library} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   install(TARGETS ${library} EXPORT swivelTargets)
 endforeach()
@@ -48,7 +52,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/swivelConfig.cmake ${CMAKE_CURRENT_BIN
         DESTINATION ${package_dir})
 install(EXPORT swivelTargets NAMESPACE swivel:: DESTINATION ${package_dir})
 
-# ---- pkg-config swivel
+# ---- pkg-config swivel, and swivel-explain for programs that explain
 # pkg-config sets ${pcfiledir} to the folder in which it finds the file, so the prefix may move.
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH pc_libdir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -60,5 +64,11 @@ endif()
 string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
 list(TRANSFORM pc_private PREPEND -l)
 list(JOIN pc_private " " pc_private)
-configure_file(cmake/swivel.pc.in swivel.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/swivel.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+set(pc_explain "")
+if(NOT BUILD_SHARED_LIBS)
+  set(pc_explain "-L\${libdir} -lswivel_explain")
+endif()
+foreach(file swivel.pc swivel-explain.pc)
+  configure_file(cmake/${file}.in ${file} @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

@@ -2,7 +2,7 @@
 //
 // Rotations and numbers in 16-bit words. Float arithmetic alone rounds them: adding a large number leaves an
 // integer, or a half float's digits, in the low bits of the sum. They are rounded to nearest, ties to even. The words
-// stay in the bits of a T; the code that stores them cuts them out. swivel.h documents the words and how to read them.
+// stay in the bits of a T; the code that stores them cuts them out. docs/howto/results.md says how to read the words.
 #pragma once
 
 #include "core/conformal.h"

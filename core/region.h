@@ -12,6 +12,7 @@
 
 #include "core/choose_swivel.h"
 #include "core/joint_limits.h"
+#include "include/swivel/swivel_regions.h"
 
 namespace swivel::inline SWIVEL_ISA {
 

@@ -39,15 +39,18 @@ int main(void)
     const float shoulder[SIDE_COUNT][3] = {{0.18f, 1.40f, 0}, {-0.18f, 1.40f, 0}};
     const char* const names[SIDE_COUNT] = {"left", "right"};
 
-    swivel_group_def groups[SIDE_COUNT]; /* limbs of one skeleton's one side: here a single one each */
+    swivel_limb_def arms[SIDE_COUNT]; /* limbs of one skeleton's one side: here a single one each */
+    swivel_group_def groups[SIDE_COUNT];
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
     int side;
 
     for (side = LEFT; side < SIDE_COUNT; ++side) {
-        groups[side] = swivel_default_group_def(1);
-        groups[side].features = SWIVEL_WORLD | SWIVEL_JOINTS;
-        if (bind_arm(side, &groups[side].binding) != SWIVEL_OK) return failed("swivel_bind_joints");
+        arms[side] = swivel_default_limb_def(1);
+        arms[side].features = SWIVEL_WORLD | SWIVEL_JOINTS;
+        if (bind_arm(side, &arms[side].binding) != SWIVEL_OK) return failed("swivel_bind_joints");
+        groups[side] = swivel_default_group_def();
+        groups[side].limb = &arms[side];
     }
     def.groups = groups;
     def.group_count = SIDE_COUNT;

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <swivel/swivel.hpp>
+#include <swivel/swivel_bodies.hpp>
 #include <vector>
 
 namespace {
@@ -109,19 +109,21 @@ swivel::Crowd make_crowd(std::size_t count)
         limbs[2 + side].bend[2] = 1;
     }
     const swivel_features all = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND;
-    std::vector<swivel_group_def> groups;
-    for (const swivel_limb_joints& leg : std::span(limbs).first(2)) {
-        groups.push_back(swivel::body_group(leg, all | SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_GROUND |
-                                                     SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS |
-                                                     SWIVEL_WITH_HAND_TRANSFORM));
-        groups.back().ground.heel[1] = kToe[1];
-        groups.back().ground.heel[2] = -0.06f;
+    std::vector<swivel::Definition> groups;
+    for (const swivel_limb_joints& joints : std::span(limbs).first(2)) {
+        swivel_body_limb_def leg = swivel::body_limb(
+            joints, all | SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP |
+                        SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS | SWIVEL_WITH_HAND_TRANSFORM);
+        leg.ground.heel[1] = kToe[1];
+        leg.ground.heel[2] = -0.06f;
+        groups.push_back(leg);
     }
-    groups.push_back(swivel::fit_group());
-    groups.push_back(swivel_default_prop_group_def());
-    for (const swivel_limb_joints& arm : std::span(limbs).last(2)) {
-        groups.push_back(swivel::body_group(arm, all | SWIVEL_WITH_LINK));
-        groups.back().link = RIFLE;
+    groups.push_back(swivel_default_shift_def());
+    groups.push_back(swivel_default_prop_def());
+    for (const swivel_limb_joints& joints : std::span(limbs).last(2)) {
+        swivel_body_limb_def arm = swivel::body_limb(joints, all | SWIVEL_WITH_LINK);
+        arm.link = RIFLE;
+        groups.push_back(arm);
     }
     swivel::Crowd crowd(skeleton, static_cast<std::uint32_t>(count), groups);
     for (std::uint32_t side = 0; side < 2; ++side) {
@@ -164,7 +166,7 @@ void solve(swivel::Crowd& crowd, std::vector<Character>& crew, const float& seco
     }
     streams[RIFLE].out(SWIVEL_PROP_TRANSFORM, {&first.rifle, step}).out(SWIVEL_FLAGS, {&first.flags[3], step});
     streams[LEFT].out(SWIVEL_FLAGS, {&first.flags[4], step});
-    crowd.solve({.streams = streams, .pose = &pose, .sample = sample});
+    crowd.solve({.streams = {streams.begin(), streams.end()}, .pose = &pose, .sample = sample});
 }
 
 // ..................................................................................................................

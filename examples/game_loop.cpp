@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <swivel/swivel.hpp>
+#include <swivel/swivel_bodies.hpp>
 #include <vector>
 
 namespace {
@@ -107,11 +107,12 @@ swivel::Crowd make_crowd()
     skeleton.translations = swivel::stream(kOffsets);
     skeleton.joint_count = kJoints;
     std::array<swivel_limb_joints, kLimbs> limbs;
-    std::array<swivel_group_def, kLimbs> groups;
+    std::vector<swivel::Definition> groups;
     for (std::size_t n = 0; n < kLimbs; ++n) {
         limbs[n] = swivel_default_limb_joints(kFirstJoints[n], kFirstJoints[n] + 1, kFirstJoints[n] + 2);
-        limbs[n].bend[2] = n < 2 ? 1 : -1;                               // elbows bend forwards, knees backwards
-        groups[n] = swivel::body_group(limbs[n], SWIVEL_POLE_INCOMING);  // on the side where the animation has them
+        limbs[n].bend[2] = n < 2 ? 1 : -1;  // elbows bend forwards, knees backwards
+        // On the side where the animation has them.
+        groups.push_back(swivel::body_limb(limbs[n], SWIVEL_POLE_INCOMING));
     }
     return swivel::Crowd(skeleton, kBodyCount, groups);
 }
@@ -148,7 +149,7 @@ void solve_bodies(Game& game)
     std::array<swivel::Streams, kLimbs> streams;
     for (std::size_t n = 0; n < kLimbs; ++n)
         streams[n].in(SWIVEL_TARGET, swivel::stream(game.characters, &Character::targets, n));
-    game.crowd.solve({.mask = game.turns, .streams = streams, .pose = &pose});
+    game.crowd.solve({.mask = game.turns, .streams = {streams.begin(), streams.end()}, .pose = &pose});
 }
 
 void run(Game& game)

@@ -65,20 +65,22 @@ static swivel_status bind_limb(uint32_t first_joint, float forwards, swivel_bind
 
 static swivel_status make_crowd(swivel_crowd** crowd)
 {
+    // [groups]
+    swivel_limb_def legs = swivel_default_limb_def(CHARACTER_COUNT);
+    swivel_limb_def arms = swivel_default_limb_def(CHARACTER_COUNT);
     swivel_group_def groups[GROUP_COUNT];
     swivel_crowd_def def = swivel_default_crowd_def();
-
-    // [groups]
-    groups[LEGS] = swivel_default_group_def(CHARACTER_COUNT);
-    groups[LEGS].features = SWIVEL_WORLD | SWIVEL_JOINTS;
-    groups[ARMS] = swivel_default_group_def(CHARACTER_COUNT);
-    groups[ARMS].features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE;
-    groups[ARMS].on_bad_input = SWIVEL_KEEP_POSE;
+    legs.features = SWIVEL_WORLD | SWIVEL_JOINTS;
+    arms.features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE;
+    arms.on_bad_input = SWIVEL_KEEP_POSE;
+    groups[LEGS] = groups[ARMS] = swivel_default_group_def();
+    groups[LEGS].limb = &legs;
+    groups[ARMS].limb = &arms;
     def.groups = groups;
     def.group_count = GROUP_COUNT;
     // [end]
-    if (bind_limb(HIP, -1, &groups[LEGS].binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
-    if (bind_limb(SHOULDER, 1, &groups[ARMS].binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
+    if (bind_limb(HIP, -1, &legs.binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
+    if (bind_limb(SHOULDER, 1, &arms.binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
     return swivel_crowd_create(&def, crowd);
 }
 

@@ -7,7 +7,7 @@ int main()
 {
     const float targets[2][3] = {{0.3f, 0.1f, 0.3f}, {0.0f, 0.2f, 9.0f}};  // for the wrists; the second is out of reach
     const float pole[3] = {0, -1, 0}, lengths[2] = {0.30f, 0.26f};         // upper arm, forearm
-    swivel::Crowd crowd({swivel::group(2)});  // group 0: two arms, in the arm frame, whose origin is the shoulder
+    swivel::Crowd crowd({swivel::limbs(2)});  // group 0: two arms, in the arm frame, whose origin is the shoulder
     crowd.write(SWIVEL_TARGET, 0, targets);
     crowd.write_all(SWIVEL_POLE, 0, pole);
     crowd.write_all(SWIVEL_LENGTHS, 0, lengths);

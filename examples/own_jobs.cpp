@@ -136,8 +136,8 @@ bool equal_results(swivel::Crowd& a, swivel::Crowd& b)
 
 int compare()
 {
-    const swivel_group_def arms[] = {swivel::group(kArmCount)};
-    swivel::Crowd ours(arms), theirs(arms);
+    const swivel_limb_def arms = swivel::limbs(kArmCount);
+    swivel::Crowd ours({arms}), theirs({arms});
     JobSystem jobs(std::clamp(std::thread::hardware_concurrency(), 2u, 8u));
 
     // Rows in, rows out: the host writes inputs, its threads solve.
@@ -158,9 +158,8 @@ int compare()
 
     // The host's own structures in and out, in the same way: each job copies in, solves and copies out its own blocks.
     const swivel::Streams streams = streams_of(characters), other_streams = streams_of(as_well);
-    const std::array<swivel_streams, 1> views = {streams};
     on_all_blocks(jobs, ours, [&](std::uint32_t first, std::uint32_t count) {
-        ours.solve({.blocks = swivel_blocks{first, count}, .streams = views, .on_this_thread = true});
+        ours.solve({.blocks = swivel_blocks{first, count}, .streams = {streams}, .on_this_thread = true});
     });
     theirs.solve({.streams = {other_streams}});
     const bool streams_equal = characters == as_well;

@@ -180,19 +180,18 @@ int replay(const char* path, std::size_t body_count)
     const std::vector<Body> bodies = make_bodies(body_count, clip.frame_count);
     std::array<std::vector<Source>, 2> sources;
     std::array<std::vector<BodyArm>, 2> arms;
-    std::array<swivel_group_def, 2> groups;  // left arms, right arms: a group shares how its joints lie at rest
+    std::array<swivel_limb_def, 2> groups;  // left arms, right arms: a group shares how its joints lie at rest
     for (std::size_t side = 0; side < 2; ++side) {
         const Arm arm = find_arm(clip, kSides[side]);
-        const swivel_binding limb = bind_arm(clip, arm);
         sources[side] = sources_of(clip, arm);
-        groups[side] = swivel::group(static_cast<std::uint32_t>(body_count), limb,
-                                     SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND);
+        groups[side] =
+            swivel::limbs(static_cast<std::uint32_t>(body_count), SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND);
+        groups[side].binding = bind_arm(clip, arm);
         arms[side].resize(body_count);
-        set_lengths(arms[side], bodies, limb.lengths);
+        set_lengths(arms[side], bodies, groups[side].binding.lengths);
     }
-    swivel::Crowd crowd(groups);
+    swivel::Crowd crowd({groups[0], groups[1]});
     const swivel::Streams left = streams_of(arms[0]), right = streams_of(arms[1]);
-    const std::array<swivel_streams, 2> streams = {left, right};
 
     const auto step = static_cast<std::size_t>(std::max(1.0, std::round(1 / (30 * clip.frame_time))));  // 30 a second
     std::size_t played = 0;
@@ -201,7 +200,7 @@ int replay(const char* path, std::size_t body_count)
     for (std::size_t frame = 0; frame < clip.frame_count; frame += step, ++played) {
         for (std::size_t side = 0; side < 2; ++side) set_frame(arms[side], bodies, sources[side], frame);
         const auto start = std::chrono::steady_clock::now();
-        crowd.solve({.streams = streams});
+        crowd.solve({.streams = {left, right}});
         seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         measure(crowd, arms, errors);
     }

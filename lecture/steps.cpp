@@ -14,7 +14,7 @@ using namespace swivel;
 namespace {
 
 constexpr double kMin = 1e-9;  // below this share a length or a sine is rounding: dividing by it says nothing
-constexpr double kShortest = 1e-15, kLongest = 1e15;  // valid input, as swivel.h has it: eighth powers stay finite
+constexpr double kShortest = 1e-15, kLongest = 1e15;  // valid input, docs/fields.md: eighth powers stay finite
 
 // Blades in the order of their numbers; a coefficient's blade is in the multivector's type.
 template <BladeSet S>

@@ -46,7 +46,7 @@ enum PosedRow : std::uint32_t {
     kPosedRows = kShiftedRow + 3
 };
 // Behind the rows of all joints lie the values that stages hand on from group to group, or from pass to pass. A limb
-// whose goal the library makes (SWIVEL_SENT) has:
+// whose goal the library makes (kLibraryGoal) has:
 enum GoalRow : std::uint32_t {
     kGoalPlaceRow,  // from the root's place before it is shifted; where it is linked, after that
     kGoalHandRow = kGoalPlaceRow + 3,

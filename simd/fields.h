@@ -7,19 +7,45 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "include/swivel/swivel.h"
+#include "include/swivel/swivel_bodies.h"
 
 namespace swivel {
 
 inline constexpr std::uint32_t kLanes = SWIVEL_LANES;  // limbs in a block
 
-// ---- features: which others each needs, and which it excludes
-inline constexpr swivel_features kTwistBones = SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES,
-                                 kHandLimits = SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
-                                               SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
-// The features that every group of bodies has, and those that make one no limb.
-inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
-                                 kNoLimb = SWIVEL_NO_LIMB;
+// ---- what the library knows of a group besides its features, as further bits: no caller gives or sees them
+inline constexpr swivel_features kBody = UINT64_C(1) << 52;         // of bodies: limb i is body i's
+inline constexpr swivel_features kLibraryGoal = UINT64_C(1) << 53;  // the library makes the limb's goal: plants, links
+inline constexpr swivel_features kShift = UINT64_C(1) << 54;
+inline constexpr swivel_features kProp = UINT64_C(1) << 55;
+inline constexpr swivel_features kLook = UINT64_C(1) << 56;
+inline constexpr swivel_features kOneTwistBone = UINT64_C(1) << 57;  // times their number
+inline constexpr swivel_features kTwistBones = SWIVEL_MAX_TWIST_BONES * kOneTwistBone, kPublicFeatures = kBody - 1;
+// The bits that every group of bodies has, and those that make one no limb.
+inline constexpr swivel_features kOfBodies = kBody | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
+                                 kNoLimb = kShift | kProp | kLook;
+
+// ---- kinds of groups
+constexpr swivel_kind kind_of(swivel_features features)
+{
+    return features & kLook    ? SWIVEL_KIND_LOOK
+           : features & kProp  ? SWIVEL_KIND_PROP
+           : features & kShift ? SWIVEL_KIND_SHIFT
+           : features & kBody  ? SWIVEL_KIND_BODY_LIMB
+                               : SWIVEL_KIND_LIMB;
+}
+// A group of a kind, in messages.
+constexpr const char* text_of(swivel_kind kind)
+{
+    constexpr const char* texts[] = {"a free limb", "a body's limb", "a look", "a prop", "a body's shift"};
+    return texts[kind];
+}
+inline constexpr std::uint32_t kFreeLimbs = 1u << SWIVEL_KIND_LIMB, kBodyLimbs = 1u << SWIVEL_KIND_BODY_LIMB,
+                               kLimbs = kFreeLimbs | kBodyLimbs;
+
+// ---- features: which kinds of groups may have each, which others it needs, and which it excludes
+inline constexpr swivel_features kHandLimits =
+    SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 // These say where elbows go; a group has one of them, or a pole that is a point.
 inline constexpr swivel_features kPoles =
     SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND;
@@ -27,16 +53,18 @@ struct FeatureRow {
     swivel_features feature;
     const char* name;
     swivel_features needs = 0, excludes = 0;
+    std::uint32_t kinds = kLimbs;
 };
+// Bodies' limbs have the needs of WORLD and WITH_INCOMING without the features.
 constexpr FeatureRow kFeatures[] = {
-    {SWIVEL_WORLD, "WORLD"},
-    {SWIVEL_JOINTS, "JOINTS"},
+    {SWIVEL_WORLD, "WORLD", 0, 0, kFreeLimbs},
+    {SWIVEL_JOINTS, "JOINTS", 0, 0, kFreeLimbs},
     {SWIVEL_WITH_HAND, "WITH_HAND"},
     {SWIVEL_POLE_DIRECTION, "POLE_DIRECTION", SWIVEL_WORLD, kPoles & ~SWIVEL_POLE_DIRECTION},
     {SWIVEL_WITH_EFFECTOR, "WITH_EFFECTOR", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_ANGLE, "WITH_ANGLE"},
     {SWIVEL_POLE_NORMAL, "POLE_NORMAL", 0, kPoles & ~SWIVEL_POLE_NORMAL},
-    {SWIVEL_WITH_INCOMING, "WITH_INCOMING"},
+    {SWIVEL_WITH_INCOMING, "WITH_INCOMING", 0, 0, kFreeLimbs},
     {SWIVEL_POLE_INCOMING, "POLE_INCOMING", SWIVEL_WITH_INCOMING, kPoles & ~SWIVEL_POLE_INCOMING},
     {SWIVEL_WITH_WEIGHTS, "WITH_WEIGHTS", SWIVEL_WITH_INCOMING},
     {SWIVEL_WITH_REACH, "WITH_REACH"},
@@ -51,51 +79,34 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_WRIST_BOX, "WITH_WRIST_BOX", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_AIM, "WITH_AIM", 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits},
     {SWIVEL_WITH_CLAVICLE, "WITH_CLAVICLE", SWIVEL_WORLD},
-    {SWIVEL_BODY, "BODY", SWIVEL_WORLD | SWIVEL_WITH_INCOMING, SWIVEL_JOINTS},
-    {SWIVEL_WITH_RECORD, "WITH_RECORD", SWIVEL_BODY},
-    {SWIVEL_WITH_PLANT, "WITH_PLANT", SWIVEL_BODY, SWIVEL_WITH_AIM},
-    {SWIVEL_WITH_PLANT_ROTATION, "WITH_PLANT_ROTATION", SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND},
-    {SWIVEL_PLANT_BY_MOTION, "PLANT_BY_MOTION", SWIVEL_WITH_PLANT},
+    {SWIVEL_WITH_RECORD, "WITH_RECORD", 0, 0, kBodyLimbs},
+    {SWIVEL_WITH_PLANT, "WITH_PLANT", 0, SWIVEL_WITH_AIM, kBodyLimbs},
+    {SWIVEL_WITH_PLANT_ROTATION, "WITH_PLANT_ROTATION", SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND, 0, kBodyLimbs},
+    {SWIVEL_PLANT_BY_MOTION, "PLANT_BY_MOTION", SWIVEL_WITH_PLANT, 0, kBodyLimbs},
     {SWIVEL_WITH_CAP, "WITH_CAP", SWIVEL_WITH_INCOMING, SWIVEL_WITH_AIM | SWIVEL_WITH_REACH},
-    {SWIVEL_WITH_PELVIS_FIT, "WITH_PELVIS_FIT", SWIVEL_BODY, SWIVEL_WITH_AIM},
-    {SWIVEL_WITH_NEXT_TARGET, "WITH_NEXT_TARGET", SWIVEL_WITH_PELVIS_FIT},
-    {SWIVEL_FIT, "FIT", kOfBodies, ~(kOfBodies | SWIVEL_FIT)},
+    {SWIVEL_WITH_PELVIS_FIT, "WITH_PELVIS_FIT", 0, SWIVEL_WITH_AIM, kBodyLimbs},
+    {SWIVEL_WITH_NEXT_TARGET, "WITH_NEXT_TARGET", SWIVEL_WITH_PELVIS_FIT, 0, kBodyLimbs},
     {SWIVEL_HAND_YIELDS, "HAND_YIELDS", SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_AIM},
-    {SWIVEL_WITH_HAND_TRANSFORM, "WITH_HAND_TRANSFORM", SWIVEL_BODY | SWIVEL_WITH_HAND},
-    {SWIVEL_WITH_LINK, "WITH_LINK", SWIVEL_BODY | SWIVEL_WITH_HAND,
-     SWIVEL_WITH_AIM | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT},
-    {SWIVEL_PROP, "PROP", kOfBodies, ~(kOfBodies | SWIVEL_PROP)},
-    {SWIVEL_WITH_GROUND, "WITH_GROUND", SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR},
-    {SWIVEL_SENT, "SENT", SWIVEL_BODY},
-    {SWIVEL_LOOK, "LOOK", kOfBodies, ~(kOfBodies | SWIVEL_LOOK)},
+    {SWIVEL_WITH_HAND_TRANSFORM, "WITH_HAND_TRANSFORM", SWIVEL_WITH_HAND, 0, kBodyLimbs},
+    {SWIVEL_WITH_LINK, "WITH_LINK", SWIVEL_WITH_HAND, SWIVEL_WITH_AIM | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT,
+     kBodyLimbs},
+    {SWIVEL_WITH_GROUND, "WITH_GROUND", SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR, 0, kBodyLimbs},
     {SWIVEL_WITH_REGION, "WITH_REGION"},
     {SWIVEL_STEP_WINS, "STEP_WINS", SWIVEL_WITH_MAX_SWIVEL},
     {SWIVEL_POLE_HAND, "POLE_HAND", SWIVEL_WITH_HAND, (kPoles & ~SWIVEL_POLE_HAND) | SWIVEL_WITH_AIM},
-    {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
-inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
 
-// All bits of a row's feature: the number of twist bones has three.
-constexpr swivel_features bits_of(const FeatureRow& row)
-{
-    return row.feature == SWIVEL_WITH_TWIST_BONES ? kTwistBones : row.feature;
-}
-// The features that a group of these has besides, by itself.
-constexpr swivel_features with_sent(swivel_features features)
-{
-    return features & (SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK) ? features | SWIVEL_SENT : features & ~SWIVEL_SENT;
-}
-// Every feature, with the number of twist bones at its largest.
 inline constexpr swivel_features kKnownFeatures = [] {
     swivel_features known = 0;
-    for (const FeatureRow& row : kFeatures) known |= bits_of(row);
+    for (const FeatureRow& row : kFeatures) known |= row.feature;
     return known;
 }();
-// The name of the first feature of a set that is not empty.
+static_assert((kKnownFeatures & ~kPublicFeatures) == 0);
+// The name of the first feature of a set that has one.
 constexpr const char* feature_name(swivel_features features)
 {
     const FeatureRow* row = kFeatures;
-    while (!(features & bits_of(*row))) ++row;
+    while (!(features & row->feature)) ++row;
     return row->name;
 }
 
@@ -176,7 +187,7 @@ constexpr FieldRow but_not(swivel_features features, FieldRow row)
     return row;
 }
 // One that a body's pose gives where there is one.
-constexpr FieldRow unless_posed(const FieldRow& row) { return but_not(SWIVEL_BODY, row); }
+constexpr FieldRow unless_posed(const FieldRow& row) { return but_not(kBody, row); }
 constexpr float kIdentity[] = {0, 0, 0, 1}, kAnyCone[] = {0, 0, 1, -1};
 constexpr float kAnyRange[] = {1, 0, -1, 0};  // its middle 0, half its width pi
 constexpr float kAnyRanges[] = {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0};
@@ -184,7 +195,7 @@ constexpr FieldRow kFields[] = {
     place(SWIVEL_TARGET, "target", 0, 0, {0, 0, 2}, Start::unknown),
     place(SWIVEL_POLE, "pole", 0, SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND, {0, -1, 0}, Start::neutral),
     input(SWIVEL_LENGTHS, "lengths", 0, {"0 or 1e-15 to 1e15 each"}, {1, 1}, {}, Start::unknown),
-    place(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, SWIVEL_BODY, {0, 0, 0}, Start::unknown),
+    place(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, kBody, {0, 0, 0}, Start::unknown),
     unless_posed(input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion, kIdentity)),
     unless_posed(input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, {"1e-15 to 1e15"}, {1})),
     input(SWIVEL_HAND, "hand", SWIVEL_WITH_HAND, kQuaternion, kIdentity),
@@ -218,7 +229,7 @@ constexpr FieldRow kFields[] = {
     input(SWIVEL_PELVIS_FIT_WEIGHT, "pelvis_fit_weight", SWIVEL_WITH_PELVIS_FIT, kShareRange, {1}),
     place(SWIVEL_NEXT_TARGET, "next_target", SWIVEL_WITH_NEXT_TARGET, 0, {0, 0, 0}, Start::neutral),
     input(SWIVEL_NEXT_TIME, "next_time", SWIVEL_WITH_NEXT_TARGET, {"0 to 1e15", {ValuePart::time}}, {1e15f}),
-    input(SWIVEL_SHIFT_WISH, "shift_wish", SWIVEL_FIT, {"no further than 1e15 from 0", {ValuePart::offset}}, {0}),
+    input(SWIVEL_SHIFT_WISH, "shift_wish", kShift, {"no further than 1e15 from 0", {ValuePart::offset}}, {0}),
     place(SWIVEL_GROUND, "ground", SWIVEL_WITH_GROUND, 0, {0, 0, 0}, Start::unknown),
     input(SWIVEL_GROUND_NORMAL, "ground_normal", SWIVEL_WITH_GROUND, {"of length 1e-9 to 1e9", {ValuePart::direction}},
           {0, 1, 0}),
@@ -227,33 +238,33 @@ constexpr FieldRow kFields[] = {
           {"a place no further than 1e15 and a quaternion of length 1e-9 to 1e9",
            {ValuePart::position, ValuePart::quaternion}},
           {0, 0, 0, 0, 0, 0, 1}),
-    place(SWIVEL_PROP_POSITION, "prop_position", SWIVEL_PROP, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_PROP_ROTATION, "prop_rotation", SWIVEL_PROP, kQuaternion, kIdentity, {}, Start::unknown),
-    input(SWIVEL_HAND_BLEND, "hand_blend", SWIVEL_PROP, kShareRange, {0}),
-    input(SWIVEL_PROP_WEIGHT, "prop_weight", SWIVEL_PROP, kShareRange, {1}),
-    place(SWIVEL_LOOK_TARGET, "look_target", SWIVEL_LOOK, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_LOOK_WEIGHT, "look_weight", SWIVEL_LOOK, kShareRange, {1}),
+    place(SWIVEL_PROP_POSITION, "prop_position", kProp, 0, {0, 0, 0}, Start::unknown),
+    input(SWIVEL_PROP_ROTATION, "prop_rotation", kProp, kQuaternion, kIdentity, {}, Start::unknown),
+    input(SWIVEL_HAND_BLEND, "hand_blend", kProp, kShareRange, {0}),
+    input(SWIVEL_PROP_WEIGHT, "prop_weight", kProp, kShareRange, {1}),
+    place(SWIVEL_LOOK_TARGET, "look_target", kLook, 0, {0, 0, 0}, Start::unknown),
+    input(SWIVEL_LOOK_WEIGHT, "look_weight", kLook, kShareRange, {1}),
     {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, {""}, {0, 0, 0, 1}},
     {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, {""}, {1, 0}},
     {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, {""}, {0, 0, 0, 1}},
     {SWIVEL_FLAGS, "flags", 1, kResult},
     {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH, 0, {""}, {1}},
     {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MAX_SWIVEL},
-    {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES, 0, {""}, {0, 0, 0, 1}},
+    {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_HAND, 0, {""}, {0, 0, 0, 1}},
     {SWIVEL_CLAVICLE_ROTATION, "clavicle_rotation", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, {""}, {0, 0, 0, 1}},
     {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD, 0, {""}, {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0,
                                                                                   0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}},
     {SWIVEL_PLANT, "plant", 11, kCarried, SWIVEL_WITH_PLANT},
     {SWIVEL_PLANT_ROTATION, "plant_rotation", 10, kCarried, SWIVEL_WITH_PLANT_ROTATION},
     {SWIVEL_CONTACT_STATE, "contact_state", 4, kCarried, SWIVEL_PLANT_BY_MOTION},
-    {SWIVEL_SOLVED_GOAL, "solved_goal", 7, kResult, SWIVEL_SENT | SWIVEL_WITH_RECORD, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
-    {SWIVEL_SHIFT, "shift", 3, kCarried, SWIVEL_FIT},
+    {SWIVEL_SOLVED_GOAL, "solved_goal", 7, kResult, kLibraryGoal | SWIVEL_WITH_RECORD, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_SHIFT, "shift", 3, kCarried, kShift},
     {SWIVEL_PROBE, "probe", 3, kResult, SWIVEL_WITH_GROUND},
     {SWIVEL_LIFT, "lift", 9, kCarried, SWIVEL_WITH_GROUND},
     {SWIVEL_HAND_TRANSFORM, "hand_transform", 7, kResult, SWIVEL_WITH_HAND_TRANSFORM, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
-    {SWIVEL_PROP_TRANSFORM, "prop_transform", 7, kResult, SWIVEL_PROP, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
-    {SWIVEL_SIGHT, "sight", 6, kResult, SWIVEL_LOOK, 0, {""}, {0, 0, 0, 0, 0, 1}},
-    {SWIVEL_LOOK_TURNS, "look_turns", 1 + 3 * SWIVEL_MAX_LOOK_JOINTS, kCarried, SWIVEL_LOOK},
+    {SWIVEL_PROP_TRANSFORM, "prop_transform", 7, kResult, kProp, 0, {""}, {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_SIGHT, "sight", 6, kResult, kLook, 0, {""}, {0, 0, 0, 0, 0, 1}},
+    {SWIVEL_LOOK_TURNS, "look_turns", 1 + 3 * SWIVEL_MAX_LOOK_JOINTS, kCarried, kLook},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 
@@ -283,6 +294,18 @@ static_assert([] {
             return false;
     return true;
 }());
+
+// The kinds of groups that may have a field.
+constexpr std::uint32_t kinds_of(const FieldRow& row)
+{
+    if (row.field == SWIVEL_FLAGS)
+        return kLimbs | 1u << SWIVEL_KIND_LOOK | 1u << SWIVEL_KIND_PROP | 1u << SWIVEL_KIND_SHIFT;
+    if (row.needs & kNoLimb) return 1u << kind_of(row.needs);
+    std::uint32_t kinds = row.excludes & kBody ? kFreeLimbs : row.needs & kLibraryGoal ? kBodyLimbs : kLimbs;
+    for (const FeatureRow& feature : kFeatures)
+        if (row.needs & feature.feature) kinds &= feature.kinds;
+    return kinds;
+}
 
 // Whether NaN stands for a value that is not given, which the library or the pose then gives.
 constexpr bool may_be_missing(const FieldRow& row) { return row.starts == Start::unknown || row.field == SWIVEL_HAND; }

@@ -29,7 +29,7 @@ struct SolveRun {
     std::size_t limb_count;  // padding included, but gathered limbs may end within their block
     swivel_features features;
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
-    const swivel_binding* binding;              // used with SWIVEL_JOINTS and SWIVEL_BODY
+    const swivel_binding* binding;              // used with SWIVEL_JOINTS and kBody
     const std::uint16_t* first_row;             // of each field, among input or result rows
     bool from_memory;                           // the job's rows do not fit the caches
     bool keeps;                                 // of limbs with bad input only the flags are written

@@ -13,7 +13,7 @@ namespace swivel {
 
 constexpr std::uint32_t twist_bone_count(swivel_features features)
 {
-    return static_cast<std::uint32_t>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1));
+    return static_cast<std::uint32_t>(features / kOneTwistBone % (SWIVEL_MAX_TWIST_BONES + 1));
 }
 
 // Rows of a field, one for each float or uint32_t of a value. 0 if groups with these features do not have it.
@@ -21,7 +21,7 @@ constexpr std::uint32_t field_row_count(swivel_features features, swivel_field f
 {
     if (field == SWIVEL_ELBOW && (features & SWIVEL_JOINTS)) return 4;
     if (field == SWIVEL_TWIST_BONES) return 4 * twist_bone_count(features);
-    if (field == SWIVEL_CLAVICLE && (features & SWIVEL_BODY)) return (features & SWIVEL_WITH_CLAVICLE) != 0;
+    if (field == SWIVEL_CLAVICLE && (features & kBody)) return (features & SWIVEL_WITH_CLAVICLE) != 0;
     const FieldRow& row = row_of(field);
     if ((features ^ row.needs) & kNoLimb && field != SWIVEL_FLAGS) return 0;
     return (features & row.needs) == row.needs && !(features & row.excludes) ? row.component_count : 0;
@@ -83,7 +83,7 @@ struct RowPlan {
 
 // The features with the most rows that a block can have.
 inline constexpr swivel_features kEveryFeature =
-    ~(SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_BODY | SWIVEL_PLANT_BY_MOTION | kNoLimb);
+    ~(SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | kBody | SWIVEL_PLANT_BY_MOTION | kNoLimb);
 static_assert([] {
     for (const FieldRow& row : kFields)
         if (field_row_count(kEveryFeature | row.needs, row.field) == 0) return false;

@@ -128,7 +128,7 @@ template <swivel_features Features>
 SWIVEL_INLINE Binding binding_of(const SolveRun& run)
 {
     const Rotor<float> q = rotor(0.0f, 0.0f, 0.0f, 1.0f);
-    if (!(features_of<Features>(run) & (SWIVEL_JOINTS | SWIVEL_BODY))) return {q, q, q, q, q, q};
+    if (!(features_of<Features>(run) & (SWIVEL_JOINTS | kBody))) return {q, q, q, q, q, q};
     const swivel_binding& b = *run.binding;
     const Rotor<float> wrist_parent = broadcast<float>(b.wrist_parent_from_arm);
     return {broadcast<float>(b.parent_from_arm),

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "swivel/swivel_bodies.hpp"
 #include "tests/test_arm.h"
 #include "tests/test_random.h"
 
@@ -110,17 +111,18 @@ private:
     std::size_t element(int row, int column) const;
 };
 
-// A group for each limb, with the same features, as edit(group) leaves it; and more groups after them.
+// A group for each limb, with the same features, as edit(limb) leaves it; and more groups after them.
 inline Crowd body_crowd(const BodySkeleton& skeleton, swivel_features features, std::uint32_t body_count,
-                        const std::function<void(swivel_group_def&)>& edit = {},
-                        const std::vector<swivel_group_def>& more = {})
+                        const std::function<void(swivel_body_limb_def&)>& edit = {},
+                        const std::vector<Definition>& more = {})
 {
     std::vector<swivel_limb_joints> joints;
     for (std::size_t n = 0; n < skeleton.limbs.size(); ++n) joints.push_back(skeleton.joints(n));
-    std::vector<swivel_group_def> groups;
+    std::vector<Definition> groups;
     for (const swivel_limb_joints& each : joints) {
-        groups.push_back(body_group(each, features));
-        if (edit) edit(groups.back());
+        swivel_body_limb_def limb = body_limb(each, features);
+        if (edit) edit(limb);
+        groups.push_back(limb);
     }
     groups.insert(groups.end(), more.begin(), more.end());
     return Crowd(skeleton.view(), body_count, groups);

@@ -81,21 +81,27 @@ endfunction()
 
 set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
 set(nowhere "^$")
-set(public "\"include/swivel/swivel[.]h\"")  # the numbers of fields, features and flags
+set(public "\"include/swivel/swivel(_bodies|_regions)?[.]h\"")  # the numbers of fields, features and flags, and definitions
 
-# ---- the public headers: swivel.h needs none of ours, swivel.hpp its neighbour alone
-may_include(include "include/swivel/swivel[.]h$" "<(std(def|int)|string)[.]h>")
-may_include(include "include/swivel/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
-may_include(include "" "${standard}|\"swivel[.]h\"|<(std(def|int)|string)[.]h>")
+# ---- the public headers: swivel.h and lecture.h need none of ours, others a neighbour or two
+may_include(include "include/swivel/(swivel|lecture)[.]h$" "<(std(def|int)|string)[.]h>")
+may_include(include "include/swivel/swivel_(bodies|regions)[.]h$" "\"swivel[.]h\"")
+may_include(include "include/swivel/swivel_explain[.]h$" "\"swivel_bodies[.]h\"")
+may_include(include "include/swivel/swivel[.]hpp$" "${standard}|\"swivel_bodies[.]h\"")
+may_include(include "include/swivel/swivel_bodies[.]hpp$" "\"swivel[.]hpp\"")
+may_include(include "include/swivel/swivel_regions[.]hpp$" "\"swivel[.]hpp\"|\"swivel_regions[.]h\"")
+may_include(include "include/swivel/swivel_explain[.]hpp$" "\"swivel[.]hpp\"|\"swivel_explain[.]h\"")
+may_include(include "" "${standard}|\"swivel(_bodies|_regions|_explain)?[.]h(pp)?\"|<(std(def|int)|string)[.]h>")
 
-# ---- core: formulas and the standard library; the oracle shares nothing with the formulas. arm.h takes the bits of flags from swivel.h
+# ---- core: formulas and the standard library; the oracle shares nothing with the formulas. arm.h takes the bits of flags from swivel.h,
+# region.h the structure of a region from swivel_regions.h
 may_include(core "core/(isa|bit_cast|num|algebra|conformal|pack|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
             "<(bit|cmath|cstddef|cstdint|type_traits|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|pack|arm|reach|frame_rotor|solve_arm|space)[.]h\"|${public}")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
 may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"|${public}")
-must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/arm[.]h$" "formulas know no crowd; arm.h knows the bits of flags")
+must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/(arm|region)[.]h$" "formulas know no crowd; arm.h knows the bits of flags, region.h regions")
 
 # ---- simd: lanes and rows are on the ground; stages of limbs, stages of bodies and the files of kernels stand above them in this order
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
@@ -114,10 +120,13 @@ may_include(simd/kernels "(arm_kernels[.]cpp|aside[.]h)$" "${standard}|\"core/(i
 may_include(simd/kernels "limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(limbs|bodies)/[a-z]+_stages[.]h\"")
 may_include(simd/kernels "body_kernels[.]cpp$" "${standard}|\"core/(fit|(joint|matrix)_frame)[.]h\"|\"simd/bodies/body_[a-z]+[.]h\"")
 
-# ---- batch: never lanes. A room sees the rooms that stand before it here.
+# ---- batch: never lanes. A room sees the rooms that stand before it here. Explanations are a library of their own.
 set(rooms "refusal")
 foreach(room refusal region crowd solve api query explain)
   string(APPEND rooms "|${room}")
+  if(room STREQUAL "explain")
+    string(APPEND public "|\"include/swivel/swivel_explain[.]h\"")
+  endif()
   may_include(batch/${room} "" "${standard}|${public}|\"batch/(${rooms})/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
 endforeach()
 foreach(room refusal api)
@@ -132,9 +141,9 @@ foreach(folder tools bench)
   # To count a formula's operations, op_counts needs the formula itself.
   must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted[.]h|op_counts[.]cpp)$"
                "only the public headers are for it")
-  must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h, swivel.hpp and lecture.h")
+  must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers end in .h and .hpp")
 endforeach()
-may_include(tools/corpus "" "${standard}|\"swivel/swivel[.]hpp\"|\"tools/corpus/[a-z_]+[.]h\"")
+may_include(tools/corpus "" "${standard}|\"swivel/swivel(_bodies|_regions)?[.]h(pp)?\"|\"tools/corpus/[a-z_]+[.]h\"")
 must_not_say(tools/corpus "[^a-zA-Z_](SWIVEL|swivel)_[a-zA-Z_]+" "tools/corpus/(interface[.]cpp|recipe[.]h)$" "the library's names are known to recipe.h and interface.cpp alone")
 must_not_say(tools/corpus "[^a-zA-Z_](std::)?(a?(sin|cos|tan)h?|atan2|sincos|exp2?|log(2|10)?|pow|cbrt|hypot|fma)f?[ \t]*[(]" ${nowhere}
              "the corpus's numbers are the same everywhere: + - * / and sqrt")
@@ -156,7 +165,7 @@ must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmar
 
 # ---- examples see what an installed swivel has; replay also reads files
 may_include(examples "examples/replay[.]cpp$" "${standard}|<swivel/swivel[.]hpp>|\"tools/formats/(bvh|clip)[.]h\"")
-may_include(examples "examples/(game_loop|feet|hello|own_jobs|arms|groups)[.]c" "${standard}|<(stdio|math)[.]h>|<swivel/swivel[.]h(pp)?>")
+may_include(examples "examples/(game_loop|feet|hello|own_jobs|arms|groups)[.]c" "${standard}|<(stdio|math)[.]h>|<swivel/swivel(_bodies)?[.]h(pp)?>")
 
 foreach(folder core simd batch bench tests tools)
   own_header_first(${folder})
@@ -167,7 +176,7 @@ foreach(folder core simd batch include)
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
   must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/solve/schedule[.]cpp$" "oneTBB is named in batch/solve/schedule.cpp alone")
   # ---- only + - * / sqrt, comparisons, selects and sign bits
-  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/((explain|region)/[a-z_]+|query/angles)[.]cpp$"
+  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/((explain|region)/[a-z_]+|query/(joint_)?angles)[.]cpp$"
                "no trigonometry here")
   must_not_say(${folder} "[^a-zA-Z_](exp|exp2|log|log2|log10|pow|cbrt)f?[ \t]*[(]" ${nowhere} "not correctly rounded everywhere")
   must_not_say(${folder} "[^a-zA-Z]_*(builtin_)?(fma|fmaf|fms|fnma|rsqrt|reciprocal|mm[0-9]*_rcp[a-z0-9_]*|mm[0-9]*_rsqrt[a-z0-9_]*)[ \t]*[(]"

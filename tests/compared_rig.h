@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 
+#include "swivel/swivel_explain.hpp"
 #include "tests/body_crowd.h"
 
 namespace swivel::test {
@@ -95,11 +96,11 @@ struct Rig {
     LimbPlaces places() const { return places(limb()); }
     static std::array<double, 3> numbers(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
     double length() const { return length_of(joints_at(skeleton, bodies[body]), limb()); }
-    Crowd::Comparison compare(const LimbPlaces& at) const
+    Comparison compare(const LimbPlaces& at) const
     {
-        return crowd.compare(group, body, pose, at[0], at[1], at[2]);
+        return swivel::compare(crowd, group, body, pose, at[0], at[1], at[2]);
     }
-    Crowd::Comparison compare() const { return compare(places()); }
+    Comparison compare() const { return compare(places()); }
 
     // 1 where an elbow bends just as the limb's bend says, in the shoulder's frame, and -1 the other way.
     double bend_sense(const Body& made, const BodyLimbJoints& limb) const

@@ -9,7 +9,11 @@ foreach(header IN LISTS headers)
   target_sources(header_check PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/header_check/${unit}.cpp)
 endforeach()
 # Most engines have neither exceptions nor run-time types.
-file(CONFIGURE OUTPUT header_check/engine.cpp CONTENT "#include \"include/swivel/swivel.hpp\"\n" @ONLY)
+set(all_of_cpp "")
+foreach(header swivel swivel_bodies swivel_regions swivel_explain)
+  string(APPEND all_of_cpp "#include \"include/swivel/${header}.hpp\"\n")
+endforeach()
+file(CONFIGURE OUTPUT header_check/engine.cpp CONTENT "${all_of_cpp}" @ONLY)
 set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/header_check/engine.cpp PROPERTIES COMPILE_OPTIONS "-fno-exceptions;-fno-rtti")
 # For Microsoft's compiler __cplusplus is that of C++98. The headers of the standard library come before it, because they ask for it, too.
 file(STRINGS ${PROJECT_SOURCE_DIR}/include/swivel/swivel.hpp standard REGEX "^#include <")
@@ -18,17 +22,18 @@ file(CONFIGURE OUTPUT header_check/microsoft_standard.cpp CONTENT "${standard}
 #undef __cplusplus
 #define __cplusplus 199711L
 #define _MSVC_LANG 202002L
-#include \"include/swivel/swivel.hpp\"
-static_assert(sizeof(swivel::Job) > 0);\n" @ONLY)
+${all_of_cpp}static_assert(sizeof(swivel::Job) > 0);\n" @ONLY)
 set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/header_check/microsoft_standard.cpp PROPERTIES COMPILE_OPTIONS -Wno-builtin-macro-redefined)
 target_sources(header_check PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/header_check/engine.cpp ${CMAKE_CURRENT_BINARY_DIR}/header_check/microsoft_standard.cpp)
 target_link_libraries(header_check PRIVATE swivel_flags)
 target_compile_options(header_check PRIVATE -O0)
 # The public headers are for other compilers, too. clang can read them as Microsoft's does; __int128 is what that one lacks.
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  foreach(unit swivel_h.c swivel_h.cpp swivel_hpp.cpp)
-    string(REGEX REPLACE "_(hp*)[.].*" ".\\1" header ${unit})
-    file(CONFIGURE OUTPUT header_check/microsoft_${unit} CONTENT "#include \"include/swivel/${header}\"\n" @ONLY)
+  string(REPLACE ".hpp" ".h" all_of_c "${all_of_cpp}")
+  file(CONFIGURE OUTPUT header_check/microsoft_h.c CONTENT "${all_of_c}" @ONLY)
+  file(CONFIGURE OUTPUT header_check/microsoft_h.cpp CONTENT "${all_of_c}" @ONLY)
+  file(CONFIGURE OUTPUT header_check/microsoft_hpp.cpp CONTENT "${all_of_cpp}" @ONLY)
+  foreach(unit h.c h.cpp hpp.cpp)
     list(APPEND microsoft_units ${CMAKE_CURRENT_BINARY_DIR}/header_check/microsoft_${unit})
   endforeach()
   add_library(header_check_microsoft OBJECT ${microsoft_units})

@@ -89,7 +89,7 @@ struct HillWalkers {
     std::vector<Walk> walks;
     swivel_plant plant = swivel_default_plant();
     swivel_ground ground = sole();
-    swivel_fit fit = swivel_default_fit();
+    swivel_shift_def shift_def = swivel_default_shift_def();
     // The present frame:
     std::vector<Body> bodies;
     std::vector<Vector3d> roots;
@@ -104,7 +104,7 @@ struct HillWalkers {
 
     HillWalkers(std::uint64_t seed, std::uint32_t count, Terrain on) : terrain(std::move(on))
     {
-        fit.drop = 0.2f;  // on a slope of 25 degrees the feet of a step are 0.3 m apart in height
+        shift_def.drop = 0.2f;  // on a slope of 25 degrees the feet of a step are 0.3 m apart in height
         Random random{seed};
         for (std::uint32_t n = 0; n < count; ++n) {
             const double speed = random.between(0.5, 1.15);
@@ -141,12 +141,11 @@ struct HillWalkers {
     PoseBuffer poses() const { return PoseBuffer({.roots = true}, bodies); }
     Crowd crowd(swivel_features features = kFeatures, swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE) const
     {
-        std::vector<swivel_group_def> shift(features & SWIVEL_WITH_PELVIS_FIT ? 1 : 0, swivel_default_fit_group_def());
-        for (swivel_group_def& group : shift) group.fit = fit;
-        const auto edit = [&](swivel_group_def& group) {
-            group.plant = plant, group.ground = ground, group.on_bad_input = on_bad_input;
+        const std::vector<Definition> shifts(features & SWIVEL_WITH_PELVIS_FIT ? 1 : 0, shift_def);
+        const auto edit = [&](swivel_body_limb_def& limb) {
+            limb.plant = plant, limb.ground = ground, limb.on_bad_input = on_bad_input;
         };
-        Crowd made = body_crowd(skeleton, features, count(), edit, shift);
+        Crowd made = body_crowd(skeleton, features, count(), edit, shifts);
         for (std::uint32_t leg = 0; leg < 2; ++leg) {
             made.write_all(SWIVEL_EFFECTOR, leg, kToe);
             // Straighter than it starts: where ground is low, legs that swing stretch further than they are animated.

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include "include/swivel/swivel.h"
+#include "include/swivel/swivel_regions.h"
 #include "tests/test_random.h"
 
 namespace swivel::test {

@@ -122,7 +122,7 @@ struct LimitedArms {
     // With further features, whose values are left as they start.
     Crowd crowd(swivel_features more = 0) const
     {
-        swivel_group_def def = group(static_cast<std::uint32_t>(arms.size()), features | more);
+        swivel_limb_def def = limbs(static_cast<std::uint32_t>(arms.size()), features | more);
         def.shoulder_order = orders[0], def.wrist_order = orders[1];
         swivel_region given = region.region;
         if (features & SWIVEL_WITH_REGION) def.region = &given;

@@ -16,10 +16,10 @@ using Float6 = std::array<float, 6>;
 // A look of one body: its joints as earlier looks have left them, and as they are.
 struct TurnedChain {
     const SolvedBody& body;
-    const swivel_look& look;
+    const swivel_look_def& look;
     std::vector<JointAt> before;
 
-    TurnedChain(const SolvedBody& of, const swivel_look& with) : body(of), look(with)
+    TurnedChain(const SolvedBody& of, const swivel_look_def& with) : body(of), look(with)
     {
         const std::int32_t above = body.of.skeleton.parents[look.joints[0]];
         for (std::uint32_t n = 0; n < look.joint_count; ++n) {
@@ -64,13 +64,9 @@ inline std::vector<std::uint32_t> way_down(const BodySkeleton& skeleton, std::ui
     return way;
 }
 
-inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> joints)
+inline swivel_look_def random_look(Random& random, std::span<const std::uint32_t> joints)
 {
-    swivel_group_def def = swivel_default_group_def(0);
-    def.features = SWIVEL_LOOK;
-    swivel_look& look = def.look;
-    look.joint_count = static_cast<std::uint32_t>(joints.size());
-    std::copy(joints.begin(), joints.end(), look.joints);
+    swivel_look_def look = swivel::look(joints);
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         look.share[n] = static_cast<float>(random.below(4) ? random.between(0.1, 3) : 0);
         look.cos_max[n] = static_cast<float>(random.below(2) ? -1 : std::cos(random.between(0.05, 2)));
@@ -86,7 +82,7 @@ inline swivel_group_def look_def(Random& random, std::span<const std::uint32_t> 
         look.fade_distance = static_cast<float>(random.spread(0.02, 1));
     }
     look.rate = 0;
-    return def;
+    return look;
 }
 
 // Bodies with a look in the trunk, some with another below it, and all limbs of theirs.
@@ -119,9 +115,11 @@ struct LookingBodies : PosedBodies {
             });
         }
     }
+    swivel_look_def& look_def(std::uint32_t group) { return std::get<swivel_look_def>(groups[group]); }
+    const swivel_look_def& look_def(std::uint32_t group) const { return std::get<swivel_look_def>(groups[group]); }
     void add_look(Random& random, std::span<const std::uint32_t> chain)
     {
-        const std::uint32_t group = add(look_def(random, chain));
+        const std::uint32_t group = add(random_look(random, chain));
         looks.push_back(group);
         const std::uint32_t last = chain.back();
         give(group, SWIVEL_LOOK_TARGET, [&](std::size_t n) {
@@ -135,16 +133,16 @@ struct LookingBodies : PosedBodies {
 // A spine of two bones, a neck and a head, upright, whose eyes look along z.
 struct Upright {
     BodySkeleton skeleton;
-    swivel_group_def look = swivel_default_group_def(0);
+    swivel_look_def look = swivel_default_look_def();
 
     Upright() : Upright({{0, 1, 0}, {0, 0.15f, 0}, {0, 0.3f, 0.02f}, {0, 0.12f, 0.01f}})
     {
-        look.look.joint_count = 4;
-        for (std::uint32_t n = 0; n < 4; ++n) look.look.joints[n] = n;
+        look.joint_count = 4;
+        for (std::uint32_t n = 0; n < 4; ++n) look.joints[n] = n;
         const float max[] = {0.97f, 0.94f, 0.8f, 0.5f}, share[] = {1, 1, 2, 4};  // 14, 20, 37 and 60 degrees
-        std::copy_n(max, 4, look.look.cos_max), std::copy_n(share, 4, look.look.share);
-        look.look.eye[1] = 0.08f, look.look.eye[2] = 0.1f;
-        look.look.rate = 0;
+        std::copy_n(max, 4, look.cos_max), std::copy_n(share, 4, look.share);
+        look.eye[1] = 0.08f, look.eye[2] = 0.1f;
+        look.rate = 0;
     }
     // Other bones in a line, with a look that is the caller's.
     explicit Upright(const std::vector<Float3>& offsets)
@@ -154,7 +152,6 @@ struct Upright {
             skeleton.rotations.push_back({0, 0, 0, 1});
             skeleton.translations.push_back(offset);
         }
-        look.features = SWIVEL_LOOK;
     }
     Vector3d eye() const { return {0, 1.65, 0.13}; }
 };
@@ -164,7 +161,7 @@ struct UprightCrowd {
     std::vector<std::array<Float4, 4>> rotations;
 
     UprightCrowd(const Upright& of, std::size_t count)
-        : crowd(of.skeleton.view(), static_cast<std::uint32_t>(count), std::span(&of.look, 1)), rotations(count)
+        : crowd(of.skeleton.view(), static_cast<std::uint32_t>(count), {of.look}), rotations(count)
     {
         reset();
     }
@@ -189,7 +186,7 @@ struct UprightCrowd {
             place += turn * vec(of.skeleton.translations[joint]);
             turn = turn * quat(rotations[n][joint]).normalized();
         }
-        return {place + turn * vec(of.look.look.eye), turn * vec(of.look.look.axis)};
+        return {place + turn * vec(of.look.eye), turn * vec(of.look.axis)};
     }
     Vector3d line(std::size_t n) const
     {

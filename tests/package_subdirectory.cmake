@@ -21,8 +21,8 @@ must_print_the_line(${WORK}/arm_cpp)
 quote(${WORK} place)
 quote(${SOURCE} source)
 must_say_only("the host" "${commands}" "-[IDfm]|-isystem" "-I${source}/include|-ffast-math|-DNDEBUG")
-must_say_only("the host" "${commands}" "-[lL]|-Wl,|[^ \n]*[.]so|[^ \n]*lib[a-z]*[.]a"
-              "[^ ]*/libswivel[.](so[.0-9]*|a)|-Wl,-rpath,${place}[^ ]*|[^ ]*/libtbb[.]so[.0-9]*")
+must_say_only("the host" "${commands}" "-[lL]|-Wl,|[^ \n]*[.]so|[^ \n]*lib[a-z_]*[.]a"
+              "[^ ]*/libswivel[.](so[.0-9]*|a)|[^ ]*/libswivel_explain[.]a|-Wl,-rpath,${place}[^ ]*|[^ ]*/libtbb[.]so[.0-9]*")
 if(SHARED AND commands MATCHES "libtbb")
   message(SEND_ERROR "a host of the shared library links oneTBB")
 endif()

@@ -85,8 +85,8 @@ struct Closure {
 // no limb's joint must have the local transforms they had.
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs);
 
-// Joints are turned as in the clip within swivel.h's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad. An elbow misses its
-// place by at most this number times the limb's length, all else by 1e-5 of that length.
+// Joints are turned as in the clip within docs/fields.md's bound, 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad. An elbow misses
+// its place by at most this number times the limb's length, all else by 1e-5 of that length.
 //
 // An elbow bent by less than 0.02 rad may miss by 2e-3. It lies at height h over the line from shoulder to wrist, its
 // foot at a from the shoulder and b from the wrist, d = a + b. From h^2 = L1^2 - a^2 and a = (d^2 + L1^2 - L2^2) / 2d

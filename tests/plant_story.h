@@ -14,7 +14,7 @@
 
 namespace swivel::test {
 
-// swivel.h's words: no speed may add more than `lock` to a point's way.
+// docs/fields.md's words: no speed may add more than `lock_radius` to a point's way.
 inline PlantRules rules_of(const swivel_plant& plant)
 {
     const double lock = plant.lock_radius, stop = std::max<double>(plant.stop_time, kShortestTime),

@@ -78,7 +78,7 @@ struct PlantedBodies {
                 swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE) const
     {
         return body_crowd(skeleton, features, body_count,
-                          [&](swivel_group_def& group) { group.plant = plant, group.on_bad_input = on_bad_input; });
+                          [&](swivel_body_limb_def& limb) { limb.plant = plant, limb.on_bad_input = on_bad_input; });
     }
     swivel_pose view()
     {

@@ -58,7 +58,7 @@ inline constexpr Float4 kNoTurn = {kNan, kNan, kNan, kNan};
 struct PosedBodies {
     BodySkeleton skeleton;
     std::vector<swivel_limb_joints> joints;  // of each limb
-    std::vector<swivel_group_def> groups;
+    std::vector<Definition> groups;
     std::vector<std::uint32_t> limb_of;  // of each group
     std::vector<Body> bodies;
     std::vector<BodyInput> inputs;
@@ -83,8 +83,9 @@ struct PosedBodies {
     void put_in_body_space() { layout.translates = layout.scales = is_in_body = true; }
     std::uint32_t add_limb(std::uint32_t limb, swivel_features features, std::uint32_t link = 0)
     {
-        groups.push_back(body_group(joints[limb], features));
-        groups.back().link = link;
+        swivel_body_limb_def def = body_limb(joints[limb], features);
+        def.link = link;
+        groups.push_back(def);
         limb_of.push_back(limb);
         return static_cast<std::uint32_t>(groups.size() - 1);
     }
@@ -93,13 +94,24 @@ struct PosedBodies {
     {
         for (std::uint32_t limb = 0; limb < skeleton.limbs.size(); ++limb) add_limb(limb, features);
     }
-    std::uint32_t add(const swivel_group_def& no_limb)
+    std::uint32_t add(const Definition& no_limb)
     {
         groups.push_back(no_limb);
         limb_of.push_back(kNoLimbHere);
         return static_cast<std::uint32_t>(groups.size() - 1);
     }
-    bool has(std::uint32_t group, swivel_features feature) const { return groups[group].features & feature; }
+    swivel_body_limb_def& limb_def(std::uint32_t group) { return std::get<swivel_body_limb_def>(groups[group]); }
+    const swivel_body_limb_def& limb_def(std::uint32_t group) const
+    {
+        return std::get<swivel_body_limb_def>(groups[group]);
+    }
+    bool is_limb(std::uint32_t group) const { return std::holds_alternative<swivel_body_limb_def>(groups[group]); }
+    bool is_prop(std::uint32_t group) const { return std::holds_alternative<swivel_prop_def>(groups[group]); }
+    // Whether it is a limb with one of these features.
+    bool has(std::uint32_t group, swivel_features some) const
+    {
+        return is_limb(group) && limb_def(group).features & some;
+    }
 
     // Gives an input the values that make(body) makes.
     template <class Make>
@@ -301,17 +313,17 @@ struct SolvedBody {
     // Where a limb's point belongs on what it holds, as that is.
     Held wanted(std::uint32_t group, const Held& on) const
     {
-        const std::uint32_t link = of.groups[group].link;
+        const std::uint32_t link = of.limb_def(group).link;
         Held in = grip(group);
-        if (!of.has(link, SWIVEL_PROP)) in.place *= scale(link);
+        if (!of.is_prop(link)) in.place *= scale(link);
         return on * in;
     }
     double length(std::uint32_t group) const { return limb(group).length(); }
     // How far floats may be off, as they know where the hand is from the root.
     double rounding(std::uint32_t group) const
     {
-        const std::uint32_t link = of.groups[group].link;
-        const double grip_scale = !of.has(group, SWIVEL_WITH_LINK) || of.has(link, SWIVEL_PROP) ? 1 : scale(link);
+        const std::uint32_t link = of.limb_def(group).link;
+        const double grip_scale = !of.has(group, SWIVEL_WITH_LINK) || of.is_prop(link) ? 1 : scale(link);
         return (of.is_in_body ? 8e-7 : 3e-7) *
                (way_to(of.skeleton, was, joints(group).wrist) + grip_scale * grip(group).place.norm());
     }
@@ -321,25 +333,27 @@ struct SolvedBody {
 // Bodies in which all that holds comes together: two hands on a prop, a hand on one of these, a hand on a free limb's,
 // a hand on a prop of a joint, and a leg that shifts the body.
 struct HoldingBodies : PosedBodies {
-    enum Group : std::uint32_t { prop, left, right, third, free, follower, leg, fit, handle, on_handle };
+    enum Group : std::uint32_t { prop, left, right, third, free, follower, leg, shift, handle, on_handle };
 
     HoldingBodies(Random& random, std::size_t body_count, const PoseLayout& of,
                   swivel_on_bad_input on_bad_input = SWIVEL_KEEP_POSE)
         : PosedBodies(random, {3, 7, 1, false}, body_count, of)
     {
         constexpr swivel_features kHand = SWIVEL_WITH_HAND | SWIVEL_WITH_RECORD, kLinked = kHand | SWIVEL_WITH_LINK;
-        add(swivel_default_prop_group_def());
+        add(swivel_default_prop_def());
         add_limb(0, kLinked | SWIVEL_POLE_INCOMING, prop);
         add_limb(1, kLinked | SWIVEL_WITH_EFFECTOR | SWIVEL_POLE_INCOMING, prop);
         add_limb(2, kLinked | SWIVEL_HAND_YIELDS | SWIVEL_WITH_EFFECTOR, left);
         add_limb(3, kHand | SWIVEL_WITH_REACH);
         add_limb(4, kLinked | SWIVEL_WITH_CAP | SWIVEL_POLE_INCOMING, free);
         add_limb(5, kHand | SWIVEL_WITH_PELVIS_FIT | SWIVEL_POLE_INCOMING);
-        add(swivel_default_fit_group_def());
-        add(swivel_default_prop_group_def());
-        groups.back().prop.joint = 1;
+        add(swivel_default_shift_def());
+        swivel_prop_def on_joint = swivel_default_prop_def();
+        on_joint.joint = 1;
+        add(on_joint);
         add_limb(6, kLinked | SWIVEL_WITH_WEIGHTS | SWIVEL_POLE_INCOMING, handle);
-        for (swivel_group_def& group : groups) group.on_bad_input = on_bad_input;
+        for (std::uint32_t g = 0; g < groups.size(); ++g)
+            if (is_limb(g)) limb_def(g).on_bad_input = on_bad_input;
         for (const std::uint32_t g : {free, leg}) {
             give(g, SWIVEL_TARGET, [&](std::size_t n) { return goal(random, g, n).target; });
             give(g, SWIVEL_HAND, [&](std::size_t n) { return goal(random, g, n).hand; });

@@ -36,7 +36,7 @@ struct PropBodies : PosedBodies {
         prop = prop_at;
         for (std::uint32_t n = 0; n <= arm_count; ++n)
             if (n == prop_at)
-                add(prop_def(random));
+                add(random_prop(random));
             else
                 arms.push_back(add_limb(static_cast<std::uint32_t>(arms.size()), holds, prop));
         if (random.below(3) == 0) add_leg(random);
@@ -68,7 +68,7 @@ struct PropBodies : PosedBodies {
         const Float4 turn = value(prop, SWIVEL_PROP_ROTATION, body.n, kNoTurn);
         const bool has_place = !std::isnan(place[0]), has_turn = !std::isnan(turn[0]);
         const Quaterniond rotation = has_turn ? quat(turn).normalized() : Quaterniond::Identity();
-        if (const std::int32_t joint = groups[prop].prop.joint; joint >= 0) {
+        if (const std::int32_t joint = prop_def().joint; joint >= 0) {
             const JointAt& at = body.was[static_cast<std::size_t>(joint)];
             is.frame = Held{at.rotation, at.place} * Held{rotation, has_place ? vec(place) : Vector3d(0, 0, 0)};
         } else {
@@ -84,7 +84,7 @@ struct PropBodies : PosedBodies {
             is.moves.push_back(moves(body, arms[n], is.frame));
             is.nearest.push_back(nearest(body, arms[n]));
         }
-        is.max = double{groups[prop].prop.max_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
+        is.max = double{prop_def().max_move} * rest_length(limb_of[arms[0]]) * body.was_body.root_scale;
         return is;
     }
     // The same limbs with the same goals, that hold nothing.
@@ -95,24 +95,27 @@ struct PropBodies : PosedBodies {
         std::erase_if(of.inputs,
                       [&](const BodyInput& input) { return input.group == prop || input.field == SWIVEL_GRIP; });
         for (BodyInput& input : of.inputs) input.group -= input.group > prop;
-        for (swivel_group_def& group : of.groups) group.features &= ~SWIVEL_WITH_LINK;
+        for (std::uint32_t g = 0; g < of.groups.size(); ++g)
+            if (of.is_limb(g)) of.limb_def(g).features &= ~SWIVEL_WITH_LINK;
         return of;
     }
+    swivel_prop_def& prop_def() { return std::get<swivel_prop_def>(groups[prop]); }
+    const swivel_prop_def& prop_def() const { return std::get<swivel_prop_def>(groups[prop]); }
 
 private:
-    swivel_group_def prop_def(Random& random) const
+    static swivel_prop_def random_prop(Random& random)
     {
         constexpr float max[] = {0, 0.1f, 1, 5};
-        swivel_group_def made = swivel_default_prop_group_def();
-        made.prop.max_move = max[random.below(4)];
-        if (random.below(4) == 0) made.prop.joint = static_cast<std::int32_t>(random.below(3));  // of the trunk
+        swivel_prop_def made = swivel_default_prop_def();
+        made.max_move = max[random.below(4)];
+        if (random.below(4) == 0) made.joint = static_cast<std::int32_t>(random.below(3));  // of the trunk
         return made;
     }
     void add_leg(Random& random)
     {
-        swivel_group_def fit = swivel_default_fit_group_def();
-        fit.fit.drop = fit.fit.rise = 0.5f;
-        shift = add(fit);
+        swivel_shift_def def = swivel_default_shift_def();
+        def.drop = def.rise = 0.5f;
+        shift = add(def);
         const std::uint32_t leg = add_limb(2, SWIVEL_WITH_PELVIS_FIT | SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND);
         give(leg, SWIVEL_TARGET, [&](std::size_t n) {
             const Float3 target = random_goal(random, skeleton, bodies[n], 2).target;
@@ -160,7 +163,7 @@ private:
             return Float1{kind == 0 ? 0 : kind == 1 ? static_cast<float>(random.unit()) : 1};
         });
         const bool is_ever_written = random.below(2);
-        const std::int32_t joint = groups[prop].prop.joint;
+        const std::int32_t joint = prop_def().joint;
         std::vector<Held> written;
         for (std::size_t n = 0; n < bodies.size(); ++n) {
             Held wanted = at[n];

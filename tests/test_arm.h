@@ -80,9 +80,13 @@ swivel_skeleton view_of(const Skeleton& s)
     return skeleton;
 }
 
-inline Crowd crowd_of(swivel_features features, std::uint32_t limb_count, const swivel_binding& binding = {})
+inline Crowd crowd_of(swivel_features features, std::uint32_t limb_count, const swivel_binding& binding = {},
+                      std::uint32_t twist_bone_count = 0)
 {
-    Crowd crowd({swivel::group(limb_count, binding, features)});
+    swivel_limb_def def = limbs(limb_count, features);
+    def.twist_bone_count = twist_bone_count;
+    def.binding = binding;
+    Crowd crowd(def);
     if (!(features & SWIVEL_JOINTS)) crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     return crowd;
 }
@@ -168,7 +172,7 @@ inline void write_arm(Crowd& crowd, std::uint32_t n, const Arm& arm)
 // The poses of arms that nothing more is asked of, whatever features they have.
 inline std::vector<LimbPose> solve_all(const std::vector<Arm>& arms, swivel_features features = 0)
 {
-    Crowd crowd(group(static_cast<std::uint32_t>(arms.size()), features));
+    Crowd crowd(limbs(static_cast<std::uint32_t>(arms.size()), features));
     for (std::uint32_t n = 0; n < arms.size(); ++n) write_arm(crowd, n, arms[n]);
     crowd.solve();
     std::vector<LimbPose> poses;
@@ -180,7 +184,7 @@ inline std::vector<LimbPose> solve_all(const std::vector<Arm>& arms, swivel_feat
 struct FreeLimb {
     Crowd crowd;
 
-    FreeLimb(const Arm& arm, swivel_features features) : crowd(group(1, features)) { write_arm(crowd, 0, arm); }
+    FreeLimb(const Arm& arm, swivel_features features) : crowd(limbs(1, features)) { write_arm(crowd, 0, arm); }
     template <class Value>
     void write(swivel_field field, const Value& value)
     {

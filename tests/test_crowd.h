@@ -26,7 +26,17 @@ inline std::vector<swivel_field> every_field()
     return fields;
 }
 
+// The features of arms that nothing more is asked of, and every set of them that a group may have.
 inline constexpr swivel_features kEverything = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
+inline std::vector<swivel_features> every_plain_set()
+{
+    std::vector<swivel_features> sets;
+    for (const swivel_features world : {swivel_features{0}, SWIVEL_WORLD, SWIVEL_WORLD | SWIVEL_POLE_DIRECTION})
+        for (const swivel_features joints : {swivel_features{0}, SWIVEL_JOINTS})
+            for (const swivel_features hand : {swivel_features{0}, SWIVEL_WITH_HAND})
+                sets.push_back(world | joints | hand);
+    return sets;
+}
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 inline bool is_one_line(const std::string& text)
@@ -58,18 +68,43 @@ inline std::uint32_t flags_of(const Crowd& crowd, std::uint32_t group, std::uint
 }
 
 // Limbs whose joints are the arm frame, with bones of length 1.
-inline swivel_group_def group_of(std::uint32_t limb_count) { return group(limb_count, arm_frame_joints().bound(), 0); }
-// The same features for all groups.
-inline Crowd crowd_with(swivel_features features, std::vector<swivel_group_def> groups)
+inline swivel_limb_def group_of(std::uint32_t limb_count)
 {
-    for (swivel_group_def& group : groups) group.features = features;
-    return Crowd(groups);
+    swivel_limb_def made = limbs(limb_count);
+    made.binding = arm_frame_joints().bound();
+    return made;
 }
-inline Crowd crowd_with(swivel_features features, std::span<const swivel_group_def> groups)
+// The same features for all groups.
+inline Crowd crowd_with(swivel_features features, std::vector<swivel_limb_def> groups)
+{
+    for (swivel_limb_def& group : groups) group.features = features;
+    return Crowd(std::vector<Definition>(groups.begin(), groups.end()));
+}
+inline Crowd crowd_with(swivel_features features, std::span<const swivel_limb_def> groups)
 {
     return crowd_with(features, std::vector(groups.begin(), groups.end()));
 }
 
+// Groups as C has them. They point to the definitions that they are made of, which must outlive them.
+inline swivel_group_def c_group(const swivel_limb_def& limb)
+{
+    swivel_group_def group = swivel_default_group_def();
+    group.limb = &limb;
+    return group;
+}
+swivel_group_def c_group(const swivel_limb_def&&) = delete;
+inline std::vector<swivel_group_def> c_groups(std::span<const Definition> definitions)
+{
+    std::vector<swivel_group_def> groups(definitions.size(), swivel_default_group_def());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        groups[g].limb = std::get_if<swivel_limb_def>(&definitions[g]);
+        groups[g].body_limb = std::get_if<swivel_body_limb_def>(&definitions[g]);
+        groups[g].look = std::get_if<swivel_look_def>(&definitions[g]);
+        groups[g].prop = std::get_if<swivel_prop_def>(&definitions[g]);
+        groups[g].shift = std::get_if<swivel_shift_def>(&definitions[g]);
+    }
+    return groups;
+}
 inline swivel_crowd_def def_of(const swivel_group_def& group)
 {
     swivel_crowd_def def = swivel_default_crowd_def();

@@ -25,7 +25,9 @@ void check(bool held, const char* what)
 
 swivel_crowd* one_arm()
 {
-    const swivel_group_def group = swivel_default_group_def(1);
+    const swivel_limb_def limb = swivel_default_limb_def(1);
+    swivel_group_def group = swivel_default_group_def();
+    group.limb = &limb;
     swivel_crowd_def def = swivel_default_crowd_def();
     def.group_count = 1;
     def.groups = &group;

@@ -74,7 +74,7 @@ public:
         : crowd(crowd_for(scene, limbs)), from_(from), from_job_(from_job), limbs_(limbs), way_(way)
     {
         for (std::uint32_t g = 0; g < limbs.size(); ++g) copy_rows(g);
-        if (from_job.streams || way.has_frames || way.is_far) take_frames();
+        if (!from_job.streams.empty() || way.has_frames || way.is_far) take_frames();
         if (!from_job.pose) return;
         take_pose(scene.joint_count);
         job.pose = &pose_;
@@ -85,7 +85,7 @@ public:
         const auto solve_those = [&](const auto& are_chosen) {
             Limbs some;
             std::ranges::copy_if(chosen(), std::back_inserter(some), are_chosen);
-            if (way_.jobs == Way::Jobs::masks || from_job_.mask) job.mask = mask_of(some);
+            if (way_.jobs == Way::Jobs::masks || from_job_.mask) choose(some);
             solve_some(some);
         };
         switch (way_.jobs) {
@@ -160,12 +160,12 @@ private:
                     take_from_rows(g, field);
             }
         }
-        job.streams = frames_;
+        job.streams.assign(frames_.begin(), frames_.end());
     }
     const swivel_stream* given_field(std::uint32_t g, swivel_field field) const
     {
-        if (!from_job_.streams) return nullptr;
-        const swivel_streams& frame = (*from_job_.streams)[g];
+        if (from_job_.streams.empty()) return nullptr;
+        const swivel_streams& frame = from_job_.streams[g];
         for (std::uint32_t n = 0; n < frame.field_count; ++n)
             if (frame.fields[n].data && frame.fields[n].field == field) return &frame.fields[n];
         return nullptr;
@@ -241,18 +241,19 @@ private:
         numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
         return numbers;
     }
-    std::vector<std::uint32_t> mask_of(const Limbs& limbs) const
+    // The job chooses these by a mask.
+    void choose(const Limbs& limbs)
     {
-        std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
-        for (const std::uint32_t limb : limbs) mask[limb / 32] |= 1u << limb % 32;
-        return mask;
+        mask_.assign((swivel_block_count(crowd.get()) + 1) / 2, 0);
+        for (const std::uint32_t limb : limbs) mask_[limb / 32] |= 1u << limb % 32;
+        job.mask = mask_;
     }
     // In turns. Ranges end between a mask's words.
     void solve_on_threads()
     {
         constexpr std::uint32_t kThreads = 3, kBlocks = 7;
         const std::uint32_t end = swivel_block_count(crowd.get());
-        if (from_job_.mask) job.mask = mask_of(chosen());
+        if (from_job_.mask) choose(chosen());
         job.on_this_thread = true;
         std::vector<std::thread> threads;
         for (std::uint32_t n = 0; n < kThreads; ++n)
@@ -294,6 +295,7 @@ private:
     std::list<Values> values_;
     std::vector<const Values*> written_;  // those that a solve writes
     std::vector<Streams> frames_;
+    std::vector<std::uint32_t> mask_;
     swivel_pose pose_;
 };
 

@@ -152,10 +152,15 @@ uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group)
     const Group* const found = group_of(crowd, group);
     return found ? found->limb_count : 0;
 }
+swivel_kind swivel_group_kind(const swivel_crowd* crowd, uint32_t group)
+{
+    const Group* const found = group_of(crowd, group);
+    return found ? kind_of(found->features) : SWIVEL_KIND_LIMB;
+}
 swivel_features swivel_group_features(const swivel_crowd* crowd, uint32_t group)
 {
     const Group* const found = group_of(crowd, group);
-    return found ? found->features : 0;
+    return found ? found->asked : 0;
 }
 uint32_t swivel_field_first_row(const swivel_crowd* crowd, uint32_t group, swivel_field field)
 {
@@ -200,10 +205,8 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     if (status != SWIVEL_OK) return status;
     const Group& target_group = crowd->groups[group];
     if (!is_position(field))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, %s: not a position; doubles are for target, pole, shoulder_position, coming, "
-                    "ground and prop_position",
-                    group, name_of(field));
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not a position; write it by swivel_write()", group,
+                    name_of(field));
     if (origins.data && !has_origin(target_group, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is %s here, which has no origin; give null", group,
                     name_of(field), field == SWIVEL_POLE ? "a direction" : "in a joint's frame");

@@ -2,6 +2,7 @@
 #include "batch/api/check.h"
 
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 
 #include "batch/refusal/status.h"
@@ -23,8 +24,8 @@ swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_
 swivel_status check_limbs(const swivel_crowd& crowd, std::uint32_t group, const char* call)
 {
     if (!(crowd.groups[group].features & kNoLimb)) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is SWIVEL_%s, which is no limb; name a group of limbs", call,
-                group, feature_name(crowd.groups[group].features & kNoLimb));
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is %s; name a group of limbs", call, group,
+                text_of(kind_of(crowd.groups[group].features)));
 }
 
 swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const char* call)
@@ -57,12 +58,22 @@ swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel
         return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes inputs and what is carried", row.name);
     const swivel_features features = crowd.groups[group].features;
     if (field_row_count(features, field) != 0) return SWIVEL_OK;
-    if (features & row.excludes & SWIVEL_BODY)
+    const swivel_kind kind = kind_of(features);
+    if (kind == SWIVEL_KIND_BODY_LIMB && row.excludes & kBody)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: the pose of a body gives it; leave it out", group,
                     row.name);
-    const swivel_features missing = row.needs & ~features;
-    return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this group; create it with%s SWIVEL_%s", group,
-                row.name, missing ? "" : "out", feature_name(missing ? missing : excludes_of(row) & features));
+    if (!(kinds_of(row) >> kind & 1))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: the group is %s, which has none", group, row.name,
+                    text_of(kind));
+    const swivel_features missing = row.needs & ~features, with = missing & kPublicFeatures,
+                          without = row.excludes & features & kPublicFeatures;
+    char what[64] = "a twist_bone_count, or joints that name twist bones";
+    if (missing & kLibraryGoal)
+        std::snprintf(what, sizeof what, "SWIVEL_WITH_RECORD and SWIVEL_WITH_PLANT or _WITH_LINK");
+    else if (with | without)
+        std::snprintf(what, sizeof what, "SWIVEL_%s", feature_name(with ? with : without));
+    return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this group; create it with%s %s", group, row.name,
+                missing || !without ? "" : "out", what);
 }
 
 swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, std::uint32_t limb_count,

@@ -22,13 +22,6 @@ swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const c
 swivel_status check_stride(std::uint32_t group, const char* name, std::uint32_t limb_count, const void* data,
                            std::size_t stride, std::size_t value_bytes, bool may_repeat);
 
-// The features of groups that do not have a field: those of its row, and what makes a group no limb, unless it is that
-// group's.
-constexpr swivel_features excludes_of(const FieldRow& row)
-{
-    return row.excludes | (row.field == SWIVEL_FLAGS ? 0 : kNoLimb & ~row.needs);
-}
-
 // A number that is a field's; and a field that the group has and, if input, that goes into it.
 swivel_status check_field(swivel_field field);
 swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input);

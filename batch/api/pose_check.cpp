@@ -53,7 +53,7 @@ bool needs_time(const swivel_crowd& crowd, const std::uint32_t* groups)
 {
     for (std::uint32_t g = 0; g < crowd.group_count; ++g)
         if (is_named(groups, g) &&
-            (crowd.groups[g].features & (SWIVEL_WITH_PLANT | SWIVEL_FIT) || crowd.groups[g].limb.look.rate > 0))
+            (crowd.groups[g].features & (SWIVEL_WITH_PLANT | kShift) || crowd.groups[g].limb.look.rate > 0))
             return true;
     return false;
 }

@@ -24,13 +24,9 @@ swivel_status fail_in(const char* what, swivel_status status)
 }
 
 // Checks what the features ask of the joints.
-swivel_status check_turned(const swivel_skeleton& skeleton, const swivel_group_def& group)
+swivel_status check_turned(const swivel_skeleton& skeleton, const GroupDef& group)
 {
     const swivel_limb_joints limb = joints_of(group);
-    if (const std::uint32_t wanted = twist_bone_count(group.features); wanted != limb.twist_bone_count)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "its features have %u twist bones, its joints %u; name as many, or leave the feature out", wanted,
-                    limb.twist_bone_count);
     if (group.features & SWIVEL_WITH_CLAVICLE && parent_of(skeleton, limb.shoulder) < 0)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
@@ -75,13 +71,13 @@ swivel_status check_plant(std::uint32_t g, const swivel_plant& plant)
                         kMax, kMax);
     return SWIVEL_OK;
 }
-swivel_status check_fit(std::uint32_t g, const swivel_fit& fit)
+swivel_status check_shift(std::uint32_t g, const swivel_shift_def& shift)
 {
-    return check_constants(g, "fit",
-                           {{"drop", fit.drop, 1000},
-                            {"rise", fit.rise, 1000},
-                            {"half_life", fit.half_life, 1000},
-                            {"lookahead", fit.lookahead, 1000}});
+    return check_constants(g, "shift",
+                           {{"drop", shift.drop, 1000},
+                            {"rise", shift.rise, 1000},
+                            {"half_life", shift.half_life, 1000},
+                            {"lookahead", shift.lookahead, 1000}});
 }
 
 // Limbs that are to fit and what shifts the body for them go together.
@@ -90,18 +86,17 @@ swivel_status check_fits(const swivel_crowd_def& def)
     std::uint32_t shifts = 0, limbs = 0, shift = 0, limb = 0;  // how many, and the last of each
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_features features = group_at(def, g).features;
-        if (features & SWIVEL_FIT && ++shifts > 1)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, and group %u too; a body has one shift", g,
-                        shift);
-        if (features & SWIVEL_FIT) shift = g;
+        if (features & kShift && ++shifts > 1)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u is a shift, and group %u too; a body has one", g, shift);
+        if (features & kShift) shift = g;
         if (features & SWIVEL_WITH_PELVIS_FIT) limb = g, ++limbs;
     }
     if (shifts == 1 && limbs == 0)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is SWIVEL_FIT, but no limb is SWIVEL_WITH_PELVIS_FIT; add it to one", shift);
+                    "group %u is a body's shift, but no limb is SWIVEL_WITH_PELVIS_FIT; add it to one", shift);
     if (shifts == 0 && limbs > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_WITH_PELVIS_FIT, but no group is SWIVEL_FIT; add one",
-                    limb);
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u is SWIVEL_WITH_PELVIS_FIT, but no group is a body's shift; add one", limb);
     const double length2 =
         double(def.up[0]) * def.up[0] + double(def.up[1]) * def.up[1] + double(def.up[2]) * def.up[2];
     if (!(length2 >= kTiny2 && length2 <= kHuge2))
@@ -127,19 +122,19 @@ swivel_status check_ground(std::uint32_t g, const swivel_ground& ground)
 // Checks what a limb is linked to, and how many hold each prop.
 swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 {
-    const swivel_group_def group = group_at(def, g);
+    const GroupDef group = group_at(def, g);
     if (group.link == UINT32_MAX)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u is SWIVEL_WITH_LINK, but is linked to none; set its link to a group's number", g);
     if (group.link >= def.group_count)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u is linked to group %u, which does not exist; there are %u", g,
                     group.link, def.group_count);
-    const swivel_features to = element(def.groups, group.link, swivel_default_group_def(0)).features;
-    if (to & SWIVEL_PROP) return SWIVEL_OK;
+    const swivel_features to = unlinked_group(def, group.link).features;
+    if (to & kProp) return SWIVEL_OK;
     if (to & kNoLimb)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is linked to group %u, which is SWIVEL_%s and has no hand; link it to a limb or a prop",
-                    g, group.link, feature_name(to & kNoLimb));
+                    "group %u is linked to group %u, which is %s and has no hand; link it to a limb or a prop", g,
+                    group.link, text_of(kind_of(to)));
     if (group.link >= g)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u is linked to group %u, which is solved later; let a limb come after the one it holds", g,
@@ -151,11 +146,11 @@ swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 }
 swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const swivel_prop prop = group_at(def, g).prop;
+    const swivel_prop_def prop = group_at(def, g).prop;
     std::uint32_t holders = 0;
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
-        const swivel_group_def group = group_at(def, other);
-        if (group.features & SWIVEL_LOOK) continue;  // a look is done before
+        const GroupDef group = group_at(def, other);
+        if (group.features & kLook) continue;  // a look is done before
         holders += group.features & SWIVEL_WITH_LINK && group.link == g;
         if (prop.joint < 0) continue;
         for (const std::uint32_t joint : TurnedJoints(skeleton, group))
@@ -165,8 +160,8 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
                             prop.joint, other);
     }
     if (holders == 0 || holders > kMaxHolders)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_PROP, and %u limbs are linked to it; link one or %u",
-                    g, holders, kMaxHolders);
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is a prop, and %u limbs are linked to it; link one or %u", g,
+                    holders, kMaxHolders);
     return check_constants(g, "prop", {{"max_move", prop.max_move, 1000}});
 }
 swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
@@ -175,12 +170,12 @@ swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& ske
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) {
         const swivel_features features = group_at(def, g).features;
         if (features & SWIVEL_WITH_LINK) status = check_link(def, g);
-        if (status == SWIVEL_OK && features & SWIVEL_PROP) status = check_prop(def, skeleton, g);
+        if (status == SWIVEL_OK && features & kProp) status = check_prop(def, skeleton, g);
     }
     return status;
 }
 
-swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
+swivel_status check_look_constants(std::uint32_t g, const swivel_look_def& look)
 {
     char name[32];
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
@@ -208,7 +203,7 @@ swivel_status check_look_constants(std::uint32_t g, const swivel_look& look)
                     double(look.cos_full), double(look.cos_none));
     return check_constants(g, "look", {{"fade_distance", look.fade_distance, kHuge}, {"rate", look.rate, 1000}});
 }
-swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const swivel_look& look)
+swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const swivel_look_def& look)
 {
     if (look.joint_count == 0 || look.joint_count > SWIVEL_MAX_LOOK_JOINTS)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
@@ -232,23 +227,16 @@ swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const
 
 swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const swivel_group_def group = group_at(def, g);
-    if (!(group.features & kNoLimb) == !group.joints)
-        return group.joints
-                   ? fail(SWIVEL_INVALID_ARGUMENT,
-                          "group %u is SWIVEL_%s, which is no limb, but names joints; leave them out", g,
-                          feature_name(group.features & kNoLimb))
-                   : fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; in a crowd of bodies each limb does", g);
-    if (element(def.groups, g, swivel_default_group_def(0)).limb_count != 0 && group.limb_count != def.body_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has %u limbs, but there are %u bodies; leave the count 0", g,
-                    group.limb_count, def.body_count);
+    const GroupDef group = group_at(def, g);
+    if (!(group.features & kNoLimb) && !group.joints)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; give it those of the body's limb", g);
     if (const std::int32_t joint = group.prop.joint;
-        group.features & SWIVEL_PROP &&
+        group.features & kProp &&
         (joint < -1 || (joint >= 0 && static_cast<std::uint32_t>(joint) >= skeleton.joint_count)))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
                     g, joint, skeleton.joint_count);
-    if (group.features & SWIVEL_FIT) return check_fit(g, group.fit);
-    if (group.features & SWIVEL_LOOK) return check_look(skeleton, g, group.look);
+    if (group.features & kShift) return check_shift(g, group.shift);
+    if (group.features & kLook) return check_look(skeleton, g, group.look);
     if (!group.joints) return SWIVEL_OK;
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
@@ -271,18 +259,18 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
 // above looks that come after it.
 swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const swivel_group_def group = group_at(def, g);
+    const GroupDef group = group_at(def, g);
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         if (other == g) continue;
-        const swivel_group_def below = group_at(def, other);
-        const bool may_be_above = group.features & SWIVEL_LOOK && (!(below.features & SWIVEL_LOOK) || g < other);
+        const GroupDef below = group_at(def, other);
+        const bool may_be_above = group.features & kLook && (!(below.features & kLook) || g < other);
         for (const std::uint32_t joint : TurnedJoints(skeleton, below))
             for (const std::uint32_t above : TurnedJoints(skeleton, group))
                 if (is_above(skeleton, above, joint) && !(may_be_above && above != joint))
                     return fail(SWIVEL_INVALID_ARGUMENT,
                                 "group %u turns joint %u, which is %s joint %u of group %u; %s", g, above,
                                 above == joint ? "also" : "above", joint, other,
-                                group.features & below.features & SWIVEL_LOOK && above != joint
+                                group.features & below.features & kLook && above != joint
                                     ? "let the look that is above come first"
                                     : "a body's limbs hang beside each other, and looks above them");
     }

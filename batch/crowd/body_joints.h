@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "batch/crowd/crowd.h"
+#include "batch/crowd/group_def.h"
 #include "batch/crowd/skeleton.h"
 #include "batch/refusal/sized.h"
 #include "simd/rows.h"
@@ -17,7 +18,7 @@ inline swivel_skeleton skeleton_of(const swivel_crowd_def& def)
 {
     return element(def.skeleton, 0, swivel_default_skeleton());
 }
-inline swivel_limb_joints joints_of(const swivel_group_def& group)
+inline swivel_limb_joints joints_of(const GroupDef& group)
 {
     return element(group.joints, 0, swivel_default_limb_joints(0, 0, 0));
 }
@@ -27,9 +28,9 @@ struct TurnedJoints {
     std::uint32_t joint[kMaxTurned];
     std::uint32_t count = 0;
 
-    TurnedJoints(const swivel_skeleton& skeleton, const swivel_group_def& group)
+    TurnedJoints(const swivel_skeleton& skeleton, const GroupDef& group)
     {
-        if (group.features & SWIVEL_LOOK)
+        if (group.features & kLook)
             for (; count < group.look.joint_count; ++count) joint[count] = group.look.joints[count];
         if (!group.joints) return;  // no limb
         const swivel_limb_joints limb = joints_of(group);
@@ -59,9 +60,9 @@ void for_each_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleto
 {
     const auto is_needed = [&](std::uint32_t joint) {
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
-            const swivel_group_def group = unlinked_group(def, g);
+            const GroupDef group = unlinked_group(def, g);
             if (group.joints && is_above(skeleton, joint, joints_of(group).wrist)) return true;
-            if (group.features & SWIVEL_PROP && group.prop.joint >= 0 &&
+            if (group.features & kProp && group.prop.joint >= 0 &&
                 is_above(skeleton, joint, static_cast<std::uint32_t>(group.prop.joint)))
                 return true;
             for (const std::uint32_t turned : TurnedJoints(skeleton, group))

@@ -28,8 +28,8 @@ Mover mover_of(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std
 {
     for (; joint >= 0; joint = parent_of(skeleton, static_cast<std::uint32_t>(joint)))
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
-            const swivel_group_def group = unlinked_group(def, g);
-            if (TurnedJoints(skeleton, group).has(joint)) return {joint, (group.features & SWIVEL_LOOK) != 0, g};
+            const GroupDef group = unlinked_group(def, g);
+            if (TurnedJoints(skeleton, group).has(joint)) return {joint, (group.features & kLook) != 0, g};
         }
     return {};
 }
@@ -71,10 +71,10 @@ RestJoint rest_of(const swivel_skeleton& skeleton, std::uint32_t joint)
 
 // Calls take(joint, mover) for each needed joint that moves with a group's look and is not of it.
 template <class Take>
-void for_each_following(const swivel_crowd_def& def, const swivel_skeleton& skeleton, const swivel_group_def& group,
+void for_each_following(const swivel_crowd_def& def, const swivel_skeleton& skeleton, const GroupDef& group,
                         const Take& take)
 {
-    if (!(group.features & SWIVEL_LOOK)) return;
+    if (!(group.features & kLook)) return;
     const TurnedJoints turned(skeleton, group);
     for_each_needed(def, skeleton, [&](std::uint32_t joint) {
         const auto number = static_cast<std::int32_t>(joint);
@@ -146,7 +146,7 @@ void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
     }
 }
 
-BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
+BodyLimb plan_limb(const swivel_crowd_def& def, const GroupDef& group, const swivel_binding& binding,
                    PlannedJoints joints)
 {
     BodyLimb limb{};
@@ -172,14 +172,14 @@ BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, c
     return limb;
 }
 
-void plan_moved(const swivel_crowd_def& def, const swivel_group_def& group, PlannedJoints joints, BodyLimb& limb,
+void plan_moved(const swivel_crowd_def& def, const GroupDef& group, PlannedJoints joints, BodyLimb& limb,
                 MovedJoint* moved, FollowingJoint* following)
 {
     const swivel_skeleton skeleton = skeleton_of(def);
     const TurnedJoints turned(skeleton, group);
     if (turned.count == 0) return;
     plan_turned(skeleton, turned, joints, limb);
-    limb.is_look = (group.features & SWIVEL_LOOK) != 0;
+    limb.is_look = (group.features & kLook) != 0;
     if (const Mover above = mover_of(def, skeleton, parent_of(skeleton, turned.joint[0])); above.joint >= 0)
         limb.above = row_of(joints, above.joint), limb.above_group = above.group;
     limb.moved = moved;
@@ -229,7 +229,7 @@ GroundRules ground_rules(const swivel_ground& ground)
             spring_rule(ground.half_life)};
 }
 
-LookRules look_rules(const swivel_look& look)
+LookRules look_rules(const swivel_look_def& look)
 {
     LookRules rules{};
     double left = 0;
@@ -247,13 +247,13 @@ LookRules look_rules(const swivel_look& look)
 }
 
 // The first group with a feature; there is one.
-swivel_group_def first_with(const swivel_crowd_def& def, swivel_features feature)
+GroupDef first_with(const swivel_crowd_def& def, swivel_features feature)
 {
     std::uint32_t g = 0;
     while (!(group_at(def, g).features & feature)) ++g;
     return group_at(def, g);
 }
-float rest_length(const swivel_crowd_def& def, const swivel_group_def& group)
+float rest_length(const swivel_crowd_def& def, const GroupDef& group)
 {
     const swivel_binding binding = body_binding(def, group);
     return binding.lengths[0] + binding.lengths[1];
@@ -261,46 +261,45 @@ float rest_length(const swivel_crowd_def& def, const swivel_group_def& group)
 
 }  // namespace
 
-void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb)
+void plan_group(const swivel_crowd_def& def, const GroupDef& group, BodyLimb& limb)
 {
     constexpr double kLongest = 1e15;
     const Vector<double> up = normalise(vector<double>(def.up[0], def.up[1], def.up[2]));
     for (std::size_t c = 0; c < 3; ++c) limb.up[c] = static_cast<float>(up.c[c]);
     limb.rules = plant_rules(group.plant);
-    limb.shift = {group.fit.drop, group.fit.rise, spring_rule(group.fit.half_life)};
+    limb.shift = {group.shift.drop, group.shift.rise, spring_rule(group.shift.half_life)};
     if (group.features & SWIVEL_WITH_NEXT_TARGET) {
-        const float ahead = first_with(def, SWIVEL_FIT).fit.lookahead;
+        const float ahead = first_with(def, kShift).shift.lookahead;
         limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
     }
-    if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_FIT))
-        limb.rest_length =
-            rest_length(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_PELVIS_FIT) : group);
+    if (group.features & (SWIVEL_WITH_PLANT | kShift))
+        limb.rest_length = rest_length(def, group.features & kShift ? first_with(def, SWIVEL_WITH_PELVIS_FIT) : group);
     if (group.features & SWIVEL_WITH_GROUND) limb.ground = ground_rules(group.ground);
     limb.prop.max_move = group.prop.max_move;
-    if (group.features & SWIVEL_LOOK) limb.look = look_rules(group.look);
+    if (group.features & kLook) limb.look = look_rules(group.look);
 }
 
 std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyLimb& limb)
 {
     const auto take = [&](std::uint32_t rows) { return std::exchange(first, first + rows); };
-    if (features & SWIVEL_SENT) limb.goal = take(kGoalRows);
+    if (features & kLibraryGoal) limb.goal = take(kGoalRows);
     if (features & SWIVEL_WITH_HAND_TRANSFORM) limb.frame = take(kHeldRows);
-    if (features & SWIVEL_PROP) limb.frame = take(kPropRows);
+    if (features & kProp) limb.frame = take(kPropRows);
     return first;
 }
 
 void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd)
 {
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
-        const swivel_group_def group = group_at(def, g);
+        const GroupDef group = group_at(def, g);
         BodyLimb& limb = crowd.groups[g].limb;
-        if (group.features & SWIVEL_PROP && group.prop.joint >= 0)
+        if (group.features & kProp && group.prop.joint >= 0)
             limb.prop.joint = row_of({crowd.joints, crowd.joint_count}, group.prop.joint);
         if (!(group.features & SWIVEL_WITH_LINK)) continue;
         BodyLimb& to = crowd.groups[group.link].limb;
         limb.link.row = to.frame;
         limb.link.group = group.link;
-        limb.link.is_prop = group_at(def, group.link).features & SWIVEL_PROP;
+        limb.link.is_prop = group_at(def, group.link).features & kProp;
         if (!limb.link.is_prop) continue;
         if (to.prop.holder_count == 0) to.rest_length = rest_length(def, group);
         limb.link.number = to.prop.holder_count++;
@@ -308,7 +307,7 @@ void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd)
     }
 }
 
-swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group)
+swivel_binding body_binding(const swivel_crowd_def& def, const GroupDef& group)
 {
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();

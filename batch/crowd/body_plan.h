@@ -5,6 +5,7 @@
 #pragma once
 
 #include "batch/crowd/crowd.h"
+#include "batch/crowd/group_def.h"
 
 namespace swivel {
 
@@ -27,18 +28,18 @@ struct PlannedJoints {
     const BodyJoint* joints;
     std::uint32_t count;
 };
-BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
+BodyLimb plan_limb(const swivel_crowd_def& def, const GroupDef& group, const swivel_binding& binding,
                    PlannedJoints joints);
 // Adds the joints that a group turns and moves; stores the moved and the following ones from here on.
-void plan_moved(const swivel_crowd_def& def, const swivel_group_def& group, PlannedJoints joints, BodyLimb& limb,
+void plan_moved(const swivel_crowd_def& def, const GroupDef& group, PlannedJoints joints, BodyLimb& limb,
                 MovedJoint* moved, FollowingJoint* following);
 // Adds the constants of plants, shifts, grounds, props and looks.
-void plan_group(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb);
+void plan_group(const swivel_crowd_def& def, const GroupDef& group, BodyLimb& limb);
 // Gives a group with these features its rows behind those of joints, from `first` on. Returns the first one after them.
 std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, BodyLimb& limb);
 // Joins the limbs of a crowd to what they are linked to. All else of their groups is planned.
 void plan_links(const swivel_crowd_def& def, swivel_crowd& crowd);
 // How a group's limb lies to the arm frame at rest.
-swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group);
+swivel_binding body_binding(const swivel_crowd_def& def, const GroupDef& group);
 
 }  // namespace swivel

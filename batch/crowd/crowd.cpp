@@ -8,8 +8,10 @@
 
 #include "batch/crowd/body_joints.h"
 #include "batch/crowd/body_plan.h"
+#include "batch/crowd/group_def.h"
 #include "batch/crowd/streams.h"
 #include "batch/refusal/sized.h"
+#include "include/swivel/swivel_regions.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -21,9 +23,9 @@ constexpr std::size_t kAlignment = 64;
 
 constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
-std::uint32_t blocks_in(const swivel_group_def& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
+std::uint32_t blocks_in(const GroupDef& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
 
-std::uint64_t group_row_bytes(const swivel_group_def& group)
+std::uint64_t group_row_bytes(const GroupDef& group)
 {
     return aligned(std::uint64_t{blocks_in(group)} * block_bytes(group.features));
 }
@@ -74,7 +76,7 @@ struct Layout {
     {
         std::uint64_t region_count = 0;
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
-            const swivel_group_def group = group_at(def, g);
+            const GroupDef group = group_at(def, g);
             block_count = def.skeleton ? blocks_in(group) : block_count + blocks_in(group);
             row_bytes += group_row_bytes(group);
             region_count += group.features & SWIVEL_WITH_REGION ? 1 : 0;
@@ -119,8 +121,8 @@ void unknown_inputs(const Group& group)
     std::fill_n(unknown, kMaxComponents, kUnknown);
     for (const FieldRow& row : kFields) {
         const bool is_unknown = row.starts == Start::unknown ||
-                                (row.field == SWIVEL_POLE && (group.features & SWIVEL_BODY)) ||
-                                (row.field == SWIVEL_HAND && (group.features & SWIVEL_SENT));
+                                (row.field == SWIVEL_POLE && (group.features & kBody)) ||
+                                (row.field == SWIVEL_HAND && (group.features & kLibraryGoal));
         if (!is_unknown || field_row_count(group.features, row.field) == 0) continue;
         const bool is_bound = row.field == SWIVEL_LENGTHS && (group.features & SWIVEL_JOINTS);
         copy_in(rows_of(group, row.field), 0, group.limb_count, {is_bound ? group.binding.lengths : unknown, 0});
@@ -128,12 +130,13 @@ void unknown_inputs(const Group& group)
 }
 
 // Makes a group whose rows begin at `rows`. The crowd has its joints already.
-void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def, const swivel_crowd& crowd,
+void place_group(const swivel_crowd_def& crowd_def, const GroupDef& def, const swivel_crowd& crowd,
                  std::uint32_t first_block, char* rows, Group& group)
 {
     group.first_block = first_block;
     group.block_count = blocks_in(def);
     group.limb_count = def.limb_count;
+    group.asked = def.asked;
     group.features = def.features;
     group.keeps = def.on_bad_input == SWIVEL_KEEP_POSE;
     for (std::size_t pass = 0; pass < kPassCount; ++pass)
@@ -157,36 +160,7 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
     unknown_inputs(group);
 }
 
-bool is_linked_to(const swivel_crowd_def& def, std::uint32_t g)
-{
-    for (std::uint32_t other = 0; other < def.group_count; ++other) {
-        const swivel_group_def group = element(def.groups, other, swivel_default_group_def(0));
-        if (group.features & SWIVEL_WITH_LINK && group.link == g) return true;
-    }
-    return false;
-}
-
 }  // namespace
-
-swivel_group_def unlinked_group(const swivel_crowd_def& def, std::uint32_t g)
-{
-    swivel_group_def group = element(def.groups, g, swivel_default_group_def(0));
-    if (!def.skeleton) return group;
-    group.features |= SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
-    if (group.joints && !(group.features & kTwistBones))
-        group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MAX_TWIST_BONES) *
-                          SWIVEL_WITH_TWIST_BONES;
-    group.features = with_sent(group.features);
-    if (group.limb_count == 0) group.limb_count = def.body_count;
-    return group;
-}
-swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
-{
-    swivel_group_def group = unlinked_group(def, g);
-    if (def.skeleton && group.features & SWIVEL_WITH_HAND && is_linked_to(def, g))
-        group.features |= SWIVEL_WITH_HAND_TRANSFORM;
-    return group;
-}
 
 std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def, nullptr).bytes; }
 
@@ -217,7 +191,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     }
     std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
-        const swivel_group_def group_def = group_at(def, g);
+        const GroupDef group_def = group_at(def, g);
         Group& group = *new (crowd->groups + g) Group{};
         if (group_def.features & SWIVEL_WITH_REGION)
             group.region = new (layout.regions++) swivel_region(*group_def.region);

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "include/swivel/swivel.h"
+#include "include/swivel/swivel_bodies.h"
 #include "simd/body_rows.h"
 #include "simd/kernels.h"
 #include "simd/rows.h"
@@ -18,8 +18,9 @@ namespace swivel {
 
 struct Group {
     std::uint32_t first_block, block_count, limb_count;
-    swivel_features features;
-    bool keeps;  // SWIVEL_KEEP_POSE
+    swivel_features asked;     // by the caller
+    swivel_features features;  // the same, with what these bring and the library's own bits
+    bool keeps;                // SWIVEL_KEEP_POSE
     swivel_euler_order shoulder_order, wrist_order;
     std::uint32_t input_row_count, result_row_count;
     std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows
@@ -97,10 +98,6 @@ inline std::uint32_t lane_group_count(const swivel_crowd& crowd)
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }
 inline std::uint32_t group_word_count(std::uint32_t group_count) { return (group_count + 31) / 32; }
 
-// A group of a def that full_def() has filled; and the same without what other groups bring, which is found without
-// them.
-swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g);
-swivel_group_def unlinked_group(const swivel_crowd_def& def, std::uint32_t g);
 // Bytes of the arena. The def must be valid, and full_def() must have filled it.
 std::uint64_t crowd_bytes(const swivel_crowd_def& def);
 // Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long: inputs as swivel_crowd_create() says.

@@ -10,6 +10,7 @@
 
 #include "batch/crowd/body_plan.h"
 #include "batch/crowd/crowd.h"
+#include "batch/crowd/group_def.h"
 #include "batch/crowd/rig.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
@@ -43,20 +44,24 @@ swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, 
                     group);
     if (twist_bones > 0 && binding.twist_bone_count > 0 && binding.twist_bone_count != twist_bones)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u's binding has %u twist bones, its features %u; bind that many, or give it as many as "
-                    "are bound",
+                    "group %u's binding has %u twist bones, the group %u; bind that many, or give it as many as are "
+                    "bound",
                     group, binding.twist_bone_count, twist_bones);
     return SWIVEL_OK;
 }
 
-// Features that go together, each at most once and known.
-swivel_status check_features(std::uint32_t group, swivel_features features)
+// Features that the kind of group may have and that go together. features: those asked for, and what the
+// library adds.
+swivel_status check_features(std::uint32_t group, swivel_features asked, swivel_features features)
 {
-    if (const swivel_features unknown = features & ~kKnownFeatures)
+    if (const swivel_features unknown = asked & ~kKnownFeatures)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u asks for unknown features: bits 0x%llx", group,
                     static_cast<unsigned long long>(unknown));
     for (const FeatureRow& row : kFeatures) {
-        if (!(features & bits_of(row))) continue;
+        if (!(asked & row.feature)) continue;
+        if (const swivel_kind kind = kind_of(features); !(row.kinds >> kind & 1))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s is not for %s; leave it out", group, row.name,
+                        text_of(kind));
         if (const swivel_features missing = row.needs & ~features)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s needs SWIVEL_%s; add it", group, row.name,
                         feature_name(missing));
@@ -64,10 +69,12 @@ swivel_status check_features(std::uint32_t group, swivel_features features)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s excludes SWIVEL_%s; leave one out", group,
                         row.name, feature_name(excluded));
     }
+    if (twist_bone_count(features) > 0 && !(features & SWIVEL_WITH_HAND))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: twist bones need SWIVEL_WITH_HAND; add it", group);
     return SWIVEL_OK;
 }
 
-swivel_status check_group_region(std::uint32_t g, const swivel_group_def& group)
+swivel_status check_group_region(std::uint32_t g, const GroupDef& group)
 {
     const bool has = group.features & SWIVEL_WITH_REGION;
     if (has && !group.region)
@@ -83,10 +90,10 @@ swivel_status check_group_region(std::uint32_t g, const swivel_group_def& group)
     return SWIVEL_OK;
 }
 
-swivel_status check_group(std::uint32_t g, const swivel_group_def& group)
+swivel_status check_group(std::uint32_t g, const GroupDef& group)
 {
     if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
-    if (const swivel_status status = check_features(g, group.features); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_features(g, group.asked, group.features); status != SWIVEL_OK) return status;
     std::uint32_t on_bad_input;  // C lets it be any number
     static_assert(sizeof on_bad_input == sizeof group.on_bad_input);
     std::memcpy(&on_bad_input, &group.on_bad_input, sizeof on_bad_input);
@@ -125,16 +132,10 @@ swivel_status check_def(const swivel_crowd_def* given)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
     if (!def.allocate != !def.release)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
-    if (const swivel_status status = check_size<swivel_group_def>("the first group def", size_of(def.groups));
-        status != SWIVEL_OK)
-        return status;
+    if (const swivel_status status = check_group_defs(def); status != SWIVEL_OK) return status;
     std::uint64_t limb_count = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
-        if (const swivel_status status = check_element("group def", def.groups, g); status != SWIVEL_OK) return status;
-        const swivel_group_def group = group_at(def, g);
-        if (!def.skeleton && (group.features & (SWIVEL_BODY | kNoLimb) || group.joints))
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u is of bodies, but the crowd def has no skeleton; give it",
-                        g);
+        const GroupDef group = group_at(def, g);
         if (const swivel_status status = check_group(g, group); status != SWIVEL_OK) return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }

@@ -3,7 +3,7 @@
 // Checks a crowd's definition.
 #pragma once
 
-#include "include/swivel/swivel.h"
+#include "include/swivel/swivel_bodies.h"
 
 namespace swivel {
 

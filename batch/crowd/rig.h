@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/conformal.h"
-#include "include/swivel/swivel.h"
+#include "include/swivel/swivel_bodies.h"
 
 namespace swivel {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The C entry points that describe a solved pose for people: in words, and as joint angles.
+// The C entry points that describe poses to people, in words.
 #include <cstring>
 #include <span>
 #include <tuple>
-#include <utility>
 
 #include "batch/api/check.h"
 #include "batch/api/pose_check.h"
@@ -13,9 +12,9 @@
 #include "batch/explain/explain.h"
 #include "batch/explain/explain_doubts.h"
 #include "batch/explain/explain_text.h"
-#include "batch/explain/joint_angles.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/pose.h"
+#include "include/swivel/swivel_explain.h"
 #include "simd/float_env.h"
 
 using namespace swivel;
@@ -88,33 +87,5 @@ swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: text is null or of no size");
     const bool agree = compare(*crowd, group, body, full_pose(pose), places, {text, size});
     if (agrees) *agrees = agree;
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
-                                  swivel_euler_order shoulder_order, swivel_euler_order wrist_order, int family,
-                                  swivel_out angles)
-{
-    const FloatEnv env;
-    const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_limbs(*crowd, group, "swivel_joint_angles"); status != SWIVEL_OK)
-        return status;
-    for (const auto& [order, name] :
-         {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
-        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX",
-                        name, static_cast<int>(order));
-    if (family != 0 && family != 1)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
-    if (const swivel_status status =
-            check_stride(group, "angles", limb_count, angles.data, angles.stride, 7 * sizeof(double), false);
-        status != SWIVEL_OK)
-        return status;
-    const Group& g = crowd->groups[group];
-    for (std::uint32_t n = 0; n < limb_count; ++n) {
-        const JointAngles seven = joint_angles(arm_rotors(g, first + n), shoulder_order, wrist_order, family);
-        std::memcpy(static_cast<char*>(angles.data) + n * angles.stride, &seven, sizeof seven);
-    }
     return SWIVEL_OK;
 }

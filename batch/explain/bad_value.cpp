@@ -27,11 +27,10 @@ bool is_bad(const LimbValue& value, const FieldRow& row)
 bool is_of_bodies(const Group& group, swivel_field field)
 {
     constexpr swivel_features kReadInBodies = SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_NEXT_TARGET |
-                                              SWIVEL_FIT | SWIVEL_WITH_GROUND | SWIVEL_WITH_LINK | SWIVEL_PROP |
-                                              SWIVEL_LOOK;
+                                              kShift | SWIVEL_WITH_GROUND | SWIVEL_WITH_LINK | kProp | kLook;
     if (field == SWIVEL_TARGET || field == SWIVEL_HAND)
         return group.features & SWIVEL_WITH_PLANT || group.limb.link.is_prop;
-    if (field == SWIVEL_CLAVICLE) return group.features & SWIVEL_BODY;
+    if (field == SWIVEL_CLAVICLE) return group.features & kBody;
     return field != SWIVEL_GROUND && row_of(field).needs & kReadInBodies;
 }
 

@@ -8,6 +8,7 @@
 
 #include "batch/crowd/crowd.h"
 #include "core/conformal.h"
+#include "include/swivel/swivel_explain.h"
 
 namespace swivel {
 

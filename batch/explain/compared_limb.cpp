@@ -31,12 +31,12 @@ double ComparedLimb::worst(const LimbPlaces& ours) const
 }
 double ComparedLimb::allowed(const LimbPlaces& ours) const
 {
-    constexpr double kShare = 1e-3;  // as swivel.h says
+    constexpr double kShare = 1e-3;  // as swivel_explain.h says
     return kShare * std::max(length(ours), length(theirs)) + (pose.root_is_double ? 0 : rounding());
 }
 double ComparedLimb::rounding() const
 {
-    constexpr double kRounding = 2e-7;  // as swivel.h says
+    constexpr double kRounding = 2e-7;  // as docs/fields.md says
     double size2 = 0;
     for (const Vector<double>& v : theirs.at) size2 = std::max(size2, len2(v));
     return kRounding * std::sqrt(size2);

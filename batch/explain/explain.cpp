@@ -72,7 +72,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
         if (is_bad_in_body(group, limb, field)) found(field);
         // The goal that the library makes for a limb is no input.
         const bool is_goal = field == SWIVEL_TARGET || field == SWIVEL_HAND;
-        if (probe.component_count(field) == 0 || (is_goal && group.features & SWIVEL_SENT)) continue;
+        if (probe.component_count(field) == 0 || (is_goal && group.features & kLibraryGoal)) continue;
         probe.take();
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
@@ -194,7 +194,7 @@ bool is_near(const LimbPose& a, const LimbPose& b)
     const LimbPose explained = probe.pose();
     const std::uint32_t flags_now = probe.solve();
     // The goal of a limb that is sent is that of its last good solve.
-    const bool was_bad = group.features & SWIVEL_SENT && flags_were & SWIVEL_BAD_INPUT;
+    const bool was_bad = group.features & kLibraryGoal && flags_were & SWIVEL_BAD_INPUT;
     const bool is_kept = was_bad || (group.keeps && flags_now & SWIVEL_BAD_INPUT);
     const bool is_same = probe.is_of_body() ? is_near(explained, probe.pose()) : probe.has_bits_of_limb();
     // At the borders of reach the solver's own flags count: rounding of a record may have others.
@@ -217,11 +217,11 @@ bool is_near(const LimbPose& a, const LimbPose& b)
 void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, Text& text)
 {
     const Group& group = crowd.groups[g];
-    if (group.features & SWIVEL_FIT)
+    if (group.features & kShift)
         explain_shift(group, limb, text);
-    else if (group.features & SWIVEL_PROP)
+    else if (group.features & kProp)
         explain_prop(crowd, group, limb, text);
-    else if (group.features & SWIVEL_LOOK)
+    else if (group.features & kLook)
         explain_look(crowd, group, limb, text);
     else
         explain_limb(crowd, group, limb, text);

@@ -7,6 +7,7 @@
 
 #include "batch/crowd/crowd.h"
 #include "batch/explain/explain_text.h"
+#include "include/swivel/swivel_explain.h"
 
 namespace swivel {
 

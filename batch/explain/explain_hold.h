@@ -17,7 +17,7 @@ bool holds_bad(const swivel_crowd& crowd, const Group& group, std::uint32_t limb
 // Says what a linked limb holds.
 void explain_link(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
-// A prop, of a group that is SWIVEL_PROP.
+// A prop.
 void explain_prop(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -11,7 +11,7 @@
 
 namespace swivel {
 
-// A look, of a group that is SWIVEL_LOOK.
+// A look.
 void explain_look(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -14,7 +14,7 @@ namespace swivel {
 // Where the target of a planted limb comes from. flags: as the last solve left them.
 void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text);
 
-// A body's shift, of a group that is SWIVEL_FIT.
+// A body's shift.
 void explain_shift(const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -5,9 +5,11 @@
 #include <cstring>
 
 #include "batch/explain/explain_text.h"
-#include "batch/explain/joint_angles.h"
+#include "batch/explain/outside_limit.h"
+#include "batch/query/joint_angles.h"
 #include "batch/solve/solve.h"
 #include "core/bit_cast.h"
+#include "include/swivel/swivel_regions.h"
 #include "simd/dispatch.h"
 
 namespace swivel {
@@ -78,7 +80,7 @@ bool Probe::is(swivel_field field, std::initializer_list<float> wanted) const
 bool Probe::is_posed(swivel_field field) const
 {
     if (!is_of_body()) return false;
-    return row_of(field).excludes & SWIVEL_BODY || (field == SWIVEL_LENGTHS && std::isnan(given(field, 0)));
+    return row_of(field).excludes & kBody || (field == SWIVEL_LENGTHS && std::isnan(given(field, 0)));
 }
 
 // It gets the padding's value, from an ordinary arm without limits.

@@ -37,7 +37,7 @@ public:
     bool has_bits_of_limb() const;
 
     bool has(swivel_features feature) const { return source_.features & feature; }
-    bool is_of_body() const { return has(SWIVEL_BODY); }
+    bool is_of_body() const { return has(kBody); }
     std::uint32_t component_count(swivel_field field) const { return field_row_count(group().features, field); }
     float value(swivel_field field, std::uint32_t component) const
     {

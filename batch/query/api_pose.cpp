@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The C entry points about single poses: the swivels that limits allow, and the solved pose as positions and errors.
+// The C entry points about single poses: the swivels that limits allow, and the solved pose as positions, errors and
+// joint angles.
 #include <cstring>
 #include <tuple>
+#include <utility>
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
 #include "batch/crowd/streams.h"
 #include "batch/query/forward.h"
+#include "batch/query/joint_angles.h"
 #include "batch/query/one_limb.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/solve.h"
@@ -32,7 +35,7 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
 template <class Take>
 void for_each_free_limb(const Group& group, std::uint32_t first, std::uint32_t limb_count, const Take& take)
 {
-    if (group.features & SWIVEL_BODY) {
+    if (group.features & kBody) {
         OneLimb one(group);
         for (std::uint32_t n = 0; n < limb_count; ++n) {
             one.take(first + n);
@@ -118,5 +121,33 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
                            const double value = residual(free_limbs, limb);
                            std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
                        });
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                                  swivel_euler_order shoulder_order, swivel_euler_order wrist_order, int family,
+                                  swivel_out angles)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_limbs(*crowd, group, "swivel_joint_angles"); status != SWIVEL_OK)
+        return status;
+    for (const auto& [order, name] :
+         {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
+        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX",
+                        name, static_cast<int>(order));
+    if (family != 0 && family != 1)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
+    if (const swivel_status status =
+            check_stride(group, "angles", limb_count, angles.data, angles.stride, 7 * sizeof(double), false);
+        status != SWIVEL_OK)
+        return status;
+    const Group& g = crowd->groups[group];
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        const JointAngles seven = joint_angles(arm_rotors(g, first + n), shoulder_order, wrist_order, family);
+        std::memcpy(static_cast<char*>(angles.data) + n * angles.stride, &seven, sizeof seven);
+    }
     return SWIVEL_OK;
 }

@@ -12,7 +12,7 @@ int swivel_describe_feature(uint32_t index, swivel_feature_info* info)
 {
     if (index >= std::size(kFeatures) || !info) return 0;
     const FeatureRow& row = kFeatures[index];
-    *info = {row.feature, row.name, row.needs, row.excludes};
+    *info = {row.feature, row.name, row.needs, row.excludes, row.kinds, 0};
     return 1;
 }
 
@@ -20,9 +20,16 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
 {
     if (index >= std::size(kFields) || !info) return 0;
     const FieldRow& row = kFields[index];
-    const swivel_field field = row.field;
-    *info = {field,     row.kind,         row.name,           row.range.text,
-             row.needs, excludes_of(row), is_position(field), max_rows(field)};
+    *info = {row.field,
+             row.kind,
+             row.name,
+             row.range.text,
+             row.needs & kPublicFeatures,
+             row.excludes & kPublicFeatures,
+             kinds_of(row),
+             max_rows(row.field),
+             is_position(row.field),
+             0};
     return 1;
 }
 

@@ -5,6 +5,7 @@
 
 #include "batch/query/forward.h"
 #include "batch/solve/rest.h"
+#include "include/swivel/swivel_regions.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -13,13 +14,15 @@ namespace {
 
 constexpr swivel_features free_features(swivel_features features)
 {
-    if (!(features & SWIVEL_BODY)) return features;
+    if (!(features & kBody)) return features;
     // An aim sees the hand that the record has.
     const swivel_features hand = features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0;
-    constexpr swivel_features of_bodies = SWIVEL_BODY | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
-                                          SWIVEL_WITH_PLANT_ROTATION | SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_PELVIS_FIT |
-                                          SWIVEL_WITH_NEXT_TARGET | SWIVEL_WITH_HAND_TRANSFORM | SWIVEL_WITH_LINK |
-                                          SWIVEL_WITH_GROUND | SWIVEL_SENT;
+    constexpr swivel_features of_bodies = [] {
+        swivel_features found = kBody | kLibraryGoal;
+        for (const FeatureRow& row : kFeatures)
+            if (row.kinds == kBodyLimbs) found |= row.feature;
+        return found;
+    }();
     return (features & ~(of_bodies | SWIVEL_WITH_CLAVICLE | kTwistBones)) | hand;
 }
 
@@ -35,23 +38,25 @@ float* value_of(const Group& group, std::uint32_t limb, swivel_field field)
 
 Rotor<double> hand_from_arm(const Group& group)
 {
-    if (!(group.features & SWIVEL_BODY)) return rotor(0.0, 0.0, 0.0, 1.0);
+    if (!(group.features & kBody)) return rotor(0.0, 0.0, 0.0, 1.0);
     return normalise(~rotor_of(group.binding.wrist_parent_from_arm) * rotor_of(group.binding.wrist_rest));
 }
 
 OneLimb::OneLimb(const Group& group) : source_(group), crowd_(nullptr)
 {
-    static_assert(block_bytes(free_features(kEveryFeature | SWIVEL_BODY)) + 4096 <= kArenaBytes,
-                  "with what stands before");
+    static_assert(block_bytes(free_features(kEveryFeature | kBody)) + 4096 <= kArenaBytes, "with what stands before");
     static_assert(sizeof(swivel_crowd) + sizeof(Group) + sizeof(swivel_region) + 4 * 64 <= 4096);
-    swivel_group_def alone = swivel_default_group_def(1);
-    alone.features = free_features(group.features);
+    swivel_limb_def alone = swivel_default_limb_def(1);
+    alone.features = free_features(group.features) & kPublicFeatures;
+    alone.twist_bone_count = twist_bone_count(free_features(group.features));
     alone.shoulder_order = group.shoulder_order;
     alone.wrist_order = group.wrist_order;
     alone.binding = group.binding;
     alone.region = group.region;
+    swivel_group_def alone_in_crowd = swivel_default_group_def();
+    alone_in_crowd.limb = &alone;
     swivel_crowd_def def = swivel_default_crowd_def();
-    def.groups = &alone;
+    def.groups = &alone_in_crowd;
     def.group_count = 1;
     def.workspace_count = 0;
     crowd_ = place_crowd(def, arena_);
@@ -65,7 +70,7 @@ void OneLimb::take(std::uint32_t limb)
         if (count == 0 || field_row_count(source_.features, row.field) != count) continue;
         copy_lane(count, value_of(source_, limb, row.field), value_of(group(), 0, row.field));
     }
-    if (source_.features & SWIVEL_BODY) take_record(limb);
+    if (source_.features & kBody) take_record(limb);
 }
 
 void OneLimb::take_record(std::uint32_t limb)
@@ -93,11 +98,11 @@ void OneLimb::take_record(std::uint32_t limb)
         if (!(features & SWIVEL_WITH_HAND)) set(SWIVEL_WRIST, rotor_at(kRecordIncoming + 8));
         set(SWIVEL_AIM, sandwich(hand, vector_of(SWIVEL_AIM)));
     } else if (features & SWIVEL_WITH_HAND) {
-        const float* const q = features & SWIVEL_SENT ? value_of(source_, limb, SWIVEL_SOLVED_GOAL) + 3 * kLanes
-                                                      : value_of(source_, limb, SWIVEL_HAND);
+        const float* const q = features & kLibraryGoal ? value_of(source_, limb, SWIVEL_SOLVED_GOAL) + 3 * kLanes
+                                                       : value_of(source_, limb, SWIVEL_HAND);
         set(SWIVEL_HAND, rotor<double>(q[0], q[kLanes], q[2 * kLanes], q[3 * kLanes]) * ~hand);
     }
-    if (features & SWIVEL_SENT) set(SWIVEL_TARGET, vector_of(SWIVEL_SOLVED_GOAL));
+    if (features & kLibraryGoal) set(SWIVEL_TARGET, vector_of(SWIVEL_SOLVED_GOAL));
     if (features & SWIVEL_WITH_EFFECTOR) set(SWIVEL_EFFECTOR, sandwich(hand, vector_of(SWIVEL_EFFECTOR)));
 }
 

@@ -3,7 +3,7 @@
 // A C entry point that fails returns a status for the program, and leaves one line for people.
 #pragma once
 
-#include "include/swivel/swivel.h"
+#include "include/swivel/swivel_bodies.h"
 
 namespace swivel {
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/region.h"
+#include "include/swivel/swivel_regions.h"
 
 namespace swivel {
 

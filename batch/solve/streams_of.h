@@ -6,7 +6,7 @@
 #include <span>
 
 #include "batch/refusal/sized.h"
-#include "include/swivel/swivel.h"
+#include "include/swivel/swivel_bodies.h"
 
 namespace swivel {
 

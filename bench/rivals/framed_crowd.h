@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,12 +15,14 @@ namespace bench {
 class FramedCrowd {
 public:
     FramedCrowd(swivel::Crowd crowd, std::vector<swivel::Streams> views)
-        : crowd_(std::move(crowd)), views_(std::move(views)), frames_(views_.begin(), views_.end())
+        : crowd_(std::move(crowd)),
+          views_(std::move(views)),
+          in_one_{.blocks = all_blocks(), .streams = {views_.begin(), views_.end()}, .on_this_thread = true}
     {
     }
 
     swivel::Crowd& crowd() { return crowd_; }
-    std::span<const swivel_streams> frames() const { return frames_; }
+    const std::vector<swivel_streams>& frames() const { return in_one_.streams; }
 
     void write()
     {
@@ -38,21 +39,21 @@ public:
                 swivel::check(swivel_read(crowd_.get(), f.field, group, 0, count, {f.data, f.stride}));
         });
     }
-    void solve_in_one() { crowd_.solve({.blocks = all_blocks(), .streams = frames_, .on_this_thread = true}); }
+    void solve_in_one() { crowd_.solve(in_one_); }
 
 private:
     swivel_blocks all_blocks() const { return {0, swivel_block_count(crowd_.get())}; }
     template <class Take>
     void for_each_field(const Take& take) const
     {
-        for (std::uint32_t group = 0; group < frames_.size(); ++group)
-            for (std::uint32_t n = 0; n < frames_[group].field_count && frames_[group].fields[n].data; ++n)
-                take(group, swivel_group_limb_count(crowd_.get(), group), frames_[group].fields[n]);
+        for (std::uint32_t group = 0; group < frames().size(); ++group)
+            for (std::uint32_t n = 0; n < frames()[group].field_count && frames()[group].fields[n].data; ++n)
+                take(group, swivel_group_limb_count(crowd_.get(), group), frames()[group].fields[n]);
     }
 
     swivel::Crowd crowd_;
-    std::vector<swivel::Streams> views_;  // what frames_ views
-    std::vector<swivel_streams> frames_;
+    std::vector<swivel::Streams> views_;  // what in_one_ views
+    swivel::Job in_one_;
 };
 
 }  // namespace bench

@@ -127,9 +127,10 @@ std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs)
 swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs,
                          const swivel_region* region)
 {
-    swivel_group_def def = swivel::group(static_cast<std::uint32_t>(arm_count), arm_along_x(1, 1), features);
-    def.region = region;
-    swivel::Crowd crowd({def});
+    swivel_limb_def arms = swivel::limbs(static_cast<std::uint32_t>(arm_count), features);
+    arms.binding = arm_along_x(1, 1);
+    arms.region = region;
+    swivel::Crowd crowd({arms});
 
     std::vector<Limb> given(limbs.begin(),
                             limbs.begin() + static_cast<std::ptrdiff_t>(std::min(limbs.size(), arm_count)));
@@ -159,7 +160,9 @@ swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::s
 
 std::size_t arms_within(std::size_t memory_level, swivel_features features)
 {
-    const swivel::Crowd crowd({swivel::group(1, arm_along_x(1, 1), features)});
+    swivel_limb_def arm = swivel::limbs(1, features);
+    arm.binding = arm_along_x(1, 1);
+    const swivel::Crowd crowd({arm});
     const std::size_t row_count =
         swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count;
     const std::size_t blocks = working_sets()[memory_level] / (row_count * sizeof(float)) / SWIVEL_LANES;

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "bench/rivals/character.h"
-#include "swivel/swivel.hpp"
+#include "swivel/swivel_regions.hpp"
 
 namespace bench {
 

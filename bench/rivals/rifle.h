@@ -3,7 +3,7 @@
 // What swivel needs of character C's rifle.
 #pragma once
 
-#include "swivel/swivel.h"
+#include "swivel/swivel_regions.h"
 
 namespace bench {
 

@@ -44,7 +44,10 @@ swivel::Streams frame(const Poses& world, const Goals& goals, Poses& local, std:
 FramedCrowd make_framed(const Poses& world, const Goals& goals, Poses& local)
 {
     const auto count = static_cast<std::uint32_t>(world.size());
-    swivel::Crowd crowd({swivel::group(count, binding(1), kResident), swivel::group(count, binding(-1), kResident)});
+    swivel_limb_def left = swivel::limbs(count, kResident), right = left;
+    left.binding = binding(1);
+    right.binding = binding(-1);
+    swivel::Crowd crowd({left, right});
     for (std::uint32_t side = 0; side < kArms; ++side) crowd.write_all(SWIVEL_LENGTHS, side, std::array{kUpper, kFore});
     return {std::move(crowd), {frame(world, goals, local, 0), frame(world, goals, local, 1)}};
 }

@@ -4,7 +4,7 @@
 TEST_CASE("docs: aiming")
 {
     // [shown]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_AIM)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_AIM)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     // Along the hand, +z at rest, with the elbow bent by half a radian.
     const Double3 along_hand{0, 0, 1};

@@ -23,8 +23,9 @@ Pose solved(const Arm& arm)
     skeleton.translations = swivel::stream(translations);
     swivel_limb_joints joints = swivel_default_limb_joints(0, 1, 2);
     std::ranges::copy(arm.bend, joints.bend);
-    const swivel_binding bound = swivel::bind(skeleton, joints);
-    swivel::Crowd crowd({swivel::group(1, bound, SWIVEL_WORLD | SWIVEL_JOINTS)});
+    swivel_limb_def limb = swivel::limbs(1, SWIVEL_WORLD | SWIVEL_JOINTS);
+    limb.binding = swivel::bind(skeleton, joints);
+    swivel::Crowd crowd({limb});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, arm.shoulder);
     crowd.write_all(SWIVEL_TARGET, 0, arm.target);
     crowd.write_all(SWIVEL_POLE, 0, arm.pole);

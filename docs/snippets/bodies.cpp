@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <string>
-
 #include "check.h"
+
+#include <string>
+#include <swivel/swivel_bodies.hpp>
+#include <swivel/swivel_explain.hpp>
 
 namespace {
 
@@ -57,9 +59,9 @@ TEST_CASE("docs: bodies")
                        leg = swivel_default_limb_joints(kThigh, kShin, kFoot);
     arm.bend[2] = 1;   // where flexion carries the forearm, in the upper arm's frame
     leg.bend[2] = -1;  // and the shin: backwards
-    const std::array groups = {swivel::body_group(arm, SWIVEL_POLE_INCOMING),
-                               swivel::body_group(leg, SWIVEL_POLE_INCOMING)};
-    swivel::Crowd crowd(skeleton, 40, groups);
+    swivel::Crowd crowd(skeleton, 40,
+                        {swivel::body_limb(arm, SWIVEL_POLE_INCOMING),
+                         swivel::body_limb(leg, SWIVEL_POLE_INCOMING)});
     // [end]
     // [frame]
     for (Character& each : characters) each.solved = each.pose;
@@ -113,7 +115,8 @@ TEST_CASE("docs: bodies")
         const Double3 shoulder = engine_place(kUpperArm),
                       elbow = engine_place(kForearm),
                       wrist = engine_place(kHand);  // in the world, of character 3
-        const auto said = crowd.compare(0, 3, pose, shoulder, elbow, wrist);  // group 0
+        // Of group 0, body 3:
+        const auto said = swivel::compare(crowd, 0, 3, pose, shoulder, elbow, wrist);
         if (!said.agrees) log.push_back(said.text);
         // [end]
     };
@@ -145,10 +148,10 @@ TEST_CASE("docs: bodies in the body's space")
     arm.bend[2] = 1;
     arm.twist_bones = twist_bones;
     arm.twist_bone_count = 1;
-    const auto group = swivel::body_group(
+    const swivel_body_limb_def twisted = swivel::body_limb(
         arm, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_RECORD);
     // [end]
-    swivel::Crowd crowd(skeleton, 10, std::array{group});
+    swivel::Crowd crowd(skeleton, 10, {twisted});
     // [model]
     struct Model {  // each joint relative to the root
         std::array<Float4, 5> rotations;
@@ -184,5 +187,5 @@ TEST_CASE("docs: bodies in the body's space")
             (vec(model.places[3]) - vec(model.places[2]) - Eigen::Vector3d(0.08, 0, 0))
                 .norm() < 2e-6);
     }
-    CHECK(crowd.explain(0, 3).starts_with("The target is reached"));
+    CHECK(swivel::explain(crowd, 0, 3).starts_with("The target is reached"));
 }

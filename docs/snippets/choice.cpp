@@ -16,7 +16,7 @@ std::uint32_t solved(const swivel::Crowd& crowd)
 
 TEST_CASE("docs: active limbs")
 {
-    swivel::Crowd crowd({swivel::group(64)});
+    swivel::Crowd crowd({swivel::limbs(64)});
     // [active]
     std::vector<std::uint32_t> active((swivel_block_count(crowd.get()) + 1) / 2);
     for (std::uint32_t limb = 0; limb < 20; ++limb)
@@ -29,7 +29,7 @@ TEST_CASE("docs: active limbs")
 TEST_CASE("docs: budget")
 {
     // [budget]
-    swivel::Crowd crowd({swivel::group(64)});
+    swivel::Crowd crowd({swivel::limbs(64)});
     // Yours, kept from frame to frame: a float for each block, zeros at first.
     std::vector<float> urgency(swivel_block_count(crowd.get()));
     std::vector<std::uint32_t> mask((urgency.size() + 1) / 2);

@@ -4,7 +4,7 @@
 TEST_CASE("docs: clavicle")
 {
     // [shown]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE)});
     // The shoulder, as the clavicle's joint has it, and a third of the way.
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.15f, 0, 0, 0.33f});
     // The shoulder's place and the clavicle's rotation as they are without this.

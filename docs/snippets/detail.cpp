@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <swivel/swivel_bodies.hpp>
 
 namespace {
 
@@ -42,8 +43,8 @@ TEST_CASE("docs: bodies come near and go")
     skeleton.joint_count = kJoints;
     swivel_limb_joints joints = swivel_default_limb_joints(kUpperArm, kForearm, kHand);
     joints.bend[2] = 1;
-    const std::array groups = {swivel::body_group(joints, SWIVEL_POLE_INCOMING)};
-    swivel::Crowd crowd(skeleton, kCount, groups);
+    swivel::Crowd crowd(skeleton, kCount,
+                        {swivel::body_limb(joints, SWIVEL_POLE_INCOMING)});
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};

@@ -4,7 +4,7 @@
 TEST_CASE("docs: effector")
 {
     // [shown]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // The palm, as the hand has it.

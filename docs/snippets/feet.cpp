@@ -2,6 +2,8 @@
 #include "check.h"
 
 #include <algorithm>
+#include <swivel/swivel_bodies.hpp>
+#include <swivel/swivel_explain.hpp>
 
 namespace {
 
@@ -78,15 +80,14 @@ Eigen::Vector3d place_of(const Character& character, int joint)
 // A crowd of some bodies that the parts of the page start from.
 struct Legs {
     swivel_limb_joints left = leg(kLeftThigh), right = leg(kRightThigh);
-    std::vector<swivel_group_def> groups;
     swivel::Crowd crowd;
     std::vector<Character> characters;
     swivel_pose pose = swivel_default_pose();
 
     explicit Legs(swivel_features features, std::uint32_t count = 3)
-        : groups({swivel::body_group(left, features),
-                  swivel::body_group(right, features)}),
-          crowd(legs(), count, groups),
+        : crowd(
+              legs(), count,
+              {swivel::body_limb(left, features), swivel::body_limb(right, features)}),
           characters(count, standing())
     {
         pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
@@ -116,9 +117,9 @@ TEST_CASE("docs: feet that stand")
     const swivel_limb_joints left = leg(kLeftThigh), right = leg(kRightThigh);
     // [crowd]
     constexpr swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT;
-    const std::array groups = {swivel::body_group(left, features),
-                               swivel::body_group(right, features)};
-    swivel::Crowd crowd(skeleton, 40, groups);
+    swivel::Crowd crowd(
+        skeleton, 40,
+        {swivel::body_limb(left, features), swivel::body_limb(right, features)});
     // [end]
     Eigen::Vector3d stood = Eigen::Vector3d::Zero();
     for (int n = 0; n < 20; ++n) {
@@ -158,13 +159,13 @@ TEST_CASE("docs: feet by motion")
     const swivel_skeleton skeleton = legs();
     const swivel_limb_joints left = leg(kLeftThigh);
     // [motion]
-    swivel_group_def group = swivel::body_group(
+    swivel_body_limb_def left_leg = swivel::body_limb(
         left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_PLANT_BY_MOTION);
     // In limb lengths, of 0.9 m here. To begin a contact, then to go on with it:
-    group.plant.speed[0] = 0.4f, group.plant.speed[1] = 0.6f;    // a second
-    group.plant.height[0] = 0.1f, group.plant.height[1] = 0.2f;  // over the root
+    left_leg.plant.speed[0] = 0.4f, left_leg.plant.speed[1] = 0.6f;    // a second
+    left_leg.plant.height[0] = 0.1f, left_leg.plant.height[1] = 0.2f;  // over the root
     // [end]
-    swivel::Crowd crowd(skeleton, 1, std::array{group});
+    swivel::Crowd crowd(skeleton, 1, {left_leg});
     std::vector<Character> one(1, standing());
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {one[0].pose.data(), sizeof(Character), sizeof(Float4), nullptr};
@@ -198,8 +199,7 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
     std::vector<Walker> walkers(2, first);
     const swivel_limb_joints left = leg(kLeftThigh);
     swivel::Crowd crowd(
-        legs(), 2,
-        std::array{swivel::body_group(left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT)});
+        legs(), 2, {swivel::body_limb(left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT)});
     crowd.write_all(SWIVEL_CONTACT, 0, std::array{1.0f});
     // [double]
     swivel_pose pose = swivel_default_pose();
@@ -234,7 +234,7 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
     const swivel_supports ground = {{&walkers[body].support, 0},
                                     {&walkers[body].support_rotation, 0}};
     const swivel_supports on_lift = {{&lift.place, 0}, {&lift.rotation, 0}};
-    swivel_change_support(crowd.get(), 0, body, 1, ground, on_lift);  // for each leg
+    swivel::change_support(crowd, 0, body, 1, ground, on_lift);  // for each leg
     // [end]
     const auto ride = [&] {
         // [ride]
@@ -259,10 +259,10 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
     constexpr swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT |
                                          SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT |
                                          SWIVEL_WITH_NEXT_TARGET;
-    const std::array groups = {swivel::body_group(left, features),
-                               swivel::body_group(right, features),
-                               swivel_default_fit_group_def()};
-    swivel::Crowd crowd(skeleton, 40, groups);
+    swivel::Crowd crowd(
+        skeleton, 40,
+        {swivel::body_limb(left, features), swivel::body_limb(right, features),
+         swivel_default_shift_def()});
     // [end]
     std::vector<Character> characters(40, standing());
     // [steps]
@@ -322,10 +322,10 @@ TEST_CASE("docs: palms and standing feet keep their rotation")
     const swivel_skeleton skeleton = legs();
     const swivel_limb_joints left = leg(kLeftThigh);
     // [turn]
-    const swivel_group_def group = swivel::body_group(
+    const swivel_body_limb_def left_leg = swivel::body_limb(
         left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND |
                   SWIVEL_WITH_PLANT_ROTATION | SWIVEL_WITH_EFFECTOR);
-    swivel::Crowd crowd(skeleton, 40, std::array{group});
+    swivel::Crowd crowd(skeleton, 40, {left_leg});
     crowd.write_all(SWIVEL_EFFECTOR, 0,
                     Float3{0, -0.07f, 0.1f});  // the ball of the foot
     // [end]
@@ -415,7 +415,7 @@ TEST_CASE("docs: why a foot slid")
             crowd.read(SWIVEL_FLAGS, leg, flags);
             for (std::uint32_t body = 0; body < flags.size(); ++body)
                 if (flags[body] & (SWIVEL_BROKE_AWAY | SWIVEL_CUT))
-                    log.push_back(crowd.explain(leg, body));
+                    log.push_back(swivel::explain(crowd, leg, body));
         }
         // [end]
     }

@@ -40,11 +40,12 @@ TEST_CASE("docs: groups of different features")
     // [crowd]
     // Each group takes memory and time for its own features alone.
     const swivel_features own_joints = SWIVEL_WORLD | SWIVEL_JOINTS;
-    swivel::Crowd crowd({
-        swivel::group(count, left_leg, own_joints),
-        swivel::group(count, left_arm,
-                      own_joints | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE),
-    });
+    swivel_limb_def left_legs = swivel::limbs(count, own_joints);
+    left_legs.binding = left_leg;
+    swivel_limb_def left_arms =
+        swivel::limbs(count, own_joints | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE);
+    left_arms.binding = left_arm;
+    swivel::Crowd crowd({left_legs, left_arms});
     const std::uint32_t legs = 0, arms = 1;  // groups, in this order
     // Upper arms stay within 80 degrees of forwards and down.
     const std::array<double, 3> axis =
@@ -98,7 +99,8 @@ TEST_CASE("docs: groups of different features")
         each.grip = {0.4f, 1.3f, 0.3f};
     }
     // [some]
-    const std::uint32_t solved = crowd.solve({.groups = {arms}, .streams = {arm}});
+    const std::uint32_t solved =
+        crowd.solve({.groups = std::array{arms}, .streams = {arm}});
     // [end]
     CHECK(solved == count);
     CHECK(characters[7].thigh == before);
@@ -109,7 +111,7 @@ TEST_CASE("docs: groups of different features")
 TEST_CASE("docs: bad input that keeps the pose")
 {
     // [keep]
-    swivel_group_def arms = swivel::group(2);
+    swivel_limb_def arms = swivel::limbs(2);
     arms.on_bad_input = SWIVEL_KEEP_POSE;
     swivel::Crowd crowd({arms});
     // [end]

@@ -4,7 +4,7 @@
 TEST_CASE("docs: hand orientation")
 {
     // [shown]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_HAND)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_HAND)});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 0.1f, 0.3f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});

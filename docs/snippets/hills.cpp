@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
+#include <swivel/swivel_bodies.hpp>
+
 namespace {
 
 enum Joint {
@@ -132,24 +134,25 @@ TEST_CASE("docs: feet on hills")
                                      SWIVEL_WITH_GROUND |  // feet that stand, on ground
                                      SWIVEL_WITH_PELVIS_FIT |  // the pelvis follows
                                      SWIVEL_HAND_YIELDS | SWIVEL_WITH_HAND_TRANSFORM;
-    std::vector<swivel_group_def> groups;
-    for (const swivel_limb_joints& leg : legs) {
-        groups.push_back(swivel::body_group(leg, features));
-        swivel_ground& ground = groups.back().ground;
-        std::copy(kHeel.begin(), kHeel.end(), ground.heel);
+    std::vector<swivel::Definition> groups;
+    for (const swivel_limb_joints& joints : legs) {
+        swivel_body_limb_def leg = swivel::body_limb(joints, features);
+        std::copy(kHeel.begin(), kHeel.end(), leg.ground.heel);
+        groups.push_back(leg);
     }
-    groups.push_back(swivel::fit_group());
+    groups.push_back(swivel_default_shift_def());
     swivel::Crowd crowd(skeleton, 40, groups);
     for (std::uint32_t leg = 0; leg < 2; ++leg)
         crowd.write_all(SWIVEL_EFFECTOR, leg, kBall);
     // [end]
     const swivel_pose& pose = scene.pose;
     // [streams]
-    std::array<swivel::Streams, 3> streams;  // two legs, and the pelvis
+    std::array<swivel::Streams, 2> feet;
+    swivel::Streams pelvis;  // the last group's, which lists nothing
     constexpr std::size_t step = sizeof(Character);
     for (std::size_t leg = 0; leg < 2; ++leg) {
-        streams[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
-        streams[leg].out(SWIVEL_HAND_TRANSFORM, {&characters[0].ankle[leg], step});
+        feet[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
+        feet[leg].out(SWIVEL_HAND_TRANSFORM, {&characters[0].ankle[leg], step});
     }
     // [end]
     const auto reset = [&] {
@@ -168,7 +171,8 @@ TEST_CASE("docs: feet on hills")
                 std::copy(normal.begin(), normal.end(), probes.normals[foot]);
             }
         };
-        crowd.solve({.streams = streams, .pose = &pose, .sample = sample});
+        crowd.solve(
+            {.streams = {feet[0], feet[1], pelvis}, .pose = &pose, .sample = sample});
         // [end]
     }
     CHECK(scene.worst() < 1e-4);
@@ -183,15 +187,15 @@ TEST_CASE("docs: feet on hills")
     // Who does not move is on the same ground a frame later.
     // [late]
     for (std::size_t leg = 0; leg < 2; ++leg) {
-        streams[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
-        streams[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
-        streams[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
+        feet[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
+        feet[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
+        feet[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
     }
     // [end]
     reset();
     for (int n = 0; n < 31; ++n) {
         // [next]
-        crowd.solve({.streams = streams, .pose = &pose});
+        crowd.solve({.streams = {feet[0], feet[1], pelvis}, .pose = &pose});
         for (Character& each : characters)  // for the next frame
             for (std::size_t leg = 0; leg < 2; ++leg) {
                 const Float3& at = each.probe[leg];
@@ -212,7 +216,7 @@ TEST_CASE("docs: feet on hills")
     swivel_pose far = pose;
     far.root_position = {roots.data(), sizeof roots[0]};
     far.root_is_double = 1;
-    std::array<swivel::Streams, 3> contacts;
+    std::array<swivel::Streams, 2> contacts;
     for (std::size_t leg = 0; leg < 2; ++leg)
         contacts[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
     reset();
@@ -231,7 +235,9 @@ TEST_CASE("docs: feet on hills")
                 std::copy(normal.begin(), normal.end(), probes.normals[foot]);
             }
         };
-        crowd.solve({.streams = contacts, .pose = &far, .sample = sample});
+        crowd.solve({.streams = {contacts[0], contacts[1], pelvis},
+                     .pose = &far,
+                     .sample = sample});
         // [end]
     }
     check_same();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
+#include <swivel/swivel_bodies.hpp>
+
 namespace {
 
 enum Joint {
@@ -110,10 +112,10 @@ TEST_CASE("docs: a hand that holds the other one")
     const swivel_limb_joints right = scene.right, left = scene.left;
     // [hand]
     const swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND;
-    swivel_group_def leading = swivel::body_group(right, features);
-    swivel_group_def holding = swivel::body_group(left, features | SWIVEL_WITH_LINK);
+    const swivel_body_limb_def leading = swivel::body_limb(right, features);
+    swivel_body_limb_def holding = swivel::body_limb(left, features | SWIVEL_WITH_LINK);
     holding.link = 0;  // the group of right arms
-    swivel::Crowd crowd(skeleton, 40, std::array{leading, holding});
+    swivel::Crowd crowd(skeleton, 40, {leading, holding});
     const Grip grip = {0.05f, 0, 0.1f, 0, 0, 0, 1};  // in the right hand's frame
     crowd.write_all(SWIVEL_GRIP, 1, grip);
     // [end]
@@ -142,10 +144,11 @@ TEST_CASE("docs: a rifle in both hands")
     // [prop]
     const swivel_features features =
         SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK;
-    std::vector groups = {swivel::body_group(right, features),
-                          swivel::body_group(left, features), swivel::prop_group()};
-    groups[0].link = groups[1].link = 2;
-    swivel::Crowd crowd(skeleton, 40, groups);
+    swivel_body_limb_def right_hand = swivel::body_limb(right, features);
+    swivel_body_limb_def left_hand = swivel::body_limb(left, features);
+    right_hand.link = left_hand.link = 2;  // the rifle is the third group
+    swivel::Crowd crowd(skeleton, 40,
+                        {right_hand, left_hand, swivel_default_prop_def()});
     // On the rifle: the right hand at its origin, the left one ahead of it.
     crowd.write_all(SWIVEL_GRIP, 0, Grip{0, 0, 0, 0, 0, 0, 1});
     crowd.write_all(SWIVEL_GRIP, 1, Grip{0.1f, 0, 0.25f, 0, 0, 0, 1});
@@ -178,16 +181,15 @@ TEST_CASE("docs: a wheel, and a thing on a joint")
     const swivel_skeleton skeleton = trunk();
     const swivel_features features =
         SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK;
-    std::vector groups = {swivel::body_group(scene.right, features),
-                          swivel::body_group(scene.left, features),
-                          swivel::prop_group()};
-    groups[0].link = groups[1].link = 2;
+    swivel_body_limb_def right_hand = swivel::body_limb(scene.right, features);
+    swivel_body_limb_def left_hand = swivel::body_limb(scene.left, features);
+    right_hand.link = left_hand.link = 2;
     // [wheel]
-    swivel_prop& wheel = groups[2].prop;
+    swivel_prop_def wheel = swivel_default_prop_def();
     wheel.joint = kSeat;  // its place and turn are in this joint's frame
     wheel.max_move = 0;   // it does not come to the hands
     // [end]
-    swivel::Crowd crowd(skeleton, 40, groups);
+    swivel::Crowd crowd(skeleton, 40, {right_hand, left_hand, wheel});
     crowd.write_all(SWIVEL_GRIP, 0, Grip{-0.2f, 0, 0, 0, 0, 0, 1});
     crowd.write_all(SWIVEL_GRIP, 1, Grip{0.2f, 0, 0, 0, 0, 0, 1});
     const float angle = 0.4f;

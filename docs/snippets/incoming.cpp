@@ -6,7 +6,7 @@ namespace {
 // A pose to start from: what a plain crowd makes of another target.
 void pose_of(const Float3& target, Float4& shoulder, Float4& elbow)
 {
-    swivel::Crowd crowd({swivel::group(1)});
+    swivel::Crowd crowd({swivel::limbs(1)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, target);
     crowd.write_all(SWIVEL_POLE, 0, Float3{-1, -1, 0});
@@ -26,7 +26,7 @@ TEST_CASE("docs: incoming pose and weights")
     Float4 shoulder, elbow;
     pose_of({0.5f, 0.2f, 1.2f}, shoulder, elbow);
     // [shown]
-    swivel::Crowd crowd({swivel::group(
+    swivel::Crowd crowd({swivel::limbs(
         1, SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     // The clip's pose: whole quaternions, x, y, z, w.

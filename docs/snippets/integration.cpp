@@ -34,10 +34,11 @@ double twist_of(const Character& character)
 
 TEST_CASE("docs: streams in place")
 {
-    const swivel_binding arm = bound_arm();
     std::vector<Character> characters(
         40, {{0.3f, -0.2f, 0.3f}, {-0.2f, -0.5f, -0.3f}, {}, {}});
-    swivel::Crowd crowd({swivel::group(40, arm, SWIVEL_WORLD | SWIVEL_JOINTS)});
+    swivel_limb_def limbs = swivel::limbs(40, SWIVEL_WORLD | SWIVEL_JOINTS);
+    limbs.binding = bound_arm();
+    swivel::Crowd crowd({limbs});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     // [streams]
     swivel::Streams arms;  // what is not listed keeps its rows, or is not written
@@ -57,9 +58,11 @@ TEST_CASE("docs: streams in place")
 TEST_CASE("docs: own threads")
 {
     // [workspaces]
-    const swivel_group_def arms = swivel::group(200, SWIVEL_WITH_FLEXION_LIMIT);
+    const swivel_limb_def arms = swivel::limbs(200, SWIVEL_WITH_FLEXION_LIMIT);
+    swivel_group_def group = swivel_default_group_def();
+    group.limb = &arms;
     swivel_crowd_def def = swivel_default_crowd_def();
-    def.groups = &arms;
+    def.groups = &group;
     def.group_count = 1;
     def.workspace_count = 2;  // as many as jobs that run together
     swivel::Crowd crowd(def);
@@ -84,7 +87,7 @@ TEST_CASE("docs: own threads")
 TEST_CASE("docs: far from the origin")
 {
     // [far]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WORLD)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WORLD)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
     // Thousands of kilometres out, in metres.
     const Double3 character{5.0e6, 20.0, -3.0e6};
@@ -104,11 +107,13 @@ TEST_CASE("docs: far from the origin")
 
 TEST_CASE("docs: own memory")
 {
-    const swivel_group_def arms = swivel::group(100);
+    const swivel_limb_def arms = swivel::limbs(100);
+    swivel_group_def group = swivel_default_group_def();
+    group.limb = &arms;
     // [memory]
     swivel_crowd_def def = swivel_default_crowd_def();
     def.group_count = 1;
-    def.groups = &arms;
+    def.groups = &group;
     def.memory_bytes = swivel_crowd_bytes(&def);
     // Yours: freed by you, after the crowd.
     def.memory = std::aligned_alloc(64, def.memory_bytes);
@@ -126,7 +131,7 @@ TEST_CASE("docs: errors")
     std::string text;
     // [errors]
     try {
-        swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_EFFECTOR)});
+        swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_EFFECTOR)});
     } catch (const swivel::Error& error) {
         text = error.what();  // one line: what, where, what to do
     }

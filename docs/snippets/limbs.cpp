@@ -14,9 +14,10 @@ TEST_CASE("docs: legs")
     skeleton.translations = swivel::stream(translations);
     swivel_limb_joints leg = swivel_default_limb_joints(1, 2, 3);
     leg.bend[2] = -1;  // the knee bends backwards
-    const swivel_binding left_leg = swivel::bind(skeleton, leg);
+    swivel_limb_def left_leg = swivel::limbs(1, SWIVEL_WORLD | SWIVEL_JOINTS);
+    left_leg.binding = swivel::bind(skeleton, leg);
+    swivel::Crowd crowd({left_leg});
     // [end]
-    swivel::Crowd crowd({swivel::group(1, left_leg, SWIVEL_WORLD | SWIVEL_JOINTS)});
     // [leg_solve]
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.1f, 0.95f, 0});  // the hip
     // The ankle, on a step.
@@ -64,11 +65,12 @@ TEST_CASE("docs: joints of a skeleton")
     left.twist_bones = twist_bones;
     left.twist_bone_count = 1;
     left.bend[2] = 1;  // the elbow bends forwards
-    const swivel_binding left_arm = swivel::bind(skeleton, left);
+    swivel_limb_def left_arm =
+        swivel::limbs(1, SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND);
+    left_arm.binding = swivel::bind(skeleton, left);
+    left_arm.twist_bone_count = 1;
     // [end]
-    constexpr swivel_features features =
-        SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_TWIST_BONES;
-    swivel::Crowd crowd({swivel::group(1, left_arm, features)});
+    swivel::Crowd crowd({left_arm});
     const Eigen::Vector3d shoulder(0.2, 1.4, 0), target(0.3, 1.2, 0.35);
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.2f, 1.4f, 0});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 1.2f, 0.35f});
@@ -100,7 +102,7 @@ TEST_CASE("docs: mirrored limits")
     swivel::check(
         swivel_mirror(SWIVEL_HUMERAL_TWIST, SWIVEL_XYZ, left.data(), right.data()));
     // [end]
-    const swivel_group_def arm = swivel::group(1, SWIVEL_WITH_HUMERAL_TWIST);
+    const swivel_limb_def arm = swivel::limbs(1, SWIVEL_WITH_HUMERAL_TWIST);
     swivel::Crowd crowd({arm, arm});
     for (const std::uint32_t side : {0u, 1u})
         crowd.write_all(SWIVEL_LENGTHS, side, Float2{1, 1});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
+#include <swivel/swivel_regions.hpp>
+
 namespace {
 
 void give_arm(swivel::Crowd& crowd)
@@ -22,7 +24,7 @@ std::uint32_t flags_of(const swivel::Crowd& crowd)
 TEST_CASE("docs: cones")
 {
     // [cone]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_SHOULDER_CONE)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_SHOULDER_CONE)});
     // No further than 0.9 radians from the arm at rest.
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     // [end]
@@ -42,7 +44,7 @@ TEST_CASE("docs: regions")
     swivel::Region region;
     region.add_cones({{{0, 0.3f, 1}, 0.5f}, {{1, 0, 0.4f}, 0.5f}});
     region.forbid({{-0.8f, 0, 1}, 0.4f});  // where the chest is
-    swivel_group_def arms = swivel::group(1, SWIVEL_WITH_REGION);
+    swivel_limb_def arms = swivel::limbs(1, SWIVEL_WITH_REGION);
     arms.region = &region.get();
     swivel::Crowd crowd({arms});
     // [end]
@@ -90,7 +92,7 @@ TEST_CASE("docs: twists")
     // [twist]
     const swivel_features twists =
         SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_FOREARM_TWIST;
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_HAND | twists)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_HAND | twists)});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, swivel::range(-1.5, 1.2));
     // Of the hand, about the forearm.
     crowd.write_all(SWIVEL_FOREARM_TWIST, 0, swivel::range(-1.4, 1.4));
@@ -115,7 +117,7 @@ TEST_CASE("docs: twists")
 TEST_CASE("docs: flexion")
 {
     // [flexion]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_FLEXION_LIMIT)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_FLEXION_LIMIT)});
     // Never quite straight.
     crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, swivel::flexion(0.1, 2.4));
     // [end]
@@ -133,7 +135,7 @@ TEST_CASE("docs: flexion")
 TEST_CASE("docs: Euler boxes")
 {
     // [box]
-    swivel_group_def arms = swivel::group(1, SWIVEL_WITH_SHOULDER_BOX);
+    swivel_limb_def arms = swivel::limbs(1, SWIVEL_WITH_SHOULDER_BOX);
     arms.shoulder_order = SWIVEL_YXZ;
     swivel::Crowd crowd({arms});
     std::array<float, 12> box;
@@ -160,7 +162,7 @@ TEST_CASE("docs: Euler boxes")
 
 TEST_CASE("docs: allowed arcs")
 {
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_SHOULDER_CONE)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_SHOULDER_CONE)});
     give_arm(crowd);
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     std::vector<std::array<double, 2>> shown;
@@ -179,7 +181,7 @@ TEST_CASE("docs: allowed arcs")
 TEST_CASE("docs: limits that do not pop")
 {
     // [wins]
-    swivel::Crowd crowd({swivel::group(
+    swivel::Crowd crowd({swivel::limbs(
         1, SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_STEP_WINS)});
     // 540 degrees a second, at 60 frames a second.
     crowd.write_all(SWIVEL_MAX_SWIVEL, 0, swivel::cos_sin(swivel::degrees(9)));
@@ -197,8 +199,10 @@ TEST_CASE("docs: limits that do not pop")
 TEST_CASE("docs: limits in the character's axes")
 {
     const swivel_binding left = bound({0.30f, 0, 0}, {0.26f, 0, 0}, {0, 0, 1});
-    swivel::Crowd crowd({swivel::group(
-        1, left, SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_CONE)});
+    swivel_limb_def arm =
+        swivel::limbs(1, SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_CONE);
+    arm.binding = left;
+    swivel::Crowd crowd({arm});
     // [character]
     // Within 80 degrees of forwards and down: the character faces +z, with y up.
     const std::array<float, 4> clavicle{0, 0, 0,

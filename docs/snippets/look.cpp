@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <swivel/swivel_bodies.hpp>
 
 namespace {
 
@@ -68,12 +69,10 @@ TEST_CASE("docs: a head that looks")
     std::vector<Character>& characters = scene.characters;
     const swivel_skeleton& skeleton = scene.skeleton;
     // [crowd]
-    swivel_look look = swivel_default_look();
+    swivel_look_def look = swivel::look({kSpine, kChest, kNeck, kHead});
     look.eye[1] = 0.08f, look.eye[2] = 0.1f;  // between the eyes, in the head's frame
     look.axis[2] = 1;                         // ahead
-    const std::array groups = {
-        swivel::look_group({kSpine, kChest, kNeck, kHead}, look)};
-    swivel::Crowd crowd(skeleton, 40, groups);
+    swivel::Crowd crowd(skeleton, 40, {look});
     // [end]
     // [frame]
     swivel_pose pose = swivel_default_pose();
@@ -118,7 +117,8 @@ TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
 {
     Scene scene;
     std::vector<Character>& characters = scene.characters;
-    swivel_look look = swivel_default_look();
+    const swivel_skeleton& skeleton = scene.skeleton;
+    swivel_look_def look = swivel::look({kSpine, kChest, kNeck, kHead});
     look.eye[1] = 0.08f, look.eye[2] = 0.1f;
     look.rate = 0;
     // [shares]
@@ -139,14 +139,13 @@ TEST_CASE("docs: shares, an axis from the rest pose, and eyes")
               .norm() < 1e-6f);
     look.axis[0] = look.axis[1] = 0, look.axis[2] = 1;
     // [eyes]
-    swivel_look eye = swivel_default_look();
-    eye.cos_max[0] = 0.87f;  // 30 degrees
-    eye.rate = 0;            // the head is eased, the eyes are quick
-    const std::array groups = {swivel::look_group({kSpine, kChest, kNeck, kHead}, look),
-                               swivel::look_group({kLeftEye}, eye),
-                               swivel::look_group({kRightEye}, eye)};
+    swivel_look_def left_eye = swivel::look({kLeftEye});
+    left_eye.cos_max[0] = 0.87f;  // 30 degrees
+    left_eye.rate = 0;            // the head is eased, the eyes are quick
+    swivel_look_def right_eye = left_eye;
+    right_eye.joints[0] = kRightEye;
+    swivel::Crowd crowd(skeleton, 40, {look, left_eye, right_eye});
     // [end]
-    swivel::Crowd crowd(scene.skeleton, 40, groups);
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
@@ -177,11 +176,11 @@ TEST_CASE("docs: turrets")
     mount.translations = swivel::stream(offsets);
     mount.joint_count = kParts;
     // [turret]
-    swivel_look aim = swivel_default_look();
+    swivel_look_def aim = swivel::look({kBarrel});
     aim.cos_max[0] = -1;  // all the way round
     aim.cos_full = -0.99f, aim.cos_none = -1;
     aim.rate = 0;
-    swivel::Crowd turrets(mount, 40, std::array{swivel::look_group({kBarrel}, aim)});
+    swivel::Crowd turrets(mount, 40, {aim});
     // [end]
     std::vector<std::array<Float4, kParts>> rotations(40,
                                                       {{{0, 0, 0, 1}, {0, 0, 0, 1}}});

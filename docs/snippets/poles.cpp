@@ -32,7 +32,7 @@ void check_side(const Eigen::Vector3d& elbow, const Eigen::Vector3d& pole)
 TEST_CASE("docs: pole directions")
 {
     // [direction]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WORLD | SWIVEL_POLE_DIRECTION)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WORLD | SWIVEL_POLE_DIRECTION)});
     // Downwards, wherever the character stands.
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // [end]
@@ -45,7 +45,7 @@ TEST_CASE("docs: pole directions")
 TEST_CASE("docs: pole normals")
 {
     // [normal]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_POLE_NORMAL)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_POLE_NORMAL)});
     // Across shoulder, elbow and wrist: the elbow's axis.
     crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, -1});
     // [end]
@@ -57,7 +57,7 @@ TEST_CASE("docs: pole normals")
 TEST_CASE("docs: the hand as the pole")
 {
     // [hand]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_HAND | SWIVEL_POLE_HAND)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_HAND | SWIVEL_POLE_HAND)});
     // The hand points to the side, so the forearm comes from the other.
     crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0.6f, 0, 0.8f});
     // [end]
@@ -71,7 +71,7 @@ TEST_CASE("docs: the hand as the pole")
 TEST_CASE("docs: swivel angle")
 {
     // [angle]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_ANGLE)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_ANGLE)});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // Radians on from the pole, about the line to the wrist.
     crowd.write_all(SWIVEL_ANGLE, 0, swivel::cos_sin(0.35));

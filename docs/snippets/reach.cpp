@@ -4,7 +4,7 @@
 TEST_CASE("docs: soft reach and stretch")
 {
     // [shown]
-    swivel::Crowd crowd({swivel::group(3, SWIVEL_WITH_REACH)});
+    swivel::Crowd crowd({swivel::limbs(3, SWIVEL_WITH_REACH)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.5f, 0.5f});
     // Shares of both bones' length: eased 0.1 before the far end, not at the near one;
     // stretched up to 1.05; no wrist nearer than 0.2.

@@ -15,7 +15,7 @@ void give_arms(swivel::Crowd& crowd)
 
 TEST_CASE("docs: flags")
 {
-    swivel::Crowd crowd({swivel::group(2)});
+    swivel::Crowd crowd({swivel::limbs(2)});
     give_arms(crowd);
     crowd.solve();
     std::uint32_t far = 0;
@@ -35,7 +35,7 @@ TEST_CASE("docs: flags")
 
 TEST_CASE("docs: forward kinematics and residuals")
 {
-    swivel::Crowd crowd({swivel::group(2)});
+    swivel::Crowd crowd({swivel::limbs(2)});
     give_arms(crowd);
     crowd.solve();
     // [forward]
@@ -53,7 +53,7 @@ TEST_CASE("docs: forward kinematics and residuals")
 
 TEST_CASE("docs: joint angles")
 {
-    swivel::Crowd crowd({swivel::group(2)});
+    swivel::Crowd crowd({swivel::limbs(2)});
     give_arms(crowd);
     crowd.solve();
     // [angles]
@@ -75,7 +75,7 @@ TEST_CASE("docs: joint angles")
 
 TEST_CASE("docs: packed results")
 {
-    swivel::Crowd crowd({swivel::group(2)});
+    swivel::Crowd crowd({swivel::limbs(2)});
     give_arms(crowd);
     crowd.solve();
     // [pack]
@@ -95,7 +95,7 @@ TEST_CASE("docs: packed results")
 
 TEST_CASE("docs: rows")
 {
-    swivel::Crowd crowd({swivel::group(2)});
+    swivel::Crowd crowd({swivel::limbs(2)});
     give_arms(crowd);
     // [rows]
     const swivel_rows in = swivel_input_rows(crowd.get(), 0);  // group 0

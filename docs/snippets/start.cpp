@@ -47,8 +47,8 @@ int main()
                           {}};
     std::vector<Character> characters(1000, first);
     const auto count = static_cast<std::uint32_t>(characters.size());
-    const swivel_group_def left_arms =
-        swivel::group(count, arm, SWIVEL_WORLD | SWIVEL_JOINTS);
+    swivel_limb_def left_arms = swivel::limbs(count, SWIVEL_WORLD | SWIVEL_JOINTS);
+    left_arms.binding = arm;
     swivel::Crowd crowd({left_arms});
 
     // Each frame: from your structures, to your structures.

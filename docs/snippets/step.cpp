@@ -6,7 +6,7 @@ TEST_CASE("docs: step limit")
     const Float3 target{0, 0.3f, 1.5f};
     std::array<Double3, 1> before, after;
     // [shown]
-    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_MAX_SWIVEL)});
+    swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_MAX_SWIVEL)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, target);
     // Radians for each solve: 0.1 at 60 a second is 6 a second.

@@ -4,8 +4,9 @@
 TEST_CASE("docs: twist bones")
 {
     // [shown]
-    swivel::Crowd crowd(
-        {swivel::group(1, SWIVEL_WITH_HAND | 3 * SWIVEL_WITH_TWIST_BONES)});
+    swivel_limb_def arm = swivel::limbs(1, SWIVEL_WITH_HAND);
+    arm.twist_bone_count = 3;
+    swivel::Crowd crowd({arm});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.1f, 1.6f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});

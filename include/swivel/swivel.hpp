@@ -13,10 +13,8 @@
 #error "swivel.hpp is C++20 (-std=c++20); older C++ and C programs use swivel.h"
 #else
 
-#include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -35,10 +33,12 @@
 #include <variant>
 #include <vector>
 
-#include "swivel.h"
+#include "swivel_bodies.h"
 
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-namespace swivel {
+#define SWIVEL_HAS_EXCEPTIONS 1
+#define SWIVEL_NAMESPACE swivel
+namespace SWIVEL_NAMESPACE {
 
 // A failed call: its status, and one line of text, which is swivel_last_error() where the library refused it.
 struct Error : std::runtime_error {
@@ -49,11 +49,13 @@ struct Error : std::runtime_error {
 
 [[noreturn]] inline void fail(swivel_status status, const std::string& text) { throw Error(status, text); }
 #else
+#define SWIVEL_HAS_EXCEPTIONS 0
 #ifndef SWIVEL_ON_ERROR
 #define SWIVEL_ON_ERROR(status, text) std::fprintf(stderr, "swivel: %s\n", text)
 #endif
 // A name of its own. Otherwise a linker could give these functions to a file that expects an exception.
-namespace swivel::inline without_exceptions {
+#define SWIVEL_NAMESPACE swivel::inline without_exceptions
+namespace SWIVEL_NAMESPACE {
 
 [[noreturn]] inline void fail([[maybe_unused]] swivel_status status, [[maybe_unused]] const std::string& text)
 {
@@ -67,56 +69,16 @@ inline void check(swivel_status status)
     if (status != SWIVEL_OK) fail(status, swivel_last_error());
 }
 
-// Limbs that share features; those with SWIVEL_JOINTS share a binding, too.
-inline swivel_group_def group(std::uint32_t limb_count, swivel_features features = 0)
-{
-    swivel_group_def made = swivel_default_group_def(limb_count);
-    made.features = features;
-    return made;
-}
-inline swivel_group_def group(std::uint32_t limb_count, const swivel_binding& binding, swivel_features features)
-{
-    swivel_group_def made = group(limb_count, features);
-    made.binding = binding;
-    return made;
-}
+// A group of a crowd, of one of the kinds.
+using Definition =
+    std::variant<swivel_limb_def, swivel_body_limb_def, swivel_look_def, swivel_prop_def, swivel_shift_def>;
 
-// The limb of each body that has these joints, which must live until the crowd is made.
-inline swivel_group_def body_group(const swivel_limb_joints& joints, swivel_features features = 0)
+// Free limbs that share features; those with SWIVEL_JOINTS share a binding, too.
+inline swivel_limb_def limbs(std::uint32_t limb_count, swivel_features features = 0)
 {
-    swivel_group_def made = swivel_default_body_group_def(&joints);
+    swivel_limb_def made = swivel_default_limb_def(limb_count);
     made.features = features;
     return made;
-}
-swivel_group_def body_group(const swivel_limb_joints&& joints, swivel_features features = 0) = delete;
-// The shift of each body, for its limbs WITH_PELVIS_FIT.
-inline swivel_group_def fit_group(const swivel_fit& fit = swivel_default_fit())
-{
-    swivel_group_def made = swivel_default_fit_group_def();
-    made.fit = fit;
-    return made;
-}
-// A thing that hands of each body hold: limbs WITH_LINK, whose `link` is this group's number.
-inline swivel_group_def prop_group(const swivel_prop& prop = swivel_default_prop())
-{
-    swivel_group_def made = swivel_default_prop_group_def();
-    made.prop = prop;
-    return made;
-}
-// A chain of joints of each body that looks, from the first to the last, such as spine, neck and head: 1 to 8 of them.
-inline swivel_group_def look_group(std::span<const std::uint32_t> joints,
-                                   const swivel_look& look = swivel_default_look())
-{
-    swivel_group_def made = swivel_default_look_group_def();
-    made.look = look;
-    made.look.joint_count = static_cast<std::uint32_t>(joints.size());
-    std::copy_n(joints.begin(), std::min<std::size_t>(joints.size(), SWIVEL_MAX_LOOK_JOINTS), made.look.joints);
-    return made;
-}
-inline swivel_group_def look_group(std::initializer_list<std::uint32_t> joints,
-                                   const swivel_look& look = swivel_default_look())
-{
-    return look_group(std::span(joints.begin(), joints.size()), look);
 }
 
 // A limb's alignments and bone lengths from its rest pose: swivel_bind_joints().
@@ -161,115 +123,56 @@ inline std::array<float, 2> cos_sin(double angle)
     swivel_cos_sin(angle, value.data());
     return value;
 }
-// Where the upper arms of a group may point: REACH REGIONS in swivel.h. It starts empty, and allows nothing. A group
-// WITH_REGION takes get(), which must live until the crowd is made:
-//     swivel::Region region;
-//     region.add_cones({{{0, 0, 1}, 0.9f}, {{0, 1, 1}, 0.6f}});
-//     arms.region = &region.get();
-class Region {
-public:
-    Region& add_cones(std::span<const swivel_region_cone> cones, bool closed = false)
-    {
-        check(swivel_region_add_cones(&region_, cones.data(), static_cast<std::uint32_t>(cones.size()), closed));
-        return *this;
-    }
-    Region& add_cones(std::initializer_list<swivel_region_cone> cones, bool closed = false)
-    {
-        return add_cones(std::span(cones.begin(), cones.size()), closed);
-    }
-    Region& add_polygon(std::span<const std::array<float, 3>> corners)
-    {
-        check(swivel_region_add_polygon(&region_, first_of(corners), static_cast<std::uint32_t>(corners.size())));
-        return *this;
-    }
-    Region& add_polygon(std::initializer_list<std::array<float, 3>> corners)
-    {
-        return add_polygon(std::span(corners.begin(), corners.size()));
-    }
-    Region& add_directions(std::span<const std::array<float, 3>> directions, float margin, std::uint32_t max_cones)
-    {
-        check(swivel_region_add_directions(&region_, first_of(directions),
-                                           static_cast<std::uint32_t>(directions.size()), margin, max_cones));
-        return *this;
-    }
-    Region& forbid(const swivel_region_cone& cone)
-    {
-        check(swivel_region_forbid(&region_, &cone));
-        return *this;
-    }
-    Region mirrored() const
-    {
-        Region made;
-        check(swivel_region_mirror(&region_, &made.region_));
-        return made;
-    }
-    float room(const std::array<float, 3>& direction) const
-    {
-        float made = 0;
-        check(swivel_region_room(&region_, direction.data(), &made));
-        return made;
-    }
-    const swivel_region& get() const { return region_; }
-
-private:
-    static const float* first_of(std::span<const std::array<float, 3>> list)
-    {
-        return list.empty() ? nullptr : list.front().data();
-    }
-
-    swivel_region region_ = swivel_default_region();
-};
 
 // An angle in radians, as all of swivel takes them.
 constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }
 
-// Converts to such numbers and to nothing else.
-template <class... Numbers>
-struct Only {
-    template <class Number>
-    requires(std::same_as<Number, Numbers> || ...) operator Number() const;
-};
-struct AnyNumber {
-    template <class Number>
-    requires std::is_arithmetic_v<Number>
-    operator Number() const;
-};
-
-// Whether a limb's value is made of such numbers: one of them, an array of them, or a container that says so by its
-// value_type. A plain structure must not start with another number; classes with constructors are taken at their word.
-template <class Value, class... Numbers>
-constexpr bool holds()
+// The numbers that a limb's value is made of: its own type, an array's, a container's value_type, or that which a plain
+// structure starts with. void: a class that is taken at its word.
+template <class Each, class Number>
+concept StartsWith = std::is_aggregate_v<Each> && requires(Number first)
 {
-    using Each = std::remove_cv_t<Value>;
+    Each{first};
+};
+template <class Value>
+constexpr auto number_of()
+{
+    using Each = std::remove_cv_t<std::remove_all_extents_t<Value>>;
     if constexpr (std::is_arithmetic_v<Each>)
-        return (std::same_as<Each, Numbers> || ...);
-    else if constexpr (std::is_array_v<Each>)
-        return holds<std::remove_extent_t<Each>, Numbers...>();
+        return std::type_identity<Each>();
     else if constexpr (requires { typename Each::value_type; })
-        return std::is_trivially_copyable_v<Each> && holds<typename Each::value_type, Numbers...>();
-    else if constexpr (std::is_aggregate_v<Each> && requires { Each{AnyNumber()}; })
-        return std::is_trivially_copyable_v<Each> && requires { Each{Only<Numbers...>()}; };
+        return number_of<typename Each::value_type>();
+    else if constexpr (StartsWith<Each, double>)
+        return std::type_identity<double>();
+    else if constexpr (StartsWith<Each, float>)
+        return std::type_identity<float>();
+    else if constexpr (StartsWith<Each, std::uint32_t>)
+        return std::type_identity<std::uint32_t>();
+    else if constexpr (StartsWith<Each, int>)
+        return std::type_identity<int>();
     else
-        return std::is_trivially_copyable_v<Each>;
+        return std::type_identity<void>();
 }
+template <class Value, class... Numbers>
+concept MadeOf = std::is_trivially_copyable_v<std::remove_cv_t<Value>> &&
+    (std::same_as<typename decltype(number_of<Value>())::type, Numbers> || ...);
 
 // A field's value: floats, or a uint32_t (flags). And what is in double: positions and forward kinematics.
 template <class Value>
-concept FieldValue = holds<Value, float, std::uint32_t>();
+concept FieldValue = MadeOf<Value, float, std::uint32_t, void>;
 template <class Value>
-concept DoubleValue = holds<Value, double>();
+concept DoubleValue = MadeOf<Value, double, void>;
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
 template <class Range>
 concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::ranges::range_value_t<Range>>;
 
-// A field as swivel_describe_field() has it; all 0 if there is none.
-inline swivel_field_info described(swivel_field field)
+inline swivel_field_info describe(swivel_field field)
 {
-    swivel_field_info info = {};
-    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-        if (info.field == field) return info;
-    return {};
+    swivel_field_info info{};
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info) && info.field != field; ++n) {
+    }
+    return info;
 }
 
 // Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
@@ -279,7 +182,7 @@ void check_value(swivel_field field)
 {
     constexpr bool is_list = std::is_array_v<Value> || requires { typename Value::value_type; };
     if constexpr (is_list && sizeof(Value) > 4 * sizeof(float) && FieldValue<Value>)
-        if (described(field).max_components <= 4)
+        if (describe(field).max_components <= 4)
             fail(SWIVEL_INVALID_ARGUMENT, "an array of " + std::to_string(sizeof(Value) / sizeof(float)) +
                                               " floats is no value of field " + std::to_string(field));
 }
@@ -316,7 +219,7 @@ auto stream(Range&& values, Steps... steps)
 {
     auto* const first = std::ranges::data(values);
     using Value = std::remove_reference_t<decltype(reached(*first, steps...))>;
-    static_assert(holds<Value, float, double, std::uint32_t, std::int32_t>());
+    static_assert(MadeOf<Value, float, double, std::uint32_t, std::int32_t, void>);
     return Stream<Value>{std::ranges::empty(values) ? nullptr : &reached(*first, steps...), sizeof *first};
 }
 
@@ -344,7 +247,7 @@ public:
     requires(FieldValue<Value> || DoubleValue<Value>) Streams& in(swivel_field field, const Stream<Value>& values)
     {
         check_value<std::remove_cv_t<Value>>(field);
-        if (described(field).is_position) {
+        if (describe(field).is_position) {
             if constexpr (FieldValue<Value> != DoubleValue<Value>)
                 say_positions(DoubleValue<Value> ? SWIVEL_DOUBLES : SWIVEL_FLOATS);
         } else if (!FieldValue<Value>) {
@@ -398,104 +301,39 @@ private:
     swivel_numbers positions_ = SWIVEL_NUMBERS_UNSPECIFIED;
 };
 
-// Some things, none of them, or everything. It views a std::span or a range with a name, which must outlive it. It
-// copies other ranges, values in braces and single values, which allocates.
-struct Everything {};
-inline constexpr Everything everything;
-template <class Each>
-class Given {
-public:
-    Given(Everything) {}
-    Given(const Each* first, std::size_t count) : values_(std::span<const Each>(first, count)) {}
-    Given(std::initializer_list<Each> values) : values_(std::vector<Each>(values)) {}
-    template <std::convertible_to<Each> One>
-    requires(!std::is_arithmetic_v<Each>) Given(One&& one) : Given({static_cast<Each>(std::forward<One>(one))}) {}
-    template <std::convertible_to<std::span<const Each>> Range>
-    requires(!std::convertible_to<Range, Each>) Given(Range&& range)
-    {
-        const std::span<const Each> values(range);
-        if constexpr (std::is_lvalue_reference_v<Range> || std::ranges::borrowed_range<Range>)
-            values_ = values;
-        else
-            values_ = std::vector<Each>(values.begin(), values.end());
-    }
-    // A range with a name, of what converts to Each, such as Streams: kept as copies.
-    template <std::ranges::contiguous_range Range>
-    requires(std::is_lvalue_reference_v<Range> && !std::convertible_to<Range, std::span<const Each>> &&
-             !std::is_arithmetic_v<Each> && std::convertible_to<std::ranges::range_reference_t<Range>, Each>)
-        Given(Range&& range)
-        : values_(std::vector<Each>(std::ranges::begin(range), std::ranges::end(range)))
-    {
-    }
-    explicit operator bool() const { return values_.index() > 0; }
-    std::span<const Each> operator*() const
-    {
-        const auto* const kept = std::get_if<std::vector<Each>>(&values_);
-        return kept ? std::span<const Each>(*kept) : *std::get_if<std::span<const Each>>(&values_);
-    }
-
-private:
-    std::variant<Everything, std::span<const Each>, std::vector<Each>> values_;
-};
-
-// Feet of one group that want to know the ground, as swivel_probes: one entry of each range for a foot. Where there is
-// no ground, a number of `grounds` becomes NaN.
-struct Probes {
-    std::uint32_t group;
-    std::span<const std::uint32_t> bodies;
-    std::span<const float[3]> places;
-    std::span<float[3]> grounds, normals;
-};
-
-// Samples the ground: anything that may be copied and called with Probes, by several threads at a time. To copy a
-// capture of more than two pointers may allocate; std::ref(ask) does not.
-using Sample = std::function<void(const Probes&)>;
+// Samples the ground: anything that may be copied and called with swivel::Probes (swivel_bodies.hpp), by several
+// threads at a time. To copy a capture of more than two pointers may allocate; std::ref(ask) does not.
+using Sample = std::function<void(const swivel_probes&)>;
 
 // Samples for one solve. An exception waits here until the solve is over, because none may cross C.
-class Sampling {
-public:
-    explicit Sampling(const Sample& sample) : sample_(sample) {}
+struct Sampling {
+    const Sample& ask;
+    std::atomic<std::uint32_t> failures = 0;  // a word: some CPUs exchange no single byte
+    std::exception_ptr exception = {};
 
     static void answer(const swivel_probes* asked, void* user)
     {
         auto& self = *static_cast<Sampling*>(user);
-        const Probes probes{asked->group,
-                            {asked->bodies, asked->count},
-                            {asked->places, asked->count},
-                            {asked->grounds, asked->count},
-                            {asked->normals, asked->count}};
-#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-        if (self.failures_.load(std::memory_order_relaxed) > 0) return;
+        if (self.failures.load(std::memory_order_relaxed) > 0) return;
+#if SWIVEL_HAS_EXCEPTIONS
         try {
-            self.sample_(probes);
+            self.ask(*asked);
         } catch (...) {
-            if (self.failures_.fetch_add(1) == 0) self.exception_ = std::current_exception();
+            if (self.failures.fetch_add(1) == 0) self.exception = std::current_exception();
         }
 #else
-        self.sample_(probes);
+        self.ask(*asked);
 #endif
     }
-    void finish() const
-    {
-#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-        if (exception_) std::rethrow_exception(exception_);
-#endif
-    }
-
-private:
-    const Sample& sample_;
-#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-    std::atomic<std::uint32_t> failures_ = 0;  // a word: some CPUs exchange no single byte
-    std::exception_ptr exception_;
-#endif
 };
 
-// One solve, as swivel_job. By default it solves every limb, from and to rows, on oneTBB.
+// One solve, as swivel_job. By default it solves every limb, from and to rows, on oneTBB. It views groups, mask and
+// Streams objects, which must outlive it and stay where they are. To make streams allocates; keep the Job.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
-    Given<std::uint32_t> groups = everything;    // their numbers, which a solve allocates bits for
-    Given<std::uint32_t> mask = everything;      // words of bits, (swivel_block_count() + 1) / 2 of them
-    Given<swivel_streams> streams = everything;  // one for each group that is named, such as Streams with a name
+    std::optional<std::span<const std::uint32_t>> groups = {};  // their numbers, which a solve allocates bits for
+    std::optional<std::span<const std::uint32_t>> mask = {};    // bits, (swivel_block_count() + 1) / 2 words of them
+    std::vector<swivel_streams> streams = {};  // one for each group named, in the crowd's order; empty: rows
     bool on_this_thread = false;
     void* workspace = nullptr;          // memory for this call alone; null: one of the crowd's workspaces
     const swivel_pose* pose = nullptr;  // of bodies; null in a crowd of free limbs
@@ -511,30 +349,25 @@ class Crowd {
 public:
     using First = std::optional<std::uint32_t>;
 
-    explicit Crowd(std::span<const swivel_group_def> groups)
-    {
-        swivel_crowd_def def = swivel_default_crowd_def();
-        def.group_count = static_cast<std::uint32_t>(groups.size());
-        def.groups = groups.data();
-        check(swivel_crowd_create(&def, &crowd_));
-    }
-    // Groups in braces: {left_arms, right_arms}. Their addresses would be taken for the ends of a range.
-    Crowd(std::initializer_list<swivel_group_def> groups) : Crowd(std::span(groups.begin(), groups.size())) {}
-    Crowd(std::initializer_list<const swivel_group_def*> groups) = delete;
-    explicit Crowd(const swivel_group_def& group) : Crowd(std::span(&group, 1)) {}
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
-    // Bodies of one skeleton, with a group for each limb, and perhaps for their shift, props and looks. up: see
+    explicit Crowd(std::span<const Definition> groups) { create(swivel_default_crowd_def(), groups); }
+    Crowd(std::initializer_list<Definition> groups) : Crowd(std::span(groups.begin(), groups.size())) {}
+    explicit Crowd(const Definition& group) : Crowd(std::span(&group, 1)) {}
+    // Bodies of one skeleton, with a group for each limb, and perhaps for their looks, props and shift. up: see
     // swivel_crowd_def.
-    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const swivel_group_def> groups,
+    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const Definition> groups,
           const std::array<float, 3>& up = {0, 1, 0})
     {
         swivel_crowd_def def = swivel_default_crowd_def();
         def.skeleton = &skeleton;
         def.body_count = body_count;
-        def.group_count = static_cast<std::uint32_t>(groups.size());
-        def.groups = groups.data();
-        std::copy(up.begin(), up.end(), def.up);
-        check(swivel_crowd_create(&def, &crowd_));
+        for (std::size_t c = 0; c < 3; ++c) def.up[c] = up[c];
+        create(def, groups);
+    }
+    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::initializer_list<Definition> groups,
+          const std::array<float, 3>& up = {0, 1, 0})
+        : Crowd(skeleton, body_count, std::span(groups.begin(), groups.size()), up)
+    {
     }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
     Crowd& operator=(Crowd&& other) noexcept
@@ -588,70 +421,40 @@ public:
         }
         if (wanted.mask) {
             static constexpr std::uint32_t no_words = 0;  // which the library refuses; a null mask would be none
-            job.mask = (*wanted.mask).empty() ? &no_words : (*wanted.mask).data();
+            job.mask = wanted.mask->empty() ? &no_words : wanted.mask->data();
             job.mask_word_count = count(*wanted.mask);
         }
-        if (wanted.streams) {
-            std::size_t named_count = 0;
-            for (const std::uint32_t word : named) named_count += static_cast<std::size_t>(std::popcount(word));
-            check_count((*wanted.streams).size(), "streams", wanted.groups ? named_count : swivel_group_count(crowd_),
-                        "groups");
-            job.streams = (*wanted.streams).data();
+        if (!wanted.streams.empty()) {
+            check_count(wanted.streams.size(), "streams",
+                        wanted.groups ? wanted.groups->size() : swivel_group_count(crowd_), "groups");
+            job.streams = wanted.streams.data();
         }
         job.on_this_thread = wanted.on_this_thread;
         job.workspace = wanted.workspace;
         job.pose = wanted.pose;
-        Sampling sampling(wanted.sample);
+        Sampling sampling{wanted.sample};
         if (wanted.sample) job.sample = &Sampling::answer, job.sample_user = &sampling;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
         check(swivel_solve(crowd_, &job));
-        sampling.finish();
+        if (sampling.exception) std::rethrow_exception(sampling.exception);
         return solved;
     }
-    // swivel_choose(): marks limbs in a mask and returns how many.
+    // swivel_choose(): marks limbs in a mask and returns how many. Without urgency, priorities alone decide.
     std::uint32_t choose(std::span<const swivel_in> priorities, std::span<float> urgency, std::uint32_t max_blocks,
                          std::span<std::uint32_t> mask)
     {
+        const bool is_of_bodies = swivel_group_kind(crowd_, 0) != SWIVEL_KIND_LIMB;
+        check_count(priorities.size(), "priorities", is_of_bodies ? 1 : swivel_group_count(crowd_), "groups");
+        if (!urgency.empty()) check_count(urgency.size(), "urgencies", swivel_block_count(crowd_), "blocks");
         std::uint32_t chosen = 0;
-        check(swivel_choose(crowd_, checked(priorities), checked(urgency), max_blocks, mask.data(), count(mask),
-                            &chosen));
+        check(swivel_choose(crowd_, priorities.data(), urgency.empty() ? nullptr : urgency.data(), max_blocks,
+                            mask.data(), count(mask), &chosen));
         return chosen;
     }
 
-    // swivel_explain(): why a limb is as it is, in words.
-    std::string explain(std::uint32_t group, std::uint32_t limb) const
-    {
-        std::string text(SWIVEL_EXPLANATION_BYTES, '\0');
-        check(swivel_explain(crowd_, group, limb, text.data(), text.size()));
-        text.resize(text.find('\0'));
-        return text;
-    }
-
-    // swivel_compare(): which input of a body's pose disagrees with where the caller has its limb, in words.
-    struct Comparison {
-        bool agrees;
-        std::string text;
-    };
-    Comparison compare(std::uint32_t group, std::uint32_t body, const swivel_pose& pose,
-                       std::span<const double, 3> shoulder, std::span<const double, 3> elbow,
-                       std::span<const double, 3> wrist) const
-    {
-        std::string text(SWIVEL_EXPLANATION_BYTES, '\0');
-        int agrees = 0;
-        check(swivel_compare(crowd_, group, body, &pose, shoulder.data(), elbow.data(), wrist.data(), text.data(),
-                             text.size(), &agrees));
-        text.resize(text.find('\0'));
-        return {agrees != 0, text};
-    }
-
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
-    // swivel_change_support(), of some bodies from `first` on: {.position = {&place, 0}} is one support for all.
-    void change_support(std::uint32_t group, std::uint32_t first, std::uint32_t body_count, const swivel_supports& from,
-                        const swivel_supports& to)
-    {
-        check(swivel_change_support(crowd_, group, first, body_count, from, to));
-    }
+
     std::vector<swivel_arc> allowed_arcs(std::uint32_t group, std::uint32_t limb) const
     {
         std::uint32_t arc_count = 0;
@@ -703,6 +506,21 @@ public:
     std::uint64_t digest() const { return swivel_digest(crowd_); }
 
 private:
+    void create(swivel_crowd_def def, std::span<const Definition> groups)
+    {
+        std::vector<swivel_group_def> defs(groups.size(), swivel_default_group_def());
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            defs[g].limb = std::get_if<swivel_limb_def>(&groups[g]);
+            defs[g].body_limb = std::get_if<swivel_body_limb_def>(&groups[g]);
+            defs[g].look = std::get_if<swivel_look_def>(&groups[g]);
+            defs[g].prop = std::get_if<swivel_prop_def>(&groups[g]);
+            defs[g].shift = std::get_if<swivel_shift_def>(&groups[g]);
+        }
+        def.groups = defs.data();
+        def.group_count = count(defs);
+        check(swivel_crowd_create(&def, &crowd_));
+    }
+
     // How many values there are for limbs from `first` on: without it one for each limb of the group.
     template <class R>
     std::uint32_t checked(std::uint32_t group, const R& values, First first) const
@@ -710,17 +528,6 @@ private:
         const std::uint32_t has = swivel_group_limb_count(crowd_, group);  // 0: the call says that there is no group
         if (!first && has > 0) check_count(count(values), "values", has, "limbs; or say from which limb on");
         return count(values);
-    }
-    const swivel_in* checked(std::span<const swivel_in> priorities) const
-    {
-        const bool is_of_bodies = swivel_group_features(crowd_, 0) & SWIVEL_BODY;
-        check_count(priorities.size(), "priorities", is_of_bodies ? 1 : swivel_group_count(crowd_), "groups");
-        return priorities.data();
-    }
-    float* checked(std::span<float> urgency) const
-    {
-        if (!urgency.empty()) check_count(urgency.size(), "urgencies", swivel_block_count(crowd_), "blocks");
-        return urgency.empty() ? nullptr : urgency.data();
     }
     static void check_count(std::size_t given, const char* what, std::size_t wanted, const char* of_what)
     {
@@ -753,6 +560,8 @@ private:
             if (group >= group_count)
                 fail(SWIVEL_INVALID_ARGUMENT, "group " + std::to_string(group) + " does not exist; this crowd has " +
                                                   std::to_string(group_count));
+            if (words[group / 32] >> group % 32 & 1)
+                fail(SWIVEL_INVALID_ARGUMENT, "group " + std::to_string(group) + " is named twice");
             words[group / 32] |= 1u << group % 32;
         }
         return words;

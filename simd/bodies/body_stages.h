@@ -88,7 +88,7 @@ private:
                                        const Vector<typename S::T>& shoulder, const typename S::T& per_scale)
     {
         using T = typename S::T;
-        const bool is_sent = s.has(SWIVEL_SENT);
+        const bool is_sent = s.has(kLibraryGoal);
         const std::uint32_t goal = s.strip.run.limb->goal;
         // A planted point stays where it is while the root is shifted. A held thing goes with the shifted body.
         const Vector<T> root = s.has(SWIVEL_WITH_LINK) ? vector(T(0), T(0), T(0))

@@ -85,8 +85,6 @@ struct StageBody<Stage::fit> {
             fitted_shift(span, wish, T(limb.shift.drop) * length, T(limb.shift.rise) * length);
         const EasedHeight<T> eased_shift = eased(s, SWIVEL_SHIFT, fitted.shift, no_lanes<T>(), limb.shift.spring);
         s.good_rows().store_vector(SWIVEL_SHIFT, vector(eased_shift.at, eased_shift.rate, T(1)));
-        if (const auto cleared = s.cleared_rows(); cleared.chosen != 0)
-            cleared.store_vector(SWIVEL_SHIFT, vector(T(0), T(0), T(0)));
         s.store_flags(word_where(fitted.all_reach, SWIVEL_REACHED) | word_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR));
         const Mask<T> valid = lanes_where<T>(s.good());
         const Vector<T> shift = select(valid, eased_shift.at, eased_shift.before) * up_of(s);

@@ -235,15 +235,13 @@ private:
     SWIVEL_INLINE static void store(const S& s, const LookGoal<S>& goal, const Chain<typename S::T>& chain)
     {
         using T = typename S::T;
-        const Rows<T, kRuntimeFeatures> out = s.good_rows(), cleared = s.cleared_rows();
+        const Rows<T, kRuntimeFeatures> out = s.good_rows();
         out.store_vector(SWIVEL_SIGHT, chain.sight.eye + s.body.vector(kRootRow));
         out.store_vector(SWIVEL_SIGHT, chain.sight.axis, 3);
         const std::uint32_t count = s.strip.run.limb->turned_count;
         out.store(SWIVEL_LOOK_TURNS, 0, T(1));
         for (std::uint32_t n = 0; n < count; ++n)
             out.store_vector(SWIVEL_LOOK_TURNS, chain.carried[n], 1 + 3 * static_cast<int>(n));
-        if (cleared.chosen != 0)
-            for (std::uint32_t n = 0; n <= 3 * count; ++n) cleared.store(SWIVEL_LOOK_TURNS, static_cast<int>(n), T(0));
         const Mask<T> meets =
             goal.is_given & sees(chain.sight, s.io.load_vector(SWIVEL_LOOK_TARGET) - s.body.vector(kRootRow));
         s.store_flags(word_where(meets, SWIVEL_REACHED) |

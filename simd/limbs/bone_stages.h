@@ -57,9 +57,9 @@ SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, const LimbUse& 
         s.require(is_valid(goal.reach));
     }
     if (use.cap) {
-        goal.cap = {s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
-                    s.has(SWIVEL_BODY) ? s.body.get(kReachRow)
-                                       : incoming_reach(normalise(s.rows.rotor(kIncomingRow + 4)), goal.arm)};
+        goal.cap = {
+            s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
+            s.has(kBody) ? s.body.get(kReachRow) : incoming_reach(normalise(s.rows.rotor(kIncomingRow + 4)), goal.arm)};
         s.require(is_valid(goal.cap));
     }
     if (use.limits.flexion) {
@@ -98,9 +98,9 @@ struct StageBody<Stage::aim> {
             goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
             s.require(len2(goal.effector) <= T(kHuge2));
         }
-        const Rotor<T> hand = use.hand             ? s.rows.rotor(kHandRow)
-                              : s.has(SWIVEL_BODY) ? s.rows.rotor(kIncomingRow + 8)
-                                                   : one<T>();
+        const Rotor<T> hand = use.hand       ? s.rows.rotor(kHandRow)
+                              : s.has(kBody) ? s.rows.rotor(kIncomingRow + 8)
+                                             : one<T>();
         const Laid<T> laid =
             lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(use, goal, hand, wanted); });
         s.rows.set(kFlagsRow, laid.flags);
@@ -114,7 +114,7 @@ SWIVEL_INLINE void load_continuity(const S& s, Continuity<typename S::T>& contin
     continuity = {vector(s.io.load_result(SWIVEL_NORMAL, 0), s.io.load_result(SWIVEL_NORMAL, 1),
                          s.io.load_result(SWIVEL_NORMAL, 2)),
                   s.io.load_turned(SWIVEL_MAX_SWIVEL)};
-    if (!s.has(SWIVEL_BODY) || !s.strip.run.strip.pose->time.data) return;
+    if (!s.has(kBody) || !s.strip.run.strip.pose->time.data) return;
     const T time = s.body.get(kTimeRow);
     s.require(is_within(time, 0, kHuge) & is_valid(continuity));
     continuity.max = timed_step(continuity.max, time);

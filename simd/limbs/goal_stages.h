@@ -51,7 +51,7 @@ SWIVEL_INLINE bool pole_is_point(const S& s)
 template <class S>
 SWIVEL_INLINE bool is_bound(const S& s)
 {
-    return s.has(SWIVEL_JOINTS) || s.has(SWIVEL_BODY);
+    return s.has(SWIVEL_JOINTS) || s.has(kBody);
 }
 // The parent's frame of a body's limb.
 template <class S>
@@ -98,8 +98,7 @@ SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
 template <class S>
 SWIVEL_INLINE typename S::T length(const S& s, int bone)
 {
-    return s.has(SWIVEL_BODY) ? s.body.get(kLengthsRow + static_cast<std::uint32_t>(bone))
-                              : s.io.load(SWIVEL_LENGTHS, bone);
+    return s.has(kBody) ? s.body.get(kLengthsRow + static_cast<std::uint32_t>(bone)) : s.io.load(SWIVEL_LENGTHS, bone);
 }
 // A vector of the hand joint's own frame.
 template <class S>
@@ -177,7 +176,7 @@ struct StageBody<Stage::clavicle> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const bool is_posed = s.has(SWIVEL_BODY);
+        const bool is_posed = s.has(kBody);
         const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
         const Vector<T>& bone = ends.shoulder;
         const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
@@ -239,8 +238,8 @@ struct StageBody<Stage::goal> {
             goal.hand = seen ? s.rows.rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
             if (!seen) valid = valid & is_orientation(goal.hand);
             if (is_bound(s)) {
-                const Rotor<T> wrist_parent = s.has(SWIVEL_BODY) ? s.body.rotor(s.strip.run.limb->wrist_parent_row())
-                                                                 : broadcast<T>(bind.wrist_parent_from_arm);
+                const Rotor<T> wrist_parent = s.has(kBody) ? s.body.rotor(s.strip.run.limb->wrist_parent_row())
+                                                           : broadcast<T>(bind.wrist_parent_from_arm);
                 goal.hand = (use.aim ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
             }
             valid = valid & is_product(goal.hand);

@@ -29,7 +29,7 @@ struct Results {
                                    const Rotor<T>& rest) const
     {
         const Rotor<T> safe = select(valid, q, hemisphere(rest));
-        if (!s.has(SWIVEL_WITH_INCOMING) || s.has(SWIVEL_BODY)) return out.store_rotor(field, hemisphere(safe));
+        if (!s.has(SWIVEL_WITH_INCOMING) || s.has(kBody)) return out.store_rotor(field, hemisphere(safe));
         const T side = scalar_product(~out.load_rotor(incoming), safe);
         out.store_rotor(field, with_sign_of(select(valid, side, T(1)), safe));
     }
@@ -48,7 +48,7 @@ struct StageBody<Stage::store> {
         const Vector<T> line = s.rows.vector(kLineRow);
         Vector<T> normal = s.rows.vector(kNormalRow);
         Word<T> flags = s.rows.word(kFlagsRow);
-        if (s.has(SWIVEL_SENT)) flags = flags | s.body.word(s.strip.run.limb->goal + kGoalFlagsRow);
+        if (s.has(kLibraryGoal)) flags = flags | s.body.word(s.strip.run.limb->goal + kGoalFlagsRow);
         Continuity<T> continuity;
         if (s.has(SWIVEL_WITH_MAX_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & kSwivelLimits) {
@@ -120,7 +120,7 @@ struct StageBody<Stage::twist_bones> {
         const auto if_joints = [&](const float(&q)[4])
                                    SWIVEL_INLINE_LAMBDA { return s.has(SWIVEL_JOINTS) ? broadcast<T>(q) : one<T>(); };
         Turned<T> twist = twist_rotor(s.rows.rotor(kTwistRow));
-        if (s.has(SWIVEL_BODY)) {  // from the incoming one, the short way
+        if (s.has(kBody)) {  // from the incoming one, the short way
             const Turned<T> incoming{s.body.get(kTwistInRow), s.body.get(kTwistInRow + 1)};
             const T cos = twist.cos * incoming.cos + twist.sin * incoming.sin,
                     sin = twist.sin * incoming.cos - twist.cos * incoming.sin;

@@ -171,9 +171,9 @@ struct ClipArm {
     {
         const BodyLimbJoints& joints = clip.skeleton.limbs[limb];
         const auto parent = static_cast<std::uint32_t>(clip.skeleton.parents[joints.shoulder]);
-        swivel_group_def def = group(static_cast<std::uint32_t>(clip.frames.size()),
-                                     swivel::bind(clip.skeleton.view(), clip.skeleton.joints(limb)),
-                                     SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_HAND);
+        swivel_limb_def def = limbs(static_cast<std::uint32_t>(clip.frames.size()),
+                                    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_HAND);
+        def.binding = swivel::bind(clip.skeleton.view(), clip.skeleton.joints(limb));
         Crowd crowd(def);
         std::vector<Vector3d> shoulders;
         std::vector<Quaterniond> parents;
@@ -272,9 +272,9 @@ constexpr Skates kAfter[] = {
 // A spring that makes up half of 30 mm in 0.1 s moves by so many in a frame at most.
 constexpr double kMaxShift = 3.1;
 
-constexpr swivel_features kPlantedLeg = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_INCOMING |
-                                        SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP |
-                                        SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS;
+constexpr swivel_features kPlantedLeg = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_POLE_INCOMING |
+                                        SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP | SWIVEL_WITH_FLEXION_LIMIT |
+                                        SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS;
 
 // A clip's left leg and right one, which are planted frame after frame.
 struct PlantedLegs {
@@ -318,7 +318,7 @@ private:
                 (vec(clip.skeleton.translations[of.elbow]).norm() + vec(clip.skeleton.translations[of.wrist]).norm()));
         };
         for (std::uint32_t leg = 0; leg < 2; ++leg) {
-            swivel_plant& plant = made.groups[leg].plant;
+            swivel_plant& plant = made.limb_def(leg).plant;
             plant.lock_radius = share(0.10, leg), plant.unlock_radius = share(0.20, leg),
             plant.relock_speed = share(0.05, leg);
             plant.stop_time = 0.1f, plant.release_time = 0.2f;
@@ -327,7 +327,10 @@ private:
             made.give(leg, SWIVEL_CAP, [&](std::size_t) { return Float3{share(0.008, leg), 0, share(0.002, leg)}; });
             made.give(leg, SWIVEL_CONTACT, [&](std::size_t) { return Float1{contacts[leg][0] ? 1.f : 0.f}; });
         }
-        made.groups[made.add(swivel_default_fit_group_def())].fit = {share(0.03, 0), share(0.03, 0), 0.1f, 0};
+        swivel_shift_def shift = swivel_default_shift_def();
+        shift.drop = shift.rise = share(0.03, 0);
+        shift.lookahead = 0;
+        made.add(shift);
         return made;
     }
 };

@@ -139,6 +139,9 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.features |= SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL; }},
         {"shoulder_order is 6, not a number from 0 to 5",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.shoulder_order = static_cast<swivel_euler_order>(6); }},
+        {"twist_bones is 8, not a number from 0 to 7",
+         [](CachedCrowd& crowd) { crowd.limbs[0].setup.twist_bone_count = 8; }},
+        {"twist bones need SWIVEL_WITH_HAND", [](CachedCrowd& crowd) { crowd.limbs[0].setup.twist_bone_count = 3; }},
         {"there is no such field",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.fields[0].field = static_cast<swivel_field>(200); }},
         {"field is ", [](CachedCrowd& crowd) { crowd.limbs[0].setup.fields[0].field = SWIVEL_RESULT_END; }},
@@ -149,12 +152,16 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
         {"holds is 5", [](CachedCrowd& crowd) { crowd.limbs[1].setup.goals.holds = 5; }},
         {"a look holds a hand",
          [](CachedCrowd& crowd) {
-             crowd.look.emplace().setup.look = swivel_default_look();
+             crowd.look.emplace().setup.look = swivel_default_look_def();
              crowd.look->setup.look->joint_count = 1;
              crowd.look->setup.goals.holds = 1;
          }},
         {"quaternion", [](CachedCrowd& crowd) { std::ranges::fill(crowd.limbs[1].setup.rest.elbow_rotation, 0.0f); }}};
     CHECK_NOTHROW(crowd_of_attributes(attributes_of(whole), path));
+    CachedCrowd twisted = whole;
+    twisted.limbs[0].setup.features |= SWIVEL_WITH_HAND;
+    twisted.limbs[0].setup.twist_bone_count = 3;
+    CHECK(crowd_of_attributes(attributes_of(twisted), path).limbs[0].setup.twist_bone_count == 3);
     for (const auto& [what, change] : changes) {
         CachedCrowd changed = whole;
         change(changed);

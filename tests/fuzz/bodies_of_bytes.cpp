@@ -15,10 +15,10 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t max_bodies)
     const std::uint32_t trunk = bytes.below(5);
     for (std::uint32_t n = 0; n < trunk; ++n) add(random, static_cast<std::int32_t>(bytes.below(n + 1)) - 1);
     groups.resize(1 + bytes.below(4));
-    std::vector<swivel_features> features;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        features.push_back(body_features_of(bytes));
-        take_limb(bytes, random, trunk, features[g]);
+    for (BodyGroup& group : groups) {
+        const LimbFeatures taken = features_of(bytes, SWIVEL_KIND_BODY_LIMB);
+        group.limb.features = taken.features;
+        take_limb(bytes, random, trunk, taken);
     }
     skeleton.joint_count = joint_count();
     skeleton.parents = {parents.data(), sizeof parents[0]};
@@ -32,12 +32,12 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t max_bodies)
             if (swivel_bind_joints(&skeleton, &joints[g], &binding) == SWIVEL_OK) break;
             for (std::size_t n = 0; n < 3; ++n) joints[g].bend[n] = n == axis;
         }
-        groups[g] = swivel_default_body_group_def(&joints[g]);
-        groups[g].features = features[g];
-        groups[g].shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
-        groups[g].wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
-        if (bytes.one_in(2)) groups[g].on_bad_input = SWIVEL_REST_POSE;
-        give_region(bytes, groups[g]);
+        swivel_body_limb_def& limb = groups[g].limb;
+        limb.joints = &joints[g];
+        limb.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
+        limb.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
+        if (bytes.one_in(2)) limb.on_bad_input = SWIVEL_REST_POSE;
+        limb.region = region_of(bytes, limb.features);
     }
     add_shift();
     take_links(bytes, trunk);
@@ -51,33 +51,33 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t max_bodies)
 // The group that limbs which are to fit need.
 void BodyDef::add_shift()
 {
-    if (std::ranges::any_of(groups, [](const auto& group) { return group.features & SWIVEL_WITH_PELVIS_FIT; }))
-        groups.push_back(swivel_default_fit_group_def());
+    if (std::ranges::any_of(groups, [](const BodyGroup& group) { return group.has(SWIVEL_WITH_PELVIS_FIT); }))
+        groups.push_back({.kind = SWIVEL_KIND_SHIFT});
 }
 
 // What limbs hold: the hand of an earlier one, or a prop.
 void BodyDef::take_links(Bytes& bytes, std::uint32_t trunk)
 {
     for (std::uint32_t g = 0; g < joints.size(); ++g) {
-        if (!(groups[g].features & SWIVEL_WITH_LINK)) continue;
+        if (!groups[g].has(SWIVEL_WITH_LINK)) continue;
         const std::uint32_t earlier = bytes.below(g + 2);
-        if (earlier < g && groups[earlier].features & SWIVEL_WITH_HAND)
-            groups[g].link = earlier;
+        if (earlier < g && groups[earlier].has(SWIVEL_WITH_HAND))
+            groups[g].limb.link = earlier;
         else
             link_to_prop(bytes, trunk, groups[g]);
     }
 }
 // The last group may be a prop that one limb holds so far. Others are new.
-void BodyDef::link_to_prop(Bytes& bytes, std::uint32_t trunk, swivel_group_def& group)
+void BodyDef::link_to_prop(Bytes& bytes, std::uint32_t trunk, BodyGroup& group)
 {
     const auto last = static_cast<std::uint32_t>(groups.size() - 1);
-    const auto is_on_last = [&](const swivel_group_def& other) {
-        return other.features & SWIVEL_WITH_LINK && other.link == last;
+    const auto is_on_last = [&](const BodyGroup& other) {
+        return other.has(SWIVEL_WITH_LINK) && other.limb.link == last;
     };
-    const bool is_held = groups[last].features & SWIVEL_PROP && std::ranges::count_if(groups, is_on_last) == 1;
-    group.link = is_held && !bytes.one_in(4) ? last : last + 1;
-    if (group.link == last) return;
-    swivel_group_def prop = swivel_default_prop_group_def();
+    const bool is_held = groups[last].kind == SWIVEL_KIND_PROP && std::ranges::count_if(groups, is_on_last) == 1;
+    group.limb.link = is_held && !bytes.one_in(4) ? last : last + 1;
+    if (group.limb.link == last) return;
+    BodyGroup prop{.kind = SWIVEL_KIND_PROP};
     if (bytes.one_in(2)) prop.prop.joint = static_cast<std::int32_t>(bytes.below(trunk + 1)) - 1;
     groups.push_back(prop);  // group is no longer there
 }
@@ -97,10 +97,9 @@ void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
     const auto number = [&](float min, float max) {
         return min + (max - min) * static_cast<float>(bytes.below(9)) / 8;
     };
-    swivel_group_def group = swivel_default_group_def(0);
-    group.features = SWIVEL_LOOK;
-    if (bytes.one_in(2)) group.on_bad_input = SWIVEL_KEEP_POSE;
-    swivel_look& look = group.look;
+    BodyGroup group{.kind = SWIVEL_KIND_LOOK};
+    bytes.take<std::uint8_t>();  // seeds have one that says nothing
+    swivel_look_def& look = group.look;
     look.joint_count = static_cast<std::uint32_t>(count);
     for (std::size_t n = 0; n < count; ++n) {
         look.joints[n] = of[n];
@@ -119,24 +118,25 @@ void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
 void BodyDef::take_constants(Bytes& bytes)
 {
     const auto number = [&](float max) { return max * static_cast<float>(bytes.below(9)) / 8; };
-    for (swivel_group_def& group : groups) {
-        group.plant = {number(1),
-                       number(1),
-                       number(0.4f),
-                       number(0.4f),
-                       number(2),
-                       number(1),
-                       number(2),
-                       {number(4), number(4)},
-                       {number(2) - 1, number(2) - 1}};
-        group.plant.unlock_radius += group.plant.lock_radius;  // which it is no less than
-        group.fit = {number(1), number(1), number(0.4f), number(1)};
-        if (!((group.features & SWIVEL_WITH_GROUND) | (group.features & SWIVEL_PROP))) continue;
-        group.ground = {{number(0.4f) - 0.2f, number(0.4f) - 0.2f, number(0.4f) - 0.2f},
-                        number(0.2f),
-                        number(0.2f),
-                        number(1),
-                        number(0.4f)};
+    for (BodyGroup& group : groups) {
+        swivel_plant& plant = group.limb.plant;
+        plant = {number(1),
+                 number(1),
+                 number(0.4f),
+                 number(0.4f),
+                 number(2),
+                 number(1),
+                 number(2),
+                 {number(4), number(4)},
+                 {number(2) - 1, number(2) - 1}};
+        plant.unlock_radius += plant.lock_radius;  // which it is no less than
+        group.shift = {sizeof group.shift, number(1), number(1), number(0.4f), number(1)};
+        if (!group.has(SWIVEL_WITH_GROUND) && group.kind != SWIVEL_KIND_PROP) continue;
+        group.limb.ground = {{number(0.4f) - 0.2f, number(0.4f) - 0.2f, number(0.4f) - 0.2f},
+                             number(0.2f),
+                             number(0.2f),
+                             number(1),
+                             number(0.4f)};
         group.prop.max_move = number(1);
     }
     for (float& x : up) x = number(2) - 1;
@@ -151,14 +151,14 @@ std::int32_t BodyDef::add(Random& random, std::int32_t parent)
     return static_cast<std::int32_t>(joint_count() - 1);
 }
 
-void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swivel_features features)
+void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, const LimbFeatures& features)
 {
     const auto below = [&](std::int32_t joint) {
         for (std::uint32_t n = bytes.below(3); n > 0; --n) joint = add(random, joint);
         return add(random, joint);
     };
     std::int32_t above = static_cast<std::int32_t>(bytes.below(trunk + 1)) - 1;
-    if (features & SWIVEL_WITH_CLAVICLE) above = add(random, above);
+    if (features.features & SWIVEL_WITH_CLAVICLE) above = add(random, above);
     const std::int32_t shoulder = add(random, above), elbow = below(shoulder), wrist = below(elbow);
     if (bytes.one_in(2)) add(random, wrist);  // which no limb needs
     joints.push_back(swivel_default_limb_joints(static_cast<std::uint32_t>(shoulder), static_cast<std::uint32_t>(elbow),
@@ -166,47 +166,62 @@ void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swive
     for (float& x : joints.back().bend) x = random.share();
     // At the elbow, all of them: they must not lie one before the other.
     std::vector<std::uint32_t>& bones = twist_bones.emplace_back();
-    for (auto n = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1); n > 0; --n) {
+    for (std::uint32_t n = features.twist_bones; n > 0; --n) {
         bones.push_back(static_cast<std::uint32_t>(add(random, elbow)));
         std::fill_n(translations.end() - 3, 3, 0.0f);
     }
     joints.back().twist_bone_count = static_cast<std::uint32_t>(bones.size());
 }
 
-// Puts any bits, or the number of a joint or of none, into one of the words up to the end.
-void BodyDef::spoil_word(Bytes& bytes, void* begin, const void* end) const
+// Puts any bits, or the number of a joint or of none, into one of the words.
+void BodyDef::spoil_word(Bytes& bytes, std::initializer_list<Words> parts) const
 {
-    const auto size = static_cast<const char*>(end) - static_cast<char*>(begin);
     const std::uint32_t any = bytes.one_in(2) ? bytes.take<std::uint32_t>() : bytes.below(joint_count() + 3) - 1;
-    std::memcpy(static_cast<char*>(begin) + sizeof any * bytes.below(static_cast<std::uint32_t>(size / 4)), &any,
-                sizeof any);
+    std::size_t count = 0;
+    for (const Words& part : parts) count += part.count;
+    std::size_t n = bytes.below(static_cast<std::uint32_t>(count));
+    const Words* part = parts.begin();
+    for (; n >= part->count; ++part) n -= part->count;
+    std::memcpy(static_cast<char*>(part->begin) + sizeof any * n, &any, sizeof any);
 }
 
 void BodyDef::spoil(Bytes& bytes)
 {
     const std::size_t g = bytes.below(static_cast<std::uint32_t>(joints.size()));
     swivel_limb_joints& limb = joints[g];
-    swivel_group_def& group = groups[bytes.below(static_cast<std::uint32_t>(groups.size()))];
-    const std::pair<void*, const void*> words[] = {
-        {parents.data(), parents.data() + parents.size()},  // also in a circle
-        {translations.data(), translations.data() + translations.size()},
-        {rotations.data(), rotations.data() + rotations.size()},
-        {&limb.shoulder, &limb.twist_bone_count},
-        {limb.bend, &limb + 1},
-        {&group.plant, &group.region}};  // how it stands, fits, links and looks, also of a group that does not
-    const std::uint32_t kind = bytes.take<std::uint8_t>() % 14;
-    switch (kind) {
-        default:
-            spoil_word(bytes, words[std::min(kind, 5u)].first, words[std::min(kind, 5u)].second);
+    BodyGroup& group = groups[bytes.below(static_cast<std::uint32_t>(groups.size()))];
+    switch (bytes.take<std::uint8_t>() % 14) {
+        case 0:  // also in a circle
+            spoil_word(bytes, {{parents.data(), parents.size()}});
+            break;
+        case 1:
+            spoil_word(bytes, {{translations.data(), translations.size()}});
+            break;
+        case 2:
+            spoil_word(bytes, {{rotations.data(), rotations.size()}});
+            break;
+        case 3:
+            spoil_word(bytes, {{&limb.shoulder, 3}});
+            break;
+        case 4:  // with the reserved word
+            spoil_word(bytes, {{limb.bend, 4}});
+            break;
+        default:  // how it stands, shifts, lies, links and looks, also of a group that does not
+            spoil_word(bytes, {{&group.limb.plant, sizeof(swivel_plant) / 4},
+                               {&group.shift.drop, 4},
+                               {&group.limb.ground, sizeof(swivel_ground) / 4},
+                               {&group.prop.joint, 2},
+                               {&group.limb.link, 1},
+                               {&group.look.joint_count, 35}});
             break;
         case 5:  // the limb of another group
             limb = joints[bytes.below(static_cast<std::uint32_t>(joints.size()))];
             break;
         case 8:
-            group.features ^= bytes.one_in(2) ? SWIVEL_WITH_LINK : swivel_features{1} << bytes.below(64);
+            group.limb.features ^= bytes.one_in(2) ? SWIVEL_WITH_LINK : feature_of_bit(bytes.below(64));
             break;
-        case 9:  // 0 and the bodies' count are right
-            group.limb_count = bytes.below(body_count + 2);
+        case 9:  // of which 1 is right
+            group.definition_count = std::min(bytes.below(body_count + 2), 2u);
             break;
         case 10:
             (bytes.one_in(2) ? skeleton.size : limb.size) = bytes.below(sizeof(swivel_limb_joints) + 9);
@@ -215,20 +230,32 @@ void BodyDef::spoil(Bytes& bytes)
             (bytes.one_in(2) ? skeleton.joint_count : skeleton.reserved) = bytes.below(joint_count());
             break;
         case 12:  // also a second shift, and a prop that nobody holds
-            groups.push_back(bytes.one_in(2) ? swivel_default_fit_group_def() : swivel_default_prop_group_def());
+            groups.push_back({.kind = bytes.one_in(2) ? SWIVEL_KIND_SHIFT : SWIVEL_KIND_PROP});
             break;
         case 13:
-            bytes.one_in(2) ? void(up[1] = bytes.any_float()) : void(groups[g].joints = nullptr);
+            bytes.one_in(2) ? void(up[1] = bytes.any_float()) : void(groups[g].limb.joints = nullptr);
     }
+}
+
+swivel_group_def BodyGroup::def() const
+{
+    swivel_group_def def = swivel_default_group_def();
+    if (definition_count == 0) return def;
+    if (kind == SWIVEL_KIND_BODY_LIMB) def.body_limb = &limb;
+    if (kind == SWIVEL_KIND_LOOK) def.look = &look;
+    if (kind == SWIVEL_KIND_PROP) def.prop = &prop;
+    if (kind == SWIVEL_KIND_SHIFT || definition_count > 1) def.shift = &shift;
+    if (kind == SWIVEL_KIND_SHIFT && definition_count > 1) def.prop = &prop;
+    return def;
 }
 
 swivel_crowd_def BodyDef::crowd_def(std::uint32_t bodies)
 {
+    defs.clear();
+    for (const BodyGroup& group : groups) defs.push_back(group.def());
     swivel_crowd_def def = swivel_default_crowd_def();
-    for (swivel_group_def& group : groups)
-        if (group.limb_count == body_count && bodies != body_count) group.limb_count = 0;
-    def.groups = groups.data();
-    def.group_count = static_cast<std::uint32_t>(groups.size());
+    def.groups = defs.data();
+    def.group_count = static_cast<std::uint32_t>(defs.size());
     def.skeleton = &skeleton;
     def.body_count = bodies;
     std::ranges::copy(up, def.up);
@@ -256,24 +283,23 @@ bool BodyDef::is_needed(std::uint32_t joint) const
         for (const std::uint32_t turned : turned_joints(g))
             if (is_above(joint, turned)) return true;
     }
-    return std::ranges::any_of(groups, [&](const swivel_group_def& group) {
-        return group.features & SWIVEL_PROP && group.prop.joint >= 0 &&
+    return std::ranges::any_of(groups, [&](const BodyGroup& group) {
+        return group.kind == SWIVEL_KIND_PROP && group.prop.joint >= 0 &&
                is_above(joint, static_cast<std::uint32_t>(group.prop.joint));
     });
 }
 
 std::vector<std::uint32_t> BodyDef::turned_joints(std::uint32_t group) const
 {
-    if (groups[group].features & SWIVEL_LOOK)
+    if (groups[group].kind == SWIVEL_KIND_LOOK)
         return {groups[group].look.joints, groups[group].look.joints + groups[group].look.joint_count};
     if (group >= joints.size()) return {};  // shifts and props turn none
     const swivel_limb_joints limb = limb_of(group);
-    const swivel_features features = groups[group].features;
+    const swivel_features features = groups[group].limb.features;
     std::vector<std::uint32_t> turned = {limb.shoulder, limb.elbow};
     if (features & SWIVEL_WITH_HAND) turned.push_back(limb.wrist);
     if (features & SWIVEL_WITH_CLAVICLE) turned.push_back(static_cast<std::uint32_t>(parents[limb.shoulder]));
-    const auto bones = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1);
-    turned.insert(turned.end(), limb.twist_bones, limb.twist_bones + bones);
+    turned.insert(turned.end(), limb.twist_bones, limb.twist_bones + limb.twist_bone_count);
     return turned;
 }
 

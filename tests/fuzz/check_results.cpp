@@ -71,7 +71,7 @@ struct Reader {
 void check_rotations(Reader& reader)
 {
     const swivel_features features = swivel_group_features(reader.session.crowd, reader.group);
-    const bool follows_incoming = features & SWIVEL_WITH_INCOMING;
+    const bool follows_incoming = reader.session.bodies || features & SWIVEL_WITH_INCOMING;
     reader.check_quaternions(SWIVEL_SHOULDER, follows_incoming);
     reader.check_quaternions(SWIVEL_WRIST, follows_incoming);
     reader.check_quaternions(SWIVEL_TWIST_BONES, follows_incoming);
@@ -143,12 +143,12 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     reader.read(SWIVEL_FLAGS);
     std::uint32_t flags = 0;
     std::memcpy(&flags, reader.value.data(), sizeof flags);
-    if (has_features(session, group, SWIVEL_LOOK)) return check_sight(session, group, limb, flags);
+    if (is_of(session, group, SWIVEL_KIND_LOOK)) return check_sight(session, group, limb, flags);
     SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
     check_plant(reader);
     check_streams(reader, SWIVEL_PROP_TRANSFORM, false);
     check_streams(reader, SWIVEL_HAND_TRANSFORM, flags == SWIVEL_BAD_INPUT || is_endless(reader));
-    if (has_features(session, group, SWIVEL_FIT | SWIVEL_PROP))
+    if (!has_limbs(session, group))
         return SWIVEL_REQUIRE(flags == SWIVEL_REACHED || flags == SWIVEL_CLAMPED_FAR || flags == SWIVEL_CLAMPED_NEAR ||
                               flags == SWIVEL_BAD_INPUT);
     check_rotations(reader);
@@ -166,8 +166,10 @@ void check_alone(Session& session, std::uint32_t group, std::uint32_t limb)
 {
     swivel_crowd*& alone = session.alone[group];
     if (!alone) {
-        swivel_group_def def = session.groups[group];
-        def.limb_count = 1;
+        swivel_limb_def limb_def = session.limb_defs[group];
+        limb_def.limb_count = 1;
+        swivel_group_def def = swivel_default_group_def();
+        def.limb = &limb_def;
         swivel_crowd_def of_one = swivel_default_crowd_def();
         of_one.groups = &def;
         of_one.group_count = 1;

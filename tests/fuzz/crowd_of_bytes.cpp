@@ -101,11 +101,63 @@ swivel_binding binding_of(Random random)
     return binding;
 }
 
-// A feature with all that it needs, which may need others, and what these exclude.
+// The bits of features in seeds, in the order in which these are taken. They are the seeds' own: the library's may
+// change.
+struct SeedBit {
+    std::uint32_t bit;
+    swivel_features feature;
+};
+constexpr SeedBit kSeedBits[] = {{0, SWIVEL_WORLD},
+                                 {1, SWIVEL_JOINTS},
+                                 {2, SWIVEL_WITH_HAND},
+                                 {3, SWIVEL_POLE_DIRECTION},
+                                 {5, SWIVEL_WITH_EFFECTOR},
+                                 {6, SWIVEL_WITH_ANGLE},
+                                 {7, SWIVEL_POLE_NORMAL},
+                                 {8, SWIVEL_WITH_INCOMING},
+                                 {9, SWIVEL_POLE_INCOMING},
+                                 {10, SWIVEL_WITH_WEIGHTS},
+                                 {11, SWIVEL_WITH_REACH},
+                                 {12, SWIVEL_WITH_MAX_SWIVEL},
+                                 {13, SWIVEL_WITH_FLEXION_LIMIT},
+                                 {14, SWIVEL_WITH_SHOULDER_CONE},
+                                 {15, SWIVEL_WITH_HUMERAL_TWIST},
+                                 {16, SWIVEL_WITH_SHOULDER_BOX},
+                                 {17, SWIVEL_WITH_HAND_CONE},
+                                 {18, SWIVEL_WITH_FOREARM_TWIST},
+                                 {19, SWIVEL_WITH_HAND_TWIST},
+                                 {20, SWIVEL_WITH_WRIST_BOX},
+                                 {21, SWIVEL_WITH_AIM},
+                                 {22, SWIVEL_WITH_CLAVICLE},
+                                 {24, SWIVEL_WITH_RECORD},
+                                 {25, SWIVEL_WITH_PLANT},
+                                 {26, SWIVEL_WITH_PLANT_ROTATION},
+                                 {27, SWIVEL_PLANT_BY_MOTION},
+                                 {28, SWIVEL_WITH_CAP},
+                                 {29, SWIVEL_WITH_PELVIS_FIT},
+                                 {30, SWIVEL_WITH_NEXT_TARGET},
+                                 {32, SWIVEL_HAND_YIELDS},
+                                 {33, SWIVEL_WITH_HAND_TRANSFORM},
+                                 {34, SWIVEL_WITH_LINK},
+                                 {36, SWIVEL_WITH_GROUND},
+                                 {39, SWIVEL_WITH_REGION},
+                                 {43, SWIVEL_STEP_WINS},
+                                 {44, SWIVEL_POLE_HAND}};
+constexpr std::uint32_t kTwistBonesBit = 40;  // the first of three for the number of twist bones
+
+swivel_feature_info described_feature(swivel_features feature)
+{
+    swivel_feature_info info = {};
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info) && info.feature != feature;) ++n;
+    SWIVEL_REQUIRE(info.feature == feature);
+    return info;
+}
+
+// A feature of a kind of limbs with all that it needs, which may need others, and what these exclude.
 struct Whole {
     swivel_features features, excludes = 0;
 
-    explicit Whole(const swivel_feature_info& of) : features(of.feature)
+    Whole(swivel_features feature, swivel_kind kind) : features(feature)
     {
         swivel_feature_info info;
         for (swivel_features before = 0; before != features;) {
@@ -113,27 +165,10 @@ struct Whole {
             for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
                 if (features & info.feature) features |= info.needs, excludes |= info.excludes;
         }
+        // A body's limb has these without the features.
+        if (kind == SWIVEL_KIND_BODY_LIMB) features &= ~(SWIVEL_WORLD | SWIVEL_WITH_INCOMING);
     }
 };
-
-// Those that go with these and with each other, and need none that is excluded.
-swivel_features features_with(swivel_features features, swivel_features excluded, Bytes& bytes)
-{
-    const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;
-    const auto bits = bytes.take<std::uint64_t>();
-    // kind 0: half of all; 1: those that plain arms have, so often; 2 and 3: few.
-    const swivel_features wanted = kind == 0 ? bits : kind == 1 ? bits & kPlain : bits & bytes.take<std::uint64_t>();
-    swivel_feature_info info;
-    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
-        const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
-        const swivel_features all = is_counted ? SWIVEL_MAX_TWIST_BONES * info.feature : info.feature;
-        const Whole whole(info);
-        if (!(wanted & all) || (excluded & (all | whole.features)) || (features & whole.excludes)) continue;
-        features |= (wanted & all) | (whole.features & ~all);
-        excluded |= whole.excludes;
-    }
-    return features;
-}
 
 }  // namespace
 
@@ -146,15 +181,36 @@ std::uint64_t Random::bits()
 }
 float Random::share() { return static_cast<float>(static_cast<std::int32_t>(bits() >> 40) - (1 << 23)) * 0x1p-23f; }
 
-swivel_features features_of(Bytes& bytes) { return features_with(0, SWIVEL_BODY, bytes); }
-swivel_features body_features_of(Bytes& bytes)
+// Those that are wanted, go with each other, and need none that another one excludes.
+LimbFeatures features_of(Bytes& bytes, swivel_kind kind)
 {
-    swivel_feature_info info;
-    for (std::uint32_t n = 0; swivel_describe_feature(n, &info) && info.feature != SWIVEL_BODY;) ++n;
-    return features_with(info.feature | info.needs, info.excludes | SWIVEL_NO_LIMB, bytes);
+    const std::uint32_t choice = bytes.take<std::uint8_t>() % 4;
+    const auto bits = bytes.take<std::uint64_t>();
+    // choice 0: half of all; 1: those that plain arms have, so often; 2 and 3: few.
+    const std::uint64_t wanted = choice < 2 ? bits : bits & bytes.take<std::uint64_t>();
+    LimbFeatures taken;
+    swivel_features excluded = 0;
+    for (const auto& [bit, feature] : kSeedBits) {
+        const bool is_wanted = (wanted >> bit & 1) != 0 && (choice != 1 || feature & kPlain);
+        const Whole whole(feature, kind);
+        if (!is_wanted || !(described_feature(feature).kinds >> kind & 1)) continue;
+        if ((excluded & whole.features) || (taken.features & whole.excludes)) continue;
+        taken.features |= whole.features;
+        excluded |= whole.excludes;
+    }
+    if (choice != 1) taken.twist_bones = static_cast<std::uint32_t>(wanted >> kTwistBonesBit) % 8;
+    if (taken.twist_bones > 0) taken.features |= SWIVEL_WITH_HAND;
+    return taken;
 }
 
-void give_region(Bytes& bytes, swivel_group_def& group)
+swivel_features feature_of_bit(std::uint32_t bit)
+{
+    for (const SeedBit& each : kSeedBits)
+        if (each.bit == bit) return each.feature;
+    return swivel_features{1} << 63;
+}
+
+const swivel_region* region_of(Bytes& bytes, swivel_features features)
 {
     static const std::vector<swivel_region> regions = [] {
         std::vector<swivel_region> made(16, swivel_default_region());
@@ -172,22 +228,26 @@ void give_region(Bytes& bytes, swivel_group_def& group)
         }
         return made;
     }();
-    if (group.features & SWIVEL_WITH_REGION)
-        group.region = &regions[bytes.below(static_cast<std::uint32_t>(regions.size()))];
+    if (!(features & SWIVEL_WITH_REGION)) return nullptr;
+    return &regions[bytes.below(static_cast<std::uint32_t>(regions.size()))];
 }
 
-std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t max_limbs)
+std::vector<swivel_limb_def> limb_defs_of(Bytes& bytes, std::uint32_t max_limbs)
 {
-    std::vector<swivel_group_def> groups(1 + bytes.take<std::uint8_t>() % 3);
-    for (swivel_group_def& group : groups) {
-        const std::uint32_t limb_count = 1 + bytes.take<std::uint8_t>() % max_limbs;
-        group = swivel_default_group_def(limb_count);
-        group.features = &group == groups.data() || bytes.one_in(2) ? features_of(bytes) : groups.front().features;
+    std::vector<swivel_limb_def> groups(1 + bytes.take<std::uint8_t>() % 3);
+    LimbFeatures of_first;
+    for (swivel_limb_def& group : groups) {
+        group = swivel_default_limb_def(1 + bytes.take<std::uint8_t>() % max_limbs);
+        const bool is_first = &group == groups.data();
+        const LimbFeatures own = is_first || bytes.one_in(2) ? features_of(bytes, SWIVEL_KIND_LIMB) : of_first;
+        if (is_first) of_first = own;
+        group.features = own.features;
+        group.twist_bone_count = own.twist_bones;
         group.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
         group.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
         if (bytes.one_in(2)) group.on_bad_input = SWIVEL_KEEP_POSE;
         group.binding = binding_of({bytes.take<std::uint16_t>()});
-        give_region(bytes, group);
+        group.region = region_of(bytes, group.features);
     }
     return groups;
 }

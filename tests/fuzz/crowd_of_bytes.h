@@ -4,25 +4,33 @@
 // bodies.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
-#include "swivel/swivel.h"
+#include "swivel/swivel_bodies.h"
+#include "swivel/swivel_regions.h"
 #include "tests/fuzz/bytes.h"
 
 namespace swivel::fuzz {
 
-// A set of features that go together.
-swivel_features features_of(Bytes& bytes);
-// The same of bodies' limbs.
-swivel_features body_features_of(Bytes& bytes);
+// Features that go together, and how many twist bones go with them.
+struct LimbFeatures {
+    swivel_features features = 0;
+    std::uint32_t twist_bones = 0;
+};
+// Those of free limbs, or of bodies' limbs.
+LimbFeatures features_of(Bytes& bytes, swivel_kind kind);
+// The feature that a bit stands for in seeds; for others one that does not exist.
+swivel_features feature_of_bit(std::uint32_t bit);
 
-// A region for a group that has the feature: of cones, a polygon and forbidden cones.
-void give_region(Bytes& bytes, swivel_group_def& group);
+// A region for a limb that has the feature: of cones, a polygon and forbidden cones. Null without the feature.
+const swivel_region* region_of(Bytes& bytes, swivel_features features);
 
-// Each group has features and a sound binding of its own, and 1 to max_limbs limbs.
-std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t max_limbs);
+// Groups of free limbs. Each has features and a sound binding of its own, and 1 to max_limbs limbs.
+std::vector<swivel_limb_def> limb_defs_of(Bytes& bytes, std::uint32_t max_limbs);
 
 // A limb's number in a row of a group.
 inline float& number_at(const swivel_rows& rows, std::size_t limb, std::size_t row)
@@ -54,6 +62,24 @@ swivel_field_info described(swivel_field field);
 // Writes all inputs of all limbs, padding too: a kind and a seed a field and group, then single numbers here and there.
 void fill_inputs(Bytes& bytes, swivel_crowd& crowd);
 
+// A group of bodies. It has a definition of each kind, of which that of its own kind counts: so a byte that spoils one
+// means the same whatever the kind is.
+struct BodyGroup {
+    swivel_kind kind = SWIVEL_KIND_BODY_LIMB;
+    swivel_body_limb_def limb = swivel_default_body_limb_def(nullptr);
+    swivel_look_def look = swivel_default_look_def();
+    swivel_prop_def prop = swivel_default_prop_def();
+    swivel_shift_def shift = swivel_default_shift_def();
+    std::uint32_t definition_count = 1;  // that def() points to
+
+    bool has(swivel_features features) const
+    {
+        return kind == SWIVEL_KIND_BODY_LIMB && (limb.features & features) != 0;
+    }
+    bool keeps_pose() const { return kind != SWIVEL_KIND_BODY_LIMB || limb.on_bad_input == SWIVEL_KEEP_POSE; }
+    swivel_group_def def() const;  // it points to parts of this
+};
+
 // Bodies: a skeleton with limbs beside each other, which may hold each other or things, and the same spoilt in some
 // places.
 struct BodyDef {
@@ -62,7 +88,8 @@ struct BodyDef {
     std::vector<swivel_limb_joints> joints = {};  // of each group that is a limb; they come first
     std::vector<std::vector<std::uint32_t>> twist_bones = {};
     swivel_skeleton skeleton = swivel_default_skeleton();
-    std::vector<swivel_group_def> groups = {};
+    std::vector<BodyGroup> groups = {};
+    std::vector<swivel_group_def> defs = {};  // that crowd_def() points to
     std::uint32_t body_count = 0;
     std::array<float, 3> up = {0, 1, 0};
     bool is_sound = true;
@@ -85,14 +112,18 @@ private:
     swivel_limb_joints limb_of(std::uint32_t group) const;  // as far as its size says
     std::int32_t add(Random& random, std::int32_t parent);
     bool is_above(std::uint32_t joint, std::uint32_t below) const;
-    void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swivel_features features);
+    void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, const LimbFeatures& features);
     void add_shift();
     void take_links(Bytes& bytes, std::uint32_t trunk);
-    void link_to_prop(Bytes& bytes, std::uint32_t trunk, swivel_group_def& group);
+    void link_to_prop(Bytes& bytes, std::uint32_t trunk, BodyGroup& group);
     void take_looks(Bytes& bytes, std::uint32_t trunk);
     void add_look(Bytes& bytes, const std::uint32_t* joints, std::size_t count);
     void take_constants(Bytes& bytes);
-    void spoil_word(Bytes& bytes, void* begin, const void* end) const;
+    struct Words {
+        void* begin;
+        std::size_t count;
+    };
+    void spoil_word(Bytes& bytes, std::initializer_list<Words> parts) const;
     void spoil(Bytes& bytes);
 };
 

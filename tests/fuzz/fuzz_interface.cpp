@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The C interface: a crowd of any def, then calls in any order with any arguments. What must fail fails and changes
-// nothing, what must succeed does and keeps the promises of swivel.h: each limb has
+// nothing, what must succeed does and keeps the promises of the headers: each limb has
 // the bits that it has alone, on every instruction set, whatever the job is. No byte beside the caller's values is
 // touched.
 #include <algorithm>
@@ -59,7 +59,6 @@ void run(Session session, swivel_crowd_def def, bool must_be, std::size_t isa)
     session.group_count = def.group_count;
     session.arena = {arena.get(), needed};
     session.has_workspace = def.workspace_count > 0;
-    session.groups = {def.groups, def.group_count};
     const swivel_status status = swivel_crowd_create(&def, &session.crowd);
     SWIVEL_REQUIRE((status == SWIVEL_OK) == (needed > 0) && (session.crowd != nullptr) == (needed > 0));
     if (!session.crowd) return;
@@ -85,10 +84,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     swivel_crowd_def def = swivel_default_crowd_def();
-    std::vector<swivel_group_def> groups = groups_of(bytes, kMaxLimbs);
+    const std::vector<swivel_limb_def> limbs = limb_defs_of(bytes, kMaxLimbs);
+    std::vector<swivel_group_def> groups(limbs.size(), swivel_default_group_def());
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].limb = &limbs[g];
     def.groups = groups.data();
     def.group_count = static_cast<std::uint32_t>(groups.size());
     def.workspace_count = bytes.take<std::uint8_t>() % 4 == 3 ? 0 : 1;
-    run({.bytes = bytes}, def, true, size);
+    run({.bytes = bytes, .limb_defs = limbs}, def, true, size);
     return 0;
 }

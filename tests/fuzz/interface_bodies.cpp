@@ -173,10 +173,10 @@ bool Pose::is_valid(const Session& session, const std::vector<bool>& named) cons
     const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float), four = 4 * sizeof(float);
     bool needs_time = false;
     for (std::uint32_t group = 0; group < session.group_count; ++group)
-        needs_time =
-            needs_time ||
-            (named[group] && (has_features(session, group, SWIVEL_WITH_PLANT | SWIVEL_FIT) ||
-                              (has_features(session, group, SWIVEL_LOOK) && session.groups[group].look.rate > 0)));
+        needs_time = needs_time ||
+                     (named[group] &&
+                      (has_features(session, group, SWIVEL_WITH_PLANT) || is_of(session, group, SWIVEL_KIND_SHIFT) ||
+                       (is_of(session, group, SWIVEL_KIND_LOOK) && session.bodies->groups[group].look.rate > 0)));
     const auto are_right = [&](const swivel_joint_values& values, std::size_t size, bool is_written) {
         return are_valid(values, size, !is_written, session.bodies->body_count);
     };

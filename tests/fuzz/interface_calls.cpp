@@ -333,8 +333,8 @@ void call_joint_angles(Session& session)
     const swivel_status status = swivel_joint_angles(session.crowd, limbs.group, limbs.first, limbs.count,
                                                      shoulder_order, wrist_order, family, angles.out());
     check_status(session, status,
-                 limbs.is_valid && !has_features(session, limbs.group, SWIVEL_NO_LIMB) &&
-                     shoulder_order <= SWIVEL_ZYX && wrist_order <= SWIVEL_ZYX && family < 2 && angles.is_valid());
+                 limbs.is_valid && has_limbs(session, limbs.group) && shoulder_order <= SWIVEL_ZYX &&
+                     wrist_order <= SWIVEL_ZYX && family < 2 && angles.is_valid());
     angles.check_gaps(status != SWIVEL_OK);
     if (status != SWIVEL_OK || !are_solved(session, limbs)) return;
     for (std::size_t n = 0; n < limbs.count; ++n) {

@@ -48,9 +48,18 @@ bool has_features(const Session& session, std::uint32_t group, swivel_features f
     return (swivel_group_features(session.crowd, group) & features) != 0;
 }
 
+bool is_of(const Session& session, std::uint32_t group, swivel_kind kind)
+{
+    return swivel_group_kind(session.crowd, group) == kind;
+}
+bool has_limbs(const Session& session, std::uint32_t group)
+{
+    return is_of(session, group, SWIVEL_KIND_LIMB) || is_of(session, group, SWIVEL_KIND_BODY_LIMB);
+}
+
 bool is_known(const Session& session, std::uint32_t group)
 {
-    if (has_features(session, group, SWIVEL_NO_LIMB)) return false;  // which is no limb
+    if (!has_limbs(session, group)) return false;
     return !session.bodies || has_features(session, group, SWIVEL_WITH_RECORD);
 }
 
@@ -62,7 +71,9 @@ bool is_bad(const Session& session, std::uint32_t group, std::uint32_t limb)
 }
 bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb)
 {
-    return session.groups[group].on_bad_input == SWIVEL_KEEP_POSE && is_bad(session, group, limb);
+    const bool keeps = session.bodies ? session.bodies->groups[group].keeps_pose()
+                                      : session.limb_defs[group].on_bad_input == SWIVEL_KEEP_POSE;
+    return keeps && is_bad(session, group, limb);
 }
 
 bool is_overwritten(const Session& session, std::uint32_t group, std::uint32_t limb)

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "swivel/swivel.h"
+#include "swivel/swivel_bodies.h"
 #include "tests/fuzz/caller_arrays.h"
 #include "tests/fuzz/crowd_of_bytes.h"
 
@@ -27,8 +27,8 @@ struct Session {
     std::vector<char> arena_before = {};  // as it was before the call at hand
     SomeLimbs is_solved = {};
     SomeLimbs is_overwritten = {};  // with any bits in what they carry, so nothing is said of their results
-    std::span<const swivel_group_def> groups = {};
-    std::vector<swivel_crowd*> alone = {};  // for one limb of each group; of bodies the first is for one body
+    std::span<const swivel_limb_def> limb_defs = {};  // of groups of free limbs
+    std::vector<swivel_crowd*> alone = {};            // for one limb of each group; of bodies the first is for one body
     bool has_workspace = true;
     BodyDef* bodies = nullptr;  // null: free limbs
 
@@ -51,8 +51,11 @@ Limbs take_limbs(Session& session);
 
 // Floats, or the one word, of a field's value as callers have it; 0: the group has no such field, or does not exist.
 std::uint32_t component_count(const Session& session, std::uint32_t group, swivel_field field);
-// Whether a group has any of these features.
+// Whether a group is of a kind, and whether it was asked for any of these features.
+bool is_of(const Session& session, std::uint32_t group, swivel_kind kind);
 bool has_features(const Session& session, std::uint32_t group, swivel_features features);
+// Whether it has limbs, of either kind.
+bool has_limbs(const Session& session, std::uint32_t group);
 // Whether it is known where limbs are: of free ones, and of bodies that keep it.
 bool is_known(const Session& session, std::uint32_t group);
 // Whether a limb has bad input, and whether it then keeps its results.
@@ -72,7 +75,7 @@ void check_status(const Session& session, swivel_status status, bool expected);
 // Chosen limbs were solved, results of all others are the bits they were.
 void check_solved(Session& session, const SomeLimbs& chosen);
 
-// ---- what swivel.h promises of results, whatever the inputs were: check_results.cpp
+// ---- what the headers promise of results, whatever the inputs were: check_results.cpp
 
 // A solved limb has unit quaternions on their side, known flags, finite places.
 void check_results(const Session& session, std::uint32_t group, std::uint32_t limb);

@@ -108,7 +108,7 @@ void sample_ground(const swivel_probes* probes, void* user)
     const Ground& ground = *static_cast<const Ground*>(user);
     SWIVEL_REQUIRE(probes->count > 0 && probes->count <= 128);
     SWIVEL_REQUIRE(probes->group < ground.session->group_count);
-    SWIVEL_REQUIRE(ground.session->groups[probes->group].features & SWIVEL_WITH_GROUND);
+    SWIVEL_REQUIRE(has_features(*ground.session, probes->group, SWIVEL_WITH_GROUND));
     for (std::uint32_t n = 0; n < probes->count; ++n) {
         SWIVEL_REQUIRE(probes->bodies[n] < ground.session->bodies->body_count);
         SWIVEL_REQUIRE(n == 0 || probes->bodies[n] > probes->bodies[n - 1]);
@@ -224,9 +224,9 @@ private:
     {
         for (std::uint32_t group = 0; group < session.group_count; ++group) {
             if (!has_features(session, group, SWIVEL_WITH_LINK)) continue;
-            const std::uint32_t link = session.groups[group].link;
+            const std::uint32_t link = session.bodies->groups[group].limb.link;
             if (is_named(group) && !is_named(link)) return false;
-            if (is_named(link) && !is_named(group) && has_features(session, link, SWIVEL_PROP)) return false;
+            if (is_named(link) && !is_named(group) && is_of(session, link, SWIVEL_KIND_PROP)) return false;
         }
         return true;
     }

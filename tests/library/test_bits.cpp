@@ -115,8 +115,7 @@ PosedBodies any_bodies(Random& random)
     const std::uint32_t count = 1 + random.below(60);
     if (random.below(2)) return HoldingBodies(random, count, layout);
     LookingBodies looking(random, count, layout);
-    for (const std::uint32_t group : looking.looks)
-        looking.groups[group].look.rate = static_cast<float>(random.below(2));
+    for (const std::uint32_t group : looking.looks) looking.look_def(group).rate = static_cast<float>(random.below(2));
     return looking;
 }
 
@@ -225,7 +224,8 @@ TEST_CASE("blocks of which no limb is chosen are not even read, by blocks as by 
     // away.
     constexpr std::size_t page = 4096;
     constexpr std::uint32_t blocks = 192, first = 64, count = 64;
-    const swivel_group_def group = swivel::group(blocks * SWIVEL_LANES);
+    const swivel_limb_def limb = limbs(blocks * SWIVEL_LANES);
+    const swivel_group_def group = c_group(limb);
     swivel_crowd_def def = def_of(group);
     const std::size_t bytes = swivel_crowd_bytes(&def), room = (bytes / page + 3) * page;
     char* const pages =

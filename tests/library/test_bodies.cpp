@@ -69,7 +69,7 @@ struct WeighedBodies : LookingBodies {
     WeighedBodies(Random& random, bool look_too) : LookingBodies(random, kWeighedBodies, random_layout(random))
     {
         if (random.below(2)) put_in_body_space();
-        for (const std::uint32_t group : looks) groups[group].look.rate = 3;
+        for (const std::uint32_t group : looks) look_def(group).rate = 3;
         if (look_too) return;
         for (const std::uint32_t group : looks)
             find(group, SWIVEL_LOOK_TARGET)->numbers.assign(3 * kWeighedBodies, kNan);
@@ -212,7 +212,7 @@ TEST_CASE("joints turn by their share of the way in between, and bones keep thei
             for (std::size_t joint = 0; joint < of.skeleton.size(); ++joint) {
                 const Float3 &bone = came.translations[joint], &same = weighed.translations[joint];
                 RC_ASSERT((vec(bone) - vec(same)).norm() <= 2e-5 * (1 + vec(bone).norm()));
-                const swivel_look& first = of.groups[of.looks.front()].look;
+                const swivel_look_def& first = of.look_def(of.looks.front());
                 const bool is_of_first = std::count(first.joints, first.joints + first.joint_count, joint) > 0;
                 if (looks && !is_of_first) continue;  // it was solved from where the look had turned it
                 const Quaterniond from = quat(came.rotations[joint]).normalized();

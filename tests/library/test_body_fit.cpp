@@ -24,8 +24,8 @@ struct FitStage : PosedBodies {
     explicit FitStage(Random random, swivel_features features = kFitting)
         : PosedBodies(random, {3, 3, 1, false}, kBodies, {.roots = true}, 2)
     {
-        add(swivel_default_fit_group_def());
-        fit().drop = 0.5f, fit().rise = 0.4f;
+        add(swivel_default_shift_def());
+        shift_def().drop = 0.5f, shift_def().rise = 0.4f;
         add_limbs(features);
         const swivel_binding first = bind(skeleton.view(), joints[0]);
         std::vector<double> shifts;
@@ -44,7 +44,8 @@ struct FitStage : PosedBodies {
             give(g, SWIVEL_PELVIS_FIT_WEIGHT, [](std::size_t) { return Float1{1}; });
         }
     }
-    swivel_fit& fit() { return groups[0].fit; }
+    swivel_shift_def& shift_def() { return std::get<swivel_shift_def>(groups[0]); }
+    const swivel_shift_def& shift_def() const { return std::get<swivel_shift_def>(groups[0]); }
     Vector3d up(std::size_t n) const { return quat(bodies[n].root_rotation).normalized() * Vector3d::UnitY(); }
     Vector3d shoulder(std::uint32_t group, std::size_t n) const
     {
@@ -66,7 +67,7 @@ struct FitStage : PosedBodies {
             const double room = std::sqrt(std::max(0.0, length * length - across2));
             low = std::max(low, -height - room), high = std::min(high, room - height);
         }
-        const swivel_fit& with = groups[0].fit;
+        const swivel_shift_def& with = shift_def();
         const double wish = value(0, SWIVEL_SHIFT_WISH, n, Float1{})[0];
         return std::clamp(std::clamp(wish, low, std::max(low, high)), -with.drop * lengths[n], with.rise * lengths[n]);
     }
@@ -97,7 +98,7 @@ TEST_CASE("a body is shifted so that all limbs reach, as near to a wish as they 
     const auto [room, min_far, min_short] = GENERATE(table<float, int, int>({{0.5f, 21, 0}, {0.02f, 0, 11}}));
     FitStage stage(Random{1});
     stage.time = 0;
-    stage.fit().drop = room, stage.fit().rise = 0.8f * room;
+    stage.shift_def().drop = room, stage.shift_def().rise = 0.8f * room;
     if (GENERATE(true, false))
         stage.give(0, SWIVEL_SHIFT_WISH, [](std::size_t n) { return Float1{0.002f * static_cast<float>(n) - 0.08f}; });
     const SolvedBodies solved(stage);
@@ -124,7 +125,7 @@ TEST_CASE("a body is shifted so that all limbs reach, as near to a wish as they 
 TEST_CASE("a shift that is not there yet comes by a critically damped spring, and none while time stands still")
 {
     FitStage stage(Random{2});
-    stage.fit().half_life = 0.15f;
+    stage.shift_def().half_life = 0.15f;
     SolvedBodies solved = unshifted(stage, 0);
     const double k = 1.6783469900166605 / 0.15;
     for (int frame = 0; frame <= 60; ++frame) {
@@ -138,7 +139,7 @@ TEST_CASE("a shift that is not there yet comes by a critically damped spring, an
         }
     }
     FitStage quick(Random{3});
-    quick.fit().half_life = 0;
+    quick.shift_def().half_life = 0;
     SolvedBodies at_once = unshifted(quick, 0.01f);
     at_once.solve_next();
     for (std::size_t n = 0; n < kBodies; ++n)
@@ -220,7 +221,7 @@ TEST_CASE("a coming target is prepared for the nearer it is")
         solved.crowd.write_all(SWIVEL_NEXT_TIME, 1, time);
         solved.crowd.reset(0);
         solved.solve_next();
-        const double near = std::max(0.0, 1 - double{time} / stage.fit().lookahead);
+        const double near = std::max(0.0, 1 - double{time} / stage.shift_def().lookahead);
         for (std::size_t n = 0; n < kBodies; ++n) {
             const double shift = std::fabs(shift_of(solved, n)), whole = std::fabs(stage.wanted(n, {1}));
             if (near == 0) REQUIRE(shift == 0);
@@ -238,13 +239,18 @@ TEST_CASE("shifts, plants and ground that cannot be get a line")
     const FitStage stage(Random{11});
     const swivel_skeleton view = stage.skeleton.view();
     const std::vector<swivel_limb_joints>& joints = stage.joints;
+    swivel_shift_def shift;
+    swivel_body_limb_def fits, stands;
     std::vector<swivel_group_def> groups;
     swivel_crowd_def def = swivel_default_crowd_def();
     constexpr swivel_features kStanding = SWIVEL_WITH_PLANT | SWIVEL_WITH_RECORD | SWIVEL_POLE_INCOMING |
                                           SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS |
                                           SWIVEL_WITH_GROUND;
     const auto start = [&] {
-        groups = {swivel_default_fit_group_def(), body_group(joints[0], kFitting), body_group(joints[1], kStanding)};
+        shift = swivel_default_shift_def();
+        fits = body_limb(joints[0], kFitting), stands = body_limb(joints[1], kStanding);
+        groups.assign(3, swivel_default_group_def());
+        groups[0].shift = &shift, groups[1].body_limb = &fits, groups[2].body_limb = &stands;
         def = swivel_default_crowd_def();
         def.skeleton = &view, def.body_count = 2;
     };
@@ -259,35 +265,34 @@ TEST_CASE("shifts, plants and ground that cannot be get a line")
     start();
     def.groups = groups.data(), def.group_count = 3;
     Crowd good(def);
-    SECTION("two shifts") { groups.push_back(swivel_default_fit_group_def()), refused(); }
-    SECTION("a shift for no limb") { groups.erase(groups.begin() + 1), refused(); }
-    SECTION("a limb without a shift") { groups.erase(groups.begin()), refused(); }
-    SECTION("a shift with joints") { groups[0].joints = &joints[1], groups.pop_back(), refused(); }
-    SECTION("a shift with a limb's feature") { groups[0].features |= SWIVEL_WITH_HAND, refused(); }
+    SECTION("two shifts") { groups.push_back(groups[0]), refused("group 3 is a shift, and group 0 too"); }
+    SECTION("a shift for no limb") { groups.erase(groups.begin() + 1), refused("group 0 is a body's shift, but no"); }
+    SECTION("a limb without a shift") { groups.erase(groups.begin()), refused("but no group is a body's shift"); }
+    SECTION("a shift that is also a limb") { groups[0].body_limb = &stands, refused("group 0 has 2 definitions"); }
     SECTION("an axis of no length") { std::ranges::fill(def.up, 0.0f), refused(); }
     SECTION("an axis that is none") { def.up[1] = kNan, refused(); }
     SECTION("bad constants")
     {
         for (const float bad : {-1.0f, kNan, kInf, 1001.0f}) {
-            for (float swivel_fit::*const each :
-                 {&swivel_fit::drop, &swivel_fit::rise, &swivel_fit::half_life, &swivel_fit::lookahead})
-                start(), groups[0].fit.*each = bad, refused();
+            for (float swivel_shift_def::*const each : {&swivel_shift_def::drop, &swivel_shift_def::rise,
+                                                        &swivel_shift_def::half_life, &swivel_shift_def::lookahead})
+                start(), shift.*each = bad, refused();
             for (float swivel_plant::*const each :
                  {&swivel_plant::lock_radius, &swivel_plant::unlock_radius, &swivel_plant::stop_time,
                   &swivel_plant::release_time, &swivel_plant::relock_speed, &swivel_plant::anchor_lead})
-                start(), groups[2].plant.*each = bad, refused();
-            start(), groups[2].plant.speed[1] = bad, refused();
+                start(), stands.plant.*each = bad, refused();
+            start(), stands.plant.speed[1] = bad, refused();
         }
-        for (const float bad : {-1001.0f, kNan, kInf}) start(), groups[2].plant.height[0] = bad, refused();
-        for (const float bad : {-1.0f, kNan, kInf}) start(), groups[2].plant.reset_time = bad, refused();
-        start(), groups[2].plant.anchor_lead = 1.01f, refused();
+        for (const float bad : {-1001.0f, kNan, kInf}) start(), stands.plant.height[0] = bad, refused();
+        for (const float bad : {-1.0f, kNan, kInf}) start(), stands.plant.reset_time = bad, refused();
+        start(), stands.plant.anchor_lead = 1.01f, refused();
         for (const float bad : {kNan, kInf, -0.01f, 2e15f})
             for (float swivel_ground::*const each : {&swivel_ground::toe_clearance, &swivel_ground::heel_clearance,
                                                      &swivel_ground::half_life, &swivel_ground::cos_max})
-                start(), groups[2].ground.*each = bad, refused("group 2, ground.");
+                start(), stands.ground.*each = bad, refused("group 2, ground.");
         for (const float bad : {kNan, kInf, 2e15f})
-            for (float& each : groups[2].ground.heel) start(), each = bad, refused("group 2, ground.heel is ");
-        start(), groups[2].ground.cos_max = 1.001f;
+            for (float& each : stands.ground.heel) start(), each = bad, refused("group 2, ground.heel is ");
+        start(), stands.ground.cos_max = 1.001f;
         refused("group 2, ground.cos_max is 1.001; it is 0 to 1");
     }
     SECTION("features that do not go together")
@@ -297,11 +302,12 @@ TEST_CASE("shifts, plants and ground that cannot be get a line")
               SWIVEL_PLANT_BY_MOTION, SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_ROTATION,
               SWIVEL_WITH_CAP | SWIVEL_WITH_REACH, SWIVEL_WITH_CAP | SWIVEL_WITH_AIM, SWIVEL_WITH_NEXT_TARGET,
               SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_AIM})
-            start(), groups[2] = body_group(joints[1], bad), refused();
-        start(), groups[2].features &= ~(SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS), refused("WITH_EFFECTOR");
-        start(), groups[2].features &= ~SWIVEL_WITH_PLANT, refused("WITH_PLANT");
-        for (const swivel_features bad : {SWIVEL_WITH_PLANT, SWIVEL_WITH_PELVIS_FIT, SWIVEL_WITH_CAP, SWIVEL_FIT}) {
-            const swivel_group_def free = group(1, {}, bad);
+            start(), stands.features = bad, refused();
+        start(), stands.features &= ~(SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS), refused("WITH_EFFECTOR");
+        start(), stands.features &= ~SWIVEL_WITH_PLANT, refused("WITH_PLANT");
+        for (const swivel_features bad : {SWIVEL_WITH_PLANT, SWIVEL_WITH_PELVIS_FIT, SWIVEL_WITH_CAP}) {
+            const swivel_limb_def limb = limbs(1, bad);
+            const swivel_group_def free = c_group(limb);
             swivel_crowd* crowd = nullptr;
             const swivel_crowd_def of = def_of(free);
             CHECK_REFUSED(swivel_crowd_create(&of, &crowd), SWIVEL_INVALID_ARGUMENT);

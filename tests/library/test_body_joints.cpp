@@ -29,7 +29,7 @@ struct OneLimb : PosedBodies {
           was(joints_at(skeleton, bodies[0]))
     {
         if (random.below(2)) put_in_body_space();
-        add_limbs(features | twist_bones * SWIVEL_WITH_TWIST_BONES);
+        add_limbs(features);
     }
     std::uint32_t clavicle() const { return static_cast<std::uint32_t>(skeleton.parents[limb.shoulder]); }
     BodyGoal own() const { return own_goal(skeleton, bodies[0], 0); }

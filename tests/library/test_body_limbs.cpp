@@ -21,11 +21,10 @@ using namespace swivel;
 using namespace swivel::test;
 
 constexpr std::uint32_t kPosedBodies = 16, kTwins = 8;
-constexpr swivel_features kPosed = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
-                          kOtherwise =  // what bodies do in another way, or alone
-                          SWIVEL_JOINTS | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
-                          SWIVEL_WITH_PELVIS_FIT | SWIVEL_FIT | SWIVEL_PROP | SWIVEL_LOOK | SWIVEL_WITH_LINK |
-                          SWIVEL_WITH_HAND_TRANSFORM | SWIVEL_SENT | SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+// What bodies' limbs have without asking, and what bodies do in another way, or alone.
+constexpr swivel_features kPosed = SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
+constexpr swivel_features kOtherwise = SWIVEL_JOINTS | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
+                                       SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_LINK | SWIVEL_WITH_HAND_TRANSFORM;
 // Nearly straight bones and narrow ranges have few floats, so rounding makes steps of up to about 1e-4.
 constexpr double kSame = 3e-4;
 using Values = std::map<swivel_field, std::vector<float>>;  // of a limb's inputs
@@ -55,7 +54,7 @@ swivel_features random_features(Random& random)
 // A body without a wanted hand aims with the one that comes; a free limb must be told.
 swivel_features free_features(swivel_features features)
 {
-    return (features & ~SWIVEL_BODY) | (features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0);
+    return features | (features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0);
 }
 
 template <class Value>
@@ -231,12 +230,13 @@ struct Twins : PosedBodies {
     Crowd posed_crowd()
     {
         add_limbs(features & ~kPosed);
-        for (swivel_group_def& group : groups) group.region = has(0, SWIVEL_WITH_REGION) ? &region.region : nullptr;
+        for (std::uint32_t g = 0; g < groups.size(); ++g)
+            if (has(g, SWIVEL_WITH_REGION)) limb_def(g).region = &region.region;
         return crowd();
     }
-    swivel_group_def free_group() const
+    swivel_limb_def free_group() const
     {
-        swivel_group_def made = group(kPosedBodies * kTwins, free_features(features));
+        swivel_limb_def made = limbs(kPosedBodies * kTwins, free_features(features));
         if (features & SWIVEL_WITH_REGION) made.region = &region.region;
         return made;
     }

@@ -95,7 +95,7 @@ private:
     Float7 random_grip(Random& random, std::uint32_t g, std::size_t n, const BodyGoal& goal) const
     {
         const std::vector<JointAt> at = joints_at(skeleton, bodies[n]);
-        const std::uint32_t link = groups[g].link;
+        const std::uint32_t link = limb_def(g).link;
         const JointAt& wrist = at[skeleton.limbs[limb_of[link]].wrist];
         const Float3 target =
             value(link, SWIVEL_TARGET, n, floats(Vector3d(vec(bodies[n].root_position) + wrist.place)));
@@ -116,7 +116,7 @@ private:
 bool is_leader(const PosedBodies& of, std::uint32_t group)
 {
     for (std::uint32_t g = 0; g < of.groups.size(); ++g)
-        if (of.has(g, SWIVEL_WITH_LINK) && of.groups[g].link == group) return true;
+        if (of.has(g, SWIVEL_WITH_LINK) && of.limb_def(g).link == group) return true;
     return false;
 }
 
@@ -144,7 +144,7 @@ struct PropStage {
     }
     static PropBodies fixed_at(PropBodies bodies)
     {
-        bodies.groups[bodies.prop].prop.max_move = 0;
+        bodies.prop_def().max_move = 0;
         return bodies;
     }
     static bool same_bytes(const PoseBuffer& a, const PoseBuffer& b, const BodyLimbJoints& limb, std::size_t n)
@@ -262,7 +262,7 @@ TEST_CASE("a linked hand is at its grip on the hand that the other limb reached"
                 ++linked_count;
                 if (!(solved.flags(g, n) & SWIVEL_REACHED)) continue;
                 ++reached_count;
-                const std::uint32_t link = bodies.groups[g].link;
+                const std::uint32_t link = bodies.limb_def(g).link;
                 const Held wanted = body.wanted(g, body.hand(link)), point = body.point(g);
                 // The limb goes to where the other one's hand is told to be, which may itself be off by that bound.
                 RC_ASSERT((point.place - wanted.place).norm() <= body.bound(g) + body.bound(link));

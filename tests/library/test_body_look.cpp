@@ -48,7 +48,7 @@ struct LookStage {
     }
     void check_look(const SolvedBody& body, std::uint32_t group, LookCounts& counts) const
     {
-        const TurnedChain chain{body, of.groups[group].look};
+        const TurnedChain chain{body, of.look_def(group)};
         const std::uint32_t flags = solved.flags(group, body.n);
         const Vector3d target =
             vec(of.value(group, SWIVEL_LOOK_TARGET, body.n, kNoPlace)) - vec(of.bodies[body.n].root_position);
@@ -137,9 +137,11 @@ struct LookStage {
     {
         const Body now = solved.poses.read(body.n, body.was_body);
         std::vector<bool> turns(of.skeleton.size());
-        for (std::uint32_t g = 0; g < of.groups.size(); ++g) {
-            const swivel_look& look = of.groups[g].look;
+        for (const std::uint32_t g : of.looks) {
+            const swivel_look_def& look = of.look_def(g);
             for (std::uint32_t n = 0; n < look.joint_count; ++n) turns[look.joints[n]] = true;
+        }
+        for (std::uint32_t g = 0; g < of.groups.size(); ++g) {
             if (!has_limbs || of.limb_of[g] == kNoLimbHere) continue;
             if (of.value(g, SWIVEL_WEIGHTS, body.n, Float3{})[0] == 0) continue;
             for (const std::uint32_t joint : {body.joints(g).shoulder, body.joints(g).elbow, body.joints(g).wrist})
@@ -208,7 +210,7 @@ TEST_CASE("a line of sight meets its target to a millionth of a radian, also one
     constexpr std::uint32_t kCount = 20000;
     const bool is_one = GENERATE(true, false), is_behind = GENERATE(true, false);
     Upright upright;
-    swivel_look& look = upright.look.look;
+    swivel_look_def& look = upright.look;
     std::fill_n(look.cos_max, 4, -1.0f);
     if (is_one) look.joint_count = 1, look.joints[0] = 3;
     look.cos_full = -0.998f, look.cos_none = -1, look.fade_distance = 0;
@@ -289,8 +291,8 @@ TEST_CASE("a target straight behind, no weight and no target keep the incoming b
 TEST_CASE("at any frame rate a line of sight comes to rest on its target, and says so until then")
 {
     Upright upright;
-    upright.look.look.rate = 3;
-    std::fill_n(upright.look.look.cos_max, 4, -1.0f);
+    upright.look.rate = 3;
+    std::fill_n(upright.look.cos_max, 4, -1.0f);
     Random random{2};
     std::vector<Float3> from, to;
     for (int n = 0; n < 64; ++n) {
@@ -323,9 +325,9 @@ TEST_CASE("the turn that a look adds changes at the look's rate, whatever its ta
     constexpr std::uint32_t kCount = 256;
     const float rate = GENERATE(1.0f, 6.0f), seconds = GENERATE(1 / 120.0f, 1 / 60.0f, 1 / 30.0f);
     Upright upright;
-    upright.look.look.rate = rate;
+    upright.look.rate = rate;
     const bool has_cones = GENERATE(true, false);
-    if (!has_cones) std::fill_n(upright.look.look.cos_max, 4, -1.0f);
+    if (!has_cones) std::fill_n(upright.look.cos_max, 4, -1.0f);
     UprightCrowd bodies(upright, kCount);
     Random random{5};
     std::vector<Float3> targets(kCount);
@@ -356,7 +358,7 @@ TEST_CASE("the turn that a look adds changes at the look's rate, whatever its ta
             last[n] = turned;
             for (std::size_t joint = 0; joint < 4; ++joint)
                 beyond = std::max(beyond, quat(bodies.rotations[n][joint]).angularDistance(quat(came[n][joint])) -
-                                              std::acos(double{upright.look.look.cos_max[joint]}));
+                                              std::acos(double{upright.look.cos_max[joint]}));
         }
     }
     CHECK(beyond <= 1e-5);
@@ -369,10 +371,10 @@ TEST_CASE("a target at the eye or at the last joint turns nothing, and is no num
 {
     const bool is_one = GENERATE(true, false);
     Upright upright;
-    if (is_one) upright.look.look.joint_count = 1, upright.look.look.joints[0] = 3;
+    if (is_one) upright.look.joint_count = 1, upright.look.joints[0] = 3;
     for (const float eye : {0.0f, 0.1f})
         for (const bool at_eye : {true, false}) {
-            std::fill_n(upright.look.look.eye, 3, eye);
+            std::fill_n(upright.look.eye, 3, eye);
             UprightCrowd bodies(upright, 2);
             const Vector3d head(0, 1.57, 0.03), target = head + (at_eye ? eye : 0) * Vector3d::Ones();
             bodies.solve({floats(target), floats(target)});
@@ -385,7 +387,7 @@ TEST_CASE("a target at the eye or at the last joint turns nothing, and is no num
 TEST_CASE("where time stands still a line of sight stays, and a reset lets it begin anew")
 {
     Upright upright;
-    upright.look.look.rate = 1;
+    upright.look.rate = 1;
     UprightCrowd bodies(upright, 1);
     bodies.solve({{0, 1.6f, 3}}, 0.1f);
     const Vector3d before = bodies.line(0);

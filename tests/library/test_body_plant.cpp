@@ -169,8 +169,8 @@ TEST_CASE("a job that names groups steps those alone, and needs no time where no
 {
     PlantedBodies stage(5, Ground::still);
     int count = 0;
-    const auto free_last = [&](swivel_group_def& group) {
-        if (count++ % 3 == 2) group.features &= ~SWIVEL_WITH_PLANT;
+    const auto free_last = [&](swivel_body_limb_def& limb) {
+        if (count++ % 3 == 2) limb.features &= ~SWIVEL_WITH_PLANT;
     };
     Crowd crowd = body_crowd(stage.skeleton, kPlanted, stage.body_count, free_last),
           other = body_crowd(stage.skeleton, kPlanted, stage.body_count, free_last);
@@ -181,7 +181,7 @@ TEST_CASE("a job that names groups steps those alone, and needs no time where no
         stage.go_to(frame);
         write(crowd), write(other);
         const swivel_pose pose = stage.view();
-        crowd.solve({.groups = {1u}, .pose = &pose});
+        crowd.solve({.groups = std::array{1u}, .pose = &pose});
         stage.go_to(frame);
         const swivel_pose all = stage.view();
         other.solve({.pose = &all});
@@ -193,7 +193,7 @@ TEST_CASE("a job that names groups steps those alone, and needs no time where no
     swivel_pose pose = stage.view();
     pose.time = {};
     CHECK_THROWS_WITH(crowd.solve({.pose = &pose}), Catch::Contains("the pose has no time"));
-    CHECK_NOTHROW(crowd.solve({.groups = {2u}, .pose = &pose}));
+    CHECK_NOTHROW(crowd.solve({.groups = std::array{2u}, .pose = &pose}));
 }
 
 TEST_CASE("a support changes without a jump")

@@ -390,7 +390,7 @@ TEST_CASE("two mistakes that fit alike are both named")
     const auto at = joints_at(skeleton, body);
     LimbPlaces places;
     for (std::size_t n = 0; n < 3; ++n) places[n] = {at[n].place.x(), -at[n].place.y(), at[n].place.z()};
-    const auto said = crowd.compare(0, 0, pose, places[0], places[1], places[2]);
+    const auto said = compare(crowd, 0, 0, pose, places[0], places[1], places[2]);
     INFO(said.text);
     CHECK(!said.agrees);
     CHECK(said.text.starts_with("The pose's joint rotations are the inverse ones"));

@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "swivel/swivel_bodies.hpp"
 #include "tools/corpus/corpus.h"
 
 namespace {
@@ -69,39 +70,53 @@ void with_definition(const Recipe& recipe, const Take& take)
                             [&](const void* def) { take(*static_cast<const swivel_crowd_def*>(def)); });
 }
 
-// A group as the makers of swivel.hpp make it, with the members that they do not take.
-swivel_group_def made_as(const swivel_group_def& in_c)
+// A group as the makers of swivel_bodies.hpp make it, with the members that they do not take.
+swivel_body_limb_def made_as(const swivel_body_limb_def& in_c)
 {
-    swivel_group_def made = in_c.features & SWIVEL_FIT    ? fit_group(in_c.fit)
-                            : in_c.features & SWIVEL_PROP ? prop_group(in_c.prop)
-                            : in_c.features & SWIVEL_LOOK
-                                ? look_group(std::span(in_c.look.joints).first(in_c.look.joint_count), in_c.look)
-                                : body_group(*in_c.joints, in_c.features);
+    swivel_body_limb_def made = body_limb(*in_c.joints, in_c.features);
     made.on_bad_input = in_c.on_bad_input;
     made.shoulder_order = in_c.shoulder_order, made.wrist_order = in_c.wrist_order;
-    made.plant = in_c.plant, made.ground = in_c.ground, made.link = in_c.link;
+    made.plant = in_c.plant, made.ground = in_c.ground, made.link = in_c.link, made.region = in_c.region;
+    return made;
+}
+swivel_look_def made_as(const swivel_look_def& in_c)
+{
+    swivel_look_def made = in_c;
+    const swivel_look_def chain = look(std::span(in_c.joints).first(in_c.joint_count));
+    made.joint_count = chain.joint_count;
+    std::ranges::copy(chain.joints, made.joints);
+    return made;
+}
+std::vector<Definition> made_as(const swivel_crowd_def& in_c)
+{
+    std::vector<Definition> made;
+    for (const swivel_group_def& group : std::span(in_c.groups, in_c.group_count)) {
+        if (group.body_limb) made.push_back(made_as(*group.body_limb));
+        if (group.look) made.push_back(made_as(*group.look));
+        if (group.prop) made.push_back(*group.prop);
+        if (group.shift) made.push_back(*group.shift);
+    }
     return made;
 }
 
 // A hill for each body. Heels have ground of another slope than toes.
+void put_hill(std::uint32_t group, std::uint32_t body, const float (&place)[3], float (&ground)[3], float (&normal)[3])
+{
+    const float slope = 0.1f * static_cast<float>(body % 3 + group);
+    std::copy_n(place, 3, ground);
+    ground[1] = slope * place[0];
+    normal[0] = -slope, normal[1] = 1, normal[2] = 0;
+}
 void put_hills(const Probes& probes)
 {
-    for (std::size_t n = 0; n < probes.bodies.size(); ++n) {
-        const float slope = 0.1f * static_cast<float>(probes.bodies[n] % 3 + probes.group);
-        std::copy_n(probes.places[n], 3, probes.grounds[n]);
-        probes.grounds[n][1] = slope * probes.places[n][0];
-        probes.normals[n][0] = -slope, probes.normals[n][1] = 1, probes.normals[n][2] = 0;
-    }
+    for (std::size_t n = 0; n < probes.bodies.size(); ++n)
+        put_hill(probes.group, probes.bodies[n], probes.places[n], probes.grounds[n], probes.normals[n]);
 }
 // The same in C.
 void put_hills_in_c(const swivel_probes* probes, void*)
 {
-    const std::size_t count = probes->count;
-    put_hills({probes->group,
-               {probes->bodies, count},
-               {probes->places, count},
-               {probes->grounds, count},
-               {probes->normals, count}});
+    for (std::uint32_t n = 0; n < probes->count; ++n)
+        put_hill(probes->group, probes->bodies[n], probes->places[n], probes->grounds[n], probes->normals[n]);
 }
 
 }  // namespace
@@ -111,9 +126,7 @@ TEST_CASE("C++: groups from makers and a crowd from a skeleton have the bits of 
     for (const Recipe& recipe : corpus::recipes_of(corpus::Part::standing)) {
         std::optional<Crowd> crowd;
         with_definition(recipe, [&](const swivel_crowd_def& def) {
-            std::vector<swivel_group_def> groups;
-            for (std::uint32_t n = 0; n < def.group_count; ++n) groups.push_back(made_as(def.groups[n]));
-            crowd.emplace(*def.skeleton, def.body_count, groups, std::array{def.up[0], def.up[1], def.up[2]});
+            crowd.emplace(*def.skeleton, def.body_count, made_as(def), std::array{def.up[0], def.up[1], def.up[2]});
         });
         INFO(corpus::full_name(recipe));
         CHECK(Player(recipe, std::move(*crowd)).play().digest() == Player(recipe).play().digest());
@@ -122,23 +135,25 @@ TEST_CASE("C++: groups from makers and a crowd from a skeleton have the bits of 
 
 TEST_CASE("C++: what a maker is not told is as in C: constants, what bad input gets, and up")
 {
-    CHECK(fit_group().fit.half_life == swivel_default_fit().half_life);
-    CHECK(prop_group().prop.joint == swivel_default_prop().joint);
-    const swivel_group_def look = look_group({3, 1, 4});
-    CHECK(look.look.rate == swivel_default_look().rate);
-    CHECK(look.look.joint_count == 3);
-    CHECK(look.look.joints[2] == 4);
-    for (const swivel_group_def& def : {fit_group(), prop_group(), look}) CHECK(def.on_bad_input == SWIVEL_KEEP_POSE);
+    const swivel_limb_joints joints = swivel_default_limb_joints(0, 1, 2);
+    const swivel_body_limb_def limb = body_limb(joints, SWIVEL_WITH_HAND);
+    CHECK((limb.joints == &joints && limb.features == SWIVEL_WITH_HAND));
+    CHECK((limb.on_bad_input == SWIVEL_KEEP_POSE && limb.link == UINT32_MAX));
+    CHECK(limb.plant.stop_time == swivel_default_plant().stop_time);
+    CHECK((limbs(7).limb_count == 7 && limbs(7).on_bad_input == SWIVEL_REST_POSE));
+    const swivel_look_def of_three = look({3, 1, 4});
+    CHECK(of_three.rate == swivel_default_look_def().rate);
+    CHECK((of_three.joint_count == 3 && of_three.joints[2] == 4));
 
     const Recipe& recipe = standing("feet");
     std::vector<std::uint64_t> digests;
     with_definition(recipe, [&](const swivel_crowd_def& def) {
-        const std::span groups(def.groups, def.group_count);
+        const std::vector<Definition> groups = made_as(def);
         digests.push_back(Player(recipe, Crowd(*def.skeleton, 20, groups)).play().digest());
         for (const std::array<float, 3>& up : {std::array{0.0f, 2.0f, 0.0f}, std::array{0.0f, 0.0f, 1.0f}})
             digests.push_back(Player(recipe, Crowd(*def.skeleton, 20, groups, up)).play().digest());
-        const swivel_group_def long_look = look_group({0, 1, 2, 3, 4, 5, 6, 7, 8});
-        CHECK_THROWS_WITH(Crowd(*def.skeleton, 20, std::span(&long_look, 1)), Catch::Contains("look.joint_count is 9"));
+        CHECK_THROWS_WITH(Crowd(*def.skeleton, 20, {look({0, 1, 2, 3, 4, 5, 6, 7, 8})}),
+                          Catch::Contains("look.joint_count is 9"));
     });
     CHECK(digests[0] == digests[1]);
     CHECK(digests[0] != digests[2]);
@@ -170,7 +185,7 @@ TEST_CASE("C++: what is carried is read and set back as the caller's structures,
         return swivel_supports{.position = stream(supports, &corpus::Support::position),
                                .rotation = stream(supports, &corpus::Support::rotation)};
     };
-    feet.crowd.change_support(0, 4, 2, view(from), view(to));
+    change_support(feet.crowd, 0, 4, 2, view(from), view(to));
     for (std::uint32_t n = 0; n < 2; ++n) corpus::change_support(in_c.crowd, 0, 4 + n, from[n], to[n]);
     CHECK(feet.digest() == in_c.digest());
     CHECK(feet.digest() != Player(standing("feet-by-motion")).play().digest());
@@ -251,13 +266,13 @@ TEST_CASE("C++: frames of bodies have values of their fields' widths and kinds")
         const std::vector<std::array<float, 3>> grounds(20);
         std::vector<Streams> frames(swivel_group_count(far.crowd.get()));
         frames[0].in(SWIVEL_GROUND, stream(grounds));
-        job.streams = frames;
+        job.streams.assign(frames.begin(), frames.end());
         CHECK_THROWS_WITH(far.crowd.solve(job),
                           Catch::Contains("ground is in floats, but the pose has root_is_double"));
     });
     std::vector<std::array<double, 3>> origins(20);
     std::uint32_t prop = 0;
-    while (!(swivel_group_features(far.crowd.get(), prop) & SWIVEL_PROP)) ++prop;
+    while (swivel_group_kind(far.crowd.get(), prop) != SWIVEL_KIND_PROP) ++prop;
     CHECK_NOTHROW(far.crowd.write_doubles(SWIVEL_PROP_POSITION, prop, origins));
     CHECK_THROWS_WITH(far.crowd.write_doubles(SWIVEL_PROP_POSITION, prop, origins, stream(origins)),
                       Catch::Contains("it is in a joint's frame here, which has no origin; give null"));

@@ -2,11 +2,14 @@
 //
 // The promise: errors have their texts and belong to their thread, and definitions of older headers are read as far as
 // they go.
+#include "tests/posed_bodies.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 
 #include <array>
+#include <cstddef>
 #include <limits>
+#include <list>
 #include <span>
 #include <string>
 #include <thread>
@@ -49,14 +52,34 @@ TEST_CASE("a binding of an older header gets what it has room for")
     CHECK(whole.lengths[0] == 1);
 }
 
+namespace {
+
+// Definitions as older headers had them: each has only so many bytes.
+struct Older {
+    std::list<std::vector<unsigned char>> all;
+
+    template <class Def>
+    const Def* operator()(const Def& def, std::size_t size)
+    {
+        std::vector<unsigned char>& bytes = all.emplace_back(size);
+        std::memcpy(bytes.data(), &def, size);
+        std::memcpy(bytes.data(), &size, sizeof size);
+        return reinterpret_cast<const Def*>(bytes.data());
+    }
+};
+
+}  // namespace
+
 TEST_CASE("a definition of an older header is read as far as it goes")
 {
-    // As a first release's header might have had them: without a group's binding, and without memory.
-    constexpr std::size_t step = offsetof(swivel_group_def, binding), length = offsetof(swivel_crowd_def, memory);
+    // As a first release's header might have had them: without bodies, without a limb's binding, and without memory.
+    constexpr std::size_t step = offsetof(swivel_group_def, body_limb), length = offsetof(swivel_crowd_def, memory);
+    Older older;
     alignas(swivel_group_def) std::array<unsigned char, 2 * step> groups;
     for (const std::uint32_t n : {0u, 1u}) {
-        swivel_group_def group = swivel_default_group_def(3 + n);
+        swivel_group_def group = swivel_default_group_def();
         group.size = step;
+        group.limb = older(limbs(3 + n), offsetof(swivel_limb_def, binding));
         std::memcpy(groups.data() + n * step, &group, step);
     }
     swivel_crowd_def def = swivel_default_crowd_def();
@@ -69,12 +92,62 @@ TEST_CASE("a definition of an older header is read as far as it goes")
     CHECK(swivel_group_limb_count(crowd, 0) == 3);
     CHECK(swivel_group_limb_count(crowd, 1) == 4);
     swivel_crowd_destroy(crowd);
+
+    swivel_group_def joints = swivel_default_group_def();
+    joints.limb = older(limbs(3, SWIVEL_JOINTS), offsetof(swivel_limb_def, binding));
+    const swivel_crowd_def unbound = def_of(joints);
+    CHECK_REFUSED(swivel_crowd_create(&unbound, &crowd), SWIVEL_INVALID_ARGUMENT);
+    CHECK_THAT(swivel_last_error(), Catch::Contains("group 0 has no binding"));
+}
+
+TEST_CASE("of each kind of bodies' groups, what an older header lacks is as its default has it")
+{
+    using H = HoldingBodies;
+    Random random{12};
+    HoldingBodies bodies(random, 20, {.roots = true});
+    bodies.limb_def(H::leg).features |= SWIVEL_WITH_PLANT;
+    bodies.give(H::leg, SWIVEL_CONTACT, [](std::size_t) { return Float1{1}; });
+    const std::uint32_t head = bodies.add(look({0}));
+
+    Older older;
+    std::vector<swivel_group_def> groups = c_groups(bodies.groups);
+    for (swivel_group_def& group : groups) {
+        if (group.body_limb) group.body_limb = older(*group.body_limb, offsetof(swivel_body_limb_def, region));
+        if (group.look) group.look = older(*group.look, offsetof(swivel_look_def, rate));
+        if (group.prop && group.prop->joint < 0) group.prop = older(*group.prop, offsetof(swivel_prop_def, joint));
+        if (group.shift) group.shift = older(*group.shift, offsetof(swivel_shift_def, half_life));
+    }
+    const swivel_skeleton skeleton = bodies.skeleton.view();
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = groups.data(), def.group_count = static_cast<std::uint32_t>(groups.size());
+    def.skeleton = &skeleton, def.body_count = bodies.body_count();
+    Crowd whole = bodies.crowd(), part(def);
+    bodies.write(part);
+    int planted = 0, on_its_way = 0;
+    for (int frame = 0; frame < 3; ++frame) {
+        std::vector<Float3> seen;
+        for (const Body& body : bodies.bodies)
+            seen.push_back(floats(Vector3d(vec(body.root_position) + 20 * random.direction())));
+        for (Crowd* const crowd : {&whole, &part}) crowd->write(SWIVEL_LOOK_TARGET, head, seen);
+        PoseBuffer poses = bodies.incoming(), others = poses;
+        const swivel_pose pose = bodies.view(poses), other = bodies.view(others);
+        whole.solve({.pose = &pose}), part.solve({.pose = &other});
+        CHECK((all_words(part) == all_words(whole)));
+        CHECK(others.bytes == poses.bytes);
+        for (std::uint32_t n = 0; n < bodies.body_count(); ++n) {
+            planted += frame > 0 && flags_of(whole, H::leg, n) & SWIVEL_PLANTED;
+            on_its_way += frame > 0 && flags_of(whole, head, n) & SWIVEL_LIMITED_STEP;
+        }
+        for (Body& body : bodies.bodies) body.root_position[0] += 0.01f * body.root_scale;
+    }
+    CHECK(planted > 5);
+    CHECK(on_its_way > 5);
 }
 
 TEST_CASE("frames and jobs of an older header are read as far as they go, frames as far apart as the first says")
 {
     constexpr std::size_t step = offsetof(swivel_streams, origin);  // as if a first release had no origins
-    const swivel_group_def groups[] = {group_of(20), group_of(5)};
+    const swivel_limb_def groups[] = {group_of(20), group_of(5)};
     Crowd framed = crowd_with(0, groups), rows = crowd_with(0, groups);
     alignas(swivel_streams) std::array<unsigned char, 2 * step> frames;
     std::vector<Float3> targets[] = {std::vector<Float3>(20, Float3{0, 1, 1}), std::vector<Float3>(5, Float3{1, 0, 1})};

@@ -4,6 +4,8 @@
 // forward kinematics confirms.
 #include <cctype>
 
+#include "swivel/swivel_explain.hpp"
+#include "swivel/swivel_regions.h"
 #include "tests/approved_texts.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
@@ -47,12 +49,12 @@ struct Told {
     {
         crowd.write_all(field, 0, value);
     }
-    void says(const std::string& when) { texts.line(when, crowd.explain(0, 0)); }
+    void says(const std::string& when) { texts.line(when, explain(crowd, 0, 0)); }
     void solved(const std::string& when)
     {
         crowd.solve();
         says(when);
-        judge(crowd.explain(0, 0));
+        judge(explain(crowd, 0, 0));
     }
     template <class Value>
     void with(const std::string& when, swivel_field field, const Value& value)
@@ -132,10 +134,10 @@ void tell_of_inputs(ApprovedTexts& texts)
     changed.write(SWIVEL_TARGET, Float3{0, 3, 0});
     changed.says("another target");
 
-    swivel_group_def group = group_of(1);
-    group.on_bad_input = SWIVEL_KEEP_POSE;
+    swivel_limb_def keeps = group_of(1);
+    keeps.on_bad_input = SWIVEL_KEEP_POSE;
     Told kept(texts, "a limb that keeps its pose", 0);
-    kept.crowd = Crowd(group);
+    kept.crowd = Crowd(keeps);
     kept.with("target", SWIVEL_TARGET, Float3{0, 2e15f, 0});
 }
 
@@ -238,10 +240,10 @@ void tell_of_limits(ApprovedTexts& texts)
     swivel_region about_z = swivel_default_region();
     const swivel_region_cone half{{0, 0, 1}, 0.5f};
     REQUIRE(swivel_region_add_cones(&about_z, &half, 1, 0) == SWIVEL_OK);
-    swivel_group_def group = swivel::group(1, SWIVEL_WITH_REGION);
-    group.region = &about_z;
+    swivel_limb_def about = limbs(1, SWIVEL_WITH_REGION);
+    about.region = &about_z;
     Told region(texts, "a region", 0);
-    region.crowd = Crowd(group);
+    region.crowd = Crowd(about);
     region.write(SWIVEL_LENGTHS, Float2{1, 1});
     region.write(SWIVEL_POLE, Float3{0, 5, 0});
     // The upper arm is 60 degrees from the line to the target, and that 40.1 degrees from +z. So the wish is 60 + 40.1
@@ -273,10 +275,11 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
           SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
           SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {
         const BoundLimb limb = bound_limb(random);
-        swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | limits);
-        group.shoulder_order = SWIVEL_ZXY;
-        group.wrist_order = SWIVEL_YXZ;
-        Crowd crowd(group), free = crowd_of(kWorldJointsHand, count, limb.bound);
+        swivel_limb_def def = swivel::limbs(count, kWorldJointsHand | limits);
+        def.binding = limb.bound;
+        def.shoulder_order = SWIVEL_ZXY;
+        def.wrist_order = SWIVEL_YXZ;
+        Crowd crowd(def), free = crowd_of(kWorldJointsHand, count, limb.bound);
         LimbLimits l(random);
         l.shoulder = limits & SWIVEL_WITH_HAND_CONE ? 0.5 : 1.1, l.hand = 0.3;
         l.humeral = limits & SWIVEL_WITH_HAND_CONE ? narrow() : AngleRange{0.1, 1.6};
@@ -298,7 +301,7 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
         crowd.elbows(0, elbow);
         free.elbows(0, wished);
         for (std::uint32_t n = 0; n < count; ++n) {
-            const std::string text = crowd.explain(0, n);
+            const std::string text = explain(crowd, 0, n);
             INFO(text);
             const LocalPose q = added_to_rest(local_pose(crowd, n), limb.bound);
             const Vector3d bone = Vector3d::UnitZ();
@@ -375,7 +378,7 @@ TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every
             CHECK(whole.ends_with(" The limb has its rest pose."));
             CHECK(whole.find('?') == std::string::npos);
             CHECK(whole.size() < SWIVEL_EXPLANATION_BYTES);
-            CHECK(crowd.explain(0, 0) == whole);  // however long
+            CHECK(explain(crowd, 0, 0) == whole);  // however long
         }
     }
 }

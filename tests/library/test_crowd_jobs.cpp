@@ -6,6 +6,7 @@
 //
 // What is refused is in test_refused_calls.cpp. That each limb of a job has the bits that it has alone and no other
 // limb changes, for every field, stride and alignment, is the test `interface`'s; ways and threads are test_bits.cpp's.
+#include "swivel/swivel_explain.hpp"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_whole_limb.h"
@@ -115,7 +116,7 @@ TEST_CASE("the most urgent blocks are picked, of equals the lower")
 {
     rc::prop("random groups, priorities and budgets", [](std::uint64_t seed) {
         Random random{seed};
-        std::vector<swivel_group_def> groups;
+        std::vector<swivel_limb_def> groups;
         for (std::uint32_t n = 1 + random.below(3); n > 0; --n) groups.push_back(group_of(1 + random.below(700)));
         const auto group_count = static_cast<std::uint32_t>(groups.size());
         Crowd crowd = crowd_with(0, groups);
@@ -135,7 +136,7 @@ TEST_CASE("the most urgent blocks are picked, of equals the lower")
 
 TEST_CASE("what is chosen within a budget is solved on threads as in ranges")
 {
-    const swivel_group_def groups[] = {group_of(6000), group_of(100), group_of(3333)};
+    const swivel_limb_def groups[] = {group_of(6000), group_of(100), group_of(3333)};
     for (const swivel_features features : {swivel_features{0}, kEverything}) {
         Crowd whole = crowd_with(features, groups), parts = crowd_with(features, groups);
         std::vector<float> urgency = no_urgency(whole);
@@ -163,8 +164,7 @@ TEST_CASE("what is chosen within a budget is solved on threads as in ranges")
 TEST_CASE("nobody starves, and over time blocks are solved as often as their priority says")
 {
     const std::uint32_t block_count = 40, calls = 40000;
-    const swivel_group_def group = group_of(16 * block_count);
-    Crowd crowd = crowd_with(0, {&group, 1});
+    Crowd crowd = crowd_with(0, {group_of(16 * block_count)});
     std::vector<float> priority(16 * block_count);
     double sum = 0;
     for (std::uint32_t block = 0; block < block_count; ++block) {
@@ -189,8 +189,7 @@ TEST_CASE("nobody starves, and over time blocks are solved as often as their pri
 
 TEST_CASE("without urgency each call starts anew; what is no number counts as none")
 {
-    const swivel_group_def group = group_of(16 * 4);
-    Crowd crowd = crowd_with(0, {&group, 1});
+    Crowd crowd = crowd_with(0, {group_of(16 * 4)});
     const float priority = 1;
     const swivel_in priorities{&priority, 0};
     std::vector<std::uint32_t> words(2);
@@ -206,8 +205,7 @@ TEST_CASE("without urgency each call starts anew; what is no number counts as no
 
 TEST_CASE("C++: budgets that cannot be are refused and change nothing")
 {
-    const swivel_group_def group = group_of(100);
-    Crowd crowd = crowd_with(0, {&group, 1});
+    Crowd crowd = crowd_with(0, {group_of(100)});
     const float priority = 1;
     const swivel_in good{&priority, 0};
     std::vector<float> urgency = no_urgency(crowd);
@@ -225,31 +223,32 @@ TEST_CASE("C++: budgets that cannot be are refused and change nothing")
 
 TEST_CASE("jobs name groups; frames are given for those alone")
 {
-    Crowd crowd({group(20), group(5), group(40)});
+    Crowd crowd({limbs(20), limbs(5), limbs(40)});
     const Float3 target{0.3f, 0.2f, 1};
     for (std::uint32_t g = 0; g < 3; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
     Streams frame;
     frame.in(SWIVEL_TARGET, {&target, 0});
-    CHECK(crowd.solve({.groups = {0u, 2u}, .streams = {frame, frame}}) == 60);
+    CHECK(crowd.solve({.groups = std::array{0u, 2u}, .streams = {frame, frame}}) == 60);
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 0)[19] == SWIVEL_REACHED);
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 1)[4] == 0);  // never solved
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 2)[39] == SWIVEL_REACHED);
-    CHECK(crowd.solve({.groups = {1u}, .mask = {1u << 3, 1u, 0u}}) == 1);  // limb 32 is group 1's first
+    // Limb 32 is group 1's first.
+    CHECK(crowd.solve({.groups = std::array{1u}, .mask = std::array{1u << 3, 1u, 0u}}) == 1);
     CHECK(crowd.solve({.groups = std::vector<std::uint32_t>()}) == 0);
-    CHECK_THROWS_WITH(crowd.solve({.groups = {1u}, .streams = {frame, frame}}),
+    CHECK_THROWS_WITH(crowd.solve({.groups = std::array{1u}, .streams = {frame, frame}}),
                       "2 streams for 1 groups; give one for each");
-    CHECK_THROWS_WITH(crowd.solve({.groups = {3u}}), "group 3 does not exist; this crowd has 3");
+    CHECK_THROWS_WITH(crowd.solve({.groups = std::array{3u}}), "group 3 does not exist; this crowd has 3");
 }
 
 TEST_CASE("a job whose groups lie outside its blocks solves nothing, on threads, too")
 {
-    Crowd crowd({group(16 * 2000), group(16)});
+    Crowd crowd({limbs(16 * 2000), limbs(16)});
     const Float3 target{0.3f, 0.2f, 1};
     for (std::uint32_t g = 0; g < 2; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
     const Streams frame = Streams().in(SWIVEL_TARGET, {&target, 0});
-    CHECK(crowd.solve({.blocks = swivel_blocks{0, 2000}, .groups = {1u}, .streams = {frame}}) == 0);
-    CHECK(crowd.solve({.groups = {1u}, .streams = {frame}}) == 16);
-    CHECK(crowd.solve({.groups = {0u}, .streams = {frame}}) == 32000);
+    CHECK(crowd.solve({.blocks = swivel_blocks{0, 2000}, .groups = std::array{1u}, .streams = {frame}}) == 0);
+    CHECK(crowd.solve({.groups = std::array{1u}, .streams = {frame}}) == 16);
+    CHECK(crowd.solve({.groups = std::array{0u}, .streams = {frame}}) == 32000);
     CHECK_THROWS_WITH(Streams().in(SWIVEL_FLAGS, {&target, 4}), "streams take in no result; give it by out()");
 }
 
@@ -263,10 +262,10 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
     for (const bool on_this_thread : {false, true})
         for (const bool masked : {false, true}) {
             const std::uint32_t count = 100;
-            swivel_group_def def = group_of(count);
+            swivel_limb_def def = group_of(count);
             def.features = SWIVEL_JOINTS | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
             def.on_bad_input = SWIVEL_KEEP_POSE;
-            Crowd crowd({def});
+            Crowd crowd(def);
             crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 1, 1});
             Random random{3};
             std::vector<Pose> poses(count);
@@ -286,8 +285,9 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
                                       .out(SWIVEL_SHOULDER, stream(poses, &Pose::shoulder))
                                       .out(SWIVEL_ELBOW, stream(poses, &Pose::elbow))
                                       .out(SWIVEL_FLAGS, stream(poses, &Pose::flags));
-            Job job{.streams = frame, .on_this_thread = on_this_thread};
-            if (masked) job.mask = std::vector<std::uint32_t>(4, 0xffffbfffu);
+            const std::vector<std::uint32_t> mask(4, 0xffffbfffu);
+            Job job{.streams = {frame}, .on_this_thread = on_this_thread};
+            if (masked) job.mask = mask;
             if (on_this_thread) job.blocks = swivel_blocks{0, swivel_block_count(crowd.get())};
             crowd.solve(job);
             for (std::uint32_t n = 0; n < count; ++n) {
@@ -299,7 +299,7 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
                 CHECK((poses[n].elbow == before[n].elbow) == (is_bad || !is_chosen));
                 CHECK((read<Float4>(crowd, SWIVEL_SHOULDER)[n] == had[n]) == (is_bad || !is_chosen));
             }
-            const std::string says = crowd.explain(0, 0);
+            const std::string says = explain(crowd, 0, 0);
             CHECK(says.find(std::isnan(before[0].target[1]) ? "keeps the pose it had" : "reached") !=
                   std::string::npos);
         }

@@ -23,10 +23,11 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     constexpr std::uint32_t count = 1000;
     Random random{4};
     const BoundLimb limb = bound_limb(random);
-    swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | kLimits);
-    group.shoulder_order = SWIVEL_YZX;
-    group.wrist_order = SWIVEL_ZYX;
-    Crowd crowd({group});
+    swivel_limb_def def = limbs(count, kWorldJointsHand | kLimits);
+    def.binding = limb.bound;
+    def.shoulder_order = SWIVEL_YZX;
+    def.wrist_order = SWIVEL_ZYX;
+    Crowd crowd(def);
     std::vector<LimbLimits> limits;
     for (std::uint32_t n = 0; n < count; ++n) {
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));

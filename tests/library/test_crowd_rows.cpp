@@ -24,10 +24,9 @@ using namespace swivel::test;
 
 TEST_CASE("groups start blocks, fields are rows in the order of the table")
 {
-    const swivel_group_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
+    const swivel_limb_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
     const std::uint32_t first_limbs[] = {0, 16, 32, 64};
-    for (swivel_features features = 0; features < 16; ++features) {
-        if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
+    for (const swivel_features features : every_plain_set()) {
         const Crowd crowd = crowd_with(features, groups);
         INFO("features " << features);
         CHECK(swivel_block_count(crowd.get()) == 7);
@@ -55,7 +54,7 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
 
 TEST_CASE("a new crowd's inputs are what anybody would guess, and else bad")
 {
-    swivel_group_def groups[] = {group_of(20), group_of(5)};
+    swivel_limb_def groups[] = {group_of(20), group_of(5)};
     std::ranges::copy(Float2{0.3f, 0}, groups[1].binding.lengths);
     for (const bool joints : {false, true}) {
         const swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND | (joints ? SWIVEL_JOINTS : 0);
@@ -77,7 +76,7 @@ TEST_CASE("a new crowd's inputs are what anybody would guess, and else bad")
 
 namespace {
 
-// swivel_digest() as the header describes it, by limbs and their values: floats of rows by swivel.h's layout.
+// swivel_digest() as docs/fields.md describes it, by limbs and their values: floats of rows by swivel.h's layout.
 std::uint64_t described_digest(const Crowd& crowd)
 {
     std::uint64_t hashes[SWIVEL_LANES] = {}, whole = 0;
@@ -105,7 +104,7 @@ TEST_CASE("the digest is that of the results, and of nothing else")
     const std::uint32_t counts[] = {1, 16, 37};
     for (const swivel_features features : {swivel_features{0}, SWIVEL_JOINTS | SWIVEL_WITH_HAND}) {
         INFO("features " << features);
-        std::vector<swivel_group_def> groups;
+        std::vector<swivel_limb_def> groups;
         for (const std::uint32_t count : counts) groups.push_back(group_of(count));
         Crowd crowd = crowd_with(features, groups);
         Random random{7};
@@ -128,17 +127,17 @@ TEST_CASE("the digest is that of the results, and of nothing else")
 
 namespace {
 
-bool is_of(const swivel_field_info& field, swivel_features features)
+// Whether a group has a field, as far as the library describes it.
+bool is_of(const swivel_field_info& field, swivel_kind kind, swivel_features features)
 {
-    if (features & SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES) features |= SWIVEL_WITH_TWIST_BONES;  // any number
-    return (features & field.needs) == field.needs && !(features & field.excludes);
+    return field.kinds >> kind & 1 && (features & field.needs) == field.needs && !(features & field.excludes);
 }
 
 }  // namespace
 
 TEST_CASE("the library describes the fields, features and flags that the header has")
 {
-    std::ifstream file(SWIVEL_SOURCE_DIR "/include/swivel/swivel.h");
+    std::ifstream file(SWIVEL_SOURCE_DIR "/include/swivel/swivel.h");  // which has all of these
     const std::string header{std::istreambuf_iterator<char>(file), {}};
     const auto lower = [](std::string name) {
         for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -169,7 +168,8 @@ TEST_CASE("the library describes the fields, features and flags that the header 
         CHECK((*field.range != 0) == is_input);
     }
     CHECK(got == wanted);
-    // A group has a field just if it has what the field needs and lacks what it excludes.
+    // A group has a field just if it is of its kinds, has what the field needs and lacks what it excludes. Further,
+    // some have twist bones, a solved goal is that of a plant or a link, and a hand that others hold has its transform.
     for (const corpus::Part part : corpus::kParts)
         for (const corpus::Recipe& recipe : corpus::recipes_of(part)) {
             const Crowd crowd = make_crowd(recipe, 1);
@@ -177,15 +177,26 @@ TEST_CASE("the library describes the fields, features and flags that the header 
                 for (std::uint32_t n = 0; swivel_describe_field(n, &field); ++n) {
                     INFO(full_name(recipe) << ", " << field.name);
                     const swivel_features features = swivel_group_features(crowd.get(), g);
+                    const swivel_kind kind = swivel_group_kind(crowd.get(), g);
                     const std::uint32_t rows = swivel_field_row_count(crowd.get(), g, field.field);
-                    CHECK((rows > 0) == is_of(field, features));
+                    const bool is_described = is_of(field, kind, features);
+                    if (field.field == SWIVEL_TWIST_BONES)
+                        CHECK((rows == 0 || is_described));
+                    else if (field.field == SWIVEL_HAND_TRANSFORM)
+                        CHECK((rows > 0 || !is_described));
+                    else if (field.field == SWIVEL_SOLVED_GOAL)
+                        CHECK((rows > 0) == (is_described && (features & (SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK)) != 0));
+                    else
+                        CHECK((rows > 0) == is_described);
                     CHECK(rows <= field.max_components);
                 }
         }
     got.clear();
     swivel_feature_info feature;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &feature); ++n) got.push_back(feature.name);
-    CHECK(got == names_in(header, std::regex(R"(\n#define SWIVEL_(\w+)[ \\\n]+\(UINT64_C\()")));
+    wanted = names_in(header, std::regex(R"(\n#define SWIVEL_(\w+)[ \\\n]+\(UINT64_C\()"));
+    std::ranges::sort(got), std::ranges::sort(wanted);
+    CHECK(got == wanted);
     std::vector<std::string> flags;
     for (std::uint32_t bit = 0; bit < 32; ++bit)
         if (const char* const name = swivel_flag_name(1u << bit)) flags.push_back(name);
@@ -218,14 +229,13 @@ struct Ledger {
 
 TEST_CASE("a crowd takes swivel_crowd_bytes() once, from whom it was told to")
 {
-    swivel_group_def groups[] = {group_of(100), group_of(3), group_of(50)};
-    for (swivel_features features = 0; features < 16; ++features) {
-        if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
+    swivel_limb_def limb_defs[] = {group_of(100), group_of(3), group_of(50)};
+    const swivel_group_def groups[] = {c_group(limb_defs[0]), c_group(limb_defs[1]), c_group(limb_defs[2])};
+    for (const swivel_features features : every_plain_set()) {
         INFO("features " << features);
         swivel_crowd_def def = def_of(groups[0]);
-        def.groups = groups;
         def.group_count = 3;
-        for (swivel_group_def& group : groups) group.features = features;
+        for (swivel_limb_def& limb : limb_defs) limb.features = features;
         const std::size_t bytes = swivel_crowd_bytes(&def);
         REQUIRE(bytes % 64 == 0);
 
@@ -298,12 +308,12 @@ TEST_CASE("nothing allocates after creation")
         static const Streams own = Streams()
                                        .in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]})
                                        .out(SWIVEL_SHOULDER, {shoulders.data(), sizeof shoulders[0]});
-        static const swivel_streams frame = own;
-        const std::span frames(&frame, 1);
+        static const Job framed{
+            .blocks = swivel_blocks{3, 200}, .mask = mask, .streams = {own}, .on_this_thread = true};
         crowd.write(SWIVEL_TARGET, 0, targets);
         crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
         crowd.solve({.blocks = swivel_blocks{0, 200}, .on_this_thread = true});
-        crowd.solve({.blocks = swivel_blocks{3, 200}, .mask = mask, .streams = frames, .on_this_thread = true});
+        crowd.solve(framed);
         crowd.read(SWIVEL_SHOULDER, 0, shoulders);
         crowd.wrists(0, wrists);
         crowd.residuals(0, residuals);
@@ -341,7 +351,8 @@ TEST_CASE("nothing allocates after creation")
     ::operator delete(by_new);
     std::free(by_malloc);
     CHECK(allocation_count() == before + 2);  // the counter counts
-    const swivel_group_def group = group_of(100);
+    const swivel_limb_def limb = group_of(100);
+    const swivel_group_def group = c_group(limb);
     swivel_crowd_def def = def_of(group);
     swivel_crowd* crowd = nullptr;
     const std::size_t before_create = allocation_count();

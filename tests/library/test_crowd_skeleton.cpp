@@ -137,7 +137,7 @@ struct Posed {
         : skeleton(random_skeleton(random, shape, bones)),
           limb(skeleton.limbs[0]),
           bound(bind(skeleton.view(), skeleton.joints(0))),
-          crowd(crowd_of(features | bones * SWIVEL_WITH_TWIST_BONES, count, bound))
+          crowd(crowd_of(features, count, bound, bones))
     {
         for (std::uint32_t n = 0; n < count; ++n) {
             limbs.push_back(random_limb(random, features, {bound.lengths[0], bound.lengths[1]}));

@@ -5,6 +5,7 @@
 // valid.
 #include <string_view>
 
+#include "swivel/swivel_explain.hpp"
 #include "tests/limited_arms.h"
 #include "tests/test_whole_limb.h"
 
@@ -117,7 +118,7 @@ TEST_CASE("an axis or pair whose squared length is not 1 within 1e-6 is bad inpu
             if (off <= 1.25e-6) continue;
             ++bad;
             CHECK(is_bad);
-            const std::string text = crowd.explain(0, n), words = part.size == 2 ? "its pair " : "its axis ";
+            const std::string text = explain(crowd, 0, n), words = part.size == 2 ? "its pair " : "its axis ";
             INFO(text);
             const std::size_t at = text.find(words);
             REQUIRE(at != std::string::npos);

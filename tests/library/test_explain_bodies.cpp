@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+#include "swivel/swivel_explain.hpp"
 #include "tests/approved_texts.h"
 #include "tests/looking_bodies.h"
 #include "tests/prop_bodies.h"
@@ -38,7 +39,7 @@ HoldingBodies holding(std::uint64_t seed)
 }
 std::string text_of(const PosedBodies& bodies, std::uint32_t group, std::uint32_t body = kBody)
 {
-    return SolvedBodies(bodies).crowd.explain(group, body);
+    return explain(SolvedBodies(bodies).crowd, group, body);
 }
 
 // The others have numbers, which are judged as numbers.
@@ -52,19 +53,20 @@ struct ToldLook {
     Crowd& crowd = bodies.crowd;
     Float3 target = kNoPlace;
 
-    ToldLook(ApprovedTexts& to, const std::string& scene, const swivel_look& look) : texts(to), bodies(upright(look), 1)
+    ToldLook(ApprovedTexts& to, const std::string& scene, const swivel_look_def& look)
+        : texts(to), bodies(upright(look), 1)
     {
         texts.scene(scene);
     }
-    static Upright upright(const swivel_look& look)
+    static Upright upright(const swivel_look_def& look)
     {
         Upright made({{0, 1, 0}, {0, 0.5f, 0}, {0, 0.2f, 0}});
-        made.look.look = look;
+        made.look = look;
         return made;
     }
-    static swivel_look look(std::uint32_t count, double cone)
+    static swivel_look_def look(std::uint32_t count, double cone)
     {
-        swivel_look made = swivel_default_look();
+        swivel_look_def made = swivel_default_look_def();
         made.joint_count = count;
         for (std::uint32_t n = 0; n < count; ++n) {
             made.joints[n] = 3 - count + n;
@@ -82,13 +84,13 @@ struct ToldLook {
     }
     void aim_at_nothing() { aim_at(kNoPlace); }
     void weigh(float weight) { crowd.write_all(SWIVEL_LOOK_WEIGHT, 0, std::array{weight}); }
-    void says(const std::string& when) { texts.line(when, crowd.explain(0, 0)); }
+    void says(const std::string& when) { texts.line(when, explain(crowd, 0, 0)); }
     void solved(const std::string& when, int frames = 1)
     {
         const auto came = bodies.rotations;
         for (int n = 0; n < frames; ++n) bodies.solve({target}, 0.02f), bodies.rotations = came;
         says(when);
-        judge(crowd.explain(0, 0));
+        judge(explain(crowd, 0, 0));
     }
 
 private:
@@ -129,12 +131,12 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     chain.weigh(0.9f), chain.solved("with a weight");
     chain.aim(30), chain.weigh(0), chain.solved("at 30 degrees, with a weight of 0");
 
-    swivel_look uneven = ToldLook::look(2, 5);
+    swivel_look_def uneven = ToldLook::look(2, 5);
     uneven.cos_max[1] = -1;
     ToldLook made_up(texts, "a cone of 5 degrees, and then one of 180", uneven);
     made_up.aim(50), made_up.solved("at 50 degrees");
 
-    swivel_look offset = ToldLook::look(2, 10);
+    swivel_look_def offset = ToldLook::look(2, 10);
     offset.eye[0] = 0.1f;
     ToldLook aside(texts, "an eye beside its joint", offset);
     aside.aim(70), aside.solved("at 70 degrees");
@@ -146,7 +148,7 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     near.aim(0, 0.1), near.solved("too near");
     near.aim(0, 0.4), near.solved("not too near");
 
-    swivel_look eased = ToldLook::look(2, 90);
+    swivel_look_def eased = ToldLook::look(2, 90);
     eased.rate = 1;
     ToldLook eases(texts, "a rate of 1 radian a second, which is 1.146 degrees a frame", eased);
     eases.aim(0), eases.solved("straight ahead");
@@ -179,10 +181,10 @@ TEST_CASE("explain says of a prop how far it moved, and how far each hand is fro
     rc::prop("as forward kinematics have it", [](std::uint64_t seed) {
         Random random{seed};
         PropBodies bodies(random, 20);
-        for (const std::uint32_t arm : bodies.arms) bodies.groups[arm].features |= SWIVEL_WITH_RECORD;
+        for (const std::uint32_t arm : bodies.arms) bodies.limb_def(arm).features |= SWIVEL_WITH_RECORD;
         const SolvedBodies solved(bodies);
         for (std::uint32_t n = 0; n < 20; ++n) {
-            const std::string text = solved.crowd.explain(bodies.prop, n);
+            const std::string text = explain(solved.crowd, bodies.prop, n);
             INFO(text);
             const SolvedBody body(solved, n);
             const Vector3d root = bodies.root(n, solved);
@@ -190,8 +192,7 @@ TEST_CASE("explain says of a prop how far it moved, and how far each hand is fro
             const Held told = held(solved.result<Float7>(SWIVEL_PROP_TRANSFORM, bodies.prop, n)),
                        is{told.rotation, told.place - root};
             const bool reaches = solved.flags(bodies.prop, n) == SWIVEL_REACHED,
-                       is_known = bodies.groups[bodies.prop]
-                                      .prop.joint<0, may_move = bodies.groups[bodies.prop].prop.max_move> 0;
+                       may_move = bodies.prop_def().max_move > 0, is_known = bodies.prop_def().joint < 0;
             const double moved = (is.place - wanted.frame.place).norm();
             if (is_known && moved > 1e-4 * body.length(bodies.arms[0]))
                 RC_ASSERT(is_told(number_after(text, "It moved by "), moved, wanted.off));
@@ -209,7 +210,7 @@ TEST_CASE("explain says of a prop how far it moved, and how far each hand is fro
                 const double missed = (body.point(arm).place - body.wanted(arm, is).place).norm();
                 RC_ASSERT(is_told(number_after(text, "The hand of " + group_name(arm) + " is "), missed,
                                   wanted.off + 4e-6 * body.length(arm)));
-                const std::string hand = solved.crowd.explain(arm, n);
+                const std::string hand = explain(solved.crowd, arm, n);
                 INFO(hand);
                 RC_ASSERT(has(hand, "It holds the prop of " + group_name(bodies.prop) +
                                         (reaches ? ". " : ", which not all hands reach. ")));
@@ -260,7 +261,7 @@ TEST_CASE("explain says what hands hold, where props lie and why, and what depen
     }
     const Crowd unsolved = holding(1).crowd();
     for (const std::uint32_t group : {H::follower, H::prop})
-        texts.line("never solved, " + group_name(group), unsolved.explain(group, 0));
+        texts.line("never solved, " + group_name(group), explain(unsolved, group, 0));
     const auto tell = [&](const char* scene, const auto& spoil) {
         HoldingBodies bodies = holding(2);
         for (BodyInput& input : bodies.inputs)
@@ -269,7 +270,7 @@ TEST_CASE("explain says what hands hold, where props lie and why, and what depen
         const SolvedBodies solved(bodies);
         texts.scene(scene);
         for (std::uint32_t g = 0; g < bodies.groups.size(); ++g)
-            if (const std::string text = solved.crowd.explain(g, kBody); text.starts_with("Bad input"))
+            if (const std::string text = explain(solved.crowd, g, kBody); text.starts_with("Bad input"))
                 texts.line(group_name(g), text);
     };
     const struct {

@@ -3,6 +3,8 @@
 // The promise: swivel_explain() says of a planted limb why it stands or slides, what the ground does to a foot, and
 // where a shift goes, in the words of approved/feet.txt. It warns of other units and origins, and names bad input. The
 // animation and the places of targets confirm its numbers.
+#include "swivel/swivel_bodies.hpp"
+#include "swivel/swivel_explain.hpp"
 #include "tests/approved_texts.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
@@ -23,7 +25,7 @@ struct GlidingLeg {
     static constexpr swivel_features kPlants = SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT;
 
     swivel_limb_joints joints = joints_of_leg();
-    std::vector<swivel_group_def> groups;
+    std::vector<Definition> groups;
     Crowd crowd;
     std::array<Float4, 4> rotations{};
     Float3 root{}, support{};
@@ -77,7 +79,7 @@ struct GlidingLeg {
             solve();
         }
     }
-    std::string text(std::uint32_t group = 0) const { return crowd.explain(group, 0); }
+    std::string text(std::uint32_t group = 0) const { return explain(crowd, group, 0); }
     std::uint32_t flags() const
     {
         std::uint32_t flags = 0;
@@ -100,13 +102,14 @@ private:
         made.bend[2] = -1;
         return made;
     }
-    static std::vector<swivel_group_def> groups_of(const swivel_limb_joints& joints, swivel_features features,
-                                                   const swivel_plant& plant, const swivel_ground& ground)
+    static std::vector<Definition> groups_of(const swivel_limb_joints& joints, swivel_features features,
+                                             const swivel_plant& plant, const swivel_ground& ground)
     {
-        std::vector<swivel_group_def> groups = {body_group(joints, features)};
-        groups[0].plant = plant;
-        groups[0].ground = ground;
-        if (features & SWIVEL_WITH_PELVIS_FIT) groups.push_back(swivel_default_fit_group_def());
+        swivel_body_limb_def leg = body_limb(joints, features);
+        leg.plant = plant;
+        leg.ground = ground;
+        std::vector<Definition> groups = {leg};
+        if (features & SWIVEL_WITH_PELVIS_FIT) groups.push_back(swivel_default_shift_def());
         return groups;
     }
 };

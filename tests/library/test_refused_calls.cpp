@@ -7,6 +7,7 @@
 
 #include <cstring>
 
+#include "swivel/swivel_explain.h"
 #include "tests/posed_bodies.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
@@ -126,6 +127,16 @@ TEST_CASE("reads and writes with wrong arguments are refused")
             "group 1, hand: not part of this group; create it with SWIVEL_WITH_HAND");
     refused(swivel_write(bodies, SWIVEL_PARENT_SCALE, H::free, 0, 1, {c.in, 0}),
             "group 4, parent_scale: the pose of a body gives it; leave it out");
+    refused(swivel_write(bodies, SWIVEL_TARGET, H::prop, 0, 1, {c.in, 0}),
+            "group 0, target: the group is a prop, which has none");
+    refused(swivel_write(bodies, SWIVEL_GRIP, H::shift, 0, 1, {c.in, 0}),
+            "group 7, grip: the group is a body's shift, which has none");
+    refused(swivel_write(bodies, SWIVEL_LOOK_TARGET, H::free, 0, 1, {c.in, 0}),
+            "group 4, look_target: the group is a body's limb, which has none");
+    refused(swivel_write(crowd, SWIVEL_HAND_BLEND, 1, 0, 1, {c.in, 0}),
+            "group 1, hand_blend: the group is a free limb, which has none");
+    refused(swivel_write(crowd, SWIVEL_CONTACT, 0, 0, 1, {c.in, 0}),
+            "group 0, contact: the group is a free limb, which has none");
     refused(swivel_write(crowd, SWIVEL_FLAGS, 0, 0, 1, {c.in, 0}),
             "flags is a result; swivel_write takes inputs and what is carried");
     refused(swivel_write(crowd, SWIVEL_INPUT_END, 0, 0, 1, {c.in, 0}), "there is no field ");
@@ -139,12 +150,21 @@ TEST_CASE("reads and writes with wrong arguments are refused")
             "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
     refused(swivel_read(crowd, SWIVEL_WRIST, 0, 0, 1, c.out(16)),
             "group 0, wrist: not part of this group; create it with SWIVEL_WITH_HAND");
+    refused(swivel_read(bodies, SWIVEL_TWIST_BONES, H::free, 0, 1, c.out(16)),
+            "group 4, twist_bones: not part of this group; create it with a twist_bone_count, or joints that name "
+            "twist bones");
+    refused(swivel_read(bodies, SWIVEL_SOLVED_GOAL, H::free, 0, 1, c.out(28)),
+            "group 4, solved_goal: not part of this group; create it with SWIVEL_WITH_RECORD and SWIVEL_WITH_PLANT or "
+            "_WITH_LINK");
+    refused(swivel_read(bodies, SWIVEL_SIGHT, H::prop, 0, 1, c.out(24)),
+            "group 0, sight: the group is a prop, which has none");
+    refused(swivel_write(bodies, SWIVEL_POLE, H::left, 0, 1, {c.in, 0}),
+            "group 1, pole: not part of this group; create it without SWIVEL_POLE_INCOMING");
     refused(swivel_read(crowd, SWIVEL_INPUT_END, 0, 0, 1, c.out(16)), "there is no field ");
     refused(swivel_write_doubles(crowd, SWIVEL_TARGET, 0, 0, 1, {c.up, 0}, {c.up, 23}),
             "group 0, origin: stride 23 is smaller than a value, 24 bytes");
     refused(swivel_write_doubles(crowd, SWIVEL_LENGTHS, 0, 0, 1, {c.up, 0}, {}),
-            "group 0, lengths: not a position; doubles are for target, pole, shoulder_position, coming, ground and "
-            "prop_position");
+            "group 0, lengths: not a position; write it by swivel_write()");
     refused(swivel_write_doubles(directions, SWIVEL_POLE, 0, 0, 1, {c.up, 0}, {c.up, 0}),
             "group 0, pole: it is a direction here, which has no origin; give null");
 }
@@ -184,7 +204,8 @@ TEST_CASE("questions about limbs are refused where nothing answers them")
     refused(c.compare(crowd, 0, 0, &c.pose, c.up, c.text, 8), "this crowd has no bodies, so it has no pose");
     refused(c.compare(bodies, 12, 0, &c.pose, c.up, c.text, 8), "group 12 does not exist; this crowd has 10");
     refused(c.compare(bodies, H::free, 3, &c.pose, c.up, c.text, 8), "limb 3 on are not all in group 4, which has 3");
-    refused(c.compare(bodies, H::fit, 0, &c.pose, c.up, c.text, 8), "group 7 is SWIVEL_FIT, which is no limb");
+    refused(c.compare(bodies, H::shift, 0, &c.pose, c.up, c.text, 8),
+            "group 7 is a body's shift; name a group of limbs");
     refused(c.compare(bodies, H::free, 0, nullptr, c.up, c.text, 8), "swivel_compare: pose is null");
     refused(c.compare(bodies, H::free, 0, &none, c.up, c.text, 8), "the pose has no rotations; give them");
     refused(c.compare(bodies, H::free, 0, &c.pose, nullptr, c.text, 8), "swivel_compare: elbow is null");
@@ -193,16 +214,15 @@ TEST_CASE("questions about limbs are refused where nothing answers them")
     refused(c.compare(bodies, H::free, 0, &c.pose, c.up, nullptr, 8), no_text);
     refused(c.compare(bodies, H::free, 0, &c.pose, c.up, c.text, 0), no_text);
 
-    refused(swivel_residuals(bodies, H::fit, 0, 1, c.out(8)),
-            "swivel_residuals: group 7 is SWIVEL_FIT, which is no limb");
+    refused(swivel_residuals(bodies, H::shift, 0, 1, c.out(8)),
+            "swivel_residuals: group 7 is a body's shift; name a group of limbs");
     refused(swivel_forward(bodies, H::prop, 0, 1, c.out(24), {}, {}),
-            "swivel_forward: group 0 is SWIVEL_PROP, which is no");
-    refused(swivel_allowed_arcs(bodies, H::fit, 0, &c.arc, 1, &c.count),
-            "swivel_allowed_arcs: group 7 is SWIVEL_FIT, which");
-    refused(swivel_joint_angles(bodies, H::fit, 0, 1, SWIVEL_XYZ, SWIVEL_XYZ, 0, c.out(56)),
-            "swivel_joint_angles: group 7 is");
-    const swivel_group_def group = swivel_default_body_group_def(&c.made.joints[0]);
-    const Crowd unrecorded(c.made.skeleton.view(), 3, std::span(&group, 1));
+            "swivel_forward: group 0 is a prop; name a group of limbs");
+    refused(swivel_allowed_arcs(bodies, H::shift, 0, &c.arc, 1, &c.count),
+            "swivel_allowed_arcs: group 7 is a body's shift");
+    refused(swivel_joint_angles(bodies, H::shift, 0, 1, SWIVEL_XYZ, SWIVEL_XYZ, 0, c.out(56)),
+            "swivel_joint_angles: group 7 is a body's shift");
+    const Crowd unrecorded(c.made.skeleton.view(), 3, {body_limb(c.made.joints[0])});
     const char* const no_record = "group 0 is of bodies; create it with SWIVEL_WITH_RECORD";
     refused(swivel_residuals(unrecorded.get(), 0, 0, 1, c.out(8)), no_record);
     refused(swivel_explain(unrecorded.get(), 0, 0, c.text, 8), no_record);
@@ -248,7 +268,7 @@ TEST_CASE("jobs and choices that cannot be are refused, and so is a job that nam
         refused(c.solve_groups({H::prop, H::left}), "they are linked, name both");
         refused(c.solve_groups({H::handle}), "they are linked, name both");
     }
-    CHECK(c.crowd.solve({.mask = {~0u, ~0u}}) == 25);  // bits of padding are ignored
+    CHECK(c.crowd.solve({.mask = std::array{~0u, ~0u}}) == 25);  // bits of padding are ignored
     CHECK(c.solve_groups({H::free}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::free, H::follower}) == SWIVEL_OK);
     CHECK(c.solve_groups({H::prop, H::left, H::right}) == SWIVEL_OK);

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "swivel/lecture.h"
+#include "swivel/swivel_explain.h"
 #include "tests/body_crowd.h"
 #include "tests/test_crowd.h"
 #include "tests/test_scopes.h"
@@ -219,11 +220,11 @@ TEST_CASE("the other calls take at most 32 KiB of stack")
         swivel_verify(
             100, 7, [](const swivel_check*, void*) {}, nullptr);
     });
-    swivel_group_def groups[] = {group_of(40), group_of(7)};
+    swivel_limb_def limb_defs[] = {group_of(40), group_of(7)};
+    for (swivel_limb_def& limb : limb_defs) limb.features = kEverything;
+    const swivel_group_def groups[] = {c_group(limb_defs[0]), c_group(limb_defs[1])};
     swivel_crowd_def def = def_of(groups[0]);
-    def.groups = groups;
     def.group_count = 2;
-    for (swivel_group_def& group : groups) group.features = kEverything;
     swivel_crowd* crowd = nullptr;
     max.take("create", [&] { swivel_crowd_create(&def, &crowd); });
     REQUIRE(crowd);

@@ -26,8 +26,8 @@ constexpr swivel_features kSome = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_SHOULD
 
 Crowd crowd_of_limbs(std::uint32_t workspace_count, std::uint32_t limb_count = 1000)
 {
-    swivel_group_def group = swivel_default_group_def(limb_count);
-    group.features = kSome;
+    const swivel_limb_def limb = limbs(limb_count, kSome);
+    const swivel_group_def group = c_group(limb);
     swivel_crowd_def def = def_of(group);
     def.workspace_count = workspace_count;
     Crowd crowd(def);
@@ -51,12 +51,12 @@ Crowd crowd_of_limbs(std::uint32_t workspace_count, std::uint32_t limb_count = 1
 TEST_CASE("a workspace is as large as the crowd needs it, and part of its memory")
 {
     CHECK(swivel_workspace_bytes(nullptr) == 0);
-    CHECK(swivel_workspace_bytes(Crowd({group(1000)}).get()) == 0);
+    CHECK(swivel_workspace_bytes(Crowd(limbs(1000)).get()) == 0);
     const std::size_t small = swivel_workspace_bytes(crowd_of_limbs(1, 10).get()),
                       large = swivel_workspace_bytes(crowd_of_limbs(1, 100000).get());
     CHECK((small > 0 && small < large && large <= 65536 && large % 64 == 0));
-    swivel_group_def group = swivel_default_group_def(100000);
-    group.features = kSome;
+    const swivel_limb_def limb = limbs(100000, kSome);
+    const swivel_group_def group = c_group(limb);
     swivel_crowd_def def = def_of(group);
     const std::size_t one = swivel_crowd_bytes(&def);
     def.workspace_count = 5;
@@ -72,21 +72,17 @@ TEST_CASE("a solve without a free workspace is refused and changes nothing")
     alignas(64) std::array<char, 68> workspace;
     CHECK_THROWS_WITH(bare.solve({.workspace = workspace.data() + 4}),
                       Catch::Contains("job.workspace is not aligned to 64"));
-    Crowd arms({[] {
-        swivel_group_def plain = swivel_default_group_def(100);
-        plain.features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
-        return plain;
-    }()});
+    Crowd arms(limbs(100, SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION));
     CHECK(arms.solve() == 100);
 }
 
 TEST_CASE("as many jobs run together as the crowd has workspaces, and each other one is refused whole")
 {
-    constexpr std::uint32_t limbs = 4096, thread_count = 4, blocks = limbs / SWIVEL_LANES / thread_count;
-    Crowd wanted = crowd_of_limbs(1, limbs);
+    constexpr std::uint32_t limb_count = 4096, thread_count = 4, blocks = limb_count / SWIVEL_LANES / thread_count;
+    Crowd wanted = crowd_of_limbs(1, limb_count);
     wanted.solve();
     for (const std::uint32_t workspaces : {thread_count, 1u}) {
-        Crowd crowd = crowd_of_limbs(workspaces, limbs);
+        Crowd crowd = crowd_of_limbs(workspaces, limb_count);
         std::atomic<int> refused = 0;
         std::vector<std::thread> threads;
         for (std::uint32_t n = 0; n < thread_count; ++n)
@@ -108,7 +104,8 @@ TEST_CASE("as many jobs run together as the crowd has workspaces, and each other
 #ifdef SWIVEL_CHECK_USE
 TEST_CASE("a destroyed crowd is refused")
 {
-    const swivel_group_def group = group_of(20);
+    const swivel_limb_def limb = group_of(20);
+    const swivel_group_def group = c_group(limb);
     swivel_crowd_def def = def_of(group);
     std::vector<std::byte> room(swivel_crowd_bytes(&def) + 64);
     def.memory = room.data() + (64 - reinterpret_cast<std::uintptr_t>(room.data()) % 64);
@@ -127,8 +124,8 @@ TEST_CASE("a destroyed crowd is refused")
 
 TEST_CASE("a crowd that two threads use is refused to one of them, jobs on their own threads are not")
 {
-    constexpr std::uint32_t limbs = 64000;
-    Crowd crowd({group(limbs)});
+    constexpr std::uint32_t limb_count = 64000;
+    Crowd crowd(limbs(limb_count));
     const std::uint32_t blocks = swivel_block_count(crowd.get());
     std::atomic<bool> is_over = false;
     std::atomic<int> refused = 0;
@@ -138,7 +135,7 @@ TEST_CASE("a crowd that two threads use is refused to one of them, jobs on their
     };
     const Float3 target{0.1f, 0.2f, 0.3f};
     std::thread writer([&] {
-        use_until_over([&] { return swivel_write(crowd.get(), SWIVEL_TARGET, 0, 0, limbs, {&target, 0}); });
+        use_until_over([&] { return swivel_write(crowd.get(), SWIVEL_TARGET, 0, 0, limb_count, {&target, 0}); });
     });
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (refused == 0 && std::chrono::steady_clock::now() < end)
@@ -163,8 +160,8 @@ TEST_CASE("a crowd that two threads use is refused to one of them, jobs on their
 
 TEST_CASE("frames are refused exactly where a result overlaps another limb's input")
 {
-    constexpr std::uint32_t limbs = 5;
-    Crowd crowd({group(limbs)});
+    constexpr std::uint32_t limb_count = 5;
+    Crowd crowd(limbs(limb_count));
     rc::prop("targets and flags anywhere in one array", [&] {
         const auto step = *rc::gen::inRange<std::size_t>(3, 8) * 4;  // bytes from limb to limb, in words
         const auto input = *rc::gen::inRange<std::size_t>(0, 60) * 4,
@@ -174,8 +171,8 @@ TEST_CASE("frames are refused exactly where a result overlaps another limb's inp
         char* const base = reinterpret_cast<char*>(room.data());
         const std::size_t input_stride = is_shared ? 0 : step;
         bool overlaps = false;
-        for (std::size_t i = 0; i < limbs; ++i)
-            for (std::size_t j = 0; j < limbs; ++j) {
+        for (std::size_t i = 0; i < limb_count; ++i)
+            for (std::size_t j = 0; j < limb_count; ++j) {
                 if (i == j && !is_shared) continue;
                 const std::size_t in = input + i * input_stride, out = output + j * step;
                 overlaps = overlaps || (out < in + 12 && in < out + 4);

@@ -16,8 +16,8 @@ namespace {
 using namespace swivel;
 using namespace swivel::test;
 
-// swivel.h's words, in long double: d - (d - R + s)^2 / (4 s) between R - s and R + s, R beyond; mirrored at the near
-// end.
+// docs/fields.md's words, in long double: d - (d - R + s)^2 / (4 s) between R - s and R + s, R beyond; mirrored at the
+// near end.
 long double eased(long double d, long double near, long double far, long double s_near, long double s_far)
 {
     if (d > far + s_far) return far;

@@ -21,7 +21,8 @@ int main(void)
     const float pole[3] = {0.25f, -1.0f, 0.125f}, lengths[2] = {0.30f, 0.26f};
     const swivel_in target_in = {targets, sizeof targets[0]}, pole_in = {pole, 0}, lengths_in = {lengths, 0};
     const swivel_out distance_out = {distances, sizeof distances[0]};
-    const swivel_group_def group = swivel_default_group_def(ARM_COUNT);
+    const swivel_limb_def arms = swivel_default_limb_def(ARM_COUNT);
+    swivel_group_def group = swivel_default_group_def();
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
     uint32_t random = 1;
@@ -30,6 +31,7 @@ int main(void)
     int n, c;
 
     if (swivel_version() != SWIVEL_VERSION) return fprintf(stderr, "header and library differ\n"), 1;
+    group.limb = &arms;
     def.group_count = 1;
     def.groups = &group;
     for (n = 0; n < ARM_COUNT; ++n)

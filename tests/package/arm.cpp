@@ -10,7 +10,7 @@
 #ifdef OWN_HANDLER
 #define SWIVEL_ON_ERROR(status, text) (std::printf("the engine's log: status %d, %s\n", status, text), std::exit(7))
 #endif
-#include <swivel/swivel.hpp>
+#include <swivel/swivel_explain.hpp>
 #include <vector>
 
 namespace {
@@ -33,16 +33,16 @@ std::vector<std::array<float, 3>> make_targets()
 
 int main(int argc, char** argv)
 {
-    swivel::Crowd crowd({swivel::group(kArmCount)});
+    swivel::Crowd crowd(swivel::limbs(kArmCount));
     crowd.write(SWIVEL_TARGET, 0, make_targets());
     crowd.write_all(SWIVEL_POLE, 0, std::array{0.25f, -1.0f, 0.125f});
     crowd.write_all(SWIVEL_LENGTHS, 0, std::array{0.30f, 0.26f});
-    if (argc > 1 && std::strcmp(argv[1], "fail") == 0) crowd.solve({.mask = {1u}});
-    const swivel::Job job{.mask = std::array<std::uint32_t, 32>{1u}};  // the first arm
-    const std::uint32_t solved = crowd.solve() * crowd.solve(job);
+    if (argc > 1 && std::strcmp(argv[1], "fail") == 0) crowd.solve({.mask = std::array{1u}});
+    const std::array<std::uint32_t, 32> first_arm{1u};
+    const std::uint32_t solved = crowd.solve() * crowd.solve({.mask = first_arm});
     std::vector<double> distances(kArmCount);
     crowd.residuals(0, distances);
-    bool held = solved == kArmCount && !crowd.explain(0, 0).empty();
+    bool held = solved == kArmCount && !swivel::explain(crowd, 0, 0).empty();
     for (const double distance : distances) held = held && distance < 1e-6;
     std::printf("swivel %u, %d arms %s, digest %016llx\n", static_cast<unsigned>(swivel_version()),
                 static_cast<int>(kArmCount), held ? "on target" : "off target",

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: the shared library exports every function of swivel.h and nothing else. Its name has its major version.
-#   LIBRARY: libswivel.so, MAJOR, NM, READELF. Or LIBRARY: swivel's DLL, OBJDUMP. HEADER: swivel.h.
+# The promise: the shared library exports every function of the public headers and nothing else. Its name has its major version.
+#   LIBRARY: libswivel.so, MAJOR, NM, READELF. Or LIBRARY: swivel's DLL, OBJDUMP. INCLUDE: the folder of the headers.
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/functions.cmake)
-swivel_functions(${HEADER} declared)
+swivel_headers(${INCLUDE} headers)
+swivel_functions("${headers}" declared)
 
 if(OBJDUMP)
   execute_process(COMMAND ${OBJDUMP} -p ${LIBRARY} RESULT_VARIABLE result OUTPUT_VARIABLE output)
@@ -26,11 +27,11 @@ list(REMOVE_ITEM missing ${exported})
 set(extra ${exported})
 list(REMOVE_ITEM extra ${declared})
 if(missing OR extra)
-  message(SEND_ERROR "${LIBRARY} does not export [${missing}], and exports [${extra}], which swivel.h does not declare")
+  message(SEND_ERROR "${LIBRARY} does not export [${missing}], and exports [${extra}], which no header declares")
 endif()
 
 list(LENGTH exported count)
-message(STATUS "${LIBRARY} exports the ${count} functions of swivel.h")
+message(STATUS "${LIBRARY} exports the ${count} functions of the public headers")
 if(OBJDUMP)  # what follows is of ELF
   return()
 endif()

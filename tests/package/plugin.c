@@ -23,7 +23,8 @@ static int solve(void* library)
     swivel_status (*create)(const swivel_crowd_def*, swivel_crowd**);
     swivel_status (*solve_job)(swivel_crowd*, const swivel_job*);
     void (*destroy)(swivel_crowd*);
-    const swivel_group_def group = swivel_default_group_def(ARM_COUNT);
+    const swivel_limb_def arms = swivel_default_limb_def(ARM_COUNT);
+    swivel_group_def group = swivel_default_group_def();
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
     int n, status = 1;
@@ -31,6 +32,7 @@ static int solve(void* library)
     *(void**)&create = find(library, "swivel_crowd_create");
     *(void**)&solve_job = find(library, "swivel_solve");
     *(void**)&destroy = find(library, "swivel_crowd_destroy");
+    group.limb = &arms;
     def.group_count = 1;
     def.groups = &group;
     if (create(&def, &crowd) != SWIVEL_OK) return 1;

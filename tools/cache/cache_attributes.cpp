@@ -221,6 +221,7 @@ Json json_of(const CachedLimb& limb)
               {"features", setup.features},
               {"shoulder_order", setup.shoulder_order},
               {"wrist_order", setup.wrist_order},
+              {"twist_bones", setup.twist_bone_count},
               {"mirrored", setup.mirrored ? 1 : 0},
               {"chain", json_of(setup.rest, kRest)},
               {"goals", json_of(setup.goals, kGoals)},
@@ -242,6 +243,7 @@ CachedLimb limb_of(const Json& json)
     json.at("features").get_to(setup.features);
     setup.shoulder_order = one_of(json, "shoulder_order", SWIVEL_ZYX);
     setup.wrist_order = one_of(json, "wrist_order", SWIVEL_ZYX);
+    setup.twist_bone_count = whole(json, "twist_bones", 0, SWIVEL_MAX_TWIST_BONES);
     setup.mirrored = yes_or_no(json, "mirrored");
     setup.rest = rest_of(json.at("chain"));
     setup.goals = goals_of(json.at("goals"));
@@ -274,7 +276,7 @@ std::array<double, 4> box_of(const Json& json)
 // With the number of its joints, since a solver's look has more.
 Json json_of(const CachedLook& look)
 {
-    const swivel_look& how = *look.setup.look;
+    const swivel_look_def& how = *look.setup.look;
     return {{"chain", json_of(look.setup.rest, kRest)},
             {"goals", json_of(look.setup.goals, kGoals)},
             {"joint_count", how.joint_count},
@@ -286,12 +288,11 @@ CachedLook look_of(const Json& json)
 {
     CachedLook look;
     LimbSetup& setup = look.setup;
-    setup.features = SWIVEL_LOOK;
     setup.rest = rest_of(json.at("chain"));
     setup.goals = goals_of(json.at("goals"));
     setup.goals.is_look = 1;
     if (setup.goals.holds > 0) throw std::invalid_argument("a look holds a hand");
-    swivel_look& how = setup.look.emplace(swivel_default_look());
+    swivel_look_def& how = setup.look.emplace(swivel_default_look_def());
     how.joint_count = whole(json, "joint_count", 1, GOAL_JOINTS - 1);
     for (std::uint32_t n = 0; n < how.joint_count; ++n) how.joints[n] = n;
     get(json.at("axis"), how.axis);
@@ -323,10 +324,11 @@ void require_kept(const CachedCrowd& crowd)
     swivel_features all = 0;
     for (const LimbSetup& limb : setups_of(crowd)) {
         all |= limb.features;
+        const swivel_kind kind = limb.look ? SWIVEL_KIND_LOOK : SWIVEL_KIND_BODY_LIMB;
         swivel_field_info info;
         for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-            if (info.kind == SWIVEL_FIELD_CARRIED && (limb.features & info.needs) == info.needs &&
-                !(limb.features & info.excludes) &&
+            if (info.kind == SWIVEL_FIELD_CARRIED && (info.kinds >> kind & 1) != 0 &&
+                (limb.features & info.needs) == info.needs && !(limb.features & info.excludes) &&
                 std::ranges::find(kept, info.field, &ResultField::field) == kept.end())
                 throw std::invalid_argument(fmt::format("a limb carries {}, which no cache keeps", info.name));
     }

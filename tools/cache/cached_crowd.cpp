@@ -46,16 +46,16 @@ std::size_t ResultField::count() const
 std::vector<ResultField> result_fields(const CachedCrowd& crowd)
 {
     swivel_features features = 0;
-    unsigned twist_bones = 0;
+    std::uint32_t twist_bones = 0;
     for (const LimbSetup& limb : setups_of(crowd)) {
         features |= limb.features;
-        twist_bones = std::max(twist_bones, limb.twist_bone_count());
+        twist_bones = std::max(twist_bones, limb.twist_bone_count);
     }
     const auto has = [&](swivel_features feature) { return (features & feature) != 0; };
     std::vector<ResultField> fields{
         {SWIVEL_SHOULDER, "shoulder", "local rotation of the shoulder joint, x y z w", {4}, {"xyzw"}},
         {SWIVEL_ELBOW, "elbow", "local rotation of the elbow joint, x y z w", {4}, {"xyzw"}}};
-    if (has(SWIVEL_WITH_HAND | SWIVEL_LOOK))
+    if (has(SWIVEL_WITH_HAND) || crowd.look)
         fields.push_back({SWIVEL_WRIST, "wrist", "local rotation of the wrist joint, x y z w", {4}, {"xyzw"}});
     fields.push_back({SWIVEL_FLAGS, "flags", "bits of swivel_flag", {}, {}});
     if (has(SWIVEL_WITH_REACH)) fields.push_back({SWIVEL_STRETCH, "stretch", "factor of both bone lengths", {}, {}});
@@ -85,7 +85,7 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
     if (has(SWIVEL_WITH_GROUND))
         fields.push_back(
             {SWIVEL_LIFT, "lift", "how the ground lifts and turns a foot, as SWIVEL_LIFT", {9}, {"part"}, true});
-    if (has(SWIVEL_LOOK))
+    if (crowd.look)
         fields.push_back({SWIVEL_LOOK_TURNS,
                           "look_turns",
                           "how a look has turned its joints, as SWIVEL_LOOK_TURNS",

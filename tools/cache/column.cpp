@@ -43,7 +43,7 @@ Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_c
 bool Column::has(std::size_t limb, swivel_field field) const
 {
     const std::size_t joint = joint_of(field);
-    const std::optional<swivel_look>& look = setups_[limb].look;
+    const std::optional<swivel_look_def>& look = setups_[limb].look;
     return look && joint > 0 ? joint <= look->joint_count : crowd_.has(limb, field);
 }
 
@@ -62,7 +62,7 @@ void Column::read_frame(std::uint32_t frame, Results& results) const
                     to[who * count + 3] = std::bit_cast<std::uint32_t>(crowd_.rise(who));
                 continue;
             }
-            const std::size_t joints = field == SWIVEL_TWIST_BONES ? setups_[limb].twist_bone_count() : 1;
+            const std::size_t joints = field == SWIVEL_TWIST_BONES ? setups_[limb].twist_bone_count : 1;
             for (std::uint32_t who = 0; who < crowd_.character_count(); ++who, to += count)
                 for (std::size_t part = 0; part < joints; ++part)
                     std::ranges::transform(crowd_.rotation(limb, who, joint + part), to + 4 * part,

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "swivel/swivel_regions.h"
 #include "tools/corpus/bodies.h"
 
 namespace swivel::corpus {
@@ -16,13 +17,6 @@ namespace swivel::corpus {
 namespace {
 
 swivel_field library_field(Field field) { return static_cast<swivel_field>(field); }
-
-// All that a group of the library has for these.
-swivel_features library_features(const Recipe& recipe, std::uint32_t group)
-{
-    const swivel_features named = features_of(recipe, group) & ~kCompact;
-    return named | recipe.twist_bones * SWIVEL_WITH_TWIST_BONES;
-}
 
 std::vector<Field> fields_of(const Crowd& crowd, std::uint32_t group, std::span<const Field> all)
 {
@@ -125,16 +119,27 @@ constexpr swivel_plant kPlants[kGroupCount] = {
     {0.3f, 0.5f, 0.05f, 0.3f, 0.5f, 1, 1, {1, 1.5f}, {0.5f, 1}},
     {0.02f, 0.05f, 0, 0, 0, 0, 0.5f, {2, 4}, {10, 10}},
 };
-constexpr swivel_fit kShifts = {0.3f, 0.2f, 0.15f, 0.3f};
+constexpr swivel_shift_def kShifts = {sizeof(swivel_shift_def), 0.3f, 0.2f, 0.15f, 0.3f};
 constexpr swivel_ground kGrounds[kGroupCount] = {
     {{0.03f, -0.06f, 0.05f}, 0.01f, 0.02f, 0.8f, 0.05f},
     {{0, 0, 0}, 0, 0, 0.95f, 0.2f},
     {{-0.1f, 0.02f, 0}, 0.05f, 0, 0.3f, 0},
 };
 constexpr float kMaxMoves[] = {1, 0.1f};  // of props, and of those at a joint
-constexpr swivel_look kLooks[kLookCount] = {
-    {2, {}, {0.5f, 2}, {0.9f, 0.3f}, {0.02f, 0.1f, -0.05f}, {0.6f, 0, 0.8f}, 0.5f, -0.8f, 0.4f, 2},
-    {1, {}, {1}, {0.2f}, {0, 0, 0}, {0, 1, 0}, -0.5f, -1, 0, 0},
+constexpr swivel_look_def kLooks[kLookCount] = {
+    {sizeof(swivel_look_def),
+     2,
+     {},
+     {0.5f, 2},
+     {0.9f, 0.3f},
+     {0.02f, 0.1f, -0.05f},
+     {0.6f, 0, 0.8f},
+     0.5f,
+     -0.8f,
+     0.4f,
+     2,
+     0},
+    {sizeof(swivel_look_def), 1, {}, {1}, {0.2f}, {0, 0, 0}, {0, 1, 0}, -0.5f, -1, 0, 0, 0},
 };
 
 // A forbidden cone; two cones; and what lies in three half-spaces. Where upper arms may point, half of the sphere.
@@ -153,8 +158,37 @@ constexpr swivel_region kUpperArms = {sizeof(swivel_region),
 std::uint32_t prop_group(bool has_shift) { return kGroupCount + (has_shift ? 1 : 0); }
 std::uint32_t look_group(bool has_shift, bool has_prop) { return prop_group(has_shift) + (has_prop ? 1 : 0); }
 
-void define_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swivel_group_def> groups,
-                   const std::function<void(const swivel_crowd_def&)>& take)
+using TakeDefinition = std::function<void(const swivel_crowd_def&)>;
+
+// Puts what limbs of both kinds have.
+template <class Limb>
+void put_limb(const Recipe& recipe, std::uint32_t group, Limb& limb)
+{
+    limb.features = features_of(recipe, group) & ~kCompact;
+    limb.shoulder_order = static_cast<swivel_euler_order>(recipe.shoulder_order);
+    limb.wrist_order = static_cast<swivel_euler_order>(recipe.wrist_order);
+    if (limb.features & SWIVEL_WITH_REGION) limb.region = &kUpperArms;
+}
+
+void define_free_limbs(const Recipe& recipe, const LimbCounts& limb_counts, const TakeDefinition& take)
+{
+    swivel_limb_def limbs[kGroupCount];
+    swivel_group_def groups[kGroupCount];
+    for (std::uint32_t g = 0; g < kGroupCount; ++g) {
+        limbs[g] = swivel_default_limb_def(limb_counts[g]);
+        put_limb(recipe, g, limbs[g]);
+        limbs[g].twist_bone_count = recipe.twist_bones;
+        limbs[g].binding = library_binding(kBindings[g]);
+        groups[g] = swivel_default_group_def();
+        groups[g].limb = &limbs[g];
+    }
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = groups;
+    def.group_count = kGroupCount;
+    take(def);
+}
+
+void define_bodies(const Recipe& recipe, std::uint32_t body_count, const TakeDefinition& take)
 {
     const Skeleton own = skeleton_of(recipe);
     swivel_skeleton skeleton = swivel_default_skeleton();
@@ -163,46 +197,45 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swi
     skeleton.translations = in(own.translations);
     skeleton.joint_count = own.joint_count();
     swivel_limb_joints joints[kGroupCount];
-    for (std::size_t g = 0; g < kGroupCount; ++g) {
+    swivel_body_limb_def limbs[kGroupCount];
+    std::array<swivel_group_def, kGroupCount + 2 + kLookCount> groups;
+    groups.fill(swivel_default_group_def());
+    std::uint32_t count = kGroupCount;
+    for (std::uint32_t g = 0; g < kGroupCount; ++g) {
         const LimbJoints& limb = own.limbs[g];
         joints[g] = swivel_default_limb_joints(limb.shoulder, limb.elbow, limb.wrist);
         std::copy(limb.bend.begin(), limb.bend.end(), joints[g].bend);
         joints[g].twist_bones = limb.twist_bones.data();
         joints[g].twist_bone_count = recipe.twist_bones;
-        groups[g].joints = &joints[g];
-        groups[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
-        groups[g].plant = kPlants[g];
-        groups[g].ground = kGrounds[g];
-        if (is_holding(recipe, static_cast<std::uint32_t>(g)))
-            groups[g].link = has_prop(recipe) ? prop_group(recipe.features & kFit) : 0;
+        limbs[g] = swivel_default_body_limb_def(&joints[g]);
+        put_limb(recipe, g, limbs[g]);
+        limbs[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
+        limbs[g].plant = kPlants[g];
+        limbs[g].ground = kGrounds[g];
+        if (is_holding(recipe, g)) limbs[g].link = has_prop(recipe) ? prop_group(recipe.features & kFit) : 0;
+        groups[g].body_limb = &limbs[g];
     }
-    swivel_group_def all[kGroupCount + 2 + kLookCount];
-    swivel_group_def* end = std::copy(groups.begin(), groups.end(), all);
-    if (recipe.features & kFit) {
-        *end = swivel_default_fit_group_def();
-        end++->fit = kShifts;
-    }
-    if (has_prop(recipe)) {
-        const bool is_at_joint = recipe.holds == Holds::prop_at_joint;
-        *end = swivel_default_prop_group_def();
-        // One of the trunk, which comes last.
-        end++->prop = {is_at_joint ? static_cast<std::int32_t>(own.joint_count()) - 2 : -1, kMaxMoves[is_at_joint]};
-    }
+    if (recipe.features & kFit) groups[count++].shift = &kShifts;
+    // One of the trunk's joints, which come last.
+    const bool is_at_joint = recipe.holds == Holds::prop_at_joint;
+    const swivel_prop_def prop = {sizeof(swivel_prop_def),
+                                  is_at_joint ? static_cast<std::int32_t>(own.joint_count()) - 2 : -1,
+                                  kMaxMoves[is_at_joint]};
+    if (has_prop(recipe)) groups[count++].prop = &prop;
+    swivel_look_def looks[kLookCount];
     for (std::uint32_t n = 0; recipe.pose & corpus::kLooks && n < kLookCount; ++n) {
-        *end = group(body_count, {}, SWIVEL_LOOK);
-        end->on_bad_input = groups[0].on_bad_input;
-        end->look = kLooks[n];
+        looks[n] = kLooks[n];
         // The trunk comes last, from its root on; the eye first.
         const std::uint32_t spine = own.joint_count() - 2, chest = own.joint_count() - 3;
-        end->look.joints[0] = n == 0 ? spine : 0;
-        end->look.joints[1] = n == 0 ? chest : 0;
-        ++end;
+        looks[n].joints[0] = n == 0 ? spine : 0;
+        looks[n].joints[1] = n == 0 ? chest : 0;
+        groups[count++].look = &looks[n];
     }
     swivel_crowd_def def = swivel_default_crowd_def();
     def.skeleton = &skeleton;
     def.body_count = body_count;
-    def.groups = all;
-    def.group_count = static_cast<std::uint32_t>(end - all);
+    def.groups = groups.data();
+    def.group_count = count;
     def.up[0] = 1, def.up[1] = 3, def.up[2] = -2;
     take(def);
 }
@@ -214,11 +247,11 @@ void write_values(Crowd& crowd, swivel_field field, std::uint32_t group, std::sp
     check(swivel_write(crowd.get(), field, group, 0, count, {values.data(), values.size() / count * sizeof(float)}));
 }
 
-// The first group with a feature, which one has.
-std::uint32_t group_with(const Crowd& crowd, swivel_features feature)
+// The first group of a kind; there is one.
+std::uint32_t first_of(const Crowd& crowd, swivel_kind kind)
 {
     std::uint32_t group = 0;
-    while (!(swivel_group_features(crowd.get(), group) & feature)) ++group;
+    while (swivel_group_kind(crowd.get(), group) != kind) ++group;
     return group;
 }
 
@@ -259,21 +292,12 @@ swivel_pose library_pose(Poses& poses)
     return pose;
 }
 
-void with_library_definition(const Recipe& recipe, const LimbCounts& limb_counts,
-                             const std::function<void(const swivel_crowd_def&)>& take)
+void with_library_definition(const Recipe& recipe, const LimbCounts& limb_counts, const TakeDefinition& take)
 {
-    swivel_group_def groups[kGroupCount];
-    for (std::uint32_t g = 0; g < kGroupCount; ++g) {
-        groups[g] = group(limb_counts[g], library_binding(kBindings[g]), library_features(recipe, g));
-        groups[g].shoulder_order = static_cast<swivel_euler_order>(recipe.shoulder_order);
-        groups[g].wrist_order = static_cast<swivel_euler_order>(recipe.wrist_order);
-        if (groups[g].features & SWIVEL_WITH_REGION) groups[g].region = &kUpperArms;
-    }
-    if (is_of_bodies(recipe.part)) return define_bodies(recipe, limb_counts[0], groups, take);
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.groups = groups;
-    def.group_count = kGroupCount;
-    take(def);
+    if (is_of_bodies(recipe.part))
+        define_bodies(recipe, limb_counts[0], take);
+    else
+        define_free_limbs(recipe, limb_counts, take);
 }
 
 }  // namespace
@@ -337,6 +361,16 @@ void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb)
 {
     check(swivel_reset(crowd.get(), group, limb, 1));
 }
+void reset_bad_looks(Crowd& crowd)
+{
+    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
+        if (swivel_group_kind(crowd.get(), group) != SWIVEL_KIND_LOOK) continue;
+        std::vector<std::uint32_t> flags(swivel_group_limb_count(crowd.get(), group));
+        crowd.read(SWIVEL_FLAGS, group, flags);
+        for (std::uint32_t body = 0; body < flags.size(); ++body)
+            if (flags[body] & SWIVEL_BAD_INPUT) reset_limb(crowd, group, body);
+    }
+}
 void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const Support& from, const Support& to)
 {
     const auto view = [](const Support& of) { return swivel_supports{{&of.position, 0}, {&of.rotation, 0}}; };
@@ -348,7 +382,7 @@ void write_shift_wishes(Crowd& crowd, std::span<const float> wishes)
 }
 void write_props(Crowd& crowd, const PropRows& props)
 {
-    const std::uint32_t group = group_with(crowd, SWIVEL_PROP);
+    const std::uint32_t group = first_of(crowd, SWIVEL_KIND_PROP);
     if (!props.places.empty()) write_values(crowd, SWIVEL_PROP_POSITION, group, props.places);
     write_values(crowd, SWIVEL_PROP_ROTATION, group, props.turns);
     write_values(crowd, SWIVEL_HAND_BLEND, group, props.shares);
@@ -356,7 +390,7 @@ void write_props(Crowd& crowd, const PropRows& props)
 
 void write_looks(Crowd& crowd, const std::array<LookRows, kLookCount>& looks)
 {
-    std::uint32_t group = group_with(crowd, SWIVEL_LOOK);
+    std::uint32_t group = first_of(crowd, SWIVEL_KIND_LOOK);
     for (const LookRows& look : looks) {
         if (!look.targets.empty()) write_values(crowd, SWIVEL_LOOK_TARGET, group, look.targets);
         write_values(crowd, SWIVEL_LOOK_WEIGHT, group++, look.weights);
@@ -382,8 +416,8 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
     give(prop_group(poses.has_shift), SWIVEL_PROP_POSITION, poses.far_props);
     const std::uint32_t look = look_group(poses.has_shift, poses.has_prop);
     for (std::uint32_t n = 0; n < kLookCount; ++n) give(look + n, SWIVEL_LOOK_TARGET, poses.far_look_targets[n]);
-    const std::span<swivel::Streams> given = std::span(frames).first(look + (poses.has_looks ? kLookCount : 0));
-    if (pose.root_is_double) job.streams = given;
+    const std::uint32_t group_count = look + (poses.has_looks ? kLookCount : 0);
+    if (pose.root_is_double) job.streams.assign(frames.begin(), frames.begin() + group_count);
     take(job);
 }
 

@@ -102,7 +102,7 @@ enum PoseFeature : std::uint32_t {
     kLengths = 1u << 5,       // bones have the lengths that are written
     kOffsets = 1u << 6,       // joints lie in another order than in the skeleton
     kApart = 1u << 7,         // solved joints go elsewhere
-    kRests = 1u << 8,         // bad input gets the rest pose
+    kRests = 1u << 8,         // limbs with bad input get the rest pose, and looks begin anew
     kInBody = 1u << 9,        // joints are relative to the root, and all below a limb's move with it
     kAllJoints = 1u << 10,    // where all needed joints are comes out, too
     kSupports = 1u << 11,     // what they stand on moves and turns, and is changed now and then

@@ -191,7 +191,7 @@ formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) c
         extra.has_clavicle = true;
         put(clavicle(limb, character).coeffs(), extra.clavicle);
     }
-    extra.twist_count = plans_[limb].twist_count();
+    extra.twist_count = plans_[limb].twist_bone_count;
     for (unsigned n = 0; n < extra.twist_count; ++n) extra.twist[n] = crowd_.rotation(limb, character, GOAL_JOINTS + n);
     return extra;
 }
@@ -202,7 +202,7 @@ formats::PoseColumns ClipCrowd::columns() const
     for (const LimbPlan& plan : plans_) {
         columns.stretch = columns.stretch || plan.has(SWIVEL_WITH_REACH);
         columns.clavicle = columns.clavicle || plan.has(SWIVEL_WITH_CLAVICLE);
-        columns.twist_count = std::max(columns.twist_count, plan.twist_count());
+        columns.twist_count = std::max(columns.twist_count, plan.twist_bone_count);
     }
     return columns;
 }

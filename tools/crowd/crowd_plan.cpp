@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "swivel/swivel.hpp"
+#include "swivel/swivel_regions.hpp"
 #include "tools/crowd/crowd_checks.h"
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
@@ -183,8 +183,7 @@ struct Planner {
             const Eigen::Vector3f point = plan.effector.cast<float>();
             put(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, std::array{point.x(), point.y(), point.z()});
         }
-        if (from.twist_bones)
-            plan.features |= static_cast<swivel_features>(from.twist_bones->value) * SWIVEL_WITH_TWIST_BONES;
+        if (from.twist_bones) plan.twist_bone_count = static_cast<std::uint32_t>(from.twist_bones->value);
     }
 
     void pole()
@@ -367,6 +366,7 @@ std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan&
                           limb.features,
                           limb.shoulder_order,
                           limb.wrist_order,
+                          limb.twist_bone_count,
                           limb.fields,
                           goal_plan_of(limb, limbs[n]),
                           limb.region,

@@ -22,6 +22,7 @@ namespace swivel::tools {
 struct LimbPlan {
     swivel_features features = SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_RECORD;
     swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
+    std::uint32_t twist_bone_count = 0;
     std::vector<FixedField> fields;
     std::optional<swivel_region> region;
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
@@ -41,10 +42,6 @@ struct LimbPlan {
     // Nothing is asked of it that the clip does not do.
     bool follows_clip() const { return !holds && !target_point && target_offset.isZero(0) && follows_pole; }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
-    unsigned twist_count() const
-    {
-        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1));
-    }
 };
 
 struct CrowdPlan {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "swivel/swivel_bodies.hpp"
 #include "tools/crowd/parallel.h"
 
 namespace swivel::tools {
@@ -25,26 +26,27 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         to.twist_bones = limb.twist_bones.data();
         std::ranges::copy(limb.bend, to.bend);
     }
-    std::vector<swivel_group_def> groups;
+    std::vector<Definition> groups;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         if (limbs[n].look) {
-            swivel_look& look = groups.emplace_back(swivel_default_look_group_def()).look = *limbs[n].look;
+            swivel_look_def look = *limbs[n].look;
             for (std::uint32_t joint = 0; joint < look.joint_count; ++joint) look.joints[joint] += of.limbs[n].shoulder;
+            groups.emplace_back(look);
             continue;
         }
-        swivel_group_def& group = groups.emplace_back(swivel_default_body_group_def(&joints[n]));
-        group.features = limbs[n].features;
-        group.on_bad_input = SWIVEL_REST_POSE;  // the same in whatever order frames are solved
-        group.shoulder_order = limbs[n].shoulder_order;
-        group.wrist_order = limbs[n].wrist_order;
-        if (limbs[n].region) group.region = &*limbs[n].region;
-        group.ground = limbs[n].ground;
-        group.ground.half_life = GOAL_GROUND_HALF;
-        group.plant.anchor_lead = GOAL_PLANT_RUN;
-        if (limbs[n].goals.holds) group.link = limbs[n].goals.holds - 1;
+        swivel_body_limb_def limb = body_limb(joints[n], limbs[n].features);
+        limb.on_bad_input = SWIVEL_REST_POSE;  // the same in whatever order frames are solved
+        limb.shoulder_order = limbs[n].shoulder_order;
+        limb.wrist_order = limbs[n].wrist_order;
+        if (limbs[n].region) limb.region = &*limbs[n].region;
+        limb.ground = limbs[n].ground;
+        limb.ground.half_life = GOAL_GROUND_HALF;
+        limb.plant.anchor_lead = GOAL_PLANT_RUN;
+        if (limbs[n].goals.holds) limb.link = limbs[n].goals.holds - 1;
+        groups.emplace_back(limb);
     }
     if (std::ranges::any_of(limbs, [](const LimbSetup& limb) { return limb.has(SWIVEL_WITH_PELVIS_FIT); }))
-        groups.push_back(swivel_default_fit_group_def());
+        groups.emplace_back(swivel_default_shift_def());
     Crowd crowd(skeleton, characters, groups);
     for (std::uint32_t n = 0; n < limbs.size(); ++n)
         for (const FixedField& fixed : limbs[n].fields)
@@ -76,7 +78,7 @@ LimbSkeleton skeleton_of(std::span<const LimbSetup> limbs)
         LimbSkeleton::OfLimb& of = skeleton.limbs.emplace_back();
         of.shoulder = static_cast<std::uint32_t>(shoulder);
         of.bend = std::to_array(limb.rest.bend);
-        for (unsigned n = 0; n < limb.twist_bone_count(); ++n)
+        for (std::uint32_t n = 0; n < limb.twist_bone_count; ++n)
             of.twist_bones.push_back(static_cast<std::uint32_t>(add(elbow, {0, 0, 0}, still)));
     }
     return skeleton;
@@ -101,7 +103,7 @@ GoalCrowd::GoalCrowd(std::span<const LimbSetup> limbs, const std::vector<std::sp
         plans_.push_back(limbs[limb].goals);
         sources_.push_back(sources[limb].data());
         pose_place_.push_back(place);
-        place += 4 * (GOAL_JOINTS + limbs[limb].twist_bone_count());
+        place += 4 * (GOAL_JOINTS + limbs[limb].twist_bone_count);
     }
 }
 

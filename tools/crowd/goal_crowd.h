@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "swivel/swivel.hpp"
 #include "tools/crowd/ground.h"
 #include "tools/crowd/limb_setup.h"
 

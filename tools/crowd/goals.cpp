@@ -5,6 +5,7 @@
 #include <string.h>
 #include <cmath>
 
+#include "swivel/swivel_bodies.h"
 #include "tools/crowd/ground.h"
 #include "tools/crowd/strides.h"
 

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "swivel/swivel.hpp"
+#include "swivel/swivel_bodies.h"
+#include "swivel/swivel_regions.h"
 #include "tools/crowd/goals.h"
 #include "tools/formats/limb_rest.h"
 
@@ -23,15 +25,16 @@ struct FixedField {
 
 struct LimbSetup {
     formats::LimbRest rest;  // in the clip's unit
-    swivel_features features;
-    swivel_euler_order shoulder_order, wrist_order;
+    swivel_features features = 0;
+    swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
+    std::uint32_t twist_bone_count = 0;
     std::vector<FixedField> fields;
     goal_plan goals;
     std::optional<swivel_region> region;             // with SWIVEL_WITH_REGION
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
     bool mirrored = false;                           // the joints' axes, as solved, have x turned over
     // Of neck and head: how they look. Joints are counted from the limb's first, its shoulder. Then it is no limb.
-    std::optional<swivel_look> look;
+    std::optional<swivel_look_def> look;
 
     // A rotation as solved in the joints' own axes.
     std::array<float, 4> own(std::span<const float, 4> q) const
@@ -39,10 +42,6 @@ struct LimbSetup {
         return {q[0], mirrored ? -q[1] : q[1], mirrored ? -q[2] : q[2], q[3]};
     }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
-    unsigned twist_bone_count() const
-    {
-        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MAX_TWIST_BONES + 1));
-    }
 };
 
 // The limbs of a character as one skeleton: joints as GOAL_JOINTS says, each limb's own below a root of its own.

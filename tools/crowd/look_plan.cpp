@@ -76,7 +76,6 @@ LookPlan plan_look(const Clip& clip, std::vector<int> joints, const Vector3d& fa
     const LookPose at_rest = look_pose(clip, joints, rest_pose(clip));
     LookPlan plan{std::move(joints), {}};
     LimbSetup& setup = plan.setup;
-    setup.features = SWIVEL_LOOK;
     setup.goals.is_look = 1;
     put(target_w, setup.goals.target_offset);
     for (std::size_t n = 0; n < kMax - 1; ++n)
@@ -86,7 +85,7 @@ LookPlan plan_look(const Clip& clip, std::vector<int> joints, const Vector3d& fa
     put(at_rest.local[3].coeffs(), setup.rest.wrist_rotation);
     put(at_rest.bones[0], setup.rest.elbow_offset);
     put(at_rest.bones[1], setup.rest.wrist_offset);
-    swivel_look& look = setup.look.emplace(swivel_default_look());
+    swivel_look_def& look = setup.look.emplace(swivel_default_look_def());
     look.joint_count = static_cast<std::uint32_t>(plan.joints.size());
     for (std::uint32_t n = 0; n < look.joint_count; ++n) look.joints[n] = n;
     for (float& cosine : look.cos_max) cosine = static_cast<float>(std::cos(max));

@@ -21,17 +21,20 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "swivel/swivel_explain.hpp"
+#include "swivel/swivel_regions.hpp"
 #include "tools/corpus/corpus.h"
 
 // Structures of C are objects of their members. Members whose length another one says are added below.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_plant, lock_radius, unlock_radius, stop_time, release_time, relock_speed,
                                    anchor_lead, reset_time, speed, height)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_ground, heel, toe_clearance, heel_clearance, cos_max, half_life)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_fit, drop, rise, half_life, lookahead)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_prop, joint, max_move)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_look, eye, axis, cos_full, cos_none, fade_distance, rate)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_shift_def, drop, rise, half_life, lookahead)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_prop_def, joint, max_move)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_look_def, eye, axis, cos_full, cos_none, fade_distance, rate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_limb_joints, shoulder, elbow, wrist, bend)
 
 namespace swivel::corpus {
@@ -75,7 +78,7 @@ Json names_of(swivel_features features)
     Json names = Json::array();
     swivel_feature_info info;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
-        if (info.feature != SWIVEL_WITH_TWIST_BONES && (features & info.feature)) names.push_back(info.name);
+        if (features & info.feature) names.push_back(info.name);
     return names;
 }
 
@@ -120,38 +123,57 @@ Json json_of(const Region& region)
     return made;
 }
 
-// Constants of features that a group lacks are left out, as they count for nothing.
-Json json_of(const swivel_group_def& group, const Region& region)
+Definition definition_of(const swivel_group_def& group)
 {
-    const swivel_features features = group.features;
-    Json made{{"on_bad_input", group.on_bad_input}};
-    if (features & SWIVEL_FIT) {
-        made["fit"] = group.fit;
-    } else if (features & SWIVEL_PROP) {
-        made["prop"] = group.prop;
-    } else if (features & SWIVEL_LOOK) {
-        const std::size_t count = group.look.joint_count;
-        made["look"] = group.look;
-        made["look"]["joints"] = copied<std::uint32_t>(group.look.joints, count);
-        made["look"]["share"] = copied<float>(group.look.share, count);
-        made["look"]["cos_max"] = copied<float>(group.look.cos_max, count);
-    } else {
-        made["features"] = names_of(features);
-        made["shoulder_order"] = group.shoulder_order, made["wrist_order"] = group.wrist_order;
-        if (const swivel_limb_joints* const joints = group.joints) {
-            made["joints"] = *joints;
-            made["joints"]["twist_bones"] = copied<std::uint32_t>(joints->twist_bones, joints->twist_bone_count);
-        } else {
-            made["limb_count"] = group.limb_count;
-            made["twist_bones"] = features / SWIVEL_WITH_TWIST_BONES & SWIVEL_MAX_TWIST_BONES;
-        }
-        if (features & SWIVEL_WITH_PLANT) made["plant"] = group.plant;
-        if (features & SWIVEL_WITH_GROUND) made["ground"] = group.ground;
-        if (features & SWIVEL_WITH_LINK) made["link"] = group.link;
-        if (features & SWIVEL_WITH_REGION) made["region"] = json_of(region);
-    }
+    if (group.limb) return *group.limb;
+    if (group.body_limb) return *group.body_limb;
+    if (group.look) return *group.look;
+    if (group.prop) return *group.prop;
+    return *group.shift;
+}
+
+// Members of limbs of both kinds.
+template <class Limb>
+Json json_of_limb(const Limb& limb, const Region& region)
+{
+    Json made{{"on_bad_input", limb.on_bad_input},
+              {"features", names_of(limb.features)},
+              {"shoulder_order", limb.shoulder_order},
+              {"wrist_order", limb.wrist_order}};
+    if (limb.features & SWIVEL_WITH_REGION) made["region"] = json_of(region);
     return made;
 }
+// A group of a scene. Constants of features that it lacks are left out, as they count for nothing.
+struct GroupWriter {
+    const Region& region;
+
+    Json operator()(const swivel_limb_def& limb) const
+    {
+        Json made = json_of_limb(limb, region);
+        made["limb_count"] = limb.limb_count, made["twist_bone_count"] = limb.twist_bone_count;
+        return made;
+    }
+    Json operator()(const swivel_body_limb_def& limb) const
+    {
+        Json made = json_of_limb(limb, region);
+        made["joints"] = *limb.joints;
+        made["joints"]["twist_bones"] = copied<std::uint32_t>(limb.joints->twist_bones, limb.joints->twist_bone_count);
+        if (limb.features & SWIVEL_WITH_PLANT) made["plant"] = limb.plant;
+        if (limb.features & SWIVEL_WITH_GROUND) made["ground"] = limb.ground;
+        if (limb.features & SWIVEL_WITH_LINK) made["link"] = limb.link;
+        return made;
+    }
+    Json operator()(const swivel_look_def& look) const
+    {
+        Json made = look;
+        made["joints"] = copied<std::uint32_t>(look.joints, look.joint_count);
+        made["share"] = copied<float>(look.share, look.joint_count);
+        made["cos_max"] = copied<float>(look.cos_max, look.joint_count);
+        return {{"look", made}};
+    }
+    Json operator()(const swivel_prop_def& prop) const { return {{"prop", prop}}; }
+    Json operator()(const swivel_shift_def& shift) const { return {{"shift", shift}}; }
+};
 Json json_of(const swivel_skeleton& skeleton)
 {
     const std::size_t count = skeleton.joint_count;
@@ -210,7 +232,7 @@ public:
         with_definition(recipe, limb_counts(corpus_),
                         [&](const void* def) { create(*static_cast<const swivel_crowd_def*>(def)); });
         for (std::uint32_t group = 0; group < groups_.size(); ++group)
-            if (groups_[group].features & SWIVEL_PROP)
+            if (std::holds_alternative<swivel_prop_def>(groups_[group]))
                 corpus_.write(SWIVEL_PROP_WEIGHT, group, std::vector<float>(count_, 0.5f));
     }
     Json json()
@@ -224,18 +246,29 @@ public:
     }
 
 private:
-    void create(swivel_crowd_def def)
+    // The group as scenes have it, which languages must be able to give.
+    Definition shown(Definition group) const
     {
-        groups_.assign(def.groups, def.groups + def.group_count);
+        const auto give_region = [&](auto& limb) {
+            if (limb.features & SWIVEL_WITH_REGION) limb.region = &region_.get();
+        };
+        if (auto* const limb = std::get_if<swivel_limb_def>(&group)) give_region(*limb);
+        if (auto* const limb = std::get_if<swivel_body_limb_def>(&group)) give_region(*limb);
+        if (auto* const shift = std::get_if<swivel_shift_def>(&group)) shift->lookahead = 0.4375f;  // not as by default
+        return group;
+    }
+    void create(const swivel_crowd_def& def)
+    {
         made_["name"] = full_name(recipe_);
-        for (swivel_group_def& group : groups_) {
-            if (group.features & SWIVEL_WITH_REGION) group.region = &region_.get();
-            group.fit.lookahead = 0.4375f;  // not as by default
-            made_["groups"].push_back(json_of(group, region_));
+        for (const swivel_group_def& group : std::span(def.groups, def.group_count)) {
+            groups_.push_back(shown(definition_of(group)));
+            made_["groups"].push_back(std::visit(GroupWriter{region_}, groups_.back()));
         }
-        def.groups = groups_.data();
-        crowd_.emplace(def);
-        if (!def.skeleton) return;
+        if (!def.skeleton) {
+            crowd_.emplace(groups_);
+            return;
+        }
+        crowd_.emplace(*def.skeleton, def.body_count, groups_, std::to_array(def.up));
         made_["skeleton"] = json_of(*def.skeleton);
         made_["body_count"] = def.body_count, made_["up"] = def.up;
     }
@@ -282,7 +315,7 @@ private:
                 made_["form"] = pose->form, made_["space"] = pose->space, made_["outputs"] = outputs_of(poses);
                 made_["root_is_double"] = pose->root_is_double;
             }
-            if (job.streams) made["doubles"] = doubles(*job.streams);
+            if (!job.streams.empty()) made["doubles"] = doubles(job.streams);
             if (!poses.mask.empty()) made["mask"] = poses.mask[0];
             made["solved"] = crowd_->solve(job);
         });
@@ -326,10 +359,10 @@ private:
         return groups;
     }
 
-    // The answers of calls beside solves about all limbs of a group, and in words about the first.
+    // The answers of calls beside solves about all free limbs of a group, and in words about the first.
     Json answers(std::uint32_t group) const
     {
-        const swivel_group_def& def = groups_[group];
+        const auto& def = std::get<swivel_limb_def>(groups_[group]);
         std::vector<std::array<double, 3>> elbows(def.limb_count), wrists(def.limb_count);
         std::vector<std::array<double, 4>> hands(def.limb_count);
         std::vector<std::array<double, 7>> angles(def.limb_count);
@@ -337,7 +370,7 @@ private:
         crowd_->elbows(group, elbows), crowd_->wrists(group, wrists), crowd_->residuals(group, off);
         crowd_->joint_angles(group, def.wrist_order, def.shoulder_order, 1, angles);
         Json made{{"elbows", flat(elbows)}, {"wrists", flat(wrists)}, {"residuals", off}};
-        made["joint_angles"] = flat(angles), made["explain"] = crowd_->explain(group, 0);
+        made["joint_angles"] = flat(angles), made["explain"] = explain(*crowd_, group, 0);
         if (def.features & SWIVEL_WITH_HAND) crowd_->hands(group, hands), made["hands"] = flat(hands);
         made["allowed_arcs"] = Json::array();
         for (const auto& [from, to] : crowd_->allowed_arcs(group, 0))
@@ -349,7 +382,7 @@ private:
     const std::uint32_t count_;
     Crowd corpus_;  // takes the inputs, and solves nothing
     const Region region_ = region_of_calls();
-    std::vector<swivel_group_def> groups_;
+    std::vector<Definition> groups_;
     std::optional<Crowd> crowd_;
     std::optional<Standing> standing_;
     std::vector<float> weights_;

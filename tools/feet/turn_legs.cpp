@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "swivel/swivel.hpp"
+#include "swivel/swivel_bodies.hpp"
 #include "tools/formats/error.h"
 #include "tools/rig/limb_words.h"
 
@@ -60,9 +60,9 @@ struct Skeleton {
         skeleton.rotations = {rotations.data(), sizeof rotations[0]};
         skeleton.translations = {translations.data(), sizeof translations[0]};
         skeleton.joint_count = static_cast<std::uint32_t>(parents.size());
-        std::vector<swivel_group_def> groups;
+        std::vector<Definition> groups;
         for (const swivel_limb_joints& limb : limbs)
-            groups.push_back(body_group(limb, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND));
+            groups.emplace_back(body_limb(limb, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND));
         return Crowd(skeleton, static_cast<std::uint32_t>(body_count), groups);
     }
 };

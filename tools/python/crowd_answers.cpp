@@ -4,10 +4,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include <array>
 #include <cstring>
 #include <string>
 
+#include "swivel/swivel_explain.hpp"
 #include "tools/python/crowd.h"
 #include "tools/python/names.h"
 #include "tools/python/poses.h"
@@ -96,8 +96,9 @@ std::pair<bool, std::string> compare(HeldCrowd& held, const py::object& pose, st
     const Limbs one = limbs_of(held, group, body, 1);
     const PoseArrays poses = pose_of(held, pose);
     const auto from = vector_of("shoulder", shoulder), over = vector_of("elbow", elbow), to = vector_of("wrist", wrist);
-    const auto said =
-        run(held, Way::kReading, [&] { return held.crowd.compare(one.group, one.first, poses.view, from, over, to); });
+    const auto said = run(held, Way::kReading, [&] {
+        return swivel::compare(held.crowd, one.group, one.first, poses.view, from, over, to);
+    });
     return {said.agrees, said.text};
 }
 
@@ -180,10 +181,7 @@ void add_answers(CrowdClass& crowd)
         "explain",
         [](HeldCrowd& held, std::int64_t limb, std::int64_t group) {
             const Limbs one = limbs_of(held, group, limb, 1);
-            std::array<char, SWIVEL_EXPLANATION_BYTES> text;
-            run(held, Way::kReading,
-                [&] { check(swivel_explain(held.crowd.get(), one.group, one.first, text.data(), text.size())); });
-            return std::string(text.data());
+            return run(held, Way::kReading, [&] { return swivel::explain(held.crowd, one.group, one.first); });
         },
         py::kw_only(), py::arg("limb"), py::arg("group") = 0,
         "Why a limb is as it is, from its present inputs, in a sentence or two.\n\n"

@@ -5,11 +5,13 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "swivel/swivel_regions.hpp"
 #include "tools/python/crowd.h"
 #include "tools/python/names.h"
 #include "tools/python/structures.h"
@@ -27,9 +29,9 @@ constexpr const char* kCrowdText =
     "binding). Feature.JOINTS needs the binding that bind_joints() gave. features, on_bad_input and the orders are\n"
     "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
     "With a skeleton it is a crowd of body_count bodies, whose groups are BodyGroups: limb i of each is body i's.\n"
-    "A FitGroup among them shifts the bodies, a PropGroup is a thing that hands hold, a LookGroup looks. solve() then\n"
-    "takes their pose, and on_bad_input None is OnBadInput.KEEP_POSE instead of REST_POSE. up, of any length but 0,\n"
-    "is the axis of heights and shifts in the root's frame.\n\n"
+    "A ShiftGroup among them shifts the bodies, a PropGroup is a thing that hands hold, a LookGroup looks. solve()\n"
+    "then takes their pose, and on_bad_input None is OnBadInput.KEEP_POSE instead of REST_POSE. up, of any length but\n"
+    "0, is the axis of heights and shifts in the root's frame.\n\n"
     "Targets and shoulder positions start as NaN, lengths as the binding's, or NaN: a limb that never gets them has\n"
     "Flag.BAD_INPUT. Parents and hands start as the identity, without limits; results as the rest pose. After\n"
     "creation the library allocates nothing.\n\n"
@@ -50,12 +52,24 @@ swivel_features features_of(std::int64_t features)
 
 bool is_a(const char* type, py::handle object) { return py::isinstance(object, package(type)); }
 
-// Puts a group's options beside its limbs into the definition; an option that is None changes nothing. py::cast_error
-// for what is no number.
-void set_options(swivel_group_def& def, py::handle features, py::handle on_bad_input, py::handle shoulder_order,
+// Options of limbs whose group does not say them.
+struct Usual {
+    swivel_features features;
+    swivel_euler_order shoulder_order, wrist_order;
+    std::optional<swivel_on_bad_input> on_bad_input;  // none: as the library has it for the kind
+};
+
+// Puts the options of a group of limbs into its definition; an option that is None is the usual one. py::cast_error for
+// what is no number.
+template <class Limb>
+void set_options(Limb& def, const Usual& usual, py::handle features, py::handle on_bad_input, py::handle shoulder_order,
                  py::handle wrist_order, py::handle region)
 {
     using Number = std::optional<std::int64_t>;
+    def.features = usual.features;
+    def.shoulder_order = usual.shoulder_order;
+    def.wrist_order = usual.wrist_order;
+    if (usual.on_bad_input) def.on_bad_input = *usual.on_bad_input;
     if (const auto given = features.cast<Number>()) def.features = features_of(*given);
     if (const auto given = on_bad_input.cast<Number>()) def.on_bad_input = on_bad_input_of(*given);
     if (const auto given = shoulder_order.cast<Number>()) def.shoulder_order = order_of(*given);
@@ -72,21 +86,20 @@ void set_options(swivel_group_def& def, py::handle features, py::handle on_bad_i
     throw py::type_error("groups: expected " + std::string(expected) + ", got " + std::string(py::repr(entry)));
 }
 
-// A number of limbs, or a tuple: the members of swivel.Group, of which all but the first may be missing or None. What
-// they do not say is as in `usual`.
-swivel_group_def group_of(py::handle entry, const swivel_group_def& usual)
+// A number of limbs, or a tuple: the members of swivel.Group, of which all but the first may be missing or None.
+swivel_limb_def group_of(py::handle entry, const Usual& usual)
 {
     constexpr const char kExpected[] = "a number of limbs, (number of limbs, binding) or a Group";
-    constexpr std::size_t kMemberCount = 7;
+    constexpr std::size_t kMemberCount = 8;
     const bool is_tuple = py::isinstance<py::tuple>(entry);
     const auto given = is_tuple ? py::reinterpret_borrow<py::tuple>(entry) : py::make_tuple(entry);
     if (given.size() < 1 || given.size() > kMemberCount || !is_number(given[0])) refuse(kExpected, entry);
     const auto member = [&](std::size_t n) { return n < given.size() ? py::object(given[n]) : py::none(); };
-    swivel_group_def def = usual;
-    def.limb_count = count_of("limb count", given[0].cast<std::int64_t>());
+    swivel_limb_def def = swivel_default_limb_def(count_of("limb count", given[0].cast<std::int64_t>()));
     try {
         if (!member(1).is_none()) def.binding = member(1).cast<swivel_binding>();
-        set_options(def, member(2), member(3), member(4), member(5), member(6));
+        set_options(def, usual, member(2), member(3), member(4), member(5), member(6));
+        if (!member(7).is_none()) def.twist_bone_count = count_of("twist_bone_count", member(7).cast<std::int64_t>());
     } catch (const py::cast_error&) {
         refuse(kExpected, entry);
     }
@@ -94,54 +107,33 @@ swivel_group_def group_of(py::handle entry, const swivel_group_def& usual)
 }
 
 // A swivel.BodyGroup, whose joints are kept in `joints`.
-swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, LimbJoints& joints)
+swivel_body_limb_def body_group_of(py::handle entry, const Usual& usual, LimbJoints& joints)
 {
     const auto number = [&](const char* name) { return entry.attr(name).cast<std::int64_t>(); };
-    swivel_group_def def = usual;
-    def.joints = &joints.view;
+    swivel_body_limb_def def = swivel_default_body_limb_def(&joints.view);
     try {
         joints = joints_of(number("shoulder"), number("elbow"), number("wrist"),
                            entry.attr("twist_bones").cast<std::vector<std::int64_t>>(), entry.attr("bend"));
-        def.link = count_of("link", number("link"));
-        set_options(def, entry.attr("features"), entry.attr("on_bad_input"), entry.attr("shoulder_order"),
+        if (const py::object link = entry.attr("link"); !link.is_none())
+            def.link = count_of("link", link.cast<std::int64_t>());
+        set_options(def, usual, entry.attr("features"), entry.attr("on_bad_input"), entry.attr("shoulder_order"),
                     entry.attr("wrist_order"), entry.attr("region"));
     } catch (const py::cast_error&) {
         refuse("whole numbers in a BodyGroup", entry);
     }
     def.plant = plant_of(entry.attr("plant"));
     def.ground = ground_of(entry.attr("ground"));
-    // Who names twist bones wants them to turn. Too many are for the library to refuse.
-    constexpr swivel_features kAnyBones = SWIVEL_MAX_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
-    if (!(def.features & kAnyBones))
-        def.features |= std::min(joints.twist_bones.size() * SWIVEL_WITH_TWIST_BONES, kAnyBones);
     return def;
 }
 
-// A group that is no limb. It has no features but its own.
-swivel_group_def limbless(swivel_group_def def, const char* type, py::handle entry, const swivel_group_def& usual)
+// A group of any kind.
+Definition definition_of(py::handle entry, const Usual& usual, LimbJoints& joints)
 {
-    def.on_bad_input = usual.on_bad_input;
-    try {
-        set_options(def, py::none(), entry.attr("on_bad_input"), py::none(), py::none(), py::none());
-    } catch (const py::cast_error&) {
-        refuse(("a member of OnBadInput in a " + std::string(type)).c_str(), entry);
-    }
-    return def;
-}
-// A swivel.FitGroup, a swivel.PropGroup and a swivel.LookGroup.
-swivel_group_def fit_group_of(py::handle entry, const swivel_group_def& usual)
-{
-    return limbless(fit_group(fit_of(entry)), "FitGroup", entry, usual);
-}
-swivel_group_def prop_group_of(py::handle entry, const swivel_group_def& usual)
-{
-    return limbless(prop_group(prop_of(entry)), "PropGroup", entry, usual);
-}
-swivel_group_def look_group_of(py::handle entry, const swivel_group_def& usual)
-{
-    swivel_group_def def = swivel_default_look_group_def();
-    def.look = look_of(entry);
-    return limbless(def, "LookGroup", entry, usual);
+    if (is_a("BodyGroup", entry)) return body_group_of(entry, usual, joints);
+    if (is_a("LookGroup", entry)) return look_of(entry);
+    if (is_a("PropGroup", entry)) return prop_of(entry);
+    if (is_a("ShiftGroup", entry)) return shift_of(entry);
+    return group_of(entry, usual);
 }
 
 // From the lowest to the highest byte of any group's rows. A crowd's memory is one piece, so no array lies in between.
@@ -164,7 +156,13 @@ Memory memory_of(swivel_crowd* crowd)
     return {begin, static_cast<std::size_t>(end - begin)};
 }
 
-constexpr const char* kGroupTypes[] = {"Group", "BodyGroup", "FitGroup", "PropGroup", "LookGroup"};
+HeldCrowd held_crowd(Crowd crowd, std::uint32_t joint_count)
+{
+    const Memory rows = memory_of(crowd.get());
+    return {std::move(crowd), rows, joint_count};
+}
+
+constexpr const char* kGroupTypes[] = {"Group", "BodyGroup", "LookGroup", "PropGroup", "ShiftGroup"};
 std::vector<py::object> entries_of(const py::object& groups)
 {
     const bool is_one = std::ranges::any_of(kGroupTypes, [&](const char* type) { return is_a(type, groups); });
@@ -178,36 +176,25 @@ HeldCrowd make(const py::object& groups, std::int64_t features, std::int64_t sho
                std::optional<std::int64_t> on_bad_input, const py::object& skeleton, std::int64_t body_count,
                const py::object& up)
 {
-    swivel_group_def usual = swivel_default_group_def(0);
-    if (!skeleton.is_none()) usual.on_bad_input = SWIVEL_KEEP_POSE;
-    usual.features = features_of(features);
-    usual.shoulder_order = order_of(shoulder_order);
-    usual.wrist_order = order_of(wrist_order);
+    Usual usual{features_of(features), order_of(shoulder_order), order_of(wrist_order), {}};
     if (on_bad_input) usual.on_bad_input = on_bad_input_of(*on_bad_input);
     const std::vector<py::object> entries = entries_of(groups);
     std::vector<LimbJoints> joints(entries.size());
-    std::vector<swivel_group_def> groups_of_crowd;
-    for (std::size_t n = 0; n < entries.size(); ++n)
-        groups_of_crowd.push_back(is_a("FitGroup", entries[n])    ? fit_group_of(entries[n], usual)
-                                  : is_a("PropGroup", entries[n]) ? prop_group_of(entries[n], usual)
-                                  : is_a("LookGroup", entries[n]) ? look_group_of(entries[n], usual)
-                                  : is_a("BodyGroup", entries[n]) ? body_group_of(entries[n], usual, joints[n])
-                                                                  : group_of(entries[n], usual));
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.groups = groups_of_crowd.data();
-    def.group_count = count_of("number of groups", static_cast<std::int64_t>(groups_of_crowd.size()));
-    def.body_count = count_of("body_count", body_count);
-    copy("up", up, def.up);
-    SkeletonArrays bones{};
-    if (!skeleton.is_none()) {
-        if (!is_a("Skeleton", skeleton))
-            throw py::type_error("skeleton: expected a Skeleton, got " + std::string(py::repr(skeleton)));
-        bones = skeleton_of(skeleton.attr("parents"), skeleton.attr("translations"), skeleton.attr("rotations"));
-        def.skeleton = &bones.view;
+    std::vector<Definition> definitions;
+    for (std::size_t n = 0; n < entries.size(); ++n) definitions.push_back(definition_of(entries[n], usual, joints[n]));
+    const std::uint32_t bodies = count_of("body_count", body_count);
+    std::array<float, 3> axis;
+    copy("up", up, axis);
+    if (skeleton.is_none()) {
+        if (bodies > 0)
+            throw py::value_error("body_count is " + std::to_string(bodies) + ", but there is no skeleton; give it");
+        return held_crowd(Crowd(definitions), 0);
     }
-    Crowd crowd(def);
-    const Memory rows = memory_of(crowd.get());
-    return {std::move(crowd), rows, bones.view.joint_count};
+    if (!is_a("Skeleton", skeleton))
+        throw py::type_error("skeleton: expected a Skeleton, got " + std::string(py::repr(skeleton)));
+    const SkeletonArrays bones =
+        skeleton_of(skeleton.attr("parents"), skeleton.attr("translations"), skeleton.attr("rotations"));
+    return held_crowd(Crowd(bones.view, bodies, definitions, axis), bones.view.joint_count);
 }
 
 }  // namespace

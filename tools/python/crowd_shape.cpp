@@ -138,7 +138,13 @@ void add_shape(CrowdClass& crowd)
         [](const HeldCrowd& held, std::int64_t group) {
             return feature_set(swivel_group_features(held.crowd.get(), limbs_of(held, group, 0, {}).group));
         },
-        py::arg("group") = 0, "What a group was made with, as Feature.");
+        py::arg("group") = 0, "The features that a group of limbs was made with, as Feature.");
+    crowd.def(
+        "kind",
+        [](const HeldCrowd& held, std::int64_t group) {
+            return kind_member(swivel_group_kind(held.crowd.get(), limbs_of(held, group, 0, {}).group));
+        },
+        py::arg("group") = 0, "The kind of a group, as Kind.");
     crowd.def(
         "limb_count", [](const HeldCrowd& held, std::int64_t group) { return limbs_of(held, group, 0, {}).count; },
         py::arg("group") = 0, "Number of limbs in a group. ValueError if there is no such group.");

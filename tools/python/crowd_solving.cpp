@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "swivel/swivel_bodies.hpp"
 #include "tools/python/crowd.h"
 #include "tools/python/poses.h"
 #include "tools/python/structures.h"
@@ -121,15 +122,20 @@ void require_direct(const StreamArrays& streams)
                 "streams: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
-// A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know. What is planted
-// or linked needs none.
+// Whether a group's limbs have targets of their own: what is planted or linked needs none.
+bool has_targets(const swivel_crowd* crowd, std::uint32_t group)
+{
+    constexpr swivel_features kSent = SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK;
+    return swivel_group_kind(crowd, group) == SWIVEL_KIND_BODY_LIMB && !(swivel_group_features(crowd, group) & kSent);
+}
+
+// A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know.
 void require_streams(const HeldCrowd& held, const std::vector<std::uint32_t>& groups, const PoseArrays& pose,
                      const py::object& streams)
 {
-    const bool has_targets = std::any_of(groups.begin(), groups.end(), [&](std::uint32_t group) {
-        return !(swivel_group_features(held.crowd.get(), group) & (SWIVEL_SENT | SWIVEL_NO_LIMB));
-    });
-    if (pose.view.root_is_double && has_targets && streams.is_none())
+    const bool wants_targets = std::any_of(groups.begin(), groups.end(),
+                                           [&](std::uint32_t group) { return has_targets(held.crowd.get(), group); });
+    if (pose.view.root_is_double && wants_targets && streams.is_none())
         throw py::value_error(
             "root_position is float64, so targets are, too, and come in streams; give these, or a root_position of "
             "float32");
@@ -162,8 +168,7 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     const StreamArrays arrays =
         streams.is_none() ? StreamArrays() : streams_of(held, streams, named, poses.view.root_is_double != 0);
     if (blocks || !mask.is_none()) require_direct(arrays);
-    const std::vector<swivel_streams> views(arrays.streams.begin(), arrays.streams.end());
-    if (!streams.is_none()) job.streams = views;
+    job.streams.assign(arrays.streams.begin(), arrays.streams.end());
     job.on_this_thread = on_this_thread;
     job.workspace = workspace_of(held);
     const Way way = on_this_thread ? Way::kSolvingBlocks : Way::kAlone;
@@ -194,7 +199,7 @@ void change_support(HeldCrowd& held, const py::object& was, const py::object& is
     const Limbs limbs = limbs_of(held, group, first, count);
     const SupportArrays from = supports_of("was", was, limbs.count), to = supports_of("now", is, limbs.count);
     run(held, Way::kAlone,
-        [&] { held.crowd.change_support(limbs.group, limbs.first, limbs.count, from.view(), to.view()); });
+        [&] { swivel::change_support(held.crowd, limbs.group, limbs.first, limbs.count, from.view(), to.view()); });
 }
 
 }  // namespace

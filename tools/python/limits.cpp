@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "swivel/swivel.hpp"
+#include "swivel/swivel_regions.hpp"
 #include "tools/python/arrays.h"
 #include "tools/python/helpers.h"
 #include "tools/python/names.h"
@@ -65,6 +65,16 @@ py::array arm_axis_array(const swivel_binding& binding, const py::object& parent
     py::array_t<double> axis(3);
     check(swivel_arm_axis(&binding, rotation, towards.data(), axis.mutable_data()));
     return axis;
+}
+
+py::tuple kinds_of(std::int64_t number)
+{
+    const swivel_field_info& info = info_of(field_of(number));
+    py::list kinds;
+    for (const swivel_kind kind :
+         {SWIVEL_KIND_LIMB, SWIVEL_KIND_BODY_LIMB, SWIVEL_KIND_LOOK, SWIVEL_KIND_PROP, SWIVEL_KIND_SHIFT})
+        if (has_kind(info, kind)) kinds.append(kind_member(kind));
+    return kinds;
 }
 
 using Direction = std::array<float, 3>;
@@ -141,7 +151,11 @@ void add_limits(py::module_& module)
                "are for you to mirror. ValueError for results.");
     module.def(
         "needed_features", [](std::int64_t field) { return feature_set(needed_features(field_of(field))); },
-        py::arg("field"), "The fewest features with which a group has a field.");
+        py::arg("field"),
+        "The fewest features with which a Group has a field, or another kind of group where a Group has none. A\n"
+        "BodyGroup has Feature.WORLD and Feature.WITH_INCOMING by itself, and is not given them.");
+    module.def("field_kinds", &kinds_of, py::arg("field"),
+               "The kinds of groups that may have a field: a tuple of Kinds.");
 }
 
 void add_regions(py::module_& module)

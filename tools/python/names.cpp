@@ -66,8 +66,8 @@ const std::vector<Enum>& enums()
     static const std::vector<Enum> all = {
         {"IntFlag", "Feature",
          "What a group takes and gives; fixed at creation, combined with |.\n\n"
-         "Whatever is off costs neither memory nor time. n twist bones are n * Feature.WITH_TWIST_BONES, n from\n"
-         "1 to 7.",
+         "Whatever is off costs neither memory nor time. A BodyGroup is in the world and has an incoming pose without\n"
+         "asking.",
          feature_table()},
         {"IntEnum", "Field",
          "A field of a group's limbs: an input up to SHOULDER, from there on a result.\n\n"
@@ -96,6 +96,15 @@ const std::vector<Enum>& enums()
          "What the joints of a Pose are relative to.\n\n"
          "LOCAL: each to its parent. IN_BODY: all to the root; what hangs below a limb then moves with it.",
          {{"LOCAL", SWIVEL_LOCAL}, {"IN_BODY", SWIVEL_IN_BODY}}},
+        {"IntEnum",
+         "Kind",
+         "The kind of a group.\n\n"
+         "LIMB: a Group of free limbs. BODY_LIMB, LOOK, PROP, SHIFT: a BodyGroup, LookGroup, PropGroup, ShiftGroup.",
+         {{"LIMB", SWIVEL_KIND_LIMB},
+          {"BODY_LIMB", SWIVEL_KIND_BODY_LIMB},
+          {"LOOK", SWIVEL_KIND_LOOK},
+          {"PROP", SWIVEL_KIND_PROP},
+          {"SHIFT", SWIVEL_KIND_SHIFT}}},
     };
     return all;
 }
@@ -130,13 +139,12 @@ Wanted member_of(const char* enum_name, const char* what, std::int64_t number)
     return static_cast<Wanted>(number);
 }
 
-// The named tuple that swivel.solve() gives: the results that all arms have, positions, and the others or None. What
-// bodies alone have is none of them.
+// The named tuple that swivel.solve() gives: the results that all free limbs have, positions, and the others or None.
 void add_arms(py::module_& module)
 {
     py::list names, more;
     for (const swivel_field_info& info : fields())
-        if (info.kind != SWIVEL_FIELD_INPUT && !(needed_features(info.field) & SWIVEL_BODY))
+        if (info.kind != SWIVEL_FIELD_INPUT && has_kind(info, SWIVEL_KIND_LIMB))
             (info.needs ? more : names).append(info.name);
     for (const char* name : {"elbow_position", "wrist_position", "residual"}) names.append(name);
     const py::object nones = py::make_tuple(py::none()) * py::int_(more.size());
@@ -212,6 +220,7 @@ swivel_pose_space pose_space_of(std::int64_t number)
 
 py::object package(const char* name) { return py::module_::import("swivel").attr(name); }
 py::object feature_set(swivel_features features) { return package("Feature")(features); }
+py::object kind_member(swivel_kind kind) { return package("Kind")(static_cast<int>(kind)); }
 
 void add_enums(py::module_& module)
 {

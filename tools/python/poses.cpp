@@ -8,7 +8,7 @@
 #include <numeric>
 #include <string>
 
-#include "swivel/swivel.h"
+#include "swivel/swivel_bodies.h"
 #include "tools/python/arrays.h"
 #include "tools/python/names.h"
 

@@ -114,17 +114,27 @@ swivel_ground ground_of(const py::object& given)
     return floats_of<swivel_ground>("ground", "Ground", given);
 }
 
-swivel_fit fit_of(const py::handle& group) { return floats_of<swivel_fit>("fit", "FitGroup", group); }
-
-swivel_prop prop_of(const py::handle& group)
+swivel_shift_def shift_of(const py::handle& group)
 {
-    return {number_of<std::int32_t>("prop", "joint", group), number_of("prop", "max_move", group)};
+    const auto number = [&](const char* name) { return number_of("shift", name, group); };
+    swivel_shift_def made = swivel_default_shift_def();
+    made.drop = number("drop"), made.rise = number("rise");
+    made.half_life = number("half_life"), made.lookahead = number("lookahead");
+    return made;
 }
 
-swivel_look look_of(const py::handle& group)
+swivel_prop_def prop_of(const py::handle& group)
+{
+    swivel_prop_def made = swivel_default_prop_def();
+    made.joint = number_of<std::int32_t>("prop", "joint", group);
+    made.max_move = number_of("prop", "max_move", group);
+    return made;
+}
+
+swivel_look_def look_of(const py::handle& group)
 {
     const auto number = [&](const char* name) { return number_of("look", name, group); };
-    swivel_look made = swivel_default_look();
+    swivel_look_def made = swivel_default_look_def();
     std::vector<std::int64_t> joints;
     try {
         joints = group.attr("joints").cast<std::vector<std::int64_t>>();

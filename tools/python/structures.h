@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "swivel/swivel.h"
+#include "swivel/swivel_bodies.h"
 #include "tools/python/arrays.h"
 
 namespace swivel::python {
@@ -36,13 +36,13 @@ struct LimbJoints {
 LimbJoints joints_of(std::int64_t shoulder, std::int64_t elbow, std::int64_t wrist,
                      const std::vector<std::int64_t>& twist_bones, const pybind11::object& bend);
 
-// A swivel.Plant, a swivel.Ground, and the members of a swivel.FitGroup, a swivel.PropGroup and a swivel.LookGroup.
-// TypeError for what is no number.
+// A swivel.Plant, a swivel.Ground, a swivel.LookGroup, a swivel.PropGroup and a swivel.ShiftGroup. TypeError for what
+// is no number.
 swivel_plant plant_of(const pybind11::object& given);
 swivel_ground ground_of(const pybind11::object& given);
-swivel_fit fit_of(const pybind11::handle& group);
-swivel_prop prop_of(const pybind11::handle& group);
-swivel_look look_of(const pybind11::handle& group);
+swivel_look_def look_of(const pybind11::handle& group);
+swivel_prop_def prop_of(const pybind11::handle& group);
+swivel_shift_def shift_of(const pybind11::handle& group);
 
 // Supports of some bodies, and the arrays that they view.
 struct SupportArrays {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What mkdocs does beyond mkdocs.yml. It compares programs on pages with docs/snippets, makes the reference from include/swivel/swivel.h, and
+"""What mkdocs does beyond mkdocs.yml. It compares programs on pages with docs/snippets, makes the reference from the headers of include/swivel, and
 treats links that leave docs/. KaTeX sets the formulas during the build, so pages fetch nothing and need no scripts."""
 import json
 import posixpath
@@ -18,7 +18,7 @@ import snippets  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 KATEX = Path("/usr/share/javascript/katex")  # Debian's libjs-katex
-HEADER = "include/swivel/swivel.h"
+INCLUDE = "include/swivel"
 
 # Sets every formula of standard input, a JSON list of [TeX, whether it stands alone].
 SET_FORMULAS = f"""
@@ -49,14 +49,15 @@ def on_page_markdown(markdown, page, config, files):
         snippets.check(markdown, ROOT)
         markdown = snippets.without_marks(markdown)
         if page.file.src_uri == "api.md":
-            markdown = markdown.replace("<!-- swivel.h -->", api_page.reference((ROOT / HEADER).read_text()))
+            headers = {name: (ROOT / INCLUDE / name).read_text() for name in api_page.HEADERS}
+            markdown = markdown.replace("<!-- headers -->", api_page.reference(headers))
     except (snippets.Missing, api_page.Unread) as error:
         raise PluginError(f"{page.file.src_uri}: {error}") from error
     return repository_links(markdown, page.file.src_uri)
 
 
 def repository_links(markdown, source):
-    """Changes links that leave docs/, which only the repository's readers can follow. A link to swivel.h goes to the reference. Of any
+    """Changes links that leave docs/, which only the repository's readers can follow. A link to a header of the reference goes there. Of any
     other link, the text remains."""
     def replaced(match):
         target = posixpath.normpath(posixpath.join("docs", posixpath.dirname(source), match[2]))
@@ -64,7 +65,7 @@ def repository_links(markdown, source):
             return match[0]
         if not (ROOT / target).exists():
             raise PluginError(f"{source}: link to {target}, which is not in the repository")
-        if target == HEADER:
+        if posixpath.dirname(target) == INCLUDE and posixpath.basename(target) in api_page.HEADERS:
             return f"[{match[1]}]({posixpath.relpath('api.md', posixpath.dirname(source) or '.')})"
         return match[1]
     return re.sub(r"(?<!!)\[([^\]]*)\]\(([^)#\s]+)(?:#[^)\s]*)?\)", replaced, markdown)

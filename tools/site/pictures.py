@@ -15,7 +15,7 @@ import matplotlib
 import numpy as np
 
 import swivel
-from swivel import BodyGroup, Feature, Field, FitGroup, Flag, LookGroup, Plant, Pose, Skeleton
+from swivel import BodyGroup, Feature, Field, Flag, LookGroup, Plant, Pose, ShiftGroup, Skeleton
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -162,12 +162,12 @@ def feet_break():
 # ---- legs from the side
 def stepping(features, animated, ahead):
     """Joints of legs whose points go where they are written, in place of where the animation has them; and the new pose."""
-    fits = [FitGroup()] * bool(features & Feature.WITH_PELVIS_FIT)
-    crowd = swivel.Crowd([leg(1, features), leg(4, features), *fits], skeleton=SKELETON, body_count=1)
+    shifts = [ShiftGroup()] * bool(features & Feature.WITH_PELVIS_FIT)
+    crowd = swivel.Crowd([leg(1, features), leg(4, features), *shifts], skeleton=SKELETON, body_count=1)
     for group, place in enumerate(((0.1, ANKLE, -0.2), (-0.1, *ahead))):
         crowd.write(Field.TARGET, place, group), crowd.write(Field.CONTACT, 1.0, group)
     pose, places = solved(crowd, animated, 0.01)
-    return pose, places + ((0, crowd.read(Field.SHIFT, 2)[0, 0], 0) if fits else 0)
+    return pose, places + ((0, crowd.read(Field.SHIFT, 2)[0, 0], 0) if shifts else 0)
 
 
 def draw_leg(axes, middle, places, thigh, colour, width=6, style="-"):

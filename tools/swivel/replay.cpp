@@ -131,7 +131,7 @@ private:
         row.size = who.size;
         row.start = who.first + who.start;
         row.wrist = std::to_array(crowd_.limbs[limb].sources[swivel_goal_frame(&who, frame)].wrist_local);
-        extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
+        extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count;
         const std::size_t place = crowd_.place(frame_in_chunk, limb, n);
         for (std::size_t f = 0; f < fields_.size(); ++f) {
             const std::size_t parts = fields_[f].count();

@@ -80,7 +80,7 @@ Json json_of_limb(const CachedLimb& limb, const LimbSkeleton::OfLimb& joints)
 
 Json json_of_look(const CachedLook& look)
 {
-    const swivel_look& how = *look.setup.look;
+    const swivel_look_def& how = *look.setup.look;
     return {{"plan", base64_of(std::span(&look.setup.goals, 1))},
             {"sources", base64_of(std::span<const goal_source>(look.sources))},
             {"joint_count", how.joint_count},

@@ -1,38 +1,47 @@
 /* SPDX-License-Identifier: MIT
  *
- * Prints src/layout.ts: the numbers of swivel.h's names, and where the members of its structures lie in WebAssembly's
- * memory. The library describes features, fields and flags, the compiler knows the rest, so no number is written
- * twice. */
+ * Prints src/layout.ts: the numbers of the headers' names, and where the members of their structures lie in
+ * WebAssembly's memory. The library describes features, fields and flags, the compiler knows the rest, so no number is
+ * written twice. */
 #include <ctype.h>
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "swivel/lecture.h"
-#include "swivel/swivel.h"
+#include "swivel/swivel_bodies.h"
+#include "swivel/swivel_explain.h"
+#include "swivel/swivel_regions.h"
 
 #define NUMBER(NAME) printf("    %s: %u,\n", #NAME, (unsigned)SWIVEL_##NAME)
+#define GROUP_KIND(NAME) printf("    %s: %u,\n", #NAME, (unsigned)SWIVEL_KIND_##NAME)
 #define OFFSET(structure, name) printf(" %s: %zu,", #name, offsetof(structure, name))
 #define BEGIN(structure) printf("    %s: { bytes: %zu,", #structure, sizeof(structure))
 #define END() printf(" },\n")
-#define BEGIN_DEFAULT(name) \
-    begin_default(#name);   \
-    const swivel_##name name = swivel_default_##name()
+#define BEGIN_DEFAULT(name, structure) \
+    begin_default(#name);              \
+    const swivel_##structure name = swivel_default_##structure()
 #define END_DEFAULT() printf("} as const;\n")
 #define VALUES(of, name) print_values(#name, KIND(of.name), &of.name, sizeof(of.name) / sizeof(float))
-/* Counts and numbers of joints have no default. */
+/* Sizes, counts and numbers of joints have no default. */
 #define KIND(value) \
-    _Generic(value, uint32_t : NO_VALUE, const uint32_t* : NO_VALUE, int32_t : WHOLE_NUMBER, default : FLOATS)
+    _Generic(value,                      \
+             size_t : NO_VALUE,          \
+             uint32_t : NO_VALUE,        \
+             const uint32_t* : NO_VALUE, \
+             int32_t : WHOLE_NUMBER,     \
+             default : FLOATS)
 enum kind { NO_VALUE, WHOLE_NUMBER, FLOATS };
 
 _Static_assert(sizeof(swivel_stream) == 12, "rows.ts writes it as three words");
 _Static_assert(sizeof(swivel_joint_values) == 16, "bodies.ts writes it as four words");
 _Static_assert(sizeof(swivel_supports) == 16, "bodies.ts writes it as four words");
 _Static_assert(sizeof(swivel_plant) == 11 * sizeof(float), "groups.ts writes it as floats");
-_Static_assert(sizeof(swivel_fit) == 4 * sizeof(float), "groups.ts writes it as floats");
+_Static_assert(sizeof(swivel_shift_def) == sizeof(size_t) + 4 * sizeof(float),
+               "groups.ts writes floats after the size");
 _Static_assert(sizeof(swivel_ground) == 7 * sizeof(float), "groups.ts writes it as floats");
-_Static_assert(sizeof(swivel_prop) == 8, "groups.ts writes it as a joint and a float");
 _Static_assert(sizeof(swivel_region_cone) == 4 * sizeof(float), "region.ts writes it as floats");
-_Static_assert(sizeof(swivel_look) == 35 * 4, "groups.ts writes it as a count, 8 joints and 26 floats");
+_Static_assert(offsetof(swivel_look_def, rate) - offsetof(swivel_look_def, cos_full) == 3 * sizeof(float),
+               "groups.ts writes four floats from there on");
 
 static void print_features(void)
 {
@@ -40,10 +49,12 @@ static void print_features(void)
     printf("export const Feature = {\n");
     for (uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
         printf("    %s: %" PRIu64 "n,\n", info.name, info.feature);
-    printf("} as const;\n\n/** What a group with a feature must have, and what it must not have. */\n");
-    printf("export const featureRules: Record<keyof typeof Feature, { needs: bigint; excludes: bigint }> = {\n");
+    printf("} as const;\n\n/** A free limb with a feature has all that this needs, and nothing that it excludes. Bit ");
+    printf("k of kinds: groups of Kind k may have it. */\nexport const featureRules: ");
+    printf("Record<keyof typeof Feature, { needs: bigint; excludes: bigint; kinds: number }> = {\n");
     for (uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
-        printf("    %s: { needs: %" PRIu64 "n, excludes: %" PRIu64 "n },\n", info.name, info.needs, info.excludes);
+        printf("    %s: { needs: %" PRIu64 "n, excludes: %" PRIu64 "n, kinds: %" PRIu32 " },\n", info.name, info.needs,
+               info.excludes, info.kinds);
     printf("};\n");
 }
 
@@ -81,7 +92,9 @@ static void print_flags(void)
 
 static void print_enumerations(void)
 {
-    printf("\nexport const Order = {\n");
+    printf("\nexport const Kind = {\n");
+    GROUP_KIND(LIMB), GROUP_KIND(BODY_LIMB), GROUP_KIND(LOOK), GROUP_KIND(PROP), GROUP_KIND(SHIFT);
+    printf("} as const;\n\nexport const Order = {\n");
     NUMBER(XYZ), NUMBER(XZY), NUMBER(YZX), NUMBER(YXZ), NUMBER(ZXY), NUMBER(ZYX);
     printf("} as const;\n\nexport const OnBadInput = {\n");
     NUMBER(REST_POSE), NUMBER(KEEP_POSE);
@@ -139,7 +152,7 @@ static void print_structures(void)
 
 int main(void)
 {
-    printf("// SPDX-License-Identifier: MIT\n// Made by layout.c from swivel.h.\n\n");
+    printf("// SPDX-License-Identifier: MIT\n// Made by layout.c from the C headers.\n\n");
     print_features();
     print_fields();
     print_flags();

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * The promise: swivel.h is C11, and a C program can make crowds of limbs and of bodies from the defaults, and solve
- * them. */
+ * The promise: the public headers are C11, and a C program can make crowds of limbs and of bodies from the defaults,
+ * and solve them. */
 #include <math.h>
 #include <stdio.h>
 
 #include "swivel/lecture.h"
-#include "swivel/swivel.h"
+#include "swivel/swivel_bodies.h"
+#include "swivel/swivel_explain.h"
+#include "swivel/swivel_regions.h"
 
 static int failures = 0;
 
@@ -23,26 +25,6 @@ static void count_line(const swivel_check* line, void* user)
     ++*(int*)user;
 }
 
-/* As the head of swivel.h shows it; tests/test_docs.py compares them. Returns 0, or what puts() gives. */
-static int head_of_header(void)
-{
-    float targets[2][3] = {{0.3f, 0.1f, 0.3f}, {0.0f, 0.2f, 9.0f}};  // for the wrists; the second is out of reach
-    float pole[3] = {0, -1, 0}, lengths[2] = {0.30f, 0.26f};         // upper arm, forearm
-    float shoulder[2][4];                                            // x, y, z, w
-    swivel_group_def arms = swivel_default_group_def(2);             // group 0
-    swivel_crowd_def def = swivel_default_crowd_def();
-    swivel_crowd* crowd;
-    def.groups = &arms, def.group_count = 1;
-    if (swivel_crowd_create(&def, &crowd) != SWIVEL_OK) return puts(swivel_last_error());
-    swivel_write(crowd, SWIVEL_TARGET, 0, 0, 2, (swivel_in){targets, sizeof targets[0]});
-    swivel_write(crowd, SWIVEL_POLE, 0, 0, 2, (swivel_in){pole, 0});  // stride 0: one value for all
-    swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, 2, (swivel_in){lengths, 0});
-    swivel_solve(crowd, NULL);
-    swivel_read(crowd, SWIVEL_SHOULDER, 0, 0, 2, (swivel_out){shoulder, sizeof shoulder[0]});
-    swivel_crowd_destroy(crowd);
-    return !(shoulder[0][3] >= 0 && shoulder[1][0] < 0 && shoulder[0][0] != shoulder[1][0]);
-}
-
 /* A group of each kind that bodies have, from the defaults: an arm that holds a prop, a leg that stands, their shift,
  * and a head that looks. */
 enum { ARM, LEG, SHIFT, THING, HEAD, GROUP_COUNT };
@@ -54,7 +36,15 @@ static void bodies(void)
     static float rotations[3][8][4];
     const float grip[7] = {0, 0, 0.1f, 0, 0, 0, 1}, thing[3] = {0.3f, 1.4f, 0.3f}, ball[3] = {1, 1.5f, 2}, contact = 1,
                 time = 0.02f;
-    swivel_limb_joints arm = swivel_default_limb_joints(1, 2, 3), leg = swivel_default_limb_joints(4, 5, 6);
+    static const swivel_kind kinds[] = {SWIVEL_KIND_BODY_LIMB, SWIVEL_KIND_BODY_LIMB, SWIVEL_KIND_SHIFT,
+                                        SWIVEL_KIND_PROP, SWIVEL_KIND_LOOK};
+    swivel_limb_joints arm_joints = swivel_default_limb_joints(1, 2, 3),
+                       leg_joints = swivel_default_limb_joints(4, 5, 6);
+    swivel_body_limb_def arm = swivel_default_body_limb_def(&arm_joints),
+                         leg = swivel_default_body_limb_def(&leg_joints);
+    swivel_shift_def shift = swivel_default_shift_def();
+    swivel_prop_def prop = swivel_default_prop_def();
+    swivel_look_def look = swivel_default_look_def();
     swivel_group_def groups[GROUP_COUNT];
     swivel_skeleton skeleton = swivel_default_skeleton();
     swivel_crowd_def def = swivel_default_crowd_def();
@@ -63,16 +53,14 @@ static void bodies(void)
     swivel_crowd* crowd = NULL;
     uint32_t flags[3], solved = 0, n, joint, group;
 
-    arm.bend[2] = 1, leg.bend[2] = -1;
-    groups[ARM] = swivel_default_body_group_def(&arm);
-    groups[ARM].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK;
-    groups[ARM].link = THING;
-    groups[LEG] = swivel_default_body_group_def(&leg);
-    groups[LEG].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT;
-    groups[SHIFT] = swivel_default_fit_group_def();
-    groups[THING] = swivel_default_prop_group_def();
-    groups[HEAD] = swivel_default_look_group_def();
-    groups[HEAD].look.joint_count = 1, groups[HEAD].look.joints[0] = 7;
+    arm_joints.bend[2] = 1, leg_joints.bend[2] = -1;
+    arm.features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_LINK;
+    arm.link = THING;
+    leg.features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT;
+    look.joint_count = 1, look.joints[0] = 7;
+    for (group = 0; group < GROUP_COUNT; ++group) groups[group] = swivel_default_group_def();
+    groups[ARM].body_limb = &arm, groups[LEG].body_limb = &leg, groups[SHIFT].shift = &shift;
+    groups[THING].prop = &prop, groups[HEAD].look = &look;
     skeleton.parents.data = parents, skeleton.parents.stride = sizeof parents[0];
     skeleton.translations.data = places, skeleton.translations.stride = sizeof places[0];
     skeleton.joint_count = 8;
@@ -93,12 +81,13 @@ static void bodies(void)
     check(swivel_solve(crowd, &job) == SWIVEL_OK && solved == 3, "a frame of bodies");
     for (group = 0; group < GROUP_COUNT; ++group) {
         const swivel_out to = {flags, sizeof flags[0]};
+        check(swivel_group_kind(crowd, group) == kinds[group], "kinds in the order of the definitions");
         check(swivel_read(crowd, SWIVEL_FLAGS, group, 0, 3, to) == SWIVEL_OK, "flags of bodies");
         for (n = 0; n < 3; ++n) check(!(flags[n] & SWIVEL_BAD_INPUT), "no bad input");
     }
     check(rotations[2][1][3] != 1 && rotations[2][7][3] != 1, "arm and head are turned");
     swivel_crowd_destroy(crowd);
-    groups[ARM].link = UINT32_MAX;
+    arm.link = UINT32_MAX;
     check(swivel_crowd_create(&def, &crowd) == SWIVEL_INVALID_ARGUMENT, "a hand that holds nothing is refused");
 }
 
@@ -110,7 +99,8 @@ int main(void)
     swivel_streams frame = swivel_default_streams();
     swivel_job job = swivel_default_job();
     const swivel_blocks first_block = {0, 1};
-    swivel_group_def group = swivel_default_group_def(1);
+    const swivel_limb_def limb = swivel_default_limb_def(1);
+    swivel_group_def group = swivel_default_group_def();
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
     double wrist[3] = {0, 0, 0}, distance = 1;
@@ -119,9 +109,9 @@ int main(void)
     const swivel_out flags_out = {&flags, sizeof flags};
     int lines = 0, c;
 
-    check(head_of_header() == 0, "the head of swivel.h is a program");
     bodies();
 
+    group.limb = &limb;
     def.group_count = 1;
     def.groups = &group;
     check(def.size == sizeof def, "the default def knows its size");

@@ -3,7 +3,7 @@
 // made of counts in scenes.test.mjs, which has wrong ones of each.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Feature, Field, Order } from 'swivel-wasm';
+import { Feature, Field, Kind, Order } from 'swivel-wasm';
 import { limb, refuses, slanted, swivel } from './common.mjs';
 
 const features = Feature.WITH_SHOULDER_CONE | Feature.WITH_HUMERAL_TWIST | Feature.WITH_SHOULDER_BOX;
@@ -75,7 +75,7 @@ test('every argument of every call counts', () => {
   // Whose arguments are elsewhere: those that make things, solve(), and what bodies have.
   const methods = (of) => (of === Object.prototype ? [] : [...Object.getOwnPropertyNames(of).filter((name) => typeof Object.getOwnPropertyDescriptor(of, name).value === 'function'), ...methods(Object.getPrototypeOf(of))]);
   const inside = ['constructor', 'orDispose', 'own', 'group', 'place', 'settle', 'refresh', 'streamsOf', 'listOf', 'list', 'view', 'writeFrom', 'readTo', 'rowsOf', 'rows', 'name', 'lists', 'one', 'answer', 'forward'];
-  const known = [...inside, ...Object.keys(functions), ...Object.keys(answers), ...Object.keys(ofLimbs), 'hands', 'jointAngles', 'write', 'reset', 'bindJoints', 'crowd', 'bodies', 'region', 'solve', 'digest', 'dispose'];
+  const known = [...inside, ...Object.keys(functions), ...Object.keys(answers), ...Object.keys(ofLimbs), 'hands', 'jointAngles', 'write', 'reset', 'kind', 'bindJoints', 'crowd', 'bodies', 'region', 'solve', 'digest', 'dispose'];
   assert.deepEqual([crowd, swivel].flatMap(methods).filter((name) => !known.includes(name)), []);
   crowd.dispose();
 });
@@ -105,19 +105,19 @@ const foot = (ground) => [{ ...arm, features: hand | plants | Feature.WITH_EFFEC
 const plant = (given) => [{ ...arm, features: plants, plant: given }], prop = (given) => [holds, { prop: given }], looks = (given) => [{ look: given }];
 const wrong = [
   [plant(0.1), 'plant takes lockRadius, unlockRadius, stopTime, releaseTime, relockSpeed, anchorLead, resetTime, speed, height, not 0.1'],
-  [[fits, { fit: {}, joints: arm.joints }], 'a group of shifts takes fit, onBadInput, not joints'],
+  [[fits, { shift: {}, joints: arm.joints }], 'a group of shifts takes shift, not joints'],
   [foot(0.1), 'ground takes heel, toeClearance, heelClearance, cosMax, halfLife, not 0.1'],
   [prop({ wrist: 1 }), 'prop takes joint, maxMove, not wrist'],
   [[{ ...holds, link: -1 }, { prop: {} }], 'link is -1; give a whole number'],
-  [[{ prop: {}, link: 0 }], "a prop's group takes prop, onBadInput, not link"],
+  [[{ prop: {}, link: 0 }], "a prop's group takes prop, not link"],
   [looks(1), 'look takes joints, share, cosMax, eye, axis, cosFull, cosNone, fadeDistance, rate, not 1'],
   [looks({ joints: [-1] }), 'look.joints is -1; give a whole number'],
-  [[{ look, link: 0 }], 'a group that looks takes look, onBadInput, not link'],
+  [[{ look, link: 0 }], 'a group that looks takes look, not link'],
 ];
 
 test('what bodies cannot be made of is refused in one line', () => {
   for (const [groups, text] of wrong) refuses(() => make(groups), text);
-  const crowd = make([fits, { fit: {} }]), holding = make(prop({ joint: HEAD }));
+  const crowd = make([fits, { shift: {} }]), holding = make(prop({ joint: HEAD }));
   refuses(() => crowd.solve(), 'the pose has no time');
   refuses(() => crowd.changeSupport({}, { place: [0, 0, 0] }), 'now takes position, rotation, not place');
   refuses(() => crowd.changeSupport({ position: [1, 2] }, {}), '2 numbers for was.position of 1 bodies; give 3, or 3 for each body');
@@ -125,8 +125,10 @@ test('what bodies cannot be made of is refused in one line', () => {
   refuses(() => crowd.write(Field.SOLVED_GOAL, [0]), 'solved_goal');
   refuses(() => holding.solve({ groups: [0] }), 'name both');
   refuses(() => holding.solve({ sample: () => undefined }), 'not sample');
-  assert.deepEqual([holding.features(1) & Feature.PROP, holding.componentCount(Field.PROP_TRANSFORM, 1), holding.componentCount(Field.TARGET, 1)], [Feature.PROP, 7, 0]);
-  crowd.dispose(), holding.dispose();
+  assert.deepEqual([holding.kind(1), holding.features(1), holding.componentCount(Field.PROP_TRANSFORM, 1), holding.componentCount(Field.TARGET, 1)], [Kind.PROP, 0n, 7, 0]);
+  const watching = make([{ look }, arm]), free = swivel.crowd([1]);
+  assert.deepEqual([crowd.kind(), crowd.kind(1), watching.kind(0), watching.kind(1), free.kind()], [Kind.BODY_LIMB, Kind.SHIFT, Kind.LOOK, Kind.BODY_LIMB, Kind.LIMB]);
+  crowd.dispose(), holding.dispose(), watching.dispose(), free.dispose();
 });
 
 test('regions that cannot be are refused, and stay as they were', () => {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The promise: the package has every name of swivel.h, with its number, and loads from bytes, a response or an address. The README's programs and
+// The promise: the package has every name of the public headers, with its number, and loads from bytes, a response or an address. The README's programs and
 // the example page do what they say. Bits are in scenes.test.mjs.
-//   HEADER: swivel.h
+//   INCLUDE: the folder of the headers
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { dirname } from 'node:path';
+import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { defaultFit, defaultGround, defaultPlant, defaultProp, Feature, Field, Flag, LANES, load, MAX_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, SwivelError, VERSION } from 'swivel-wasm';
+import { defaultGround, defaultPlant, defaultProp, defaultShift, Feature, Field, Flag, Kind, LANES, load, MAX_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, SwivelError, VERSION } from 'swivel-wasm';
 import { close, wasm } from './common.mjs';
 
-test('every name of swivel.h, with its number', () => {
-  const header = readFileSync(process.env.HEADER, 'utf8').replace(/\/\/.*/g, '');
+test('every name of the public headers, with its number', () => {
+  const header = ['swivel.h', 'swivel_bodies.h'].map((name) => readFileSync(join(process.env.INCLUDE, name), 'utf8')).join('').replace(/\/\/.*/g, '');
   assert.deepEqual(Feature, Object.fromEntries([...header.matchAll(/#define SWIVEL_(\w+) \(UINT64_C\(1\) << (\d+)\)/g)].map(([, name, bit]) => [name, 1n << BigInt(bit)])));
   const numbersOf = (name) => {
     let next = 0;
@@ -21,15 +21,15 @@ test('every name of swivel.h, with its number', () => {
       const [key, given] = text.split('=').map((part) => part.trim());
       const value = given ? Number(new Function(`return ${given.replace(/u/g, '')}`)()) : next;
       next = value + 1;
-      return [key.replace('SWIVEL_', ''), value];
+      return [key.replace(/SWIVEL_(KIND_)?/, ''), value];
     }).filter(([key]) => !key.endsWith('_END')));
   };
-  for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [OnBadInput, 'on_bad_input'], [PoseForm, 'pose_form'], [PoseSpace, 'pose_space'], [Status, 'status']])
+  for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [OnBadInput, 'on_bad_input'], [PoseForm, 'pose_form'], [PoseSpace, 'pose_space'], [Status, 'status'], [Kind, 'kind']])
     assert.deepEqual({ ...names }, numbersOf(`swivel_${kind}`));
-  for (const [constants, name] of [[defaultPlant, 'plant'], [defaultFit, 'fit'], [defaultGround, 'ground'], [defaultProp, 'prop']]) {
-    const [, numbers] = header.match(new RegExp(`const swivel_${name} \\w+ = \\{(.*?)\\};`, 's'));
+  for (const [constants, name] of [[defaultPlant, 'plant'], [defaultShift, 'shift_def'], [defaultGround, 'ground'], [defaultProp, 'prop_def']]) {
+    const [, numbers] = header.match(new RegExp(`const swivel_${name} \\w+ = \\{(?:sizeof\\(\\w+\\), )?(.*?)\\};`, 's'));
     assert.deepEqual(Object.values(constants).flat(), numbers.replace(/[{}f]/g, '').split(',').map(Number));
-    const [, members] = header.match(new RegExp(`typedef struct swivel_${name} \\{(.*?)\\} swivel_${name};`, 's'));
+    const [, members] = header.match(new RegExp(`typedef struct swivel_${name} \\{(?:\\s*size_t size;)?(.*?)\\} swivel_${name};`, 's'));
     assert.deepEqual(Object.keys(constants), members.match(/\w+(?=[,;[])/g).map((member) => member.replace(/_(.)/g, (_, letter) => letter.toUpperCase())));
   }
   assert.equal(LANES, 16);

@@ -2,7 +2,7 @@
 // The promise: what is wrong is refused in one line, and changes nothing.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Field } from 'swivel-wasm';
+import { Feature, Field } from 'swivel-wasm';
 import { limb, refuses, slanted, swivel } from './common.mjs';
 
 test('what is wrong is refused in one line, and changes nothing', async () => {
@@ -32,7 +32,7 @@ test('what is wrong is refused in one line, and changes nothing', async () => {
   refuses(() => crowd.mirror(Field.ANGLE, [1, 0]), 'this crowd has no ANGLE');
   refuses(() => swivel.crowd([0]), 'limb');
   refuses(() => swivel.crowd(5), 'groups is 5');
-  refuses(() => swivel.crowd([{ limbs: 5 }]), 'a group takes limbCount, features, binding, shoulderOrder, wristOrder, onBadInput, region, not limbs');
+  refuses(() => swivel.crowd([{ limbs: 5 }]), 'a group takes limbCount, features, binding, shoulderOrder, wristOrder, onBadInput, region, twistBoneCount, not limbs');
   refuses(() => swivel.crowd([1], 3), 'features is 3; give a BigInt');
   refuses(() => swivel.crowd([1], 1n << 64n), 'features is');
   refuses(() => swivel.crowd([1, { limbCount: 1, features: 3 }]), 'features is 3; give a BigInt');
@@ -40,8 +40,12 @@ test('what is wrong is refused in one line, and changes nothing', async () => {
   refuses(() => swivel.crowd([{ limbCount: 1, wristOrder: 6 }]), 'order');
   refuses(() => swivel.crowd([{ limbCount: 1, onBadInput: 2 }]), 'bad');
   refuses(() => swivel.crowd([{ limbCount: 1, onBadInput: 'KEEP_POSE' }]), 'onBadInput is "KEEP_POSE"');
+  refuses(() => swivel.crowd([{ limbCount: 1, twistBoneCount: -1 }]), 'twistBoneCount is -1');
+  refuses(() => swivel.crowd([{ limbCount: 1, features: Feature.WITH_HAND, twistBoneCount: 8 }]), 'twist_bone_count is 8; it is 0 to 7');
+  refuses(() => swivel.crowd([{ limbCount: 1, twistBoneCount: 1 }]), 'twist bones need SWIVEL_WITH_HAND');
+  refuses(() => swivel.crowd([1], Feature.WITH_RECORD), 'SWIVEL_WITH_RECORD is not for a free limb');
   refuses(() => crowd.componentCount(Field.TARGET, 2), 'group 2 does not exist; the crowd has 2');
-  for (const call of ['inputRows', 'resultRows', 'pack', 'features']) refuses(() => crowd[call](2), 'group 2 does not exist; the crowd has 2');
+  for (const call of ['inputRows', 'resultRows', 'pack', 'features', 'kind']) refuses(() => crowd[call](2), 'group 2 does not exist; the crowd has 2');
   for (const call of ['fieldFirstRow', 'packedRow']) refuses(() => crowd[call](Field.TARGET, 2), 'group 2 does not exist; the crowd has 2');
   refuses(() => crowd.solve({ groups: [0, 2] }), 'group 2 does not exist; the crowd has 2');
   refuses(() => crowd.solve({ groups: 1 }), 'groups is 1; give an array of numbers');

@@ -18,9 +18,9 @@ function regionOf({ axes, angles, corners, directions, margin, max_cones, forbid
   const cones = axes.map((axis, n) => ({ axis, angle: angles[n] }));
   return swivel.region().addCones(cones, true).addPolygon(corners).addDirections(directions, margin, max_cones).forbid(forbidden).mirrored();
 }
-function groupOf({ features, region, twist_bones, ...given }) {
+function groupOf({ features, region, ...given }) {
   const options = named(given);
-  if (features) options.features = features.reduce((all, name) => all | Feature[name], BigInt(twist_bones ?? 0) * Feature.WITH_TWIST_BONES);
+  if (features) options.features = features.reduce((all, name) => all | Feature[name], 0n);
   return region ? { ...options, region: regionOf(region) } : options;
 }
 function crowdOf({ groups, skeleton, body_count, up, form, space, root_is_double }) {
@@ -172,7 +172,7 @@ test('every argument counts: whatever is left out, some scene goes another way, 
 });
 
 test('every member of what bodies are made of refuses what it is not, in one line that names it', () => {
-  const of = scenesByMember(), members = [...of.keys()].filter((path) => /^(groups\.((plant|ground|fit|prop|look|joints)\.\w+|link)|up|frames\.carried\.(was|now)\.\w+)$/.test(path));
+  const of = scenesByMember(), members = [...of.keys()].filter((path) => /^(groups\.((plant|ground|shift|prop|look|joints)\.\w+|link)|up|frames\.carried\.(was|now)\.\w+)$/.test(path));
   assert.ok(members.length >= 40, `${members}`);
   for (const path of members) {
     const names = path.split('.'), name = (names.length < 3 || names[1] === 'joints' ? names.slice(-1) : names.slice(-2)).map(camel).join('.');

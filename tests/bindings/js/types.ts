@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The promise: the types of the package for the web allow what works, and refuse what does not. tsc reads this, nothing runs it.
-import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultGround, defaultPlant, Feature, Field, type Fit, type FitGroup, Flag, type Ground, type Group, load, type Look, type LookGroup, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Prop, type PropGroup, type Support, type Swivel, SwivelError } from 'swivel-wasm';
+import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultGround, defaultPlant, Feature, Field, Flag, type Ground, type Group, Kind, load, type Look, type LookGroup, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Prop, type PropGroup, type Shift, type ShiftGroup, type Support, type Swivel, SwivelError } from 'swivel-wasm';
 
 const swivel: Swivel = await load({ megabytes: 4 });
 const binding: Binding = swivel.bindJoints({ parents: [-1, 0, 1], translations: new Float32Array(9), rotations: [0, 0, 0, 1] }, { shoulder: 0, elbow: 1, wrist: 2, bend: [0, 1, 0] });
 const legs: Group = { limbCount: 3, features: Feature.WITH_SHOULDER_BOX, shoulderOrder: Order.ZXY, onBadInput: OnBadInput.KEEP_POSE };
-const crowd: Crowd = swivel.crowd([{ limbCount: 3, binding }, 5, legs], Feature.WORLD | 2n * Feature.WITH_TWIST_BONES);
+const crowd: Crowd = swivel.crowd([{ limbCount: 3, binding, twistBoneCount: 2 }, 5, legs], Feature.WORLD);
 const flags: Uint32Array = crowd.values(Field.FLAGS);
 const shoulders: Float32Array = crowd.read(Field.SHOULDER, { group: 1 });
 const mask: Uint32Array = crowd.choose([[1], new Float32Array(5), [3]], 1, new Float32Array(crowd.blockCount));
@@ -16,16 +16,17 @@ const isBad: boolean = (flags[0] & (Flag.BAD_INPUT | Flag.INFEASIBLE)) !== 0;
 const arm: BodyGroup = { joints: { shoulder: 1, elbow: 2, wrist: 3 }, features: Feature.WITH_HAND, onBadInput: OnBadInput.REST_POSE };
 const skeleton = { parents: [-1, 0, 1, 2], translations: new Float32Array(12) };
 const bodies: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], form: PoseForm.MATRIX_ROWS, space: PoseSpace.IN_BODY });
-const plant: Plant = { ...defaultPlant, lockRadius: 0.1, speed: [0.5, 0.7] }, fit: Fit = { drop: 0.2 }, shift: FitGroup = { fit, onBadInput: OnBadInput.KEEP_POSE };
+const plant: Plant = { ...defaultPlant, lockRadius: 0.1, speed: [0.5, 0.7] }, down: Shift = { drop: 0.2 }, shift: ShiftGroup = { shift: down };
 const standing: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, plant }, shift], up: [0, 0, 1] });
 const ground: Ground = { ...defaultGround, heel: [0, -0.06, -0.06] }, prop: Prop = { joint: 0, maxMove: 0.1 }, rifle: PropGroup = { prop };
 const look: Look = { joints: [0, 1], share: [1, 2], cosMax: 0.5 }, watch: LookGroup = { look };
 const holding: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, features: Feature.WITH_HAND | Feature.WITH_LINK, ground, link: 1 }, rifle] });
+const holds: boolean = holding.kind(1) === Kind.PROP;
 const support: Support = { position: new Float64Array(3), rotation: [0, 0, 0, 1] };
 standing.changeSupport(support, {}, { first: 1 });
 const near: Float32Array[] = [bodies.pose('rotations'), bodies.pose('rootPosition'), bodies.pose('supportPosition'), bodies.pose('time'), bodies.positions(Field.TARGET)];
 const far: Float64Array[] = [swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], rootIsDouble: true }).pose('supportPosition')];
-export { closing, far, near, digest, flags, isBad, shoulders, solved, SwivelError };
+export { closing, far, near, digest, flags, holds, isBad, shoulders, solved, SwivelError };
 
 // @ts-expect-error: features are BigInts
 swivel.crowd([3], 1);

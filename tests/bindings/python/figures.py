@@ -55,7 +55,7 @@ def flags_of(crowd):
 def crowd_of(n, features=0):
     """An arm and a leg of n bodies, and their shift if they fit."""
     groups = [swivel.BodyGroup(*limb, bend=(0, 0, side)) for limb, side in zip(LIMBS, (1, -1))]
-    shifts = [swivel.FitGroup()] * bool(features & Feature.WITH_PELVIS_FIT)
+    shifts = [swivel.ShiftGroup()] * bool(features & Feature.WITH_PELVIS_FIT)
     return swivel.Crowd([*groups, *shifts], features, skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=n)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 import swivel
 from figures import Refusals, Sample, limb_of, quaternions
-from swivel import (BodyGroup, EulerOrder, Feature, Field, FitGroup, Group, LookGroup, Pose, PropGroup, Region, Skeleton, Support)
+from swivel import (BodyGroup, EulerOrder, Feature, Field, Group, Kind, LookGroup, Pose, PropGroup, Region, ShiftGroup, Skeleton, Support)
 
 STUB = ast.parse((Path(swivel.__file__).parent / "_core.pyi").read_text(encoding="utf-8"))
 CONE = [(0, 0, 1), (1, 0, 0.5)]
@@ -64,6 +64,7 @@ FUNCTIONS = {
     "arm_axis": ({"binding": limb_of((0.3, 0, 0), (0.25, 0, 0)), "parent_rotation": (0, 0, 0, 1), "direction": (0, 1, 0)},
                  {"binding": limb_of((0, 0.3, 0), (0, 0.2, 0)), "parent_rotation": (0.5, 0, 0, 1), "direction": (0, 0, 1)}),
     "needed_features": ({"field": Field.HAND}, {"field": Field.AIM}),
+    "field_kinds": ({"field": Field.HAND}, {"field": Field.LOOK_TARGET}),
     "bind_joints": (TREE, {"parents": [-1, 0, 1, 2, 2, 2], "translations": [*TREE["translations"][:4], (0.2, 0.1, 0), (0.1, 0, 0)], "shoulder": 0, "elbow": 3, "wrist": 3,
                            "rotations": TURNS, "twist_bones": [5], "bend": (0, 1, 1)}),
     "steps": ({"target": (1, 1, 1), "pole": (1, 1, 0), "upper": 1.4, "fore": 1.3}, {"target": (1, 1, 0.5), "pole": (0, 1, 0), "upper": 1.5, "fore": 1.2}),
@@ -86,8 +87,8 @@ METHODS = {
                       {"field": Field.POLE, "values": (1e9, 2, 4), "origins": (1e9, 1, 0), **OTHERS}),
     "reset": (SOME, OTHERS),
 }
-# These are in test_numbers and test_scenes, test_bodies, test_numbers again, and, what comes out, in test_arrays.
-ELSEWHERE = {"solve", "change_support", "compare", "choose", "digest", "version", "isa_name", "isas", "use_isa", "fill_cache"}
+# These are in test_numbers and test_scenes, below, test_bodies, test_numbers again, and, what comes out, in test_arrays.
+ELSEWHERE = {"solve", "change_support", "kind", "compare", "choose", "digest", "version", "isa_name", "isas", "use_isa", "fill_cache"}
 
 
 def same_of(answer):
@@ -157,14 +158,22 @@ def make(*groups, **options):
 
 
 REFUSED = [
-    *((TypeError, f"expected a member of OnBadInput in a {type(group).__name__}, got", lambda group=group: make(HOLDS, group._replace(on_bad_input="x")))
-      for group in (FitGroup(), PropGroup(), LOOK)),
+    (TypeError, "expected whole numbers in a BodyGroup, got", lambda: make(ARM._replace(on_bad_input="x"))),
+    (TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got", lambda: swivel.Crowd(Group(1, twist_bone_count="x"))),
+    (ValueError, "twist_bone_count is 8; it is 0 to 7", lambda: swivel.Crowd(Group(1, features=Feature.WITH_HAND, twist_bone_count=8))),
+    (ValueError, "twist bones need Feature.WITH_HAND", lambda: swivel.Crowd(Group(1, twist_bone_count=1))),
+    (ValueError, "twist bones need Feature.WITH_HAND", lambda: swivel.solve((0, 0, 1), None, (1, 1), twist_bone_count=1)),
+    (ValueError, "Feature.WORLD is not for a body's limb", lambda: make(ARM._replace(features=Feature.WORLD))),
+    (ValueError, "Feature.WITH_RECORD is not for a free limb", lambda: swivel.Crowd(1, Feature.WITH_RECORD)),
     (TypeError, "plant: expected a Plant, got 0.1", lambda: make(ARM._replace(plant=0.1))),
     (TypeError, "ground: expected a Ground, got 0.1", lambda: make(FOOT._replace(ground=0.1))),
     (ValueError, "link is -1", lambda: make(HOLDS._replace(link=-1), PropGroup())),
     (ValueError, "look.joints is -1", lambda: make(LookGroup([-1]))),
     (ValueError, "there are 8 twist bones", lambda: make(HAND._replace(twist_bones=[WRIST] * 8))),
-    *((ValueError, "the crowd def has no skeleton", lambda group=group: swivel.Crowd(group)) for group in (ARM, FitGroup(), PropGroup(), LOOK)),
+    *((ValueError, "the crowd def has no skeleton", lambda group=group: swivel.Crowd(group)) for group in (ARM, ShiftGroup(), PropGroup(), LOOK)),
+    (ValueError, "group 0 is of free limbs, but the crowd def has a skeleton", lambda: make(Group(1))),
+    (ValueError, "body_count is 3, but there is no skeleton; give it", lambda: swivel.Crowd(1, body_count=3)),
+    (ValueError, "a skeleton, but no bodies; give at least one", lambda: make(ARM, body_count=0)),
     (TypeError, "skeleton: expected a Skeleton, got [", lambda: make(ARM, skeleton=PARENTS)),
     (ValueError, "elbow is -1", lambda: make(ARM._replace(elbow=-1))),
     (ValueError, "translations: expected shape (9, 3)", lambda: make(ARM, skeleton=Skeleton(PARENTS, PLACES[1:]))),
@@ -177,6 +186,25 @@ REFUSED = [
 ]
 
 
+class Kinds(unittest.TestCase):
+    def test_every_group_is_of_its_kind(self):
+        two_arms = Skeleton([*PARENTS, 1, 9, 10], [*PLACES, (-0.2, 0, 0), (-0.3, 0, 0), (-0.25, 0, 0)])
+        other = HOLDS._replace(shoulder=9, elbow=10, wrist=11, link=3)
+        crowd = make(LOOK, FITS, ShiftGroup(), PropGroup(), other, skeleton=two_arms)
+        self.assertEqual([crowd.kind(group) for group in range(5)], [Kind.LOOK, Kind.BODY_LIMB, Kind.SHIFT, Kind.PROP, Kind.BODY_LIMB])
+        self.assertEqual([crowd.features(group) for group in (0, 1, 4)], [Feature(0), FITS.features, other.features])
+        self.assertEqual(swivel.Crowd([1, 2]).kind(1), Kind.LIMB)
+        self.assertEqual(swivel.field_kinds(Field.FLAGS), tuple(Kind))
+        self.assertEqual(swivel.field_kinds(Field.LIFT), (Kind.BODY_LIMB,))
+
+    def test_twist_bones_are_counted(self):
+        crowd = swivel.Crowd([Group(2, features=Feature.WITH_HAND, twist_bone_count=3), Group(2, features=Feature.WITH_HAND)])
+        self.assertEqual([crowd.component_count(Field.TWIST_BONES, group) for group in (0, 1)], [12, 0])
+        arms = swivel.solve((0, 0, 1), None, (1, 1), hand=(0, 0, 0, 1), twist_bone_count=2)
+        self.assertEqual(arms.twist_bones.shape, (1, 8))
+        self.assertIsNone(swivel.solve((0, 0, 1), None, (1, 1), hand=(0, 0, 0, 1)).twist_bones)
+
+
 class Refused(Refusals):
     def test_what_cannot_be_made(self):
         for error, text, call in REFUSED:
@@ -184,7 +212,7 @@ class Refused(Refusals):
 
     def test_what_cannot_be_solved(self):
         rotations = np.tile(np.float32((0, 0, 0, 1)), (1, 9, 1))
-        crowd, pose, holding = make(FITS, FitGroup()), Pose(rotations), make(HOLDS, PropGroup(joint=HEAD))
+        crowd, pose, holding = make(FITS, ShiftGroup()), Pose(rotations), make(HOLDS, PropGroup(joint=HEAD))
         self.refuses(ValueError, "the pose has no time", crowd.solve, pose=pose)
         self.refuses(ValueError, "time: expected shape (1,)", crowd.solve, pose=pose._replace(time=(1, 2)))
         self.refuses(ValueError, "support_rotation: expected shape (1, 4)", crowd.solve, pose=pose._replace(time=0, support_rotation=np.eye(3)))

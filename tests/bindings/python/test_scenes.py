@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 
 import swivel
-from swivel import (BodyGroup, EulerOrder, Feature, Field, FitGroup, Ground, Group, LookGroup, OnBadInput, Plant, Pose, PoseSpace, PropGroup, Region,
+from swivel import (BodyGroup, EulerOrder, Feature, Field, Ground, Group, LookGroup, OnBadInput, Plant, Pose, PoseSpace, PropGroup, Region, ShiftGroup,
                     Support)
 
 COMPONENTS = {"rotations": 4, "translations": 3, "scales": 3, "results": 4, "translation_results": 3, "joint_rotations": 4, "joint_positions": 3}
 OUTPUTS = {"results": "out", "translation_results": "out_translations"}  # as a Pose names them
 SHAPES = [(4,), (3, 4), (4, 4), (4, 3)]  # of a joint by the pose's form; columns are turned below
 CARRIED = [Field.NORMAL, Field.PLANT, Field.PLANT_ROTATION, Field.CONTACT_STATE, Field.SHIFT, Field.LIFT, Field.LOOK_TURNS]
-STRUCTURES = ("plant", "ground", "fit", "prop", "look", "joints")  # of a group
-KINDS = {"on_bad_input": OnBadInput, "shoulder_order": EulerOrder, "wrist_order": EulerOrder}
+STRUCTURES = ("plant", "ground", "shift", "prop", "look", "joints")  # of a group
+ENUMS = {"on_bad_input": OnBadInput, "shoulder_order": EulerOrder, "wrist_order": EulerOrder}
 
 
 @functools.lru_cache(maxsize=None)
@@ -42,10 +42,10 @@ def region_of(given):
 
 
 def group_of(given):
-    options = dict(given, **{name: kind(given[name]) for name, kind in KINDS.items() if name in given})
-    for kind, name in ((FitGroup, "fit"), (PropGroup, "prop"), (LookGroup, "look")):
-        if name in options:
-            return kind(**options.pop(name), **options)
+    for kind, name in ((ShiftGroup, "shift"), (PropGroup, "prop"), (LookGroup, "look")):
+        if name in given:
+            return kind(**given[name])
+    options = dict(given, **{name: enum(given[name]) for name, enum in ENUMS.items() if name in given})
     options["features"] = functools.reduce(lambda all, name: all | Feature[name], given["features"], Feature(0))
     for name, kind in (("plant", Plant), ("ground", Ground)):
         if name in options:
@@ -54,7 +54,6 @@ def group_of(given):
         options["region"] = region_of(given["region"])
     if "joints" in options:
         return BodyGroup(**options.pop("joints"), **options)
-    options["features"] |= options.pop("twist_bones") * Feature.WITH_TWIST_BONES
     return Group(**options)
 
 

@@ -13,13 +13,13 @@ At rest an arm lies along +z of its frame and bends towards +y, its hinge is +x,
 are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results with a Flag.
 """
 from ._arms import solve
-from ._bodies import BodyGroup, FitGroup, Ground, LookGroup, Plant, Pose, PropGroup, Skeleton, Support
-from ._core import (LANES, Arms, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, OnBadInput, PoseSpace, Region, aim, arm_axis, bind_joints,
-                    blade_name, cone, cos_sin, fill_cache, flexion, isa_name, isas, mirror, needed_features, range, steps, unpack_rotations, use_isa, verify,
-                    version)
+from ._bodies import BodyGroup, Ground, LookGroup, Plant, Pose, PropGroup, ShiftGroup, Skeleton, Support
+from ._core import (LANES, Arms, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, Kind, OnBadInput, PoseSpace, Region, aim, arm_axis, bind_joints,
+                    blade_name, cone, cos_sin, field_kinds, fill_cache, flexion, isa_name, isas, mirror, needed_features, range, steps, unpack_rotations, use_isa,
+                    verify, version)
 from ._groups import Group
 
 __version__ = ".".join(map(str, version()))
-__all__ = ["LANES", "Arms", "Binding", "BodyGroup", "Check", "Crowd", "Entity", "EulerOrder", "Feature", "Field", "FitGroup", "Flag", "Ground", "Group", "LookGroup",
-           "OnBadInput", "Plant", "Pose", "PoseSpace", "PropGroup", "Region", "Skeleton", "Support", "aim", "arm_axis", "bind_joints", "blade_name", "cone", "cos_sin", "fill_cache", "flexion", "isa_name",
+__all__ = ["LANES", "Arms", "Binding", "BodyGroup", "Check", "Crowd", "Entity", "EulerOrder", "Feature", "Field", "Flag", "Ground", "Group", "Kind", "LookGroup",
+           "OnBadInput", "Plant", "Pose", "PoseSpace", "PropGroup", "Region", "ShiftGroup", "Skeleton", "Support", "aim", "arm_axis", "bind_joints", "blade_name", "cone", "cos_sin", "field_kinds", "fill_cache", "flexion", "isa_name",
            "isas", "mirror", "needed_features", "range", "solve", "steps", "unpack_rotations", "use_isa", "verify", "version"]

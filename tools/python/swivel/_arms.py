@@ -5,13 +5,13 @@ from typing import Optional
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Arms, Binding, Crowd, EulerOrder, Feature, Field, needed_features
+from ._core import Arms, Binding, Crowd, EulerOrder, Feature, Field, Kind, field_kinds, needed_features
 from ._groups import Group
 
 
 def _is_input(field: Field) -> bool:
-    """Whether arms, which are no bodies, have the input."""
-    return field < Field.SHOULDER and Feature.BODY not in needed_features(field)
+    """Whether free limbs have the input."""
+    return field < Field.SHOULDER and Kind.LIMB in field_kinds(field)
 
 
 def _field(name: str) -> Field:
@@ -33,7 +33,7 @@ def _limb_count(group: Group, values: dict[Field, npt.NDArray[np.generic]]) -> i
 
 def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optional[npt.ArrayLike] = None, *, features: int = 0,
           binding: Optional[Binding] = None, origin: Optional[npt.ArrayLike] = None,
-          shoulder_order: EulerOrder = EulerOrder.XYZ, wrist_order: EulerOrder = EulerOrder.XYZ,
+          shoulder_order: EulerOrder = EulerOrder.XYZ, wrist_order: EulerOrder = EulerOrder.XYZ, twist_bone_count: int = 0,
           **fields: npt.ArrayLike) -> Arms:
     """Solves n arms, each on its own, and gives their rotations, flags and positions by name.
 
@@ -44,7 +44,7 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     Further keywords are the input fields' lower-case names, and bring the features they need: hand=, parent_rotation=, reach=,
     shoulder_cone=, ...; docs/python.md lists them with their shapes. features adds those without a field, such as
     Feature.POLE_DIRECTION. binding, from bind_joints(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): all
-    positions are taken from there in double precision.
+    positions are taken from there in double precision. twist_bone_count, with hand=, is how many bones share the hand's twist.
 
     No arms, arrays of length 0, give none. ValueError for shapes that do not go together, for lengths that nobody gave and for a
     world without shoulder_position=, TypeError for a keyword that is no input field.
@@ -59,7 +59,7 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
         wanted |= needed_features(field)
     if Feature.WORLD in wanted and Field.SHOULDER_POSITION not in values:
         raise ValueError("solve() needs to know where the shoulders are in the world; give shoulder_position=")
-    one = Group(1, binding, wanted, shoulder_order=shoulder_order, wrist_order=wrist_order)
+    one = Group(1, binding, wanted, shoulder_order=shoulder_order, wrist_order=wrist_order, twist_bone_count=twist_bone_count)
     n = _limb_count(one, values)
     crowd = Crowd(one._replace(limb_count=max(n, 1)))  # a group has limbs; of no arms, the one's results are left out
     streams: dict[str, npt.ArrayLike] = {field.name.lower(): array for field, array in values.items()}

@@ -70,12 +70,14 @@ class Ground(NamedTuple):
 class BodyGroup(NamedTuple):
     """A limb of each body, for a Crowd with a skeleton. Features, on_bad_input and orders: None is as the crowd says for all groups.
 
+    It is in the world and has an incoming pose, so it takes no Feature.WORLD and Feature.WITH_INCOMING, nor Feature.JOINTS.
+
     shoulder        joint of the skeleton; the elbow is below it, the wrist below the elbow
     elbow           joints in between keep their own rotations
     wrist           turned with Feature.WITH_HAND alone
     bend            (3,) where flexion carries the forearm, in the shoulder joint's frame; zeros: as the rest pose is bent
     twist_bones     joints below the elbow that share the hand's twist, from elbow to wrist; they need Feature.WITH_HAND
-    features        members of Feature, combined with |; the crowd adds those of bodies, and of these twist bones
+    features        members of Feature, combined with |
     on_bad_input    what a limb with bad input gets
     shoulder_order  of Field.SHOULDER_BOX
     wrist_order     of Field.WRIST_BOX
@@ -96,49 +98,45 @@ class BodyGroup(NamedTuple):
     wrist_order: Optional[EulerOrder] = None
     plant: Plant = Plant()
     ground: Ground = Ground()
-    link: int = 0
+    link: Optional[int] = None
     region: Optional[Region] = None
 
 
-class FitGroup(NamedTuple):
+class ShiftGroup(NamedTuple):
     """The shift of each body along the crowd's `up`, so that its limbs with Feature.WITH_PELVIS_FIT reach. One of a Crowd's groups.
 
-    It names no joints, and its one feature is Feature.FIT. Field.SHIFT[0] is by how much the root, or the pelvis, moves.
+    It has no features and names no joints. Field.SHIFT[0] is by how much the root, or the pelvis, moves.
 
-    drop          the most down, in lengths of the first limb with Feature.WITH_PELVIS_FIT (see Plant)
-    rise          the most up
-    half_life     seconds in which about half of a distance is made up
-    lookahead     seconds from when on Field.NEXT_TARGET counts; at 0 seconds it counts whole
-    on_bad_input  what a body with bad input gets; None: as the crowd says
+    drop       the most down, in lengths of the first limb with Feature.WITH_PELVIS_FIT (see Plant)
+    rise       the most up
+    half_life  seconds in which about half of a distance is made up
+    lookahead  seconds from when on Field.NEXT_TARGET counts; at 0 seconds it counts whole
     """
 
     drop: float = 0.1
     rise: float = 0.05
     half_life: float = 0.1
     lookahead: float = 0.3
-    on_bad_input: Optional[OnBadInput] = None
 
 
 class PropGroup(NamedTuple):
     """A thing that one hand or two of each body hold, such as a rifle or a ladder: BodyGroups with Feature.WITH_LINK. One of a Crowd's groups.
 
-    It names no limb, and its one feature is Feature.PROP. Field.PROP_POSITION and Field.PROP_ROTATION say where it is, or else its joint, or else the
+    It is no limb and has no features. Field.PROP_POSITION and Field.PROP_ROTATION say where it is, or else its joint, or else the
     hands of the incoming pose. It moves as little as it must so that all hands reach. Field.PROP_TRANSFORM is where it then is.
 
-    joint         of the skeleton, which no limb turns; -1: none
-    max_move      the most that it moves, in lengths of the first limb that is linked to it; 0: it stays, as a ladder does
-    on_bad_input  what a body with bad input gets; None: as the crowd says
+    joint     of the skeleton, which no limb turns; -1: none
+    max_move  the most that it moves, in lengths of the first limb that is linked to it; 0: it stays, as a ladder does
     """
 
     joint: int = -1
     max_move: float = 1
-    on_bad_input: Optional[OnBadInput] = None
 
 
 class LookGroup(NamedTuple):
     """A chain of joints of each body that looks: a line of sight in the last joint meets Field.LOOK_TARGET. One of a Crowd's groups.
 
-    It is no limb, and its one feature is Feature.LOOK. It comes after the shift and before all props and limbs, so limbs may hang below it. An
+    It is no limb and has no features. It comes after the shift and before all props and limbs, so limbs may hang below it. An
     eye is a LookGroup of one joint, after that of the head. Field.SIGHT is where the line then is: its start and its direction.
 
     joints        1 to 8 of the skeleton, each below the one before, such as spine, neck and head
@@ -150,7 +148,6 @@ class LookGroup(NamedTuple):
     cos_none      to this one, at which the pose stays
     fade_distance it also fades nearer than this, in the last joint's unit
     rate          radians a second that the line turns at most; 0: it is not eased, and the pose needs no time
-    on_bad_input  what a body with bad input gets; None: as the crowd says
     """
 
     joints: Sequence[int]
@@ -162,7 +159,6 @@ class LookGroup(NamedTuple):
     cos_none: float = -0.9
     fade_distance: float = 0.05
     rate: float = 6
-    on_bad_input: Optional[OnBadInput] = None
 
 
 class Support(NamedTuple):

@@ -53,7 +53,7 @@ export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
         return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { ground: { ...ground, halfLife: GROUND_HALF }, plant: { anchorLead: PLANT_RUN } }) };
     });
     if (look) groups.push({ look });
-    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_PELVIS_FIT)) groups.push({ fit: {} });
+    if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_PELVIS_FIT)) groups.push({ shift: {} });
     const crowd = swivel.bodies({ skeleton, bodyCount, groups });
     try {
         limbs.forEach((limb) => writeFields(crowd, limb));

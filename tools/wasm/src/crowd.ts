@@ -4,7 +4,7 @@ import { carried, EXPLANATION_BYTES } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
-export type { BodiesGroup, BodyGroup, Fit, FitGroup, Ground, Group, GroupOptions, Look, LookGroup, Plant, Prop, PropGroup } from "./groups.js";
+export type { BodiesGroup, BodyGroup, Ground, Group, GroupOptions, Look, LookGroup, Plant, Prop, PropGroup, Shift, ShiftGroup } from "./groups.js";
 export type { Limbs } from "./rows.js";
 
 /** What a solve does, as swivel_job. Left out: every limb. In a crowd of bodies blocks and masks count bodies. */

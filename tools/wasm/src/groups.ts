@@ -3,8 +3,8 @@
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
 import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, layout, MAX_LOOK_JOINTS, MAX_TWIST_BONES, OnBadInput } from "./layout.js";
-import { Memory, Structure } from "./memory.js";
+import { defaultGround, defaultLook, defaultPlant, defaultProp, defaultShift, Feature, Kind, layout, MAX_LOOK_JOINTS, OnBadInput, Order } from "./layout.js";
+import { Borrowed, Memory, Structure } from "./memory.js";
 import { Region } from "./region.js";
 
 /** What groups of free limbs and of bodies have. */
@@ -17,13 +17,15 @@ interface LimbOptions {
     /** Where the upper arms may point. It brings Feature.WITH_REGION. */
     region?: Region;
 }
-/** Limbs that share features and a binding, as swivel_group_def. */
+/** Free limbs that share features and a binding, as swivel_limb_def. */
 export interface GroupOptions extends LimbOptions {
     limbCount: number;
     /** With Feature.JOINTS. */
     binding?: Binding;
     /** What a limb with bad input gets, from OnBadInput. Left out: its rest pose. */
     onBadInput?: number;
+    /** Bones that share the hand's twist, 0 to 7: more than 0 with Feature.WITH_HAND. Left out: 0. */
+    twistBoneCount?: number;
 }
 /** A number alone: that many limbs. */
 export type Group = number | GroupOptions;
@@ -51,8 +53,8 @@ export interface Plant {
     /** The same of the height over the root, along `up`. */
     height?: Numbers;
 }
-/** How bodies are shifted along `up`, as swivel_fit. What is left out is as defaultFit has it. */
-export interface Fit {
+/** How bodies are shifted along `up`, as swivel_shift_def. What is left out is as defaultShift has it. */
+export interface Shift {
     /** The most down and up, in lengths of the first limb with Feature.WITH_PELVIS_FIT: see Plant. */
     drop?: number;
     rise?: number;
@@ -76,14 +78,14 @@ export interface Ground {
     /** Seconds in which about half of a lift is made up. */
     halfLife?: number;
 }
-/** How a thing lies that hands hold, as swivel_prop. What is left out is as defaultProp has it. */
+/** How a thing lies that hands hold, as swivel_prop_def. What is left out is as defaultProp has it. */
 export interface Prop {
     /** Of the skeleton, which no limb turns. -1: none. */
     joint?: number;
     /** The most that it moves, in lengths of the first limb that is linked to it. 0: it stays, as a ladder does. */
     maxMove?: number;
 }
-/** How a chain of joints looks, as swivel_look. What is left out is as defaultLook has it. */
+/** How a chain of joints looks, as swivel_look_def. What is left out is as defaultLook has it. */
 export interface Look {
     /** 1 to 8 of the skeleton, each below the one before, such as spine, neck and head. */
     joints: readonly number[];
@@ -102,9 +104,11 @@ export interface Look {
     /** Radians a second that the line turns at most. 0: it is not eased. */
     rate?: number;
 }
-/** The limb of each body that has these joints. */
+/**
+ * The limb of each body that has these joints, as swivel_body_limb_def. It is in the world and has an incoming pose, so it takes no Feature.WORLD
+ * and Feature.WITH_INCOMING, nor Feature.JOINTS. Its joints name its twist bones.
+ */
 export interface BodyGroup extends LimbOptions {
-    /** Its features get the number of twistBones, unless they have one. */
     joints: LimbJoints;
     /** As GroupOptions'. Left out: it keeps its incoming pose. */
     onBadInput?: number;
@@ -112,29 +116,26 @@ export interface BodyGroup extends LimbOptions {
     plant?: Plant;
     /** With Feature.WITH_GROUND. */
     ground?: Ground;
-    /** With Feature.WITH_LINK: the number of the group that it holds, a prop or an earlier limb. Left out: 0. */
+    /** With Feature.WITH_LINK: the number of the group that it holds, a prop or an earlier limb. */
     link?: number;
 }
-/** The shift of each body, so that its limbs with Feature.WITH_PELVIS_FIT reach. It has Feature.FIT and no other, and no joints. */
-export interface FitGroup {
-    fit: Fit;
-    /** As BodyGroup's. */
-    onBadInput?: number;
+/** The shift of each body, so that its limbs with Feature.WITH_PELVIS_FIT reach. It has no features and no joints. */
+export interface ShiftGroup {
+    shift: Shift;
 }
 
-/** A thing that one hand or two of each body hold: limbs with Feature.WITH_LINK. It has Feature.PROP and no other, and is no limb. */
+/** A thing that one hand or two of each body hold: limbs with Feature.WITH_LINK. It is no limb and has no features. */
 export interface PropGroup {
     prop: Prop;
-    /** As BodyGroup's. */
-    onBadInput?: number;
 }
 
-/** A chain of joints of each body that looks at Field.LOOK_TARGET. It has Feature.LOOK and no other, and is no limb. */
+/** A chain of joints of each body that looks at Field.LOOK_TARGET. It is no limb and has no features. */
 export interface LookGroup {
     look: Look;
-    /** As BodyGroup's. */
-    onBadInput?: number;
 }
+
+/** A group of bodies: a limb of each, their shift, a thing that they hold, or a chain that looks. */
+export type BodiesGroup = BodyGroup | ShiftGroup | PropGroup | LookGroup;
 
 /** The skeleton of all bodies of a crowd, and how many these are. */
 export interface SharedSkeleton {
@@ -144,66 +145,97 @@ export interface SharedSkeleton {
     up?: Numbers;
 }
 
-/** A group, checked. */
-export interface CheckedGroup extends GroupOptions {
+/** A group as its crowd knows it. */
+export interface CheckedGroup {
+    /** From Kind. */
+    kind: number;
+    limbCount: number;
     features: bigint;
-    joints?: LimbJoints;
-    plant?: Plant;
-    fit?: Fit;
-    ground?: Ground;
-    prop?: Prop;
-    link?: number;
-    look?: Look;
+    /** Puts its definition into memory. */
+    put: (borrowed: Borrowed) => number;
 }
+/** Members of swivel_group_def that point to definitions, by Kind. */
+const definitions = ["limb", "body_limb", "look", "prop", "shift"] as const;
 
 function checkedFeatures(features: bigint): bigint {
     if (typeof features === "bigint" && features >= 0n && features >> 64n === 0n) return features;
     return refuse(`features is ${shown(features)}; give a BigInt, such as Feature.WORLD`);
 }
-function checkedList<Each>(groups: readonly Each[], features: bigint, such: string, check: (group: Each) => GroupOptions): CheckedGroup[] {
+/** The features of a group of limbs: its own, or those that are given for all groups, and that of its region. */
+function featuresOf({ features: own, region }: LimbOptions, features: bigint): bigint {
+    const asked = own === undefined ? features : checkedFeatures(own);
+    if (region === undefined) return asked;
+    if (!(region instanceof Region)) refuse(`region is ${shown(region)}; give what region() made`);
+    return asked | Feature.WITH_REGION;
+}
+function checkedList<Each>(groups: readonly Each[], features: bigint, such: string, check: (group: Each) => CheckedGroup): CheckedGroup[] {
     checkedFeatures(features);
     if (!Array.isArray(groups)) refuse(`groups is ${shown(groups)}; give a list, such as ${such}`);
-    return groups.map(check).map((group) => {
-        const own = group.features === undefined ? features : checkedFeatures(group.features);
-        if (group.region === undefined) return { ...group, features: own };
-        if (!(group.region instanceof Region)) refuse(`region is ${shown(group.region)}; give what region() made`);
-        return { ...group, features: own | Feature.WITH_REGION };
-    });
+    return groups.map(check);
 }
 
 /** features: of groups that give none. */
 export function freeGroups(groups: readonly Group[], features: bigint): CheckedGroup[] {
     return checkedList(groups, features, "[1000]", (group) => {
-        const given = typeof group === "number" ? { limbCount: group } :
-            options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput", "region");
-        return { ...given, limbCount: whole("limbCount", given.limbCount) };
+        const given: GroupOptions = typeof group === "number" ? { limbCount: group } :
+            options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput", "region", "twistBoneCount");
+        const limbCount = whole("limbCount", given.limbCount), asked = featuresOf(given, features);
+        const { binding, region, shoulderOrder = Order.XYZ, wristOrder = Order.XYZ, onBadInput = OnBadInput.REST_POSE, twistBoneCount = 0 } = given;
+        return {
+            kind: Kind.LIMB, limbCount, features: asked,
+            put: (borrowed) => {
+                const def = borrowed.structure("swivel_limb_def").wide("features", asked).words("limb_count", limbCount);
+                def.words("on_bad_input", whole("onBadInput", onBadInput)).words("twist_bone_count", whole("twistBoneCount", twistBoneCount));
+                def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
+                if (binding) def.copy("binding", binding.bytes);
+                if (region) def.words("region", region.put(borrowed));
+                return def.at;
+            },
+        };
     });
 }
-/** Who names twist bones wants them to turn. Too many are for the library to refuse. */
-function withTwistBones(group: CheckedGroup): CheckedGroup {
-    const max = BigInt(MAX_TWIST_BONES), count = BigInt(group.joints?.twistBones?.length ?? 0);
-    if (group.features & (max * Feature.WITH_TWIST_BONES)) return group;
-    return { ...group, features: group.features | (count < max ? count : max) * Feature.WITH_TWIST_BONES };
+
+function bodyLimb(group: BodyGroup, features: bigint, limbCount: number): CheckedGroup {
+    const given = options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link", "region");
+    const { joints, region, shoulderOrder = Order.XYZ, wristOrder = Order.XYZ, onBadInput = OnBadInput.KEEP_POSE, plant = {}, ground = {}, link = 0xffffffff } = given;
+    const asked = featuresOf(given, features);
+    return {
+        kind: Kind.BODY_LIMB, limbCount, features: asked,
+        put: (borrowed) => {
+            const def = borrowed.structure("swivel_body_limb_def").wide("features", asked).words("joints", putJoints(joints, borrowed).at);
+            def.words("on_bad_input", whole("onBadInput", onBadInput)).words("link", whole("link", link));
+            def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
+            def.floats("plant", constants("plant", plant, defaultPlant)).floats("ground", constants("ground", ground, defaultGround));
+            if (region) def.words("region", region.put(borrowed));
+            return def.at;
+        },
+    };
 }
-/** A group of bodies: a limb of each, their shift, a thing that they hold, or a chain that looks. */
-export type BodiesGroup = BodyGroup | FitGroup | PropGroup | LookGroup;
-/** Groups that are no limbs: by the member that names them. */
-const limbless = [["fit", Feature.FIT, "a group of shifts"], ["prop", Feature.PROP, "a prop's group"], ["look", Feature.LOOK, "a group that looks"]] as const;
-const NO_LIMB = Feature.FIT | Feature.PROP | Feature.LOOK;
-function bodyGroup(group: BodiesGroup): Omit<BodyGroup, "joints"> & { features?: bigint } {
-    for (const [member, features, name] of limbless)
-        if (typeof group === "object" && group !== null && member in group) return { ...options(name, group, member as never, "onBadInput"), features };
-    return options("a group of bodies", group as BodyGroup, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link", "region");
+function bodiesGroup(group: BodiesGroup, features: bigint, limbCount: number): CheckedGroup {
+    const noLimb = { limbCount, features: 0n };
+    if (typeof group === "object" && group !== null) {
+        if ("look" in group) {
+            const { look } = options("a group that looks", group, "look");
+            return { ...noLimb, kind: Kind.LOOK, put: (borrowed) => putLook(look, borrowed) };
+        }
+        if ("prop" in group) {
+            const { prop } = options("a prop's group", group, "prop");
+            return { ...noLimb, kind: Kind.PROP, put: (borrowed) => putProp(prop, borrowed) };
+        }
+        if ("shift" in group) {
+            const { shift } = options("a group of shifts", group, "shift");
+            return { ...noLimb, kind: Kind.SHIFT, put: (borrowed) => putShift(shift, borrowed) };
+        }
+    }
+    return bodyLimb(group, features, limbCount);
 }
 export function bodyGroups(groups: readonly BodiesGroup[], features: bigint, bodyCount: number): CheckedGroup[] {
     const limbCount = whole("bodyCount", bodyCount);
-    return checkedList(groups, features, "[{ joints: { shoulder: 1, elbow: 2, wrist: 3 } }]", (group) => {
-        const given = bodyGroup(group);
-        return { ...given, onBadInput: given.onBadInput ?? OnBadInput.KEEP_POSE, limbCount };
-    }).map(withTwistBones);
+    return checkedList(groups, features, "[{ joints: { shoulder: 1, elbow: 2, wrist: 3 } }]", (group) => bodiesGroup(group, features, limbCount));
 }
+
 /** The numbers of a structure of constants. */
-function constants(of: string, given: Plant | Fit | Ground | Prop, start: Record<string, number | Numbers>): number[] {
+function constants(of: string, given: Plant | Ground | Prop | Shift, start: Record<string, number | Numbers>): number[] {
     const all = { ...start, ...options(of, given as typeof start, ...Object.keys(start)) };
     return Object.entries(start).flatMap(([name, usual]) => {
         const value = all[name], member = `${of}.${name}`;
@@ -211,48 +243,34 @@ function constants(of: string, given: Plant | Fit | Ground | Prop, start: Record
     });
 }
 
-/** A swivel_prop's bytes: a joint, and a float. */
-function propBytes(given: Prop): Uint8Array {
-    const [joint, maxMove] = constants("prop", given, defaultProp), bytes = new DataView(new ArrayBuffer(8));
-    if (!Number.isInteger(joint) || Math.abs(joint) > 0x7fffffff) refuse(`prop.joint is ${shown(joint)}; give the number of a joint, or -1`);
-    bytes.setInt32(0, joint, true), bytes.setFloat32(4, maxMove, true);
-    return new Uint8Array(bytes.buffer);
+function putShift(given: Shift, borrowed: Borrowed): number {
+    return borrowed.structure("swivel_shift_def").floats("drop", constants("shift", given, defaultShift)).at;
 }
 
-/** A swivel_look's bytes: a count, the joints, and floats: shares, cones, eye, axis, and four numbers. */
-function lookBytes(given: Look): Uint8Array {
+function putProp(given: Prop, borrowed: Borrowed): number {
+    const [joint, maxMove] = constants("prop", given, defaultProp);
+    if (!Number.isInteger(joint) || Math.abs(joint) > 0x7fffffff) refuse(`prop.joint is ${shown(joint)}; give the number of a joint, or -1`);
+    return borrowed.structure("swivel_prop_def").words("joint", joint).floats("max_move", [maxMove]).at;
+}
+
+function putLook(given: Look, borrowed: Borrowed): number {
     const look = { ...defaultLook, ...options("look", given as Look & Record<string, unknown>, "joints", ...Object.keys(defaultLook) as (keyof typeof defaultLook)[]) };
     if (!Array.isArray(look.joints)) refuse(`look.joints is ${shown(look.joints)}; give numbers of joints`);
-    const joints = look.joints.slice(0, MAX_LOOK_JOINTS), bytes = new DataView(new ArrayBuffer(layout.swivel_look.bytes));
-    const each = (name: string, value: number | Numbers) =>
+    const joints = look.joints.slice(0, MAX_LOOK_JOINTS), def = borrowed.structure("swivel_look_def").words("joint_count", look.joints.length);
+    const each = (name: string, value: number | Numbers): number[] =>
         typeof value === "object" ? Array.from(numbers(name, value, joints.length)) : Array(joints.length).fill(real(name, value));
-    const put = (at: number, values: ArrayLike<number>) => Array.from(values).forEach((x, n) => bytes.setFloat32(at + 4 * n, x, true));
-    bytes.setUint32(0, look.joints.length, true);
-    joints.forEach((joint, n) => bytes.setUint32(layout.swivel_look.joints + 4 * n, whole("look.joints", joint), true));
-    put(layout.swivel_look.share, each("look.share", look.share)), put(layout.swivel_look.cos_max, each("look.cosMax", look.cosMax));
-    put(layout.swivel_look.eye, numbers("look.eye", look.eye, 3)), put(layout.swivel_look.axis, numbers("look.axis", look.axis, 3));
+    def.words("joints", ...joints.map((joint) => whole("look.joints", joint)));
+    def.floats("share", each("look.share", look.share)).floats("cos_max", each("look.cosMax", look.cosMax));
+    def.floats("eye", numbers("look.eye", look.eye, 3)).floats("axis", numbers("look.axis", look.axis, 3));
     const { cosFull, cosNone, fadeDistance, rate } = look;
-    put(layout.swivel_look.cos_full, Object.entries({ cosFull, cosNone, fadeDistance, rate }).map(([name, value]) => real(`look.${name}`, value)));
-    return new Uint8Array(bytes.buffer);
+    return def.floats("cos_full", Object.entries({ cosFull, cosNone, fadeDistance, rate }).map(([name, value]) => real(`look.${name}`, value))).at;
 }
 
 /** Makes the library's crowd. Without a skeleton its limbs are free. */
 export function create(memory: Memory, groups: readonly CheckedGroup[], bodies?: SharedSkeleton): number {
     return memory.borrow((borrowed) => {
         const size = layout.swivel_group_def.bytes, list = borrowed.bytes(size * groups.length), crowd = borrowed.bytes(4);
-        groups.forEach((group, n) => {
-            const { limbCount, features, binding, joints, shoulderOrder = 0, wristOrder = 0, onBadInput = 0 } = group;
-            const { plant = {}, fit = {}, ground = {}, prop = {}, link = 0, look, region } = group;
-            const def = new Structure(memory, "swivel_group_def", list + n * size).wide("features", features);
-            def.words("limb_count", limbCount).words("on_bad_input", whole("onBadInput", onBadInput));
-            def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
-            if (binding) def.copy("binding", binding.bytes);
-            def.floats("plant", constants("plant", plant, defaultPlant)).floats("fit", constants("fit", fit, defaultFit));
-            def.floats("ground", constants("ground", ground, defaultGround)).copy("prop", propBytes(prop)).words("link", whole("link", link));
-            if (look) def.copy("look", lookBytes(look));
-            if (region) def.words("region", region.put(borrowed));
-            if (bodies && !(features & NO_LIMB)) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
-        });
+        groups.forEach(({ kind, put }, n) => new Structure(memory, "swivel_group_def", list + n * size).words(definitions[kind], put(borrowed)));
         const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("workspace_count", 1).words("groups", list);
         if (bodies) {
             def.words("skeleton", putSkeleton(bodies.skeleton, borrowed).at).words("body_count", bodies.bodyCount);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// swivel for JavaScript: the library of swivel.h as WebAssembly. README.md has a first program.
+// swivel for JavaScript: the library as WebAssembly. README.md has a first program.
 import { instantiate, LoadOptions } from "./instantiate.js";
 import { Swivel } from "./swivel.js";
 
@@ -9,11 +9,11 @@ export type { FieldNumber, Numbers } from "./arguments.js";
 export type { Binding, LimbJoints, Skeleton } from "./binding.js";
 export type { Bodies, BodiesOptions, Comparison, LimbPlaces, PosePart, Support } from "./bodies.js";
 export type {
-    Arc, BodiesGroup, BodyGroup, Crowd, Fit, FitGroup, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Plant, Prop, PropGroup,
+    Arc, BodiesGroup, BodyGroup, Crowd, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Plant, Prop, PropGroup, Shift, ShiftGroup,
 } from "./crowd.js";
 export {
-    defaultFit, defaultGround, defaultLook, defaultPlant, defaultProp, Feature, featureRules, Field, Flag, LANES, MAX_TWIST_BONES, OnBadInput, Order, PoseForm,
-    PoseSpace, Status, VERSION,
+    defaultGround, defaultLook, defaultPlant, defaultProp, defaultShift, Feature, featureRules, Field, Flag, Kind, LANES, MAX_TWIST_BONES, OnBadInput, Order,
+    PoseForm, PoseSpace, Status, VERSION,
 } from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";
 export type { Region, RegionCone } from "./region.js";

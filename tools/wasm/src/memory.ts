@@ -8,7 +8,7 @@ import { layout, Status } from "./layout.js";
 /** Functions that take or give numbers of 64 bits. */
 type Wide = "swivel_digest" | "swivel_group_features";
 
-/** The functions of swivel.h as WebAssembly has them: pointers and counts are numbers. */
+/** The functions of the C headers as WebAssembly has them: pointers and counts are numbers. */
 export interface Exports extends Record<Exclude<FunctionName, Wide>, (...values: number[]) => number> {
     swivel_digest(crowd: number): bigint;
     swivel_group_features(crowd: number, group: number): bigint;

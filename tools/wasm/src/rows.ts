@@ -33,7 +33,10 @@ export class CrowdRows {
     /** @internal */
     constructor(protected readonly memory: Memory, given: readonly CheckedGroup[], bodies?: SharedSkeleton) {
         this.at = create(memory, given, bodies);
-        this.groups = given.map((group, n) => ({ ...group, features: BigInt.asUintN(64, memory.calls.swivel_group_features(this.at, n)) }));
+        const { calls } = memory;
+        this.groups = given.map((group, n) => ({
+            ...group, kind: calls.swivel_group_kind(this.at, n), features: BigInt.asUintN(64, calls.swivel_group_features(this.at, n)),
+        }));
         this.held = given.map(() => new Map());
         this.orDispose(() => {
             const { bytes } = layout.swivel_streams;
@@ -75,7 +78,10 @@ export class CrowdRows {
     /** Blocks of 16 limbs, of which each group starts one. */
     get blockCount(): number { return this.memory.calls.swivel_block_count(this.crowd); }
     limbCount(group = 0): number { return this.group(group).limbCount; }
+    /** The features that a group of limbs was made with. */
     features(group = 0): bigint { return this.group(group).features; }
+    /** The kind of a group, from Kind. */
+    kind(group = 0): number { return this.group(group).kind; }
     private group(group: number): CheckedGroup {
         return this.groups[group] ?? refuse(`group ${shown(group)} does not exist; the crowd has ${this.groupCount}`);
     }

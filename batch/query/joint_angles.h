@@ -4,6 +4,7 @@
 #pragma once
 
 #include "batch/query/forward.h"
+#include "core/limits.h"
 #include "include/swivel/swivel.h"
 
 namespace swivel {
@@ -14,11 +15,7 @@ struct JointAngles {
 JointAngles joint_angles(const ArmRotors& arm, swivel_euler_order shoulder_order, swivel_euler_order wrist_order,
                          int family);
 
-// By how many radians a pose is outside of a limit on the swivel; 0 or less where it keeps it. value: as the limit's
-// rows hold it. order: a box's.
-double outside_limit(const ArmRotors& arm, swivel_field limit, const float* value, swivel_euler_order order);
-
-// The same of the upper arm's region.
-double outside_region(const ArmRotors& arm, const swivel_region& region);
+// The three angles of R = R_p(first) R_q(middle) R_r(last), of a family: see swivel_joint_angles().
+void euler_angles(const Rotor<double>& q, const EulerOrder& order, int family, double (&angles)[3]);
 
 }  // namespace swivel

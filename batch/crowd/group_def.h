@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// A group of a def as the library plans it: whichever definition the caller gave, with what it brings besides.
+#pragma once
+
+#include "include/swivel/swivel_bodies.h"
+#include "simd/fields.h"
+
+namespace swivel {
+
+// Members of other kinds have their defaults.
+struct GroupDef {
+    swivel_features asked;     // by the caller
+    swivel_features features;  // the same, with what these bring and the library's own bits
+    std::uint32_t limb_count;
+    swivel_on_bad_input on_bad_input;
+    swivel_euler_order shoulder_order, wrist_order;
+    const swivel_region* region;
+    swivel_binding binding;            // of free limbs, as given
+    const swivel_limb_joints* joints;  // of a body's limb; null: it is no limb of a body
+    std::uint32_t link;
+    swivel_plant plant;
+    swivel_ground ground;
+    swivel_look_def look;
+    swivel_prop_def prop;
+    swivel_shift_def shift;
+};
+
+// Group g of a crowd def that check_group_defs() found right. unlinked_group() leaves out the feature that another
+// group's link adds, so group_at() can ask it for the links.
+GroupDef group_at(const swivel_crowd_def& def, std::uint32_t g);
+GroupDef unlinked_group(const swivel_crowd_def& def, std::uint32_t g);
+// Whether each group is one definition, of a size that a header may have given it.
+swivel_status check_group_defs(const swivel_crowd_def& def);
+
+}  // namespace swivel
