@@ -78,7 +78,6 @@ if(TOOLS)
 endif()
 if(SHARED)
   set(LIBRARY ${prefix}/${LIBDIR}/libswivel.so)
-  set(INCLUDE ${prefix}/include/swivel)
   include(${CMAKE_CURRENT_LIST_DIR}/package/exports.cmake)
 endif()
 

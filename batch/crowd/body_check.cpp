@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <initializer_list>
+#include <string_view>
 
 #include "batch/crowd/body_joints.h"
 #include "batch/crowd/body_plan.h"
+#include "batch/crowd/constants.h"
 #include "batch/refusal/status.h"
 #include "core/arm.h"
 
@@ -34,51 +34,34 @@ swivel_status check_turned(const swivel_skeleton& skeleton, const GroupDef& grou
     return SWIVEL_OK;
 }
 
-struct Constant {
-    const char* name;
-    float value;
-    double max;
-};
-swivel_status check_constants(std::uint32_t g, const char* structure, std::initializer_list<Constant> constants)
+// Whether a group's constants are within the table's bounds. Numbers for joints that a look does not have may be any.
+swivel_status check_constants(std::uint32_t g, const GroupDef& group, std::string_view structure)
 {
-    for (const Constant& each : constants)
-        if (!(each.value >= 0 && each.value <= each.max))
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s is %g; it is 0 to %g", g, structure, each.name,
-                        double(each.value), each.max);
+    for (const ConstantRow& row : constants()) {
+        if (structure != row.structure) continue;
+        const float* const values = values_of(group, row);
+        const std::uint32_t count = row.is_of_each_joint() ? group.look.joint_count : row.count;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            if (values[n] >= row.min && values[n] <= row.max) continue;
+            char which[16] = "";
+            if (row.count > 1) std::snprintf(which, sizeof which, "[%u]", n);
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s%s is %g; it is %g to %g", g, row.structure, row.name,
+                        which, double(values[n]), double(row.min), double(row.max));
+        }
+    }
     return SWIVEL_OK;
 }
-swivel_status check_plant(std::uint32_t g, const swivel_plant& plant)
+swivel_status check_plant(std::uint32_t g, const GroupDef& group)
 {
-    constexpr double kMax = 1000;
-    const swivel_status status = check_constants(g, "plant",
-                                                 {{"lock_radius", plant.lock_radius, kMax},
-                                                  {"unlock_radius", plant.unlock_radius, kMax},
-                                                  {"stop_time", plant.stop_time, kMax},
-                                                  {"release_time", plant.release_time, kMax},
-                                                  {"relock_speed", plant.relock_speed, kMax},
-                                                  {"anchor_lead", plant.anchor_lead, 1},
-                                                  {"reset_time", plant.reset_time, kHuge},
-                                                  {"speed[0]", plant.speed[0], kMax},
-                                                  {"speed[1]", plant.speed[1], kMax}});
-    if (status != SWIVEL_OK) return status;
-    if (plant.unlock_radius < plant.lock_radius)
+    const swivel_status status = check_constants(g, group, "plant");
+    if (status == SWIVEL_OK && group.plant.unlock_radius < group.plant.lock_radius)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u, plant.unlock_radius is %g, less than plant.lock_radius, %g; let it be no less", g,
-                    double(plant.unlock_radius), double(plant.lock_radius));
-    for (const float height : plant.height)
-        if (!(std::fabs(height) <= kMax))
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, plant.height is %g; it is -%g to %g", g, double(height),
-                        kMax, kMax);
-    return SWIVEL_OK;
+                    double(group.plant.unlock_radius), double(group.plant.lock_radius));
+    return status;
 }
-swivel_status check_shift(std::uint32_t g, const swivel_shift_def& shift)
-{
-    return check_constants(g, "shift",
-                           {{"drop", shift.drop, 1000},
-                            {"rise", shift.rise, 1000},
-                            {"half_life", shift.half_life, 1000},
-                            {"lookahead", shift.lookahead, 1000}});
-}
+
+double length2_of(const float (&v)[3]) { return double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2]; }
 
 // Limbs that are to fit and what shifts the body for them go together.
 swivel_status check_fits(const swivel_crowd_def& def)
@@ -97,26 +80,19 @@ swivel_status check_fits(const swivel_crowd_def& def)
     if (shifts == 0 && limbs > 0)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u is SWIVEL_WITH_PELVIS_FIT, but no group is a body's shift; add one", limb);
-    const double length2 =
-        double(def.up[0]) * def.up[0] + double(def.up[1]) * def.up[1] + double(def.up[2]) * def.up[2];
-    if (!(length2 >= kTiny2 && length2 <= kHuge2))
+    if (const double length2 = length2_of(def.up); !(length2 >= kTiny2 && length2 <= kHuge2))
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's up is %g, %g, %g; give an axis", double(def.up[0]),
                     double(def.up[1]), double(def.up[2]));
     return SWIVEL_OK;
 }
 
-swivel_status check_ground(std::uint32_t g, const swivel_ground& ground)
+swivel_status check_ground(std::uint32_t g, const GroupDef& group)
 {
-    const double length2 = double(ground.heel[0]) * ground.heel[0] + double(ground.heel[1]) * ground.heel[1] +
-                           double(ground.heel[2]) * ground.heel[2];
-    if (!(length2 <= kHuge2))
+    const float(&heel)[3] = group.ground.heel;
+    if (!(length2_of(heel) <= kHuge2))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, ground.heel is %g, %g, %g; give a place in the wrist's frame",
-                    g, double(ground.heel[0]), double(ground.heel[1]), double(ground.heel[2]));
-    return check_constants(g, "ground",
-                           {{"toe_clearance", ground.toe_clearance, kHuge},
-                            {"heel_clearance", ground.heel_clearance, kHuge},
-                            {"cos_max", ground.cos_max, 1},
-                            {"half_life", ground.half_life, 1000}});
+                    g, double(heel[0]), double(heel[1]), double(heel[2]));
+    return check_constants(g, group, "ground");
 }
 
 // Checks what a limb is linked to, and how many hold each prop.
@@ -146,7 +122,8 @@ swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 }
 swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const swivel_prop_def prop = group_at(def, g).prop;
+    const GroupDef prop_group = group_at(def, g);
+    const swivel_prop_def& prop = prop_group.prop;
     std::uint32_t holders = 0;
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         const GroupDef group = group_at(def, other);
@@ -162,7 +139,7 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
     if (holders == 0 || holders > kMaxHolders)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u is a prop, and %u limbs are linked to it; link one or %u", g,
                     holders, kMaxHolders);
-    return check_constants(g, "prop", {{"max_move", prop.max_move, 1000}});
+    return check_constants(g, prop_group, "prop");
 }
 swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
 {
@@ -175,36 +152,27 @@ swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& ske
     return status;
 }
 
-swivel_status check_look_constants(std::uint32_t g, const swivel_look_def& look)
+swivel_status check_look_constants(std::uint32_t g, const GroupDef& group)
 {
-    char name[32];
-    for (std::uint32_t n = 0; n < look.joint_count; ++n) {
-        std::snprintf(name, sizeof name, "share[%u]", n);
-        if (const swivel_status status = check_constants(g, "look", {{name, look.share[n], 1000}}); status != SWIVEL_OK)
-            return status;
-        if (!(std::fabs(look.cos_max[n]) <= 1))
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.cos_max[%u] is %g; it is -1 to 1", g, n,
-                        double(look.cos_max[n]));
-    }
-    const auto length2 = [](const float(&v)[3]) {
-        return double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2];
-    };
-    if (!(look.share[look.joint_count - 1] > 0))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.share of the last joint is 0; let it be more", g);
-    if (!(length2(look.axis) >= kTiny2 && length2(look.axis) <= kHuge2))
+    const swivel_look_def& look = group.look;
+    if (const double length2 = length2_of(look.axis); !(length2 >= kTiny2 && length2 <= kHuge2))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.axis is %g, %g, %g; give an axis", g, double(look.axis[0]),
                     double(look.axis[1]), double(look.axis[2]));
-    if (!(length2(look.eye) <= kHuge2))
+    if (!(length2_of(look.eye) <= kHuge2))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.eye is %g, %g, %g; give a place in the last joint's frame",
                     g, double(look.eye[0]), double(look.eye[1]), double(look.eye[2]));
-    if (!(look.cos_none >= -1 && look.cos_full <= 1 && look.cos_full - look.cos_none >= 1e-3f))
+    if (const swivel_status status = check_constants(g, group, "look"); status != SWIVEL_OK) return status;
+    if (!(look.share[look.joint_count - 1] > 0))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.share of the last joint is 0; let it be more", g);
+    if (!(look.cos_full - look.cos_none >= 1e-3f))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u, look.cos_full is %g, look.cos_none %g; they are -1 to 1, and cos_full is 0.001 more", g,
                     double(look.cos_full), double(look.cos_none));
-    return check_constants(g, "look", {{"fade_distance", look.fade_distance, kHuge}, {"rate", look.rate, 1000}});
+    return SWIVEL_OK;
 }
-swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const swivel_look_def& look)
+swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const GroupDef& group)
 {
+    const swivel_look_def& look = group.look;
     if (look.joint_count == 0 || look.joint_count > SWIVEL_MAX_LOOK_JOINTS)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
                     int{SWIVEL_MAX_LOOK_JOINTS});
@@ -222,7 +190,7 @@ swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const
                 "body outwards",
                 g, n, joint, look.joints[n - 1]);
     }
-    return check_look_constants(g, look);
+    return check_look_constants(g, group);
 }
 
 swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
@@ -235,8 +203,8 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
         (joint < -1 || (joint >= 0 && static_cast<std::uint32_t>(joint) >= skeleton.joint_count)))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
                     g, joint, skeleton.joint_count);
-    if (group.features & kShift) return check_shift(g, group.shift);
-    if (group.features & kLook) return check_look(skeleton, g, group.look);
+    if (group.features & kShift) return check_constants(g, group, "shift");
+    if (group.features & kLook) return check_look(skeleton, g, group);
     if (!group.joints) return SWIVEL_OK;
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
@@ -246,8 +214,8 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     if (status == SWIVEL_OK) status = bind(limb, binding);
     if (status == SWIVEL_OK) status = check_turned(skeleton, group);
     if (status == SWIVEL_OK) {
-        if (group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group.plant);
-        if (status == SWIVEL_OK && group.features & SWIVEL_WITH_GROUND) status = check_ground(g, group.ground);
+        if (group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group);
+        if (status == SWIVEL_OK && group.features & SWIVEL_WITH_GROUND) status = check_ground(g, group);
         return status;
     }
     char name[24];

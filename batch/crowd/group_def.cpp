@@ -22,20 +22,6 @@ constexpr swivel_features twist_bones(std::uint32_t count)
     return std::min<std::uint32_t>(count, SWIVEL_MAX_TWIST_BONES) * kOneTwistBone;
 }
 
-GroupDef without_members()
-{
-    GroupDef group{};
-    group.binding = swivel_default_binding();
-    group.on_bad_input = SWIVEL_KEEP_POSE;
-    group.link = UINT32_MAX;
-    group.plant = swivel_default_plant();
-    group.ground = swivel_default_ground();
-    group.look = swivel_default_look_def();
-    group.prop = swivel_default_prop_def();
-    group.shift = swivel_default_shift_def();
-    return group;
-}
-
 // The members that both kinds of limbs have.
 template <class Limb>
 void take_limb(const Limb& limb, GroupDef& group)
@@ -59,10 +45,24 @@ bool is_linked_to(const swivel_crowd_def& def, std::uint32_t g)
 
 }  // namespace
 
+GroupDef default_group()
+{
+    GroupDef group{};
+    group.binding = swivel_default_binding();
+    group.on_bad_input = SWIVEL_KEEP_POSE;
+    group.link = UINT32_MAX;
+    group.plant = swivel_default_plant();
+    group.ground = swivel_default_ground();
+    group.look = swivel_default_look_def();
+    group.prop = swivel_default_prop_def();
+    group.shift = swivel_default_shift_def();
+    return group;
+}
+
 GroupDef unlinked_group(const swivel_crowd_def& def, std::uint32_t g)
 {
     const swivel_group_def given = def_at(def, g);
-    GroupDef group = without_members();
+    GroupDef group = default_group();
     if (given.limb) {
         const swivel_limb_def limb = element(given.limb, 0, swivel_default_limb_def(0));
         take_limb(limb, group);

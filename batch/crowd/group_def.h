@@ -26,6 +26,8 @@ struct GroupDef {
     swivel_shift_def shift;
 };
 
+// A group whose members have their defaults.
+GroupDef default_group();
 // Group g of a crowd def that check_group_defs() found right. unlinked_group() leaves out the feature that another
 // group's link adds, so group_at() can ask it for the links.
 GroupDef group_at(const swivel_crowd_def& def, std::uint32_t g);

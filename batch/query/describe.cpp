@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The C entry points that describe features, fields and flags: rows of the table in simd/fields.h.
+// The C entry points that describe features, fields and flags, rows of the table in simd/fields.h, and constants, rows
+// of that in batch/crowd/constants.cpp.
+#include <algorithm>
 #include <iterator>
 
 #include "batch/api/check.h"
+#include "batch/crowd/constants.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -30,6 +33,16 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
              max_rows(row.field),
              is_position(row.field),
              0};
+    return 1;
+}
+
+int swivel_describe_constant(uint32_t index, swivel_constant_info* info)
+{
+    if (index >= constants().size() || !info) return 0;
+    const ConstantRow& row = constants()[index];
+    *info = {row.structure, row.name, row.unit, row.text, row.offset, row.count, {}, row.min, row.max};
+    const GroupDef group = default_group();
+    std::copy_n(values_of(group, row), row.count, info->defaults);
     return 1;
 }
 

@@ -143,6 +143,21 @@ static inline swivel_look_def swivel_default_look_def(void)
     return look;
 }
 
+// A constant of swivel_plant, swivel_ground or a definition above: a float, or several.
+typedef struct swivel_constant_info {
+    const char* structure;  // "plant", "ground", "shift", "prop" or "look"
+    const char* name;       // such as "lock_radius"
+    const char* unit;       // such as "s"; empty: none
+    const char* text;       // what it is, in a few words
+    uint32_t offset;        // bytes from the structure's start
+    uint32_t count;         // of floats
+    float defaults[SWIVEL_MAX_LOOK_JOINTS];
+    float min, max;  // of each
+} swivel_constant_info;
+
+// Describes constant number `index`, from 0; returns 0 if there is none.
+SWIVEL_API int swivel_describe_constant(uint32_t index, swivel_constant_info* info);
+
 // The form of a pose's rotations.
 typedef enum swivel_pose_form {
     SWIVEL_ROTATIONS,        // x, y, z, w; translations and scales lie apart

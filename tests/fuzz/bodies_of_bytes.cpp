@@ -120,16 +120,12 @@ void BodyDef::take_constants(Bytes& bytes)
     const auto number = [&](float max) { return max * static_cast<float>(bytes.below(9)) / 8; };
     for (BodyGroup& group : groups) {
         swivel_plant& plant = group.limb.plant;
-        plant = {number(1),
-                 number(1),
-                 number(0.4f),
-                 number(0.4f),
-                 number(2),
-                 number(1),
-                 number(2),
-                 {number(4), number(4)},
-                 {number(2) - 1, number(2) - 1}};
-        plant.unlock_radius += plant.lock_radius;  // which it is no less than
+        plant.lock_radius = number(1);
+        plant.unlock_radius = plant.lock_radius + number(1);  // which it is no less than
+        plant.stop_time = number(0.4f), plant.release_time = number(0.4f);
+        plant.relock_speed = number(2), plant.anchor_lead = number(1), plant.reset_time = number(2);
+        for (float& x : plant.speed) x = number(4);
+        for (float& x : plant.height) x = number(2) - 1;
         group.shift = {sizeof group.shift, number(1), number(1), number(0.4f), number(1)};
         if (!group.has(SWIVEL_WITH_GROUND) && group.kind != SWIVEL_KIND_PROP) continue;
         group.limb.ground = {{number(0.4f) - 0.2f, number(0.4f) - 0.2f, number(0.4f) - 0.2f},

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise: the shared library exports every function of the public headers and nothing else. Its name has its major version.
-#   LIBRARY: libswivel.so, MAJOR, NM, READELF. Or LIBRARY: swivel's DLL, OBJDUMP. INCLUDE: the folder of the headers.
+#   LIBRARY: libswivel.so, MAJOR, NM, READELF. Or LIBRARY: swivel's DLL, OBJDUMP.
 cmake_minimum_required(VERSION 3.22)
-include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/functions.cmake)
-swivel_headers(${INCLUDE} headers)
-swivel_functions("${headers}" declared)
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/headers.cmake)
+swivel_functions(declared)
 
 if(OBJDUMP)
   execute_process(COMMAND ${OBJDUMP} -p ${LIBRARY} RESULT_VARIABLE result OUTPUT_VARIABLE output)

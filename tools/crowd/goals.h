@@ -14,37 +14,42 @@ extern "C" {
 
 // The way of a foot from one stand to the next, in frames of the sources.
 typedef struct goal_stride {
-    uint32_t stand;   // the middle of the stand that it is in or comes from
-    uint32_t leaves;  // the frame after that; 0: the limb never stands
-    uint32_t lands;   // the first of the next stand
-    uint32_t next;    // the middle of that
+    uint32_t stand;   // middle frame of the stand that the foot is in or comes from
+    uint32_t leaves;  // frame after that stand; 0: the limb never stands
+    uint32_t lands;   // first frame of the next stand
+    uint32_t next;    // middle frame of the next stand
 } goal_stride;
 
 // One limb in one frame of the clip: two bones that at rest point where the limb's do. All is in the world's axes, but
 // the clip's own pose; elbow and wrist are counted from the shoulder. Words are an arm's. Quaternions are x, y, z, w.
 // A look is one more limb, of up to three joints: neck and head stand for shoulder, elbow and wrist.
+// A cache has an array for each member of this, and of goal_character, with the words beside it.
 typedef struct goal_source {
-    double elbow[3], wrist[3];
-    double hand[4];
-    double lengths[2];                                  // upper arm, forearm
-    double origin[3];                                   // the shoulder in the world
-    double root[3];                                     // where the pose hangs; the same of all limbs
-    double carried[3];                                  // the wrist of who carries a box, from the shoulder
-    float parent[4];                                    // of the joint above
-    float shoulder[4], elbow_local[4], wrist_local[4];  // the clip's own pose between the two bones
-    float contact;       // of a leg that stands: 1 while the clip has its foot on the ground, else 0
-    uint32_t carries;    // 1: carried counts, for characters that carry
-    goal_stride stride;  // of a leg that stands; else zeros
+    double elbow[3];       // elbow from the shoulder, world axes, the clip's unit
+    double wrist[3];       // wrist from the shoulder, world axes, the clip's unit
+    double hand[4];        // world rotation of the hand, x y z w
+    double lengths[2];     // upper arm and forearm, the clip's unit
+    double origin[3];      // the shoulder in the world, the clip's unit
+    double root[3];        // where the pose hangs, in the world, the clip's unit; the same of all limbs
+    double carried[3];     // from the shoulder, the wrist of who carries a box
+    float parent[4];       // world rotation of the shoulder's parent joint, x y z w
+    float shoulder[4];     // the clip's own local rotation, x y z w
+    float elbow_local[4];  // the clip's own local rotation, x y z w
+    float wrist_local[4];  // the clip's own local rotation, x y z w
+    float contact;         // of a leg that stands: 1 while the clip has its foot on the ground, else 0
+    uint32_t carries;      // 1: the arm of who carries a box follows carried
+    goal_stride stride;    // of a leg that stands; else zeros
 } goal_source;
 
 // A character of the crowd; the first is the clip's own. What is at x in the clip is at place + size * x.
 typedef struct goal_character {
-    double size;  // one that a float holds
-    double place[3];
-    uint32_t start;         // frame of its clip that it starts at
-    float wish;             // of its shift, where the crowd has shifts
-    uint32_t first, count;  // its clip: frames of the sources, which it plays round and round; count is 1 or more
-    uint32_t carries;       // 1: a box in both hands
+    double size;       // factor of all lengths, also of the way it goes; one that a float holds
+    double place[3];   // in the world, of the clip's origin; the clip's unit
+    uint32_t start;    // frame of its clip that it starts at
+    float wish;        // the shift where no leg asks for another; below 0 is lower
+    uint32_t first;    // first frame of its clip, among the sources
+    uint32_t count;    // frames of its clip, which it plays round and round; 1 or more
+    uint32_t carries;  // 1: it carries a box in both hands
     uint32_t reserved;
 } goal_character;
 
@@ -74,6 +79,14 @@ typedef struct goal {
     double target[3], pole[3], hand[4];
 } goal;
 
+// A goal of one's own for a limb, which takes the formula's place in a frame of the page.
+typedef struct goal_given {
+    uint32_t frame, character, limb;
+    float pole_weight;
+    double target[3], pole[3];
+    float hand[4];
+} goal_given;
+
 // Ground as it lies: a grid of heights, whose middle is at a place in the world. Columns go along x, rows along z.
 // Beyond its edges the ground goes on level, as high as there.
 typedef struct goal_ground {
@@ -102,9 +115,6 @@ typedef struct goal_input {
     double plane[3];  // then: a point of the plane of its ground, in the world
     float slopes[2];  // of that plane, along x and z
 } goal_input;
-
-static_assert(sizeof(goal_source) == 256 && sizeof(goal_character) == 56 && sizeof(goal_plan) == 216 &&
-              sizeof(goal_ground) == 56 && sizeof(goal_root) == 32 && sizeof(goal_input) == 272);
 
 // Joints of a limb in a crowd's skeleton: shoulder's parent, shoulder, elbow and wrist. Its twist bones come after
 // them.

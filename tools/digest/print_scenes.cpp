@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -20,6 +21,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -28,13 +30,7 @@
 #include "swivel/swivel_regions.hpp"
 #include "tools/corpus/corpus.h"
 
-// Structures of C are objects of their members. Members whose length another one says are added below.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_plant, lock_radius, unlock_radius, stop_time, release_time, relock_speed,
-                                   anchor_lead, reset_time, speed, height)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_ground, heel, toe_clearance, heel_clearance, cos_max, half_life)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_shift_def, drop, rise, half_life, lookahead)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_prop_def, joint, max_move)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_look_def, eye, axis, cos_full, cos_none, fade_distance, rate)
+// Structures of C are objects of their members. Twist bones, whose number is another member, are added below.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(swivel_limb_joints, shoulder, elbow, wrist, bend)
 
 namespace swivel::corpus {
@@ -80,6 +76,22 @@ Json names_of(swivel_features features)
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
         if (features & info.feature) names.push_back(info.name);
     return names;
+}
+
+// The constants of a structure, as the library describes them. joint_count: of a look.
+template <class Structure>
+Json constants_of(std::string_view structure, const Structure& values, std::size_t joint_count = 0)
+{
+    Json made;
+    swivel_constant_info info;
+    for (std::uint32_t n = 0; swivel_describe_constant(n, &info); ++n) {
+        if (structure != info.structure) continue;
+        const std::byte* const first = reinterpret_cast<const std::byte*>(&values) + info.offset;
+        const std::vector<float> all =
+            copied<float>(first, info.count == SWIVEL_MAX_LOOK_JOINTS ? joint_count : info.count);
+        made[info.name] = info.count == 1 ? Json(all[0]) : Json(all);
+    }
+    return made;
 }
 
 // Numbers that JSON has.
@@ -158,21 +170,24 @@ struct GroupWriter {
         Json made = json_of_limb(limb, region);
         made["joints"] = *limb.joints;
         made["joints"]["twist_bones"] = copied<std::uint32_t>(limb.joints->twist_bones, limb.joints->twist_bone_count);
-        if (limb.features & SWIVEL_WITH_PLANT) made["plant"] = limb.plant;
-        if (limb.features & SWIVEL_WITH_GROUND) made["ground"] = limb.ground;
+        if (limb.features & SWIVEL_WITH_PLANT) made["plant"] = constants_of("plant", limb.plant);
+        if (limb.features & SWIVEL_WITH_GROUND) made["ground"] = constants_of("ground", limb.ground);
         if (limb.features & SWIVEL_WITH_LINK) made["link"] = limb.link;
         return made;
     }
     Json operator()(const swivel_look_def& look) const
     {
-        Json made = look;
+        Json made = constants_of("look", look, look.joint_count);
         made["joints"] = copied<std::uint32_t>(look.joints, look.joint_count);
-        made["share"] = copied<float>(look.share, look.joint_count);
-        made["cos_max"] = copied<float>(look.cos_max, look.joint_count);
         return {{"look", made}};
     }
-    Json operator()(const swivel_prop_def& prop) const { return {{"prop", prop}}; }
-    Json operator()(const swivel_shift_def& shift) const { return {{"shift", shift}}; }
+    Json operator()(const swivel_prop_def& prop) const
+    {
+        Json made = constants_of("prop", prop);
+        made["joint"] = prop.joint;
+        return {{"prop", made}};
+    }
+    Json operator()(const swivel_shift_def& shift) const { return {{"shift", constants_of("shift", shift)}}; }
 };
 Json json_of(const swivel_skeleton& skeleton)
 {

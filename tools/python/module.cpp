@@ -10,6 +10,7 @@
 #include "tools/python/crowd.h"
 #include "tools/python/helpers.h"
 #include "tools/python/names.h"
+#include "tools/python/structures.h"
 
 namespace py = pybind11;
 
@@ -55,6 +56,7 @@ PYBIND11_MODULE(_core, module)
     module.doc() = "Limbs of crowds on NumPy arrays; import swivel.";
     translate_errors();
     add_enums(module);
+    add_constants(module);
     add_bindings(module);
     add_regions(module);
     CrowdClass crowd(module, "Crowd");

@@ -36,8 +36,10 @@ struct LimbJoints {
 LimbJoints joints_of(std::int64_t shoulder, std::int64_t elbow, std::int64_t wrist,
                      const std::vector<std::int64_t>& twist_bones, const pybind11::object& bend);
 
-// A swivel.Plant, a swivel.Ground, a swivel.LookGroup, a swivel.PropGroup and a swivel.ShiftGroup. TypeError for what
-// is no number.
+// Makes the classes Plant, Ground, LookGroup, PropGroup and ShiftGroup in the module, of the constants that the library
+// describes.
+void add_constants(pybind11::module_& module);
+// An object of each. TypeError for what is no number.
 swivel_plant plant_of(const pybind11::object& given);
 swivel_ground ground_of(const pybind11::object& given);
 swivel_look_def look_of(const pybind11::handle& group);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the extension module's stub: the template, with the enums and the named tuple that the built module has.
+"""Writes the extension module's stub: the template, with the enums and the named tuples that the built module has.
 
     write_stub.py MODULE TEMPLATE STUB
 """
@@ -23,12 +23,20 @@ def arms_text(module):
     return f"class Arms(NamedTuple):\n{members}"
 
 
+def constants_text(constants):
+    defaults = {name: f" = {value}" for name, value in constants._field_defaults.items()}
+    members = "".join(f"    {name}: {kind}{defaults.get(name, '')}\n" for name, kind in constants.__annotations__.items())
+    return f"class {constants.__name__}(NamedTuple):\n{members}"
+
+
 def main(module_path, template, stub):
     spec = importlib.util.spec_from_file_location("_core", module_path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    enums = [enum_text(each) for each in vars(module).values() if isinstance(each, type) and issubclass(each, int)]
-    text = template.read_text(encoding="utf-8").replace("@ENUMS@\n", "\n".join([*enums, arms_text(module)]) + "\n")
+    classes = [each for each in vars(module).values() if isinstance(each, type)]
+    enums = [enum_text(each) for each in classes if issubclass(each, int)]
+    constants = [constants_text(each) for each in classes if issubclass(each, tuple) and each is not module.Arms]
+    text = template.read_text(encoding="utf-8").replace("@ENUMS@\n", "\n".join([*enums, arms_text(module), *constants]) + "\n")
     stub.unlink(missing_ok=True)  # a link, where the stub was a source
     stub.write_text(text, encoding="utf-8")
 

@@ -128,7 +128,7 @@ void ViewPage::add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> pla
 {
     const auto frame = static_cast<std::uint32_t>(digests_.size());
     for (const GivenPlace& at : places) {
-        Given& given = given_.emplace_back();
+        goal_given& given = given_.emplace_back();
         const goal_input& input = crowd.input(at.limb, at.character);
         given = {frame, at.character, static_cast<std::uint32_t>(at.limb), input.weights[2], {}, {}, {}};
         std::ranges::copy(input.target, given.target);
@@ -153,7 +153,7 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd, const s
               {"characters", base64_of(crowd.characters())},
               {"limbs", Json::array()},
               {"budget_blocks", cached.budget_blocks},
-              {"given", base64_of(std::span<const Given>(given_))},
+              {"given", base64_of(std::span<const goal_given>(given_))},
               {"digests", Json::array()}};
     if (const auto& ground = cached.ground)
         page["ground"] = {{"grid", base64_of(std::span(&ground->grid, 1))},

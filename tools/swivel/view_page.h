@@ -35,20 +35,11 @@ public:
     void commit(const CachedCrowd& cached, const GoalCrowd& crowd, const std::optional<PageSkin>& skin = {});
 
 private:
-    // A goal of one's own, which takes the formula's place.
-    struct Given {
-        std::uint32_t frame, character, limb;
-        float pole_weight;
-        double target[3], pole[3];
-        float hand[4];
-    };
-    static_assert(sizeof(Given) == 80);
-
     // The program: up to the digest's place, around the crowd's, and from the script's end on.
     std::string before_, script_begin_, script_end_, after_;
     formats::OutputFile out_;
     std::vector<std::uint64_t> digests_;  // by frame
-    std::vector<Given> given_;
+    std::vector<goal_given> given_;
 };
 
 }  // namespace swivel::tools

@@ -3,7 +3,7 @@
 // made of counts in scenes.test.mjs, which has wrong ones of each.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Feature, Field, Kind, Order } from 'swivel-wasm';
+import { defaultGround, defaultLook, defaultPlant, Feature, Field, Kind, Order } from 'swivel-wasm';
 import { limb, refuses, slanted, swivel } from './common.mjs';
 
 const features = Feature.WITH_SHOULDER_CONE | Feature.WITH_HUMERAL_TWIST | Feature.WITH_SHOULDER_BOX;
@@ -103,14 +103,15 @@ const hand = arm.features | Feature.WITH_HAND, plants = arm.features | Feature.W
 const fits = { ...arm, features: plants | Feature.WITH_PELVIS_FIT }, holds = { ...arm, features: hand | Feature.WITH_LINK, link: 1 };
 const foot = (ground) => [{ ...arm, features: hand | plants | Feature.WITH_EFFECTOR | Feature.WITH_GROUND, ground }];
 const plant = (given) => [{ ...arm, features: plants, plant: given }], prop = (given) => [holds, { prop: given }], looks = (given) => [{ look: given }];
+const names = (constants) => Object.keys(constants).join(', ');
 const wrong = [
-  [plant(0.1), 'plant takes lockRadius, unlockRadius, stopTime, releaseTime, relockSpeed, anchorLead, resetTime, speed, height, not 0.1'],
+  [plant(0.1), `plant takes ${names(defaultPlant)}, not 0.1`],
   [[fits, { shift: {}, joints: arm.joints }], 'a group of shifts takes shift, not joints'],
-  [foot(0.1), 'ground takes heel, toeClearance, heelClearance, cosMax, halfLife, not 0.1'],
+  [foot(0.1), `ground takes ${names(defaultGround)}, not 0.1`],
   [prop({ wrist: 1 }), 'prop takes joint, maxMove, not wrist'],
   [[{ ...holds, link: -1 }, { prop: {} }], 'link is -1; give a whole number'],
   [[{ prop: {}, link: 0 }], "a prop's group takes prop, not link"],
-  [looks(1), 'look takes joints, share, cosMax, eye, axis, cosFull, cosNone, fadeDistance, rate, not 1'],
+  [looks(1), `look takes joints, ${names(defaultLook)}, not 1`],
   [looks({ joints: [-1] }), 'look.joints is -1; give a whole number'],
   [[{ look, link: 0 }], 'a group that looks takes look, not link'],
 ];

@@ -1,40 +1,31 @@
 // SPDX-License-Identifier: MIT
 // The promise: the package has every name of the public headers, with its number, and loads from bytes, a response or an address. The README's programs and
 // the example page do what they say. Bits are in scenes.test.mjs.
-//   INCLUDE: the folder of the headers
+//   HEADERS: their description, headers.json
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { dirname } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { defaultGround, defaultPlant, defaultProp, defaultShift, Feature, Field, Flag, Kind, LANES, load, MAX_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, SwivelError, VERSION } from 'swivel-wasm';
 import { close, wasm } from './common.mjs';
 
 test('every name of the public headers, with its number', () => {
-  const header = ['swivel.h', 'swivel_bodies.h'].map((name) => readFileSync(join(process.env.INCLUDE, name), 'utf8')).join('').replace(/\/\/.*/g, '');
-  assert.deepEqual(Feature, Object.fromEntries([...header.matchAll(/#define SWIVEL_(\w+) \(UINT64_C\(1\) << (\d+)\)/g)].map(([, name, bit]) => [name, 1n << BigInt(bit)])));
-  const numbersOf = (name) => {
-    let next = 0;
-    const members = header.match(new RegExp(`typedef enum ${name} \\{(.*?)\\}`, 's'))[1].split(',').map((text) => text.trim()).filter(Boolean);
-    return Object.fromEntries(members.map((text) => {
-      const [key, given] = text.split('=').map((part) => part.trim());
-      const value = given ? Number(new Function(`return ${given.replace(/u/g, '')}`)()) : next;
-      next = value + 1;
-      return [key.replace(/SWIVEL_(KIND_)?/, ''), value];
-    }).filter(([key]) => !key.endsWith('_END')));
-  };
+  const headers = Object.values(JSON.parse(readFileSync(process.env.HEADERS, 'utf8')));
+  const [constants, enumerations, structures] = ['constants', 'enumerations', 'structures'].map((kind) => Object.assign({}, ...headers.map((header) => header[kind])));
+  const numbersOf = (name, numberOf = Number) => Object.fromEntries(Object.entries(enumerations[`swivel_${name}`]).filter(([key]) => !key.endsWith('_END'))
+    .map(([key, value]) => [key.replace(/SWIVEL_(KIND_)?/, ''), numberOf(value)]));
+  assert.deepEqual({ ...Feature }, numbersOf('features', BigInt));
   for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [OnBadInput, 'on_bad_input'], [PoseForm, 'pose_form'], [PoseSpace, 'pose_space'], [Status, 'status'], [Kind, 'kind']])
-    assert.deepEqual({ ...names }, numbersOf(`swivel_${kind}`));
+    assert.deepEqual({ ...names }, numbersOf(kind));
   for (const [constants, name] of [[defaultPlant, 'plant'], [defaultShift, 'shift_def'], [defaultGround, 'ground'], [defaultProp, 'prop_def']]) {
-    const [, numbers] = header.match(new RegExp(`const swivel_${name} \\w+ = \\{(?:sizeof\\(\\w+\\), )?(.*?)\\};`, 's'));
-    assert.deepEqual(Object.values(constants).flat(), numbers.replace(/[{}f]/g, '').split(',').map(Number));
-    const [, members] = header.match(new RegExp(`typedef struct swivel_${name} \\{(?:\\s*size_t size;)?(.*?)\\} swivel_${name};`, 's'));
-    assert.deepEqual(Object.keys(constants), members.match(/\w+(?=[,;[])/g).map((member) => member.replace(/_(.)/g, (_, letter) => letter.toUpperCase())));
+    const members = Object.entries(structures[`swivel_${name}`].members).filter(([name]) => name !== 'size');
+    assert.deepEqual(Object.entries(constants), members.map(([member, { default: value }]) => [member.replace(/_(.)/g, (_, letter) => letter.toUpperCase()), value]));
   }
   assert.equal(LANES, 16);
   assert.equal(MAX_TWIST_BONES, 7);
-  assert.deepEqual(VERSION.split('.'), ['MAJOR', 'MINOR', 'PATCH'].map((part) => header.match(new RegExp(`SWIVEL_VERSION_${part} (\\d+)`))[1]));
+  assert.deepEqual(VERSION.split('.').map(Number), ['MAJOR', 'MINOR', 'PATCH'].map((part) => constants[`SWIVEL_VERSION_${part}`]));
 });
 
 test('load() takes bytes, a response or an address, and says what is wrong', async () => {

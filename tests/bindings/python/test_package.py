@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 SOURCES = ("CHANGELOG.md", "CMakeLists.txt", "LICENSE", "MANIFEST.in", "README.md", "SECURITY.md", "pyproject.toml", "setup.py",
-           "batch", "cmake", "core", "include", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/python")
+           "batch", "cmake", "core", "include", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/headers", "tools/python")
 USE = """
 import sys, pathlib, importlib.metadata, swivel
 folder = pathlib.Path(swivel.__file__).parent

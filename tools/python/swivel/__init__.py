@@ -13,10 +13,10 @@ At rest an arm lies along +z of its frame and bends towards +y, its hinge is +x,
 are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results with a Flag.
 """
 from ._arms import solve
-from ._bodies import BodyGroup, Ground, LookGroup, Plant, Pose, PropGroup, ShiftGroup, Skeleton, Support
-from ._core import (LANES, Arms, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, Kind, OnBadInput, PoseSpace, Region, aim, arm_axis, bind_joints,
-                    blade_name, cone, cos_sin, field_kinds, fill_cache, flexion, isa_name, isas, mirror, needed_features, range, steps, unpack_rotations, use_isa,
-                    verify, version)
+from ._bodies import BodyGroup, Pose, Skeleton, Support
+from ._core import (LANES, Arms, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, Ground, Kind, LookGroup, OnBadInput, Plant, PoseSpace,
+                    PropGroup, Region, ShiftGroup, aim, arm_axis, bind_joints, blade_name, cone, cos_sin, field_kinds, fill_cache, flexion, isa_name, isas,
+                    mirror, needed_features, range, steps, unpack_rotations, use_isa, verify, version)
 from ._groups import Group
 
 __version__ = ".".join(map(str, version()))

@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ._core import EulerOrder, OnBadInput, PoseSpace, Region
+from ._core import EulerOrder, Ground, OnBadInput, Plant, PoseSpace, Region
 
 
 class Skeleton(NamedTuple):
@@ -19,52 +19,6 @@ class Skeleton(NamedTuple):
     parents: npt.ArrayLike
     translations: npt.ArrayLike
     rotations: Optional[npt.ArrayLike] = None
-
-
-class Plant(NamedTuple):
-    """How the limbs of a BodyGroup with Feature.WITH_PLANT stand: each plants its effector, or without one its wrist.
-
-    Lengths are in limb lengths: both bones of the skeleton at rest, times the root's scale. Times are in seconds.
-
-    lock_radius    a point locks only within this of where it is animated
-    unlock_radius  a locked point is released if the animation has it further away
-    stop_time      a point that locks is at rest after this time
-    release_time   a point that is released is with the animation again after this time
-    relock_speed   lengths a second: after a release by distance a slower point locks anew; 0: none does
-    anchor_lead    0: it is anchored where it locks, 1: where it would come to rest by itself; 0.5 slides least
-    reset_time     a body that was not solved for longer than this starts anew; 0: none does
-    speed          with Feature.PLANT_BY_MOTION: lengths a second below which a contact begins, and goes on
-    height         the same of the height over the root, along the crowd's `up`
-    """
-
-    lock_radius: float = 0.12
-    unlock_radius: float = 0.24
-    stop_time: float = 0.1
-    release_time: float = 0.2
-    relock_speed: float = 0.06
-    anchor_lead: float = 0.5
-    reset_time: float = 0
-    speed: Sequence[float] = (0.6, 0.8)
-    height: Sequence[float] = (0.08, 0.1)
-
-
-class Ground(NamedTuple):
-    """How the feet of a BodyGroup with Feature.WITH_GROUND stand on ground as it lies: their effectors are the toes.
-
-    Clearances are heights over the ground, in the bones' unit.
-
-    heel            (3,) a point of the sole in the wrist joint's frame, in the bones' unit; zeros: the wrist itself
-    toe_clearance   of the effector where it stands
-    heel_clearance  of the heel where it stands; 0 for both if both are on the sole
-    cos_max         cosine of the angle that the foot turns at most, 0 to 1
-    half_life       seconds in which about half of a lift is made up
-    """
-
-    heel: npt.ArrayLike = (0, 0, 0)
-    toe_clearance: float = 0
-    heel_clearance: float = 0
-    cos_max: float = 0.8
-    half_life: float = 0.05
 
 
 class BodyGroup(NamedTuple):
@@ -100,65 +54,6 @@ class BodyGroup(NamedTuple):
     ground: Ground = Ground()
     link: Optional[int] = None
     region: Optional[Region] = None
-
-
-class ShiftGroup(NamedTuple):
-    """The shift of each body along the crowd's `up`, so that its limbs with Feature.WITH_PELVIS_FIT reach. One of a Crowd's groups.
-
-    It has no features and names no joints. Field.SHIFT[0] is by how much the root, or the pelvis, moves.
-
-    drop       the most down, in lengths of the first limb with Feature.WITH_PELVIS_FIT (see Plant)
-    rise       the most up
-    half_life  seconds in which about half of a distance is made up
-    lookahead  seconds from when on Field.NEXT_TARGET counts; at 0 seconds it counts whole
-    """
-
-    drop: float = 0.1
-    rise: float = 0.05
-    half_life: float = 0.1
-    lookahead: float = 0.3
-
-
-class PropGroup(NamedTuple):
-    """A thing that one hand or two of each body hold, such as a rifle or a ladder: BodyGroups with Feature.WITH_LINK. One of a Crowd's groups.
-
-    It is no limb and has no features. Field.PROP_POSITION and Field.PROP_ROTATION say where it is, or else its joint, or else the
-    hands of the incoming pose. It moves as little as it must so that all hands reach. Field.PROP_TRANSFORM is where it then is.
-
-    joint     of the skeleton, which no limb turns; -1: none
-    max_move  the most that it moves, in lengths of the first limb that is linked to it; 0: it stays, as a ladder does
-    """
-
-    joint: int = -1
-    max_move: float = 1
-
-
-class LookGroup(NamedTuple):
-    """A chain of joints of each body that looks: a line of sight in the last joint meets Field.LOOK_TARGET. One of a Crowd's groups.
-
-    It is no limb and has no features. It comes after the shift and before all props and limbs, so limbs may hang below it. An
-    eye is a LookGroup of one joint, after that of the head. Field.SIGHT is where the line then is: its start and its direction.
-
-    joints        1 to 8 of the skeleton, each below the one before, such as spine, neck and head
-    share         (joints,) of what is left of the turn, against those after it; a number: the same of all
-    cos_max      (joints,) cosine of the angle that each turns at most, -1 to 1; a number: the same of all
-    eye           (3,) where the line starts, in the last joint's frame, in its unit
-    axis          (3,) where it points, in the last joint's frame, of any length but 0
-    cos_full      the look fades as the target goes behind: from this cosine between line and target
-    cos_none      to this one, at which the pose stays
-    fade_distance it also fades nearer than this, in the last joint's unit
-    rate          radians a second that the line turns at most; 0: it is not eased, and the pose needs no time
-    """
-
-    joints: Sequence[int]
-    share: npt.ArrayLike = 1
-    cos_max: npt.ArrayLike = 0.7
-    eye: npt.ArrayLike = (0, 0, 0)
-    axis: npt.ArrayLike = (0, 0, 1)
-    cos_full: float = -0.1
-    cos_none: float = -0.9
-    fade_distance: float = 0.05
-    rate: float = 6
 
 
 class Support(NamedTuple):

@@ -2,11 +2,10 @@
 //
 // Where goals are seen: where the solver has sent a limb, in the world that is drawn. On ground a body is shifted, and what does not count
 // goes along with it; a foot is sent where it stands, not where the clip has it.
-import { ROOT_SHIFT, SIZE } from "./bytes.js";
 import { unit } from "./drags.js";
 
 /** By how much a character's body is higher than its root says. */
-export const shiftOf = (stage, character) => (stage.ground ? stage.memory.floats(stage.rootsAt + character * SIZE.root + ROOT_SHIFT, 1)[0] : 0);
+export const shiftOf = (stage, character) => (stage.ground ? stage.rootMember(character, "shift")[0] : 0);
 const raised = ([x, y, z], by) => [x, y + by, z];
 
 /** By how much higher a goal is seen than it is asked for. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Hips that the user has moved up or down. Where feet stand on ground, a body wishes for a shift, and comes as near to it as its legs reach.
-import { SIZE, WISH } from "./bytes.js";
+import { memberOf, sizeOf } from "./bytes.js";
 import { shiftOf } from "./goals.js";
 
 export const legsOf = (stage) => stage.limbs.filter((limb) => stage.has(limb, "PLANT"));
@@ -15,7 +15,8 @@ export function hipsOf(stage, character) {
 /** Puts the wishes of stage.hips, a map from characters to heights, in place of those of the command. */
 export function putHips(stage, hips) {
     stage.hips = hips;
-    stage.characters.forEach(({ wish }, n) => { stage.memory.floats(stage.charactersAt + n * SIZE.character + WISH, 1)[0] = hips.get(n) ?? wish; });
+    const at = (n) => stage.charactersAt + n * sizeOf("goal_character");
+    stage.characters.forEach(({ wish }, n) => { memberOf(stage.memory.buffer, at(n), "goal_character", "wish")[0] = hips.get(n) ?? wish; });
 }
 /** Moves hips to the height of a place in the world, and everyone's by as much of their size, if asked. */
 export function dragHips(stage, character, [, height], everyone) {

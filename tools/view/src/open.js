@@ -5,7 +5,7 @@ import { instantiate } from "swivel-wasm/instantiate.js";
 import { VERSION } from "swivel-wasm/layout.js";
 import wasm from "view.wasm";
 
-import { byteCountOf, SIZE } from "./bytes.js";
+import { byteCountOf, sizeOf } from "./bytes.js";
 import { askedOf, Stage } from "./stage.js";
 
 const MAX_MEGABYTES = 4096;  // that WebAssembly can address
@@ -21,11 +21,11 @@ function check(data) {
         const given = byteCountOf(base64);
         if (given !== bytes) throw new Error(`the command wrote ${given} bytes for ${name}, and the page's program expects ${bytes}. ${again}`);
     };
-    expect("characters", data.characters, SIZE.character * data.character_count);
-    if (data.ground) expect("the ground", data.ground.grid, SIZE.ground);
+    expect("characters", data.characters, sizeOf("goal_character") * data.character_count);
+    if (data.ground) expect("the ground", data.ground.grid, sizeOf("goal_ground"));
     for (const { name, plan, sources } of askedOf(data)) {
-        expect(`the plan of ${name}`, plan, SIZE.plan);
-        expect(`the clip of ${name}`, sources, SIZE.source * clipFramesOf(data));
+        expect(`the plan of ${name}`, plan, sizeOf("goal_plan"));
+        expect(`the clip of ${name}`, sources, sizeOf("goal_source") * clipFramesOf(data));
     }
 }
 
@@ -33,7 +33,7 @@ function check(data) {
 function megabytesFor(data) {
     const start = byteCountOf(data.characters) + byteCountOf(data.ground?.heights ?? "");
     const clip = askedOf(data).reduce((sum, { sources }) => sum + byteCountOf(sources), start);
-    const limbs = askedOf(data).length * data.character_count * (2048 + SIZE.input);
+    const limbs = askedOf(data).length * data.character_count * (2048 + sizeOf("goal_input"));
     const megabytes = 48 + Math.ceil((clip + limbs) / 2 ** 20);
     if (megabytes > MAX_MEGABYTES)
         throw new Error(`this crowd takes ${megabytes} MB of memory, and a page can have ${MAX_MEGABYTES}. Take fewer --frames or --characters`);

@@ -7,7 +7,7 @@ import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, charactersOf, floatsOf, givenOf, gridOf, INPUT, PLAN, SIZE, Sources } from "./bytes.js";
+import { bytesOf, floatsOf, givenOf, memberOf, objectsOf, sizeOf, Sources } from "./bytes.js";
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
 import { askedFor, seenGoal, shiftOf } from "./goals.js";
@@ -37,7 +37,7 @@ export class Stage {
         this.skeleton = { parents, translations: translations.flat(), rotations: rotations.flat() };
         const characters = bytesOf(data.characters);
         this.charactersAt = this.keep(characters);
-        this.characters = charactersOf(characters);
+        this.characters = objectsOf(characters, "goal_character");
         this.clips = [...new Set(this.characters.map(({ first }) => first))].sort((a, b) => a - b);  // their first frames
         this.ground = data.ground && this.makeGround(data.ground);
         this.given = givenOf(data.given);
@@ -51,15 +51,16 @@ export class Stage {
         this.look = data.look ? this.makeLook(data.look) : null;
         this.sourcesAt = memory.allocate(4 * asked.length);
         memory.words(this.sourcesAt, asked.length).set([...this.limbs, ...(this.look ? [this.look] : [])].map(({ sourcesAt }) => sourcesAt));
-        this.rootsAt = memory.allocate(SIZE.root * this.characterCount);
-        this.inputsAt = memory.allocate(SIZE.input * this.inputCount * this.characterCount);
+        this.rootsAt = memory.allocate(sizeOf("goal_root") * this.characterCount);
+        this.inputsAt = memory.allocate(sizeOf("goal_input") * this.inputCount * this.characterCount);
         this.changed = false;  // by the user, since the page was opened
         this.makeCrowd();
     }
 
     makeGround({ grid, heights }) {
         const bytes = bytesOf(grid), own = floatsOf(heights), at = this.keep(bytes), heightsAt = heights === "" ? 0 : this.keep(new Uint8Array(own.buffer));
-        return { ...gridOf(bytes), own, pointers: [at, heightsAt] };
+        const [{ place: middle, size, columns, rows }] = objectsOf(bytes, "goal_ground");
+        return { middle, size, columns, rows, own, pointers: [at, heightsAt] };
     }
     get characterCount() { return this.characters.length; }
     get limbCount() { return this.limbs.length * this.characterCount; }
@@ -73,16 +74,17 @@ export class Stage {
     /** Floats that stay there, zeros at first. */
     zeros(count) { return this.memory.floats(this.keep(new Uint8Array(4 * count)), count); }
     makeLimb(limb, index) {
-        const sources = bytesOf(limb.sources), planAt = this.plansAt + index * SIZE.plan, { shoulder, twist_bones: twistBones, bend } = limb;
+        const sources = bytesOf(limb.sources), { shoulder, twist_bones: twistBones, bend } = limb;
+        const plan = (member) => memberOf(this.memory.buffer, this.plansAt + index * sizeOf("goal_plan"), "goal_plan", member);
         return {
             index, name: limb.name, joints: limb.joints, features: BigInt(limb.features), region: limb.region && bytesOf(limb.region),
             shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, ground: limb.ground,
             chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
             fixed: fixedOf(limb),
             own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away; never written to
-            weights: this.memory.floats(planAt + PLAN.weights, 3),  // of goals, the pole's where that counts
-            targetOffset: this.memory.doubles(planAt + PLAN.targetOffset, 3), hasFixedPole: this.memory.words(planAt + PLAN.hasFixedPole, 1)[0] === 1,
-            held: this.memory.words(planAt + PLAN.holds, 1)[0] - 1,  // the limb whose hand it holds; -1: none
+            weights: plan("weights"),  // of goals, the pole's where that counts
+            targetOffset: plan("target_offset"), hasFixedPole: plan("has_pole_fixed")[0] === 1,
+            held: plan("holds")[0] - 1,  // the limb whose hand it holds; -1: none
             shift: NO_SHIFT,  // of everyone's goals, for a character of size 1
             sourcesAt: this.keep(sources), sources: new Sources(sources),
         };
@@ -209,7 +211,7 @@ export class Stage {
     askGoals() {
         this.memory.calls.swivel_goals(this.plansAt, this.sourcesAt, this.inputCount, this.frame, ...this.groundAt,
             this.charactersAt, this.characterCount, this.rootsAt, this.inputsAt);
-        for (const { character, limb, poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
+        for (const { character, limb, pole_weight: poleWeight, target, pole, hand } of this.given.get(this.frame) ?? []) {
             const of = this.limbs[limb], set = (part, goal) => this.input(of, character, part).set(goal);
             set("target", target), set("pole", pole), set("hand", hand);
             this.input(of, character, "weights").set([of.weights[0], of.weights[1], poleWeight > 0 ? of.weights[2] : 0]);
@@ -224,8 +226,8 @@ export class Stage {
 
     /** Part of what the solver takes of a limb: a view that a solve reads. Goals are in the world. */
     input(limb, character, part) {
-        const at = this.inputsAt + (character * this.inputCount + limb.index) * SIZE.input + INPUT[part];
-        return part === "target" || part === "pole" ? this.memory.doubles(at, 3) : this.memory.floats(at, part === "hand" ? 4 : 3);
+        const at = this.inputsAt + (character * this.inputCount + limb.index) * sizeOf("goal_input");
+        return memberOf(this.memory.buffer, at, "goal_input", part);
     }
     /** Sets a goal for the next solve, which then counts. With a pole the target counts, too, as in a table. */
     setGoal(limb, character, part, goal) {
@@ -358,7 +360,9 @@ export class Stage {
         const normal = new Vector3(1, 0, 0).applyQuaternion(new Quaternion().fromArray(record, 10)).applyQuaternion(axes);
         return { shoulder: new Vector3().fromArray(record), axes, normal, upper: stretch * scale * upper, fore: stretch * scale * fore };
     }
-    root(character) { return this.memory.doubles(this.rootsAt + character * SIZE.root, 3); }
+    /** A member of its goal_root. */
+    rootMember(character, name) { return memberOf(this.memory.buffer, this.rootsAt + character * sizeOf("goal_root"), "goal_root", name); }
+    root(character) { return this.rootMember(character, "place"); }
     /** A place from a character's root in the world, and the way back. */
     toWorld(character, place) { return Array.from(this.root(character), (coordinate, axis) => coordinate + place[axis]); }
     fromRoot(character, world) { return Array.from(this.root(character), (coordinate, axis) => world[axis] - coordinate); }

@@ -3,7 +3,10 @@
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
 import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { defaultGround, defaultLook, defaultPlant, defaultProp, defaultShift, Feature, Kind, layout, MAX_LOOK_JOINTS, OnBadInput, Order } from "./layout.js";
+import {
+    defaultGround, defaultLook, defaultPlant, defaultProp, defaultShift, Feature, GroundConstants, Kind, layout, LookConstants, MAX_LOOK_JOINTS, OnBadInput,
+    Order, PlantConstants, PropConstants, ShiftConstants,
+} from "./layout.js";
 import { Borrowed, Memory, Structure } from "./memory.js";
 import { Region } from "./region.js";
 
@@ -30,79 +33,26 @@ export interface GroupOptions extends LimbOptions {
 /** A number alone: that many limbs. */
 export type Group = number | GroupOptions;
 /**
- * How the limbs of a group with Feature.WITH_PLANT stand, as swivel_plant: lengths in limb lengths, times in seconds. What is left out is
- * as defaultPlant has it.
+ * How the limbs of a group with Feature.WITH_PLANT stand, as swivel_plant. speed and height are for Feature.PLANT_BY_MOTION. What is left out is as
+ * defaultPlant has it.
  */
-export interface Plant {
-    /** A point locks only within this of where it is animated. */
-    lockRadius?: number;
-    /** A locked point is released if the animation has it further away. */
-    unlockRadius?: number;
-    /** A point that locks is at rest after this time. */
-    stopTime?: number;
-    /** A point that is released is with the animation again after this time. */
-    releaseTime?: number;
-    /** Lengths a second: after a release by distance a slower point locks anew. 0: none does. */
-    relockSpeed?: number;
-    /** 0: it is anchored where it locks. 1: where it would come to rest by itself. 0.5 slides least. */
-    anchorLead?: number;
-    /** A body that was not solved for longer than this starts anew. 0: none does. */
-    resetTime?: number;
-    /** With Feature.PLANT_BY_MOTION: lengths a second below which a contact begins, and goes on. */
-    speed?: Numbers;
-    /** The same of the height over the root, along `up`. */
-    height?: Numbers;
-}
-/** How bodies are shifted along `up`, as swivel_shift_def. What is left out is as defaultShift has it. */
-export interface Shift {
-    /** The most down and up, in lengths of the first limb with Feature.WITH_PELVIS_FIT: see Plant. */
-    drop?: number;
-    rise?: number;
-    /** Seconds in which about half of a distance is made up. */
-    halfLife?: number;
-    /** Seconds from when on Field.NEXT_TARGET counts. At 0 seconds it counts whole. */
-    lookahead?: number;
-}
+export type Plant = PlantConstants;
+/** How bodies are shifted along `up`, as swivel_shift_def. The next target is Field.NEXT_TARGET. What is left out is as defaultShift has it. */
+export type Shift = ShiftConstants;
 /**
  * How feet of a group with Feature.WITH_GROUND stand on ground as it lies, as swivel_ground. Their effectors are the toes. What is left out is
  * as defaultGround has it.
  */
-export interface Ground {
-    /** A point of the sole in the wrist joint's frame, in the bones' unit. Zeros: the wrist itself. */
-    heel?: Numbers;
-    /** Heights over the ground where effector and heel stand, in the bones' unit. */
-    toeClearance?: number;
-    heelClearance?: number;
-    /** The cosine of the angle that the foot turns at most, 0 to 1. */
-    cosMax?: number;
-    /** Seconds in which about half of a lift is made up. */
-    halfLife?: number;
-}
+export type Ground = GroundConstants;
 /** How a thing lies that hands hold, as swivel_prop_def. What is left out is as defaultProp has it. */
-export interface Prop {
+export interface Prop extends PropConstants {
     /** Of the skeleton, which no limb turns. -1: none. */
     joint?: number;
-    /** The most that it moves, in lengths of the first limb that is linked to it. 0: it stays, as a ladder does. */
-    maxMove?: number;
 }
 /** How a chain of joints looks, as swivel_look_def. What is left out is as defaultLook has it. */
-export interface Look {
+export interface Look extends LookConstants {
     /** 1 to 8 of the skeleton, each below the one before, such as spine, neck and head. */
     joints: readonly number[];
-    /** Of what is left of the turn, against those after it: of each joint, or one for all. */
-    share?: number | Numbers;
-    /** The cosine of the angle that each turns at most, -1 to 1: of each joint, or one for all. */
-    cosMax?: number | Numbers;
-    /** Where the line of sight starts, and where it points: in the last joint's frame. */
-    eye?: Numbers;
-    axis?: Numbers;
-    /** The look fades as the target goes behind, between these cosines of its angle. At cosNone the pose stays. */
-    cosFull?: number;
-    cosNone?: number;
-    /** It also fades nearer than this, in the last joint's unit. */
-    fadeDistance?: number;
-    /** Radians a second that the line turns at most. 0: it is not eased. */
-    rate?: number;
 }
 /**
  * The limb of each body that has these joints, as swivel_body_limb_def. It is in the world and has an incoming pose, so it takes no Feature.WORLD
@@ -262,8 +212,9 @@ function putLook(given: Look, borrowed: Borrowed): number {
     def.words("joints", ...joints.map((joint) => whole("look.joints", joint)));
     def.floats("share", each("look.share", look.share)).floats("cos_max", each("look.cosMax", look.cosMax));
     def.floats("eye", numbers("look.eye", look.eye, 3)).floats("axis", numbers("look.axis", look.axis, 3));
-    const { cosFull, cosNone, fadeDistance, rate } = look;
-    return def.floats("cos_full", Object.entries({ cosFull, cosNone, fadeDistance, rate }).map(([name, value]) => real(`look.${name}`, value))).at;
+    for (const [member, name] of [["cos_full", "cosFull"], ["cos_none", "cosNone"], ["fade_distance", "fadeDistance"], ["rate", "rate"]] as const)
+        def.floats(member, [real(`look.${name}`, look[name])]);
+    return def.at;
 }
 
 /** Makes the library's crowd. Without a skeleton its limbs are free. */

@@ -2,16 +2,10 @@
 //
 // The module's memory and the functions that it exports. Memory has a fixed size, so views of it stay valid.
 import { Numbers, numbers, SwivelError } from "./arguments.js";
-import type { FunctionName } from "./functions.js";
-import { layout, Status } from "./layout.js";
+import { Functions, layout, Status } from "./layout.js";
 
-/** Functions that take or give numbers of 64 bits. */
-type Wide = "swivel_digest" | "swivel_group_features";
-
-/** The functions of the C headers as WebAssembly has them: pointers and counts are numbers. */
-export interface Exports extends Record<Exclude<FunctionName, Wide>, (...values: number[]) => number> {
-    swivel_digest(crowd: number): bigint;
-    swivel_group_features(crowd: number, group: number): bigint;
+/** The functions of the C headers, and those of the module itself. */
+export interface Exports extends Functions {
     malloc(bytes: number): number;
     free(at: number): void;
     _initialize(): void;
