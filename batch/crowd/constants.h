@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The table of the constants of plants, grounds, shifts, props and looks. A row is all that the library knows of one
-// besides its default, which is in swivel_bodies.h, and its formula. Checks, swivel_describe_constant(), bindings,
-// scenes and the page of fields read it.
+// but its default, which is in swivel_bodies.h, its formula, and rules between several (body_check.cpp). Checks,
+// swivel_describe_constant(), bindings, scenes and the page of fields read it.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct ConstantRow {
     const char* unit;             // empty: it has none
     const char* text;
 
-    // Whether a look has as many as joints.
+    // Whether a look has one for each of its joints.
     constexpr bool is_of_each_joint() const { return count == SWIVEL_MAX_LOOK_JOINTS; }
 };
 std::span<const ConstantRow> constants();
