@@ -264,8 +264,7 @@ TEST_CASE("a linked hand is at its grip on the hand that the other limb reached"
                 ++reached_count;
                 const std::uint32_t link = bodies.limb_def(g).link;
                 const Held wanted = body.wanted(g, body.hand(link)), point = body.point(g);
-                // The limb goes to where the other one's hand is told to be, which may itself be off by that bound.
-                RC_ASSERT((point.place - wanted.place).norm() <= body.bound(g) + body.bound(link));
+                RC_ASSERT((point.place - wanted.place).norm() <= body.bound(g) + body.rounding(link));
                 if (!bodies.has(g, SWIVEL_HAND_YIELDS))
                     RC_ASSERT(point.rotation.angularDistance(wanted.rotation) <= 4e-6);
             }
