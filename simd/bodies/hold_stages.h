@@ -209,8 +209,9 @@ struct StageBody<Stage::hand_transform> {
         const ArmFrame<T> arm = arm_frame(s);
         const T scale = s.body.get(limb.parent + kScaleRow),
                 stretch = s.has(SWIVEL_WITH_REACH) ? s.io.load_result(SWIVEL_STRETCH, 0) : T(1);
-        const Rotor<T> upper = arm.rotation * s.io.load_result_rotor(SWIVEL_SHOULDER, 0),
-                       fore = upper * hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
+        const Rotor<T> upper = unit_rotation(arm.rotation * s.io.load_result_rotor(SWIVEL_SHOULDER, 0)),
+                       fore = unit_rotation(
+                           upper * hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1)));
         const auto bone = [&](const Rotor<T>& frame, std::uint32_t n) SWIVEL_INLINE_LAMBDA {
             return turned(frame, vector(T(0), T(0), s.body.get(kLengthsRow + n)));
         };

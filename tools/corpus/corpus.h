@@ -64,7 +64,6 @@ std::uint64_t standing_digest(const Recipe& recipe, Solve&& solve, std::uint32_t
     for (std::uint32_t frame = 0; frame < frame_count; ++frame) {
         standing.go_to(frame, crowd);
         with_job(standing.poses(), [&](const Job& job) { solve(crowd, job); });
-        if (recipe.pose & kRests) reset_bad_looks(crowd);
         hash = fold(hash, crowd.digest());
         if (frame % kStandingPoses == 0) hash = digest_poses(standing.poses(), hash);
     }

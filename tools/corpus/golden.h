@@ -18,11 +18,11 @@ inline constexpr std::uint64_t kGoldenDigests[] = {
     0xbdab33c3b85403efu,  // hard
     0x9bc3f799f3bb343du,  // limbs
     0xdd73f6065170d93bu,  // bodies
-    0x681ffdf92421abeeu,  // standing
+    0x4bd41e1c04aa5317u,  // standing
 };
 
 // The standing part's start, which stands for it under emulators.
-inline constexpr std::uint64_t kGoldenStart = 0x0d1827f1afde9f79u;
+inline constexpr std::uint64_t kGoldenStart = 0xe08422af2c94dc51u;
 
 // Crowd by crowd, in the order of recipes_of(), so that a failure has a name.
 // clang-format off
@@ -66,7 +66,7 @@ inline constexpr std::uint64_t kGoldenBodies[] = {
 };
 inline constexpr std::uint64_t kGoldenStanding[] = {
     0x16f6cf27ae6a0daeu, 0xc5ae5068626a5093u, 0x8fb9ab132cba6a09u, 0xc87df7e7d6f62559u, 0x53006f4efc109a79u,
-    0x6a1e0423f7254994u, 0x5bf97a1a7089731au, 0x597d721db5e7da31u, 0xce1a15fcf0b3f251u, 0x851f876d9cf74bc0u,
+    0x6a1e0423f7254994u, 0x69e85f722e39d0bdu, 0x597d721db5e7da31u, 0xce1a15fcf0b3f251u, 0x39e7bedd1200d911u,
     0xedc3847abd7b467eu, 0x2b134db2fcec0ff4u
 };
 // clang-format on

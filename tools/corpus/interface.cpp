@@ -361,16 +361,6 @@ void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb)
 {
     check(swivel_reset(crowd.get(), group, limb, 1));
 }
-void reset_bad_looks(Crowd& crowd)
-{
-    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
-        if (swivel_group_kind(crowd.get(), group) != SWIVEL_KIND_LOOK) continue;
-        std::vector<std::uint32_t> flags(swivel_group_limb_count(crowd.get(), group));
-        crowd.read(SWIVEL_FLAGS, group, flags);
-        for (std::uint32_t body = 0; body < flags.size(); ++body)
-            if (flags[body] & SWIVEL_BAD_INPUT) reset_limb(crowd, group, body);
-    }
-}
 void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const Support& from, const Support& to)
 {
     const auto view = [](const Support& of) { return swivel_supports{{&of.position, 0}, {&of.rotation, 0}}; };

@@ -46,8 +46,6 @@ std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, 
 
 // Clears what a limb carries. The groups after the limbs' are the shift, the prop and the looks, where there are any.
 void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb);
-// The same of looks with bad input, which keep what they carry: for crowds whose limbs then go to rest.
-void reset_bad_looks(Crowd& crowd);
 // Changes what a body's limb of one group stands on.
 struct Support {
     std::array<double, 3> position;
