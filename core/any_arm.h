@@ -18,7 +18,7 @@ ArmPose<T> solve_as_limb(const ArmGoal<T>& arm)
     const LimbUse nothing_more;
     LimbGoal<T> goal{};
     goal.arm = arm;
-    const Mask<T> valid = is_valid(nothing_more, goal);
+    const Mask<T> valid = is_valid(arm);
     const WristLine<T> to = wrist_line(arm.wrist);
     const PlacedBones<T, Hinge<T>> bones = place_bones(nothing_more, goal, to.wanted);
     const LimbNormal<T> wish = limb_normal(nothing_more, goal, one<T>(), to.line);

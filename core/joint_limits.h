@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// An arm's joint limits, written as limits of its swivel (limits.h). All of them are measured from the rest pose. Axes
-// are those of the arm frame at rest. Twists and Euler angles are those of what the joint adds to rest. The elbow's
-// flexion does not depend on the swivel: its limit is a range of reach (limb_bones.h).
+// An arm's joint limits, written as limits of its swivel (angle_limits.h). All of them are measured from the rest pose.
+// Axes are those of the arm frame at rest. Twists and Euler angles are those of what the joint adds to rest. The
+// elbow's flexion does not depend on the swivel: its limit is a range of reach (limb_bones.h).
 #pragma once
 
+#include "core/angle_limits.h"
 #include "core/arm.h"
 #include "core/frame_rotor.h"
-#include "core/limits.h"
 
 namespace swivel::inline SWIVEL_ISA {
-
-// Which limits a group has, the axes' orders in its boxes, and the region of its upper arms.
-struct LimitUse {
-    bool flexion = false, shoulder_cone = false, hand_cone = false, humeral_twist = false, forearm_twist = false,
-         hand_twist = false, shoulder_box = false, wrist_box = false;
-    EulerOrder shoulder_order = kEulerOrders[0], wrist_order = kEulerOrders[0];
-    const swivel_region* region = nullptr;  // null: none
-
-    constexpr bool on_swivel() const
-    {
-        return shoulder_cone || hand_cone || humeral_twist || forearm_twist || hand_twist || shoulder_box ||
-               wrist_box || region;
-    }
-};
 
 template <class T>
 struct FlexionLimit {
@@ -38,17 +24,6 @@ template <class T>
 struct Twist {
     Vector<T> axis;  // unit
     Range<T> range;
-};
-
-template <class T>
-struct JointLimits {
-    FlexionLimit<T> flexion;
-    Cone<T> shoulder_cone;                   // of the upper arm
-    Cone<T> hand_cone;                       // of the forearm about the hand's axis
-    Range<T> humeral_twist;                  // of the upper arm about itself
-    Range<T> forearm_twist;                  // of the hand about the forearm
-    Twist<T> hand_twist;                     // of the hand about its own axis
-    Range<T> shoulder_box[3], wrist_box[3];  // first, middle, last
 };
 
 // The arm that swivels about a line. The line's frame has e3 along it, and e1 along the swivel plane's normal at phi =
@@ -154,6 +129,18 @@ SWIVEL_INLINE constexpr OnCircle<T> hand_twist_limit(const SwivellingArm<T, Lift
     return twisting.limit({about(twist.axis, twisting.at_0), about(twist.axis, twisting.at_pi)}, twist.range);
 }
 
+// The limits that are a line each, by their fields. An arm has one box for each joint.
+inline constexpr int kMaxLines = 5, kMaxBoxes = 2;
+template <swivel_field limit, class Arm, class Value>
+SWIVEL_INLINE constexpr auto limit_line(const Arm& arm, const Value& value)
+{
+    if constexpr (limit == SWIVEL_SHOULDER_CONE) return shoulder_cone_limit(arm, value);
+    if constexpr (limit == SWIVEL_HUMERAL_TWIST) return humeral_twist_limit(arm, value);
+    if constexpr (limit == SWIVEL_HAND_CONE) return hand_cone_limit(arm, value);
+    if constexpr (limit == SWIVEL_FOREARM_TWIST) return forearm_twist_limit(arm, value);
+    if constexpr (limit == SWIVEL_HAND_TWIST) return hand_twist_limit(arm, value);
+}
+
 // The entries of the matrix whose rows are fixed axes, and whose columns turn with the arm.
 template <class T>
 struct TurningMatrix {
@@ -190,38 +177,6 @@ SWIVEL_INLINE constexpr EulerCurves<T> wrist_box_curves(const SwivellingArm<T, L
     const Turn<T> hand = turn_by(arm.hand);
     const auto transposed = turning_matrix(arm, hand.e1, hand.e2, hand.e3, forearm_of(arm));
     return euler_curves<T>(order, [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); });
-}
-
-// The limits, and the flag of each in the order of Limits: lines, then boxes.
-template <class T>
-struct SwivelLimits {
-    Limits<T> limits;
-    std::uint32_t line_flag[kMaxLines] = {}, box_flag[kMaxBoxes] = {};
-};
-
-template <class T, class Lift>
-SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
-                                                      const SwivellingArm<T, Lift>& arm)
-{
-    SwivelLimits<T> out;
-    const auto add = [&](const OnCircle<T>& line, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
-        out.line_flag[out.limits.line_count] = flag;
-        out.limits.line[out.limits.line_count++] = line;
-    };
-    const auto add_box = [&](const EulerCurves<T>& curves, const Range<T>(&box)[3],
-                             std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
-        out.box_flag[out.limits.box_count] = flag;
-        out.limits.box[out.limits.box_count++] = {curves, euler_ranges(box[0], box[1], box[2])};
-    };
-    if (use.shoulder_cone) add(shoulder_cone_limit(arm, limits.shoulder_cone), SWIVEL_LIMITED_SHOULDER_CONE);
-    if (use.humeral_twist) add(humeral_twist_limit(arm, limits.humeral_twist), SWIVEL_LIMITED_HUMERAL_TWIST);
-    if (use.hand_cone) add(hand_cone_limit(arm, limits.hand_cone), SWIVEL_LIMITED_HAND_CONE);
-    if (use.forearm_twist) add(forearm_twist_limit(arm, limits.forearm_twist), SWIVEL_LIMITED_FOREARM_TWIST);
-    if (use.hand_twist) add(hand_twist_limit(arm, limits.hand_twist), SWIVEL_LIMITED_HAND_TWIST);
-    if (use.shoulder_box)
-        add_box(shoulder_box_curves(arm, use.shoulder_order), limits.shoulder_box, SWIVEL_LIMITED_SHOULDER_BOX);
-    if (use.wrist_box) add_box(wrist_box_curves(arm, use.wrist_order), limits.wrist_box, SWIVEL_LIMITED_WRIST_BOX);
-    return out;
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

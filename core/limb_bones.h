@@ -64,7 +64,7 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
             near = abs(upper - fore), distance = wanted * shrink;
 
     ReachRange<T> range{near, far, T(0), T(0), T(1)};
-    if (use.limits.flexion) range = flexion_range(goal.limits.flexion, upper, fore, near, far);
+    if (use.flexion) range = flexion_range(goal.flexion, upper, fore, near, far);
     if (use.reach) {
         range.near = lo(hi(goal.reach.min_distance * far, range.near), range.far);
         range.soft_far = goal.reach.soft_far * far;
@@ -87,7 +87,7 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
                            select(reach.too_near, word<T>(SWIVEL_CLAMPED_NEAR),
                                   select(reach.softened, word<T>(SWIVEL_SOFTENED), word<T>(SWIVEL_REACHED)))) |
                     word_where(reach.stretch > T(1), SWIVEL_STRETCHED);
-    if (use.limits.flexion) {
+    if (use.flexion) {
         const Mask<T> too_straight = (distance > range.far) & (range.far < far) & (range.far >= uncapped),
                       too_bent = (distance < range.near) & (range.near > near);
         flags = flags | word_where(missed & (too_straight | too_bent), SWIVEL_LIMITED_FLEXION);

@@ -13,9 +13,8 @@ enum class Wish { pole, normal, incoming, hand };  // what says where the elbow 
 // The parts that a group uses.
 struct LimbUse {
     bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false, cap = false,
-         continuity = false, step_wins = false, aim = false, yields = false;
+         continuity = false, step_wins = false, aim = false, yields = false, flexion = false;
     Wish wish = Wish::pole;
-    LimitUse limits;
 };
 
 template <class T>
@@ -68,7 +67,7 @@ struct LimbGoal {
     Cap<T> cap;
     Continuity<T> continuity;
     AimGoal<T> aim;
-    JointLimits<T> limits;
+    FlexionLimit<T> flexion;
 };
 
 template <class T>
@@ -162,36 +161,6 @@ template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_product(const Rotor<T>& q)
 {
     return is_within(len2(q), 1e-37, 1e37);
-}
-
-template <class T>
-SWIVEL_INLINE constexpr Mask<T> is_valid(const LimitUse& use, const JointLimits<T>& limits)
-{
-    Mask<T> valid = all_lanes<T>();
-    if (use.flexion) valid = valid & is_valid(limits.flexion);
-    if (use.shoulder_cone) valid = valid & is_valid(limits.shoulder_cone);
-    if (use.hand_cone) valid = valid & is_valid(limits.hand_cone);
-    if (use.humeral_twist) valid = valid & is_valid(limits.humeral_twist);
-    if (use.forearm_twist) valid = valid & is_valid(limits.forearm_twist);
-    if (use.hand_twist) valid = valid & is_valid(limits.hand_twist);
-    if (use.shoulder_box) valid = valid & is_valid(limits.shoulder_box);
-    if (use.wrist_box) valid = valid & is_valid(limits.wrist_box);
-    return valid;
-}
-
-template <class T>
-SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& goal)
-{
-    Mask<T> valid = is_valid(goal.arm) & is_valid(use.limits, goal.limits);
-    if (use.hand) valid = valid & is_product(goal.hand);
-    if (use.effector) valid = valid & (len2(goal.effector) <= T(kHuge2));
-    if (use.angle) valid = valid & is_valid(goal.angle);
-    if (use.incoming) valid = valid & is_valid(goal.incoming);
-    if (use.aim) valid = valid & is_valid(goal.aim);
-    if (use.weights) valid = valid & is_valid(goal.weights);
-    if (use.reach) valid = valid & is_valid(goal.reach);
-    if (use.continuity) valid = valid & is_valid(goal.continuity);
-    return valid;
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

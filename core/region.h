@@ -3,8 +3,8 @@
 // A reach region: where the upper arm may point. It is a union of parts, each an intersection of half-spaces a . d >=
 // c, less forbidden cones. The room of a direction is the least over a part's half-spaces, and the most over parts. A
 // forbidden cone takes it down to its own. While the arm swivels, each component of the direction goes as a cos phi + b
-// sin phi + c. So each half-space is a line on the circle, as every other limit is (limits.h). Rows keep these nine
-// numbers, and lines are made where they are needed.
+// sin phi + c. So each half-space is a line on the circle, as every other limit is (joint_limits.h). Rows keep these
+// nine numbers, and lines are made where they are needed.
 //
 // Sources: cones in order with bridges between them, the kusudamas of E. Gjoni, which Godot has; the search on the
 // circle is our own.

@@ -134,9 +134,9 @@ swivel::Crowd make_crowd(std::size_t count)
 }
 
 // What is below these feet. Solving threads call it.
-void sample(const swivel::Probes& probes)
+void sample(const swivel_probes& probes)
 {
-    for (std::size_t n = 0; n < probes.places.size(); ++n) {
+    for (std::size_t n = 0; n < probes.count; ++n) {
         const double x = double{probes.places[n][0]}, z = double{probes.places[n][2]}, near = 1e-3;
         const float ground[] = {probes.places[n][0], static_cast<float>(height(x, z)), probes.places[n][2]};
         const float normal[] = {static_cast<float>((height(x - near, z) - height(x + near, z)) / (2 * near)), 1,

@@ -148,7 +148,7 @@ void solve_bodies(Game& game)
     pose.root_position = swivel::stream(game.characters, &Character::place);
     std::array<swivel::Streams, kLimbs> streams;
     for (std::size_t n = 0; n < kLimbs; ++n)
-        streams[n].in(SWIVEL_TARGET, swivel::stream(game.characters, &Character::targets, n));
+        streams[n].in(SWIVEL_TARGET, {&game.characters[0].targets[n], sizeof(Character)});
     game.crowd.solve({.mask = game.turns, .streams = {streams.begin(), streams.end()}, .pose = &pose});
 }
 

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <iterator>
 
 #include "include/swivel/swivel_bodies.h"
 
@@ -111,24 +113,66 @@ constexpr const char* feature_name(swivel_features features)
 }
 
 // ---- fields, in the order of their rows: inputs, then results
-// A part of a value, whose bounds explanations check. The kernels check theirs where they use it.
-enum class ValuePart : std::uint8_t { none, position, direction, quaternion, share, time, offset };
-struct PartBounds {
-    std::uint32_t count;  // numbers; their length counts if they are several
-    double min, max;
+// What the numbers of a value are, part after part.
+enum class ValuePart : std::uint8_t {
+    none,
+    position,    // where something is: it may be given in double, from an origin
+    point,       // of a joint's own frame
+    direction,   // of any length, as are the next two
+    quaternion,  // a rotation
+    turn,        // cosine and sine of an angle
+    axis,        // unit, as are the next three
+    half_turn,   // cosine and sine of 0 to pi
+    right_turn,  // cosine and sine of 0 to pi / 2
+    range,       // of angles: cosine and sine of its middle, and of half its width
+    cosine,      // of a cone's max angle
+    flexion,     // cosines of half the min and half the max flexion
+    length,      // of a bone
+    scale,
+    stretch,
+    share,
+    time,
+    offset,  // along a given line
+    count
 };
-constexpr PartBounds bounds_of(ValuePart part)
-{
-    constexpr PartBounds bounds[] = {{0, 0, 0}, {3, 0, 1e15}, {3, 1e-9, 1e9},  {4, 1e-9, 1e9},
-                                     {1, 0, 1}, {1, 0, 1e15}, {1, -1e15, 1e15}};
-    return bounds[static_cast<std::size_t>(part)];
-}
-struct ValueRange {
-    const char* text;  // what a value must be to be in its range
-    ValuePart parts[2] = {};
+// The kernels check values where they use them. min and max are for explanations of what stages of bodies read.
+struct PartRow {
+    ValuePart part;
+    std::uint32_t count;       // numbers
+    std::uint32_t unit_count;  // of these, so many at a time have unit length; 0: none
+    float start[4];            // a value that changes nothing
+    double min = 0, max = 0;   // of the number, or of the length of several
 };
-struct UnitParts {  // the numbers of a value that are a unit axis, and pairs of cosine and sine that follow
-    std::uint32_t axis_size = 0, pair_count = 0;
+constexpr PartRow kValueParts[] = {
+    {ValuePart::none, 0, 0, {}},
+    {ValuePart::position, 3, 0, {0, 0, 0}, 0, 1e15},
+    {ValuePart::point, 3, 0, {0, 0, 0}, 0, 1e15},
+    {ValuePart::direction, 3, 0, {0, 1, 0}, 1e-9, 1e9},
+    {ValuePart::quaternion, 4, 0, {0, 0, 0, 1}, 1e-9, 1e9},
+    {ValuePart::turn, 2, 0, {1, 0}},
+    {ValuePart::axis, 3, 3, {0, 0, 1}},
+    {ValuePart::half_turn, 2, 2, {-1, 0}},
+    {ValuePart::right_turn, 2, 2, {1, 0}},
+    {ValuePart::range, 4, 2, {1, 0, -1, 0}},  // its middle 0, half its width pi
+    {ValuePart::cosine, 1, 0, {-1}},
+    {ValuePart::flexion, 2, 0, {1, 0}},
+    {ValuePart::length, 1, 0, {1}},
+    {ValuePart::scale, 1, 0, {1}},
+    {ValuePart::stretch, 1, 0, {1}},
+    {ValuePart::share, 1, 0, {1}, 0, 1},
+    {ValuePart::time, 1, 0, {1e15f}, 0, 1e15},
+    {ValuePart::offset, 1, 0, {0}, -1e15, 1e15},
+};
+static_assert([] {
+    std::size_t n = 0;
+    for (const PartRow& row : kValueParts)
+        if (static_cast<std::size_t>(row.part) != n++) return false;
+    return n == static_cast<std::size_t>(ValuePart::count);
+}());
+constexpr const PartRow& row_of(ValuePart part) { return kValueParts[static_cast<std::size_t>(part)]; }
+struct ValueLayout {
+    const char* range;  // what its numbers must be, in words
+    ValuePart parts[4] = {};
 };
 inline constexpr std::uint32_t kMaxComponents = 25;  // of an input, and of what is carried
 // The numbers of SWIVEL_RECORD, by the first of each value.
@@ -144,41 +188,43 @@ static_assert(std::uint32_t{kRecordSize} <= kMaxComponents);
 // Those of SWIVEL_LIFT behind the three of the height: the normal that the foot turns with, and its rate.
 enum LiftNumber : int { kSlope = 3, kSlopeRate = kSlope + 3 };
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
-enum class Place : std::uint8_t { no, yes };           // a position: it may be given in double, from an origin
 struct FieldRow {
     swivel_field field;
     const char* name;
     std::uint32_t component_count;  // see field_row_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
-    ValueRange range = {""};
+    ValueLayout value = {""};
     float start[kMaxComponents] = {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
     Start starts = Start::neutral;
-    Place place = Place::no;
-    UnitParts unit = {};
 
     // Component c of a value of any number of components: values of twist bones are many of the row's.
     constexpr float start_of(std::uint32_t c) const { return start[c % component_count]; }
 };
 constexpr swivel_field_kind kInput = SWIVEL_FIELD_INPUT, kResult = SWIVEL_FIELD_RESULT, kCarried = SWIVEL_FIELD_CARRIED;
-constexpr ValueRange kPlace = {"no further than 1e15", {ValuePart::position}},
-                     kQuaternion = {"a quaternion of length 1e-9 to 1e9", {ValuePart::quaternion}},
-                     kShareRange = {"0 to 1", {ValuePart::share}}, kSharesRange = {"0 to 1 each"},
-                     kCone = {"a unit axis and a cosine; swivel_cone() makes them"},
-                     kRanges = {"ranges of angles; swivel_range() makes them"};
-// A value that is a position.
-constexpr FieldRow place(swivel_field field, const char* name, swivel_features needs, swivel_features excludes,
-                         const float (&start)[3], Start starts)
+constexpr ValueLayout kPosition = {"no further than 1e15", {ValuePart::position}},
+                      kPoint = {"no further than 1e15", {ValuePart::point}},
+                      kQuaternion = {"a quaternion of length 1e-9 to 1e9", {ValuePart::quaternion}},
+                      kShare = {"0 to 1", {ValuePart::share}},
+                      kShares = {"0 to 1 each", {ValuePart::share, ValuePart::share, ValuePart::share}},
+                      kCone = {"a unit axis and a cosine; swivel_cone() makes them",
+                               {ValuePart::axis, ValuePart::cosine}},
+                      kRange = {"ranges of angles; swivel_range() makes them", {ValuePart::range}},
+                      kBox = {kRange.range, {ValuePart::range, ValuePart::range, ValuePart::range}};
+// start: unless it is that of the value's parts.
+constexpr FieldRow input(swivel_field field, const char* name, swivel_features needs, const ValueLayout& value,
+                         std::initializer_list<float> start = {})
 {
-    return {field, name, 3, kInput, needs, excludes, kPlace, {start[0], start[1], start[2]}, starts, Place::yes};
+    FieldRow row{field, name, 0, kInput, needs, 0, value};
+    for (const ValuePart part : value.parts)
+        for (std::uint32_t n = 0; n < row_of(part).count; ++n) row.start[row.component_count++] = row_of(part).start[n];
+    float* number = row.start;
+    for (const float x : start) *number++ = x;
+    return row;
 }
-// Any other input.
-template <std::size_t count>
-constexpr FieldRow input(swivel_field field, const char* name, swivel_features needs, const ValueRange& range,
-                         const float (&start)[count], UnitParts unit = {}, Start starts = Start::neutral)
+constexpr FieldRow unknown(FieldRow row)
 {
-    FieldRow row{field, name, count, kInput, needs, 0, range, {}, starts, Place::no, unit};
-    for (std::size_t n = 0; n < count; ++n) row.start[n] = start[n];
+    row.starts = Start::unknown;
     return row;
 }
 constexpr FieldRow but_not(swivel_features features, FieldRow row)
@@ -188,62 +234,59 @@ constexpr FieldRow but_not(swivel_features features, FieldRow row)
 }
 // One that a body's pose gives where there is one.
 constexpr FieldRow unless_posed(const FieldRow& row) { return but_not(kBody, row); }
-constexpr float kIdentity[] = {0, 0, 0, 1}, kAnyCone[] = {0, 0, 1, -1};
-constexpr float kAnyRange[] = {1, 0, -1, 0};  // its middle 0, half its width pi
-constexpr float kAnyRanges[] = {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0};
 constexpr FieldRow kFields[] = {
-    place(SWIVEL_TARGET, "target", 0, 0, {0, 0, 2}, Start::unknown),
-    place(SWIVEL_POLE, "pole", 0, SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND, {0, -1, 0}, Start::neutral),
-    input(SWIVEL_LENGTHS, "lengths", 0, {"0 or 1e-15 to 1e15 each"}, {1, 1}, {}, Start::unknown),
-    place(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, kBody, {0, 0, 0}, Start::unknown),
-    unless_posed(input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion, kIdentity)),
-    unless_posed(input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, {"1e-15 to 1e15"}, {1})),
-    input(SWIVEL_HAND, "hand", SWIVEL_WITH_HAND, kQuaternion, kIdentity),
-    input(SWIVEL_EFFECTOR, "effector", SWIVEL_WITH_EFFECTOR, kPlace, {0, 0, 0}),
-    input(SWIVEL_ANGLE, "angle", SWIVEL_WITH_ANGLE, {"cos and sin, 1e-9 to 1e9 long; swivel_cos_sin() makes them"},
-          {1, 0}),
-    unless_posed(input(SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
-    unless_posed(input(SWIVEL_INCOMING_ELBOW, "incoming_elbow", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
-    unless_posed(input(SWIVEL_INCOMING_WRIST, "incoming_wrist", SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND, kQuaternion,
-                       kIdentity)),
-    input(SWIVEL_WEIGHTS, "weights", SWIVEL_WITH_WEIGHTS, kSharesRange, {1, 1, 1}),
-    input(SWIVEL_REACH, "reach", SWIVEL_WITH_REACH, {"0 to 1 each, the stretch 1 to 1000"}, {0, 0, 1, 0}),
+    unknown(input(SWIVEL_TARGET, "target", 0, kPosition, {0, 0, 2})),
+    but_not(SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND, input(SWIVEL_POLE, "pole", 0, kPosition, {0, -1, 0})),
+    unknown(input(SWIVEL_LENGTHS, "lengths", 0, {"0 or 1e-15 to 1e15 each", {ValuePart::length, ValuePart::length}})),
+    unless_posed(unknown(input(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, kPosition))),
+    unless_posed(input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion)),
+    unless_posed(input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, {"1e-15 to 1e15", {ValuePart::scale}})),
+    input(SWIVEL_HAND, "hand", SWIVEL_WITH_HAND, kQuaternion),
+    input(SWIVEL_EFFECTOR, "effector", SWIVEL_WITH_EFFECTOR, kPoint),
+    input(SWIVEL_ANGLE, "angle", SWIVEL_WITH_ANGLE,
+          {"cos and sin, 1e-9 to 1e9 long; swivel_cos_sin() makes them", {ValuePart::turn}}),
+    unless_posed(input(SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", SWIVEL_WITH_INCOMING, kQuaternion)),
+    unless_posed(input(SWIVEL_INCOMING_ELBOW, "incoming_elbow", SWIVEL_WITH_INCOMING, kQuaternion)),
+    unless_posed(input(SWIVEL_INCOMING_WRIST, "incoming_wrist", SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND, kQuaternion)),
+    input(SWIVEL_WEIGHTS, "weights", SWIVEL_WITH_WEIGHTS, kShares),
+    input(SWIVEL_REACH, "reach", SWIVEL_WITH_REACH,
+          {"0 to 1 each, the stretch 1 to 1000",
+           {ValuePart::share, ValuePart::share, ValuePart::stretch, ValuePart::share}},
+          {0, 0, 1, 0}),
     input(SWIVEL_MAX_SWIVEL, "max_swivel", SWIVEL_WITH_MAX_SWIVEL,
-          {"cos and sin of 0 to pi; swivel_cos_sin() makes them"}, {-1, 0}, {0, 1}),
+          {"cos and sin of 0 to pi; swivel_cos_sin() makes them", {ValuePart::half_turn}}),
     input(SWIVEL_FLEXION_LIMIT, "flexion_limit", SWIVEL_WITH_FLEXION_LIMIT,
-          {"cosines of half angles; swivel_flexion() makes them"}, {1, 0}),
-    input(SWIVEL_SHOULDER_CONE, "shoulder_cone", SWIVEL_WITH_SHOULDER_CONE, kCone, kAnyCone, {3, 0}),
-    input(SWIVEL_HUMERAL_TWIST, "humeral_twist", SWIVEL_WITH_HUMERAL_TWIST, kRanges, kAnyRange, {0, 2}),
-    input(SWIVEL_SHOULDER_BOX, "shoulder_box", SWIVEL_WITH_SHOULDER_BOX, kRanges, kAnyRanges, {0, 6}),
-    input(SWIVEL_HAND_CONE, "hand_cone", SWIVEL_WITH_HAND_CONE, kCone, kAnyCone, {3, 0}),
-    input(SWIVEL_FOREARM_TWIST, "forearm_twist", SWIVEL_WITH_FOREARM_TWIST, kRanges, kAnyRange, {0, 2}),
+          {"cosines of half angles; swivel_flexion() makes them", {ValuePart::flexion}}),
+    input(SWIVEL_SHOULDER_CONE, "shoulder_cone", SWIVEL_WITH_SHOULDER_CONE, kCone),
+    input(SWIVEL_HUMERAL_TWIST, "humeral_twist", SWIVEL_WITH_HUMERAL_TWIST, kRange),
+    input(SWIVEL_SHOULDER_BOX, "shoulder_box", SWIVEL_WITH_SHOULDER_BOX, kBox),
+    input(SWIVEL_HAND_CONE, "hand_cone", SWIVEL_WITH_HAND_CONE, kCone),
+    input(SWIVEL_FOREARM_TWIST, "forearm_twist", SWIVEL_WITH_FOREARM_TWIST, kRange),
     input(SWIVEL_HAND_TWIST, "hand_twist", SWIVEL_WITH_HAND_TWIST,
-          {"a unit axis and a range of angles; swivel_range() makes it"}, {0, 0, 1, 1, 0, -1, 0}, {3, 2}),
-    input(SWIVEL_WRIST_BOX, "wrist_box", SWIVEL_WITH_WRIST_BOX, kRanges, kAnyRanges, {0, 6}),
-    input(SWIVEL_AIM, "aim", SWIVEL_WITH_AIM, {"a unit axis, cos and sin; swivel_aim() makes them"}, {0, 0, 1, 1, 0},
-          {3, 1}),
+          {"a unit axis and a range of angles; swivel_range() makes it", {ValuePart::axis, ValuePart::range}}),
+    input(SWIVEL_WRIST_BOX, "wrist_box", SWIVEL_WITH_WRIST_BOX, kBox),
+    input(SWIVEL_AIM, "aim", SWIVEL_WITH_AIM,
+          {"a unit axis, cos and sin; swivel_aim() makes them", {ValuePart::axis, ValuePart::right_turn}}),
     input(SWIVEL_CLAVICLE, "clavicle", SWIVEL_WITH_CLAVICLE,
-          {"a place no further than 1e15 and a share of 0 to 1", {ValuePart::share}}, {0, 0, 0, 0}),
-    but_not(SWIVEL_PLANT_BY_MOTION, input(SWIVEL_CONTACT, "contact", SWIVEL_WITH_PLANT, kShareRange, {0})),
-    input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, kSharesRange, {0.01f, 0.9f, 0}),
-    input(SWIVEL_PELVIS_FIT_WEIGHT, "pelvis_fit_weight", SWIVEL_WITH_PELVIS_FIT, kShareRange, {1}),
-    place(SWIVEL_NEXT_TARGET, "next_target", SWIVEL_WITH_NEXT_TARGET, 0, {0, 0, 0}, Start::neutral),
-    input(SWIVEL_NEXT_TIME, "next_time", SWIVEL_WITH_NEXT_TARGET, {"0 to 1e15", {ValuePart::time}}, {1e15f}),
-    input(SWIVEL_SHIFT_WISH, "shift_wish", kShift, {"no further than 1e15 from 0", {ValuePart::offset}}, {0}),
-    place(SWIVEL_GROUND, "ground", SWIVEL_WITH_GROUND, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_GROUND_NORMAL, "ground_normal", SWIVEL_WITH_GROUND, {"of length 1e-9 to 1e9", {ValuePart::direction}},
-          {0, 1, 0}),
-    input(SWIVEL_GROUND_WEIGHT, "ground_weight", SWIVEL_WITH_GROUND, kShareRange, {1}),
+          {"a place no further than 1e15 and a share of 0 to 1", {ValuePart::point, ValuePart::share}}, {0, 0, 0, 0}),
+    but_not(SWIVEL_PLANT_BY_MOTION, input(SWIVEL_CONTACT, "contact", SWIVEL_WITH_PLANT, kShare, {0})),
+    input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, kShares, {0.01f, 0.9f, 0}),
+    input(SWIVEL_PELVIS_FIT_WEIGHT, "pelvis_fit_weight", SWIVEL_WITH_PELVIS_FIT, kShare),
+    input(SWIVEL_NEXT_TARGET, "next_target", SWIVEL_WITH_NEXT_TARGET, kPosition),
+    input(SWIVEL_NEXT_TIME, "next_time", SWIVEL_WITH_NEXT_TARGET, {"0 to 1e15", {ValuePart::time}}),
+    input(SWIVEL_SHIFT_WISH, "shift_wish", kShift, {"no further than 1e15 from 0", {ValuePart::offset}}),
+    unknown(input(SWIVEL_GROUND, "ground", SWIVEL_WITH_GROUND, kPosition)),
+    input(SWIVEL_GROUND_NORMAL, "ground_normal", SWIVEL_WITH_GROUND, {"of length 1e-9 to 1e9", {ValuePart::direction}}),
+    input(SWIVEL_GROUND_WEIGHT, "ground_weight", SWIVEL_WITH_GROUND, kShare),
     input(SWIVEL_GRIP, "grip", SWIVEL_WITH_LINK,
           {"a place no further than 1e15 and a quaternion of length 1e-9 to 1e9",
-           {ValuePart::position, ValuePart::quaternion}},
-          {0, 0, 0, 0, 0, 0, 1}),
-    place(SWIVEL_PROP_POSITION, "prop_position", kProp, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_PROP_ROTATION, "prop_rotation", kProp, kQuaternion, kIdentity, {}, Start::unknown),
-    input(SWIVEL_HAND_BLEND, "hand_blend", kProp, kShareRange, {0}),
-    input(SWIVEL_PROP_WEIGHT, "prop_weight", kProp, kShareRange, {1}),
-    place(SWIVEL_LOOK_TARGET, "look_target", kLook, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_LOOK_WEIGHT, "look_weight", kLook, kShareRange, {1}),
+           {ValuePart::point, ValuePart::quaternion}}),
+    unknown(input(SWIVEL_PROP_POSITION, "prop_position", kProp, kPosition)),
+    unknown(input(SWIVEL_PROP_ROTATION, "prop_rotation", kProp, kQuaternion)),
+    input(SWIVEL_HAND_BLEND, "hand_blend", kProp, kShare, {0}),
+    input(SWIVEL_PROP_WEIGHT, "prop_weight", kProp, kShare),
+    unknown(input(SWIVEL_LOOK_TARGET, "look_target", kLook, kPosition)),
+    input(SWIVEL_LOOK_WEIGHT, "look_weight", kLook, kShare),
     {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, {""}, {0, 0, 0, 1}},
     {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, {""}, {1, 0}},
     {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, {""}, {0, 0, 0, 1}},
@@ -288,10 +331,7 @@ static_assert([] {
 }());
 static_assert([] {
     for (const FieldRow& row : kFields)
-        if ((row.kind != kResult && row.component_count > kMaxComponents) ||
-            (row.place == Place::yes && row.component_count != 3) ||
-            row.unit.axis_size + 2 * row.unit.pair_count > row.component_count)
-            return false;
+        if (row.kind != kResult && row.component_count > kMaxComponents) return false;
     return true;
 }());
 
@@ -351,5 +391,31 @@ constexpr FlagRow kFlags[] = {
     {SWIVEL_FADED, "FADED"},
     {SWIVEL_BAD_INPUT, "BAD_INPUT"},
 };
+
+// ---- limits of the swivel
+// Those that are one line each on the circle of swivels (core/joint_limits.h), in the order of their lines. A limit of
+// the hand is among kHandLimits, too.
+inline constexpr swivel_field kLineLimits[] = {SWIVEL_SHOULDER_CONE, SWIVEL_HUMERAL_TWIST, SWIVEL_HAND_CONE,
+                                               SWIVEL_FOREARM_TWIST, SWIVEL_HAND_TWIST};
+inline constexpr std::size_t kLineLimitCount = std::size(kLineLimits);
+inline constexpr swivel_features kLineFeatures = [] {
+    swivel_features features = 0;
+    for (const swivel_field limit : kLineLimits) features |= row_of(limit).needs;
+    return features;
+}();
+inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX;
+// All of them.
+inline constexpr swivel_features kSwivelLimits = kLineFeatures | kBoxFeatures | SWIVEL_WITH_REGION;
+// The lines, their features' bits and their flags are in one order.
+static_assert([] {
+    std::size_t n = 0;
+    swivel_features before = 0;
+    for (const FlagRow& row : kFlags) {
+        if (row.limit == SWIVEL_INPUT_END || row_of(row.limit).needs & kBoxFeatures) continue;
+        if (n == kLineLimitCount || kLineLimits[n++] != row.limit || row_of(row.limit).needs <= before) return false;
+        before = row_of(row.limit).needs;
+    }
+    return n == kLineLimitCount;
+}());
 
 }  // namespace swivel

@@ -79,8 +79,9 @@ struct ArmKernels {
     void (*pack)(const PackRun& run);  // of any group
 };
 
-// How many arcs of swivels limits can leave: core/allowed_arcs.h has as many.
-inline constexpr std::size_t kMaxArcs = 179;
+// How many arcs of swivels limits can leave: two for each line, and those of boxes and a region. core/allowed_arcs.h
+// has as many.
+inline constexpr std::size_t kMaxArcs = 2 * kLineLimitCount + 169;
 // An arc of swivels: cos and sin of its ends.
 struct ArcEnds {
     float from[2], to[2];

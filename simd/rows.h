@@ -29,7 +29,7 @@ constexpr std::uint32_t field_row_count(swivel_features features, swivel_field f
 
 // The fields that are positions, and those from which an origin is subtracted: not poles that are directions or
 // normals.
-constexpr bool is_position(swivel_field field) { return row_of(field).place == Place::yes; }
+constexpr bool is_position(swivel_field field) { return row_of(field).value.parts[0] == ValuePart::position; }
 constexpr bool has_origin(swivel_features features, swivel_field field)
 {
     return is_position(field) && !(field == SWIVEL_POLE && (features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL)));

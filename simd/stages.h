@@ -5,6 +5,7 @@
 // it. The number of functions grows with the sum over the stages, not with the sets of all features.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -37,12 +38,8 @@ enum class Stage : std::uint8_t {
     aim,     // the same, for a line of the hand that goes through the target
     wish,    // the swivel plane's normal
     yield,   // the hand, turned to where the wrist does not get
-    shoulder_cone,
-    humeral_twist,
-    hand_cone,
-    forearm_twist,
-    hand_twist,
-    shoulder_box,
+    line,    // the limit of the swivel that is the first of kLineLimits; its others follow
+    shoulder_box = line + kLineLimitCount,
     wrist_box,
     region,         // where the upper arm points while it swivels
     choose,         // the swivel that the lines allow
@@ -56,14 +53,6 @@ enum class Stage : std::uint8_t {
     commit,          // stores what waited until all input is known to be good
     count
 };
-
-// The limits of the swivel that are a line each, in the order of their lines; and those that are boxes.
-inline constexpr swivel_features kLineFeatures = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST |
-                                                 SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
-                                                 SWIVEL_WITH_HAND_TWIST;
-inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX;
-// All limits of the swivel.
-inline constexpr swivel_features kSwivelLimits = kLineFeatures | kBoxFeatures | SWIVEL_WITH_REGION;
 
 // These move a limb even where its weights ask for nothing.
 inline constexpr swivel_features kBoundingFeatures =
@@ -92,7 +81,8 @@ struct StageRow {
 inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_AIM,
                                  kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_POLE_HAND,
                                  kSpecial = kSpecialBones | kSpecialWish;
-inline constexpr StageRow kStages[] = {
+// All stages but those of lines.
+inline constexpr StageRow kOtherStages[] = {
     {Stage::probe, 0, SWIVEL_WITH_GROUND, 0, Pass::probe},
     {Stage::plant, 0, SWIVEL_WITH_PLANT, 0, Pass::gather},
     {Stage::ground, 0, SWIVEL_WITH_GROUND, 0, Pass::gather},
@@ -114,11 +104,6 @@ inline constexpr StageRow kStages[] = {
     {Stage::aim, 0, SWIVEL_WITH_AIM, 0},
     {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL, kSpecial, 0},
     {Stage::yield, 0, SWIVEL_HAND_YIELDS, 0},
-    {Stage::shoulder_cone, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_CONE, 0},
-    {Stage::humeral_twist, SWIVEL_WITH_AIM, SWIVEL_WITH_HUMERAL_TWIST, 0},
-    {Stage::hand_cone, 0, SWIVEL_WITH_HAND_CONE, 0},
-    {Stage::forearm_twist, 0, SWIVEL_WITH_FOREARM_TWIST, 0},
-    {Stage::hand_twist, 0, SWIVEL_WITH_HAND_TWIST, 0},
     {Stage::shoulder_box, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_BOX, 0},
     {Stage::wrist_box, 0, SWIVEL_WITH_WRIST_BOX, 0},
     {Stage::region, SWIVEL_WITH_AIM, SWIVEL_WITH_REGION, 0},
@@ -132,6 +117,32 @@ inline constexpr StageRow kStages[] = {
     {Stage::hand_transform, 0, SWIVEL_WITH_HAND_TRANSFORM, 0},
     {Stage::commit, 0, kLibraryGoal, 0},
 };
+constexpr bool is_line(Stage stage) { return stage >= Stage::line && stage < Stage::shoulder_box; }
+constexpr swivel_field line_limit_of(Stage stage)
+{
+    return kLineLimits[static_cast<std::size_t>(stage) - static_cast<std::size_t>(Stage::line)];
+}
+// In the order of the stages. Groups that aim have no limits of the hand.
+inline constexpr auto kStages = [] {
+    std::array<StageRow, static_cast<std::size_t>(Stage::count)> rows{};
+    const StageRow* other = kOtherStages;
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        const Stage stage = static_cast<Stage>(n);
+        if (is_line(stage)) {
+            const swivel_features feature = row_of(line_limit_of(stage)).needs;
+            rows[n] = {stage, feature & kHandLimits ? 0 : SWIVEL_WITH_AIM, feature, 0};
+        } else {
+            rows[n] = *other++;
+        }
+    }
+    return rows;
+}();
+static_assert([] {
+    std::size_t n = 0;
+    for (const StageRow& row : kStages)
+        if (static_cast<std::size_t>(row.stage) != n++) return false;
+    return std::size(kOtherStages) + kLineLimitCount == n;
+}());
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 constexpr bool needs(swivel_features features, const StageRow& row)
 {
@@ -172,16 +183,16 @@ constexpr std::size_t function_of(Stage stage, swivel_features features)
     while (subset(row_of(stage).knows, n) != (features & row_of(stage).knows)) ++n;
     return n;
 }
-// The functions of all stages have numbers, stage after stage.
-constexpr std::size_t first_function(Stage stage)
-{
-    std::size_t first = 0;
-    for (const StageRow& row : kStages)
-        if (row.stage < stage) first += function_count(row.stage);
+// The functions of all stages have numbers, stage after stage. The first one of each stage is looked up, because clang
+// ends a constant expression that takes a million steps.
+inline constexpr auto kFirstFunctions = [] {
+    std::array<std::size_t, kStages.size() + 1> first{};
+    for (std::size_t n = 0; n < kStages.size(); ++n) first[n + 1] = first[n] + function_count(kStages[n].stage);
     return first;
-}
+}();
+constexpr std::size_t first_function(Stage stage) { return kFirstFunctions[static_cast<std::size_t>(stage)]; }
 inline constexpr std::size_t kStageFunctions = first_function(Stage::count);
-static_assert(kStageFunctions <= 256 && std::size(kStages) == static_cast<std::size_t>(Stage::count));
+static_assert(kStageFunctions <= 256);
 
 // The functions that the limbs of a group go through, by their numbers.
 struct StageList {

@@ -12,7 +12,7 @@ namespace swivel {
 
 // The most blocks that a strip has. Half of them fit a small stack.
 inline constexpr std::uint32_t kStripBlocks = 8, kStackBlocks = 4;
-inline constexpr std::uint32_t kMaxLimitLines = 5, kMaxLimitBoxes = 2;
+inline constexpr std::uint32_t kMaxLimitLines = kLineLimitCount, kMaxLimitBoxes = 2;
 
 // The rows of a strip's block, by the first of each value. Within a block they lie as a group's rows do.
 enum StripRow : std::uint32_t {

@@ -3,7 +3,7 @@
 // Judges of joint limits and of regions, in double, with Eigen and the C library's arc functions. They say how far a
 // rotation is outside of a cone, a twist range or a box of Euler angles, and how much room a direction has in a region.
 // A bridge is what a disc of its radius cannot cover without touching one of both cones: the closing of the pair by
-// that disc. They share nothing with core/limits.h, and with core/region.h no more than the definition of a cone.
+// that disc. They share nothing with core/angle_limits.h, and with core/region.h no more than the definition of a cone.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -107,13 +107,13 @@ struct LimitedArms {
 
     LimitedArms(Random& random, std::uint32_t count, bool has_region)
     {
-        const std::uint32_t kinds = random.word();
-        const auto add = [&](swivel_features feature, std::uint32_t bits) {
-            if ((kinds & bits) == bits) features |= feature;
-        };
-        add(SWIVEL_WITH_SHOULDER_CONE, 0x1), add(SWIVEL_WITH_HUMERAL_TWIST, 0x2);
-        add(SWIVEL_WITH_HAND_CONE, 0xc), add(SWIVEL_WITH_FOREARM_TWIST, 0x30), add(SWIVEL_WITH_HAND_TWIST, 0xc0);
-        add(SWIVEL_WITH_SHOULDER_BOX, 0x300), add(SWIVEL_WITH_WRIST_BOX, 0xc00);
+        // The first two are there by one bit, in half of the crowds. The others are by two, in a quarter.
+        std::uint32_t kinds = random.word();
+        for (std::size_t n = 0; n < std::size(kSwivelLimits); ++n) {
+            const std::uint32_t bits = n < 2 ? 1 : 3;
+            if ((kinds & bits) == bits) features |= describe(kSwivelLimits[n]).needs;
+            kinds >>= n < 2 ? 1 : 2;
+        }
         if (has_region) features |= SWIVEL_WITH_REGION, region = random_region(random);
         for (swivel_euler_order& order : orders) order = static_cast<swivel_euler_order>(random.below(6));
         for (std::uint32_t n = 0; n < count; ++n) arms.push_back(random_limited_arm(random, orders[0], orders[1]));

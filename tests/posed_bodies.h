@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "tests/body_crowd.h"
 #include "tests/nearest_in_balls.h"
@@ -157,14 +158,15 @@ struct PosedBodies {
             const Vector3d axis = random.direction();
             return cone({axis.x(), axis.y(), axis.z()}, random.between(0.3, 2));
         };
+        const auto give_made = [&](std::string_view function, const auto& make) {
+            for (const swivel_field field : every_field())
+                if (is_made_by(function, field)) give_if(describe(field).needs, field, make);
+        };
+        give_made("swivel_cos_sin()", [&] { return cos_sin(random.between(0.1, 3)); });
+        give_made("swivel_flexion()", [&] { return flexion(random.between(0, 0.5), random.between(2, 3.1)); });
+        give_made("swivel_cone()", any_cone);
         give_if(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, [&] { return floats(random.vector(0, 0.1)); });
-        give_if(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, [&] { return cos_sin(random.between(0.3, 3)); });
-        give_if(SWIVEL_WITH_FLEXION_LIMIT, SWIVEL_FLEXION_LIMIT,
-                [&] { return flexion(random.between(0, 0.5), random.between(2, 3.1)); });
         give_if(SWIVEL_WITH_CAP, SWIVEL_CAP, [&] { return Float3{number(0, 0.1), number(0.5, 1), 0}; });
-        give_if(SWIVEL_WITH_MAX_SWIVEL, SWIVEL_MAX_SWIVEL, [&] { return cos_sin(random.between(0.1, 3)); });
-        give_if(SWIVEL_WITH_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, any_cone);
-        give_if(SWIVEL_WITH_HAND_CONE, SWIVEL_HAND_CONE, any_cone);
         give_if(SWIVEL_WITH_REACH, SWIVEL_REACH, [&] {
             return Float4{number(0, 0.1), number(0, 0.05), number(1, 1.3), number(0, 0.1)};
         });

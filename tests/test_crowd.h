@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "swivel/swivel.hpp"
@@ -26,6 +27,12 @@ inline std::vector<swivel_field> every_field()
     return fields;
 }
 
+// Whether the library says of a field that one of its functions makes the values.
+inline bool is_made_by(std::string_view function, swivel_field field)
+{
+    return std::string_view(describe(field).range).find(function) != std::string_view::npos;
+}
+
 // The features of arms that nothing more is asked of, and every set of them that a group may have.
 inline constexpr swivel_features kEverything = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
 inline std::vector<swivel_features> every_plain_set()
@@ -37,6 +44,31 @@ inline std::vector<swivel_features> every_plain_set()
                 sets.push_back(world | joints | hand);
     return sets;
 }
+
+// Features that say where elbows go.
+inline constexpr swivel_features kPoleFeatures =
+    SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND;
+// Whether a set of features has all that they need, and none that they exclude.
+inline bool is_whole(swivel_features features)
+{
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
+        if ((features & info.feature) && ((features & info.needs) != info.needs || (features & info.excludes)))
+            return false;
+    return true;
+}
+// These features of free limbs, and every further one that goes with those before it in the library's order, but for
+// those that are left out.
+inline swivel_features all_beside(swivel_features features, swivel_features left_out)
+{
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
+        const bool may_be = (info.kinds >> SWIVEL_KIND_LIMB & 1) != 0 && !(info.feature & left_out);
+        if (may_be && is_whole(features | info.feature)) features |= info.feature;
+    }
+    return features;
+}
+
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 inline bool is_one_line(const std::string& text)

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <cmath>
+#include <string>
 
 #include "tests/limit_oracle.h"
 #include "tests/test_arm.h"
@@ -129,9 +131,27 @@ inline void check_forward(const Crowd& crowd, std::uint32_t group, const std::ve
 }
 
 inline constexpr swivel_features kWorldJointsHand = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
-inline constexpr swivel_features kLimits =
-    SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_SHOULDER_BOX |
-    SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
+// The limits of the swivel, in the order in which LimitedArms draws them.
+inline constexpr swivel_field kSwivelLimits[] = {SWIVEL_SHOULDER_CONE, SWIVEL_HUMERAL_TWIST, SWIVEL_HAND_CONE,
+                                                 SWIVEL_FOREARM_TWIST, SWIVEL_HAND_TWIST,    SWIVEL_SHOULDER_BOX,
+                                                 SWIVEL_WRIST_BOX};
+// Those of the upper arm that are no box.
+inline constexpr swivel_features kUpperArmLimits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
+// The features of all limits, the flexion's too.
+inline const swivel_features kLimits = [] {
+    swivel_features limits = SWIVEL_WITH_FLEXION_LIMIT;
+    for (const swivel_field limit : kSwivelLimits) limits |= describe(limit).needs;
+    return limits;
+}();
+// The flag that a limit of the swivel has, by its name; 0 for another field.
+inline std::uint32_t flag_of(swivel_field limit)
+{
+    std::string name = std::string("LIMITED_") + describe(limit).name;
+    for (char& c : name) c = static_cast<char>(std::toupper(c));
+    for (std::uint32_t flag = 1; flag != 0; flag <<= 1)
+        if (const char* const each = swivel_flag_name(flag); each && name == each) return flag;
+    return 0;
+}
 
 // A skeleton's limb with nothing aligned: random rest rotations, bones and bend.
 inline ThreeJoints skewed_joints(Random& random)

@@ -68,7 +68,7 @@ swivel_status check_fits(const swivel_crowd_def& def)
 {
     std::uint32_t shifts = 0, limbs = 0, shift = 0, limb = 0;  // how many, and the last of each
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
-        const swivel_features features = group_at(def, g).features;
+        const swivel_features features = unlinked_group(def, g).features;
         if (features & kShift && ++shifts > 1)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u is a shift, and group %u too; a body has one", g, shift);
         if (features & kShift) shift = g;
@@ -98,7 +98,7 @@ swivel_status check_ground(std::uint32_t g, const GroupDef& group)
 // Checks what a limb is linked to, and how many hold each prop.
 swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 {
-    const GroupDef group = group_at(def, g);
+    const GroupDef group = unlinked_group(def, g);
     if (group.link == UINT32_MAX)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u is SWIVEL_WITH_LINK, but is linked to none; set its link to a group's number", g);
@@ -122,11 +122,11 @@ swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 }
 swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const GroupDef prop_group = group_at(def, g);
+    const GroupDef prop_group = unlinked_group(def, g);
     const swivel_prop_def& prop = prop_group.prop;
     std::uint32_t holders = 0;
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
-        const GroupDef group = group_at(def, other);
+        const GroupDef group = unlinked_group(def, other);
         if (group.features & kLook) continue;  // a look is done before
         holders += group.features & SWIVEL_WITH_LINK && group.link == g;
         if (prop.joint < 0) continue;
@@ -145,7 +145,7 @@ swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& ske
 {
     swivel_status status = SWIVEL_OK;
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) {
-        const swivel_features features = group_at(def, g).features;
+        const swivel_features features = unlinked_group(def, g).features;
         if (features & SWIVEL_WITH_LINK) status = check_link(def, g);
         if (status == SWIVEL_OK && features & kProp) status = check_prop(def, skeleton, g);
     }
@@ -195,7 +195,7 @@ swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const
 
 swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const GroupDef group = group_at(def, g);
+    const GroupDef group = unlinked_group(def, g);
     if (!(group.features & kNoLimb) && !group.joints)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; give it those of the body's limb", g);
     if (const std::int32_t joint = group.prop.joint;
@@ -227,13 +227,14 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
 // above looks that come after it.
 swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const GroupDef group = group_at(def, g);
+    const GroupDef group = unlinked_group(def, g);
+    const TurnedJoints turned(skeleton, group);
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         if (other == g) continue;
-        const GroupDef below = group_at(def, other);
+        const GroupDef below = unlinked_group(def, other);
         const bool may_be_above = group.features & kLook && (!(below.features & kLook) || g < other);
         for (const std::uint32_t joint : TurnedJoints(skeleton, below))
-            for (const std::uint32_t above : TurnedJoints(skeleton, group))
+            for (const std::uint32_t above : turned)
                 if (is_above(skeleton, above, joint) && !(may_be_above && above != joint))
                     return fail(SWIVEL_INVALID_ARGUMENT,
                                 "group %u turns joint %u, which is %s joint %u of group %u; %s", g, above,
@@ -245,17 +246,28 @@ swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& sk
     return SWIVEL_OK;
 }
 
+// Refuses the first needed joint that has no rest pose.
+swivel_status check_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
+{
+    RestJoint rest;
+    std::uint32_t bad = skeleton.joint_count;
+    for (std::uint32_t g = 0; g < def.group_count; ++g)
+        for (const std::uint32_t end : NeededEnds(unlinked_group(def, g)))
+            for (auto at = static_cast<std::int32_t>(end); at >= 0;) {
+                const auto joint = static_cast<std::uint32_t>(at);
+                if (joint < bad && read_joint(skeleton, joint, rest) != SWIVEL_OK) bad = joint;
+                at = parent_of(skeleton, joint);
+            }
+    return bad < skeleton.joint_count ? read_joint(skeleton, bad, rest) : SWIVEL_OK;
+}
+
 // All joints may move with a limb, and the needed ones' translations may be those of poses.
 swivel_status check_skeleton(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
 {
     swivel_status status = SWIVEL_OK;
     for (std::uint32_t joint = 0; joint < skeleton.joint_count && status == SWIVEL_OK; ++joint)
         status = check_parents(skeleton, "the chain", joint);
-    if (status == SWIVEL_OK)
-        for_each_needed(def, skeleton, [&](std::uint32_t joint) {
-            RestJoint rest;
-            if (status == SWIVEL_OK) status = read_joint(skeleton, joint, rest);
-        });
+    if (status == SWIVEL_OK) status = check_needed(def, skeleton);
     return status == SWIVEL_OK ? status : fail_in("the skeleton", status);
 }
 

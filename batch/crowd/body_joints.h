@@ -4,8 +4,6 @@
 // below each other. The def's structures have the sizes that they must have.
 #pragma once
 
-#include <algorithm>
-
 #include "batch/crowd/crowd.h"
 #include "batch/crowd/group_def.h"
 #include "batch/crowd/skeleton.h"
@@ -43,7 +41,6 @@ struct TurnedJoints {
     }
     const std::uint32_t* begin() const { return joint; }
     const std::uint32_t* end() const { return joint + count; }
-    bool has(std::int32_t of) const { return of >= 0 && std::find(begin(), end(), std::uint32_t(of)) != end(); }
 };
 
 // Whether a joint is another or above it. Both are in the skeleton, and parents lead to a root.
@@ -54,24 +51,24 @@ inline bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::
     return false;
 }
 
-// Calls take(joint) for each joint that some group needs: those of all limbs, and what is above them.
-template <class Take>
-void for_each_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleton, const Take& take)
-{
-    const auto is_needed = [&](std::uint32_t joint) {
-        for (std::uint32_t g = 0; g < def.group_count; ++g) {
-            const GroupDef group = unlinked_group(def, g);
-            if (group.joints && is_above(skeleton, joint, joints_of(group).wrist)) return true;
-            if (group.features & kProp && group.prop.joint >= 0 &&
-                is_above(skeleton, joint, static_cast<std::uint32_t>(group.prop.joint)))
-                return true;
-            for (const std::uint32_t turned : TurnedJoints(skeleton, group))
-                if (is_above(skeleton, joint, turned)) return true;
-        }
-        return false;
-    };
-    for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
-        if (is_needed(joint)) take(joint);
-}
+// The joints at the lower ends of what a group needs: it needs them and all joints above them.
+inline constexpr std::uint32_t kMaxNeededEnds = 1 + SWIVEL_MAX_TWIST_BONES;
+struct NeededEnds {
+    std::uint32_t joint[kMaxNeededEnds];
+    std::uint32_t count = 0;
+
+    explicit NeededEnds(const GroupDef& group)
+    {
+        if (group.features & kLook) joint[count++] = group.look.joints[group.look.joint_count - 1];
+        if (group.features & kProp && group.prop.joint >= 0)
+            joint[count++] = static_cast<std::uint32_t>(group.prop.joint);
+        if (!group.joints) return;  // no limb
+        const swivel_limb_joints limb = joints_of(group);
+        joint[count++] = limb.wrist;
+        for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) joint[count++] = limb.twist_bones[n];
+    }
+    const std::uint32_t* begin() const { return joint; }
+    const std::uint32_t* end() const { return joint + count; }
+};
 
 }  // namespace swivel

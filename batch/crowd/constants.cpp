@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "batch/crowd/constants.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <string_view>
 
 namespace swivel {
 
@@ -20,7 +23,7 @@ constexpr ConstantRow kConstants[] = {
     {SWIVEL_MEMBER(plant, lock_radius), 0, kMaxValue, "limb lengths",
      "a point locks only within this of where it is animated"},
     {SWIVEL_MEMBER(plant, unlock_radius), 0, kMaxValue, "limb lengths",
-     "a locked point is released if the animation has it further away"},
+     "a locked point is released if the animation has it further away; no less than `lock_radius`"},
     {SWIVEL_MEMBER(plant, stop_time), 0, kMaxValue, "s", "a point that locks is at rest after this"},
     {SWIVEL_MEMBER(plant, release_time), 0, kMaxValue, "s", "a released point is with the animation again after this"},
     {SWIVEL_MEMBER(plant, relock_speed), 0, kMaxValue, "limb lengths a second",
@@ -54,7 +57,7 @@ constexpr ConstantRow kConstants[] = {
      "the most that it moves, in lengths of the first limb linked to it; 0: it stays, as a ladder does"},
 
     {SWIVEL_MEMBER(look, share), 0, kMaxValue, "",
-     "how much a joint takes of the turn that is left, against those after it; the last is more than 0"},
+     "how much a joint takes of the turn that is left, against those after it; the last joint's is more than 0"},
     {SWIVEL_MEMBER(look, cos_max), -1, 1, "", "cosine of the angle that each joint turns at most"},
     {SWIVEL_MEMBER(look, eye), -kFar, kFar, "the last joint's unit",
      "where the line of sight starts, in the last joint's frame"},
@@ -62,13 +65,20 @@ constexpr ConstantRow kConstants[] = {
      "where the line of sight points, in the last joint's frame, of any length but 0"},
     {SWIVEL_MEMBER(look, cos_full), -1, 1, "",
      "cosine of the target's angle to the line of sight from which on the look fades"},
-    {SWIVEL_MEMBER(look, cos_none), -1, 1, "", "cosine at which it has faded, and the pose stays; at least 0.001 less"},
+    {SWIVEL_MEMBER(look, cos_none), -1, 1, "",
+     "cosine at which it has faded, and the pose stays; at least 0.001 less than `cos_full`"},
     {SWIVEL_MEMBER(look, fade_distance), 0, kFar, "the last joint's unit", "the look also fades nearer than this"},
     {SWIVEL_MEMBER(look, rate), 0, kMaxValue, "radians a second",
      "the most that the line of sight turns; 0: turns are not eased"},
 };
 
 #undef SWIVEL_MEMBER
+
+static_assert(std::all_of(std::begin(kConstants), std::end(kConstants),
+                          [](const ConstantRow& row) {
+                              return !row.is_of_each_joint() || std::string_view(row.structure) == "look";
+                          }),
+              "this count says that a look has one for each of its joints; give the constant another count");
 
 }  // namespace
 

@@ -12,7 +12,9 @@
 
 namespace swivel {
 
-// A float, or several that have the same bounds.
+// A float, or several that have the same bounds. A constant of SWIVEL_MAX_LOOK_JOINTS floats, and no other, is a look's
+// and has one float for each of its joints. swivel_constant_info has this count, too, so bindings tell such a constant
+// by it: a constant that is something else needs another count.
 struct ConstantRow {
     std::uint32_t place, offset;  // of its structure in a GroupDef, and of it there; in bytes
     std::uint32_t count;          // of floats
@@ -22,7 +24,7 @@ struct ConstantRow {
     const char* unit;             // empty: it has none
     const char* text;
 
-    // Whether a look has one for each of its joints.
+    // Whether a look has one float for each of its joints.
     constexpr bool is_of_each_joint() const { return count == SWIVEL_MAX_LOOK_JOINTS; }
 };
 std::span<const ConstantRow> constants();

@@ -64,6 +64,7 @@ struct Layout {
     swivel_crowd* crowd;
     Group* groups;
     swivel_region* regions;
+    SkeletonJoint* skeleton_joints;  // for the plan alone
     BodyJoint* joints;
     MovedJoint* moved;
     FollowingJoint* following;
@@ -91,8 +92,9 @@ struct Layout {
         crowd = arena.take<swivel_crowd>(1);
         groups = arena.take<Group>(def.group_count);
         regions = arena.take<swivel_region>(region_count);
+        skeleton_joints = arena.take<SkeletonJoint>(bodies.skeleton_joint_count);
         joints = arena.take<BodyJoint>(bodies.joint_count);
-        moved = arena.take<MovedJoint>(bodies.moved_count);
+        moved = arena.take<MovedJoint>(bodies.skeleton_joint_count);
         following = arena.take<FollowingJoint>(bodies.following_count);
         urgency = arena.take<float>(block_count);
         done = arena.take<std::uint8_t>(block_count);
@@ -129,7 +131,7 @@ void unknown_inputs(const Group& group)
     }
 }
 
-// Makes a group whose rows begin at `rows`. The crowd has its joints already.
+// Makes a group whose rows begin at `rows`, but for its part in a body.
 void place_group(const swivel_crowd_def& crowd_def, const GroupDef& def, const swivel_crowd& crowd,
                  std::uint32_t first_block, char* rows, Group& group)
 {
@@ -151,7 +153,6 @@ void place_group(const swivel_crowd_def& crowd_def, const GroupDef& def, const s
     group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
     if (crowd_def.skeleton) {
         if (def.joints) group.binding = body_binding(crowd_def, def);
-        group.limb = plan_limb(crowd_def, def, group.binding, {crowd.joints, crowd.joint_count});
         group.body_block_floats = std::size_t{crowd.body_row_count} * kLanes;
     } else {
         group.binding = element(&def.binding, 0, swivel_default_binding());
@@ -185,8 +186,9 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     crowd->workspaces = layout.workspaces;
     crowd->joint_count = layout.bodies.joint_count;
     crowd->body_row_count = layout.bodies.row_count;
+    JointPlan plan{};
     if (def.skeleton) {
-        plan_joints(def, layout.joints);
+        plan = plan_joints(def, layout.skeleton_joints, layout.joints);
         crowd->joints = layout.joints;
     }
     std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
@@ -197,7 +199,8 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
             group.region = new (layout.regions++) swivel_region(*group_def.region);
         place_group(def, group_def, *crowd, first_block, layout.rows, group);
         if (def.skeleton) {
-            plan_moved(def, group_def, {crowd->joints, crowd->joint_count}, group.limb, layout.moved, layout.following);
+            group.limb = plan_limb(plan, group_def, group.binding);
+            plan_moved(plan, g, group_def, group.limb, layout.moved, layout.following);
             plan_group(def, group_def, group.limb);
         }
         layout.moved += group.limb.moved_count;
@@ -206,7 +209,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
         if (!def.skeleton) first_block += blocks_in(group_def);
         layout.rows += group_row_bytes(group_def);
     }
-    if (def.skeleton) plan_links(def, *crowd);
+    if (def.skeleton) plan_links(def, plan, *crowd);
     return crowd;
 }
 

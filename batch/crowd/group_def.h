@@ -28,8 +28,8 @@ struct GroupDef {
 
 // A group whose members have their defaults.
 GroupDef default_group();
-// Group g of a crowd def that check_group_defs() found right. unlinked_group() leaves out the feature that another
-// group's link adds, so group_at() can ask it for the links.
+// Group g of a crowd def that check_group_defs() found right. unlinked_group() leaves out SWIVEL_WITH_HAND_TRANSFORM,
+// which another group's link adds. It asks no other group, so it costs less.
 GroupDef group_at(const swivel_crowd_def& def, std::uint32_t g);
 GroupDef unlinked_group(const swivel_crowd_def& def, std::uint32_t g);
 // Whether each group is one definition, of a size that a header may have given it.

@@ -11,12 +11,17 @@ namespace swivel {
 
 namespace {
 
-bool is_bad(const LimbValue& value, const FieldRow& row)
+// count: how many numbers of the value the group has, the last ones: a body's clavicle is its share alone.
+bool is_bad(const LimbValue& value, std::uint32_t count, const FieldRow& row)
 {
-    std::uint32_t c = 0;
-    for (const ValuePart part : row.range.parts) {
+    std::uint32_t c = 0, left_out = row.component_count - count;
+    for (const ValuePart part : row.value.parts) {
+        const PartRow& bounds = row_of(part);
         if (part == ValuePart::none) break;
-        const PartBounds bounds = bounds_of(part);
+        if (left_out > 0) {
+            left_out -= bounds.count;
+            continue;
+        }
         const double size = bounds.count > 1 ? value.length(c, bounds.count) : value[c];
         if (size < bounds.min || size > bounds.max || (std::isnan(size) && !may_be_missing(row))) return true;
         c += bounds.count;
@@ -38,8 +43,9 @@ bool is_of_bodies(const Group& group, swivel_field field)
 
 bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field)
 {
-    return is_input(field) && is_of_bodies(group, field) && field_row_count(group.features, field) > 0 &&
-           is_bad(LimbValue(group, limb, field), row_of(field));
+    if (!is_input(field) || !is_of_bodies(group, field)) return false;
+    const std::uint32_t count = field_row_count(group.features, field);
+    return count > 0 && is_bad(LimbValue(group, limb, field), count, row_of(field));
 }
 bool is_bad_in_body(const Group& group, std::uint32_t limb)
 {
@@ -60,7 +66,7 @@ bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text)
             is_number = is_number && !std::isnan(value[c]);
         }
         if (is_number)
-            text.add(") is out of its range, %s", row.range.text);
+            text.add(") is out of its range, %s", row.value.range);
         else
             text.add(") is not a number");
         is_found = true;

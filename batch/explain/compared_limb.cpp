@@ -31,8 +31,8 @@ double ComparedLimb::worst(const LimbPlaces& ours) const
 }
 double ComparedLimb::allowed(const LimbPlaces& ours) const
 {
-    constexpr double kShare = 1e-3;  // as swivel_explain.h says
-    return kShare * std::max(length(ours), length(theirs)) + (pose.root_is_double ? 0 : rounding());
+    constexpr double kMaxOff = 1e-3;  // in limb lengths, as swivel_explain.h says
+    return kMaxOff * std::max(length(ours), length(theirs)) + (pose.root_is_double ? 0 : rounding());
 }
 double ComparedLimb::rounding() const
 {
@@ -41,6 +41,7 @@ double ComparedLimb::rounding() const
     for (const Vector<double>& v : theirs.at) size2 = std::max(size2, len2(v));
     return kRounding * std::sqrt(size2);
 }
+double ComparedLimb::in_lengths(double off) const { return off / std::max(length(theirs), kTiny); }
 double ComparedLimb::factor_about(const Vector<double>& centre) const
 {
     double across = 0, size = 0;
@@ -105,7 +106,6 @@ void describe_bone(const ComparedLimb& limb, int part, Text& text)
 
 void describe_difference(const ComparedLimb& limb, Text& text)
 {
-    constexpr const char* names[] = {"shoulder", "elbow", "wrist"};
     int part = 0;
     while (part < 2 && distance(limb.posed.at[part], limb.theirs.at[part]) <= limb.allowed(limb.posed)) ++part;
     const Vector<double> way = limb.theirs.at[part] - limb.posed.at[part];
@@ -114,11 +114,11 @@ void describe_difference(const ComparedLimb& limb, Text& text)
         return text.add(
             "The pose has no place of the %s, joint %u: a number of it, of a joint above or of the root is not finite "
             "or out of its range. Look at those rotations, translations and scales.",
-            names[part], limb.named(part));
+            kLimbParts[part], limb.named(part));
     text.add(
         "No usual mistake explains it. The first joint that is off is the %s, joint %u: your place is %.4g from the "
         "pose's, in the direction (%g, %g, %g) of the world. ",
-        names[part], limb.named(part), off, hundredths(way.c[0] / off), hundredths(way.c[1] / off),
+        kLimbParts[part], limb.named(part), off, hundredths(way.c[0] / off), hundredths(way.c[1] / off),
         hundredths(way.c[2] / off));
     if (part == 0)
         describe_shoulder(limb, text);

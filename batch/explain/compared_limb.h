@@ -21,6 +21,8 @@ inline LimbPlaces scaled_about(const Vector<double>& centre, double factor, cons
     return moved(limb, [&](const Vector<double>& v) { return centre + factor * (v - centre); });
 }
 
+inline constexpr const char* kLimbParts[3] = {"shoulder", "elbow", "wrist"};
+
 // Joints of a limb, as PosedBody numbers them: shoulder, elbow, wrist.
 struct LimbJoints {
     std::uint32_t at[3];
@@ -46,6 +48,8 @@ struct ComparedLimb {
     // How far one may be off. Floats in the world are rounded, by engines too.
     double allowed(const LimbPlaces& ours) const;
     double rounding() const;  // of floats as far from the origin
+    // A distance in lengths of the caller's limb.
+    double in_lengths(double off) const;
     bool agrees(const LimbPlaces& ours) const { return worst(ours) <= allowed(ours); }
     // How much further the caller's places are from a centre than the pose's, by least squares.
     double factor_about(const Vector<double>& centre) const;

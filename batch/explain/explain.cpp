@@ -28,13 +28,21 @@ void explain_lengths(const Probe& probe, swivel_field field, Text& text)
         for (std::uint32_t c = first; c < first + count; ++c) sum += probe.value(field, c) * probe.value(field, c);
         return sum;
     };
-    const auto [axis_size, pair_count] = row_of(field).unit;
-    if (const float axis2 = length2(0, axis_size); axis_size > 0 && !is_unit2(axis2))
-        text.add(" (its axis is %.8g long)", std::sqrt(double{axis2}));
-    for (std::uint32_t c = axis_size; c < axis_size + 2 * pair_count; c += 2)
-        if (const float pair2 = length2(c, 2); !is_unit2(pair2))
-            text.add(" (its pair %g, %g is %.8g long)", double{probe.value(field, c)},
-                     double{probe.value(field, c + 1)}, std::sqrt(double{pair2}));
+    std::uint32_t c = 0;
+    for (const ValuePart part : row_of(field).value.parts) {
+        const PartRow& row = row_of(part);
+        const std::uint32_t end = c + row.count, size = row.unit_count;
+        for (; size > 0 && c < end; c += size) {
+            const float unit2 = length2(c, size);
+            if (is_unit2(unit2)) continue;
+            if (part == ValuePart::axis)
+                text.add(" (its axis is %.8g long)", std::sqrt(double{unit2}));
+            else
+                text.add(" (its pair %g, %g is %.8g long)", double{probe.value(field, c)},
+                         double{probe.value(field, c + 1)}, std::sqrt(double{unit2}));
+        }
+        c = end;
+    }
 }
 
 // Names an input and says why it is bad.
@@ -49,7 +57,7 @@ void explain_bad_value(const Probe& probe, swivel_field field, Text& text)
         is_given = is_given || !std::isnan(x);
     }
     if (is_number) {
-        text.add(") is out of its range, %s", row_of(field).range.text);
+        text.add(") is out of its range, %s", row_of(field).value.range);
         explain_lengths(probe, field, text);
     } else {
         text.add(") is not a number%s", is_given ? "" : ": it may never have been written");

@@ -3,11 +3,12 @@
 // Values of limit fields from angles, and for the other side of the body. Trigonometry is allowed here and in the joint
 // angles: before a solve, never in it.
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "batch/api/check.h"
 #include "batch/refusal/status.h"
-#include "core/limits.h"
+#include "core/angle_limits.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -41,14 +42,18 @@ swivel_status store_unit(const char* function, const double axis[3], float* unit
     return SWIVEL_OK;
 }
 
-// A range as a mirror sees it: its middle turned the other way.
-void mirror_range(const float* from, float* to)
+// A limit of the swivel as a mirror sees it: the middles of its ranges turned the other way, also about an axis, which
+// is mirrored itself; but not those of a box's turns about the hinge.
+void mirror_limit(const FieldRow& row, const EulerOrder& order, float* value)
 {
-    const float middle_cos = from[0], middle_sin = from[1], half_cos = from[2], half_sin = from[3];
-    to[0] = middle_cos;
-    to[1] = -middle_sin;
-    to[2] = half_cos;
-    to[3] = half_sin;
+    const bool is_box = row.needs & kBoxFeatures;
+    const int turned_about[] = {order.first, order.middle, order.last};
+    for (std::size_t n = 0; n < std::size(row.value.parts); ++n) {
+        const ValuePart part = row.value.parts[n];
+        if (part == ValuePart::axis) value[0] = -value[0];
+        if (part == ValuePart::range && !(is_box && turned_about[n] == 0)) value[1] = -value[1];
+        value += row_of(part).count;
+    }
 }
 
 }  // namespace
@@ -126,31 +131,8 @@ swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const 
     float value[kMaxComponents] = {};
     const std::uint32_t count = row_of(field).component_count;
     for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
-    switch (field) {
-        case SWIVEL_ANGLE:
-            value[1] = -value[1];
-            break;
-        case SWIVEL_SHOULDER_CONE:
-        case SWIVEL_HAND_CONE:
-            value[0] = -value[0];
-            break;
-        case SWIVEL_HUMERAL_TWIST:
-        case SWIVEL_FOREARM_TWIST:
-            mirror_range(value, value);
-            break;
-        case SWIVEL_HAND_TWIST:  // a turn about the axis becomes one the other way about the axis' mirror image
-            value[0] = -value[0];
-            mirror_range(value + 3, value + 3);
-            break;
-        case SWIVEL_SHOULDER_BOX:
-        case SWIVEL_WRIST_BOX:
-            if (kEulerOrders[order].first != 0) mirror_range(value, value);
-            if (kEulerOrders[order].middle != 0) mirror_range(value + 4, value + 4);
-            if (kEulerOrders[order].last != 0) mirror_range(value + 8, value + 8);
-            break;
-        default:
-            break;
-    }
+    if (field == SWIVEL_ANGLE) value[1] = -value[1];
+    if (row_of(field).needs & kSwivelLimits) mirror_limit(row_of(field), kEulerOrders[order], value);
     for (std::uint32_t n = 0; n < count; ++n) to[n] = value[n];
     return SWIVEL_OK;
 }

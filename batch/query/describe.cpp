@@ -23,16 +23,16 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
 {
     if (index >= std::size(kFields) || !info) return 0;
     const FieldRow& row = kFields[index];
-    *info = {row.field,
-             row.kind,
-             row.name,
-             row.range.text,
-             row.needs & kPublicFeatures,
-             row.excludes & kPublicFeatures,
-             kinds_of(row),
-             max_rows(row.field),
-             is_position(row.field),
-             0};
+    *info = {.field = row.field,
+             .kind = row.kind,
+             .name = row.name,
+             .range = row.value.range,
+             .needs = row.needs & kPublicFeatures,
+             .excludes = row.excludes & kPublicFeatures,
+             .kinds = kinds_of(row),
+             .max_components = max_rows(row.field),
+             .is_position = is_position(row.field),
+             .reserved = 0};
     return 1;
 }
 

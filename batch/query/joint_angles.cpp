@@ -19,7 +19,7 @@ static_assert(is_order(SWIVEL_XYZ, 0, 1, 2) && is_order(SWIVEL_XZY, 0, 2, 1) && 
 
 }  // namespace
 
-// limits.h has the entries that the angles are read from.
+// angle_limits.h has the entries that the angles are read from.
 void euler_angles(const Rotor<double>& q, const EulerOrder& order, int family, double (&angles)[3])
 {
     const Turn<double> turn = turn_by(q);

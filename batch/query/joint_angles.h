@@ -4,7 +4,7 @@
 #pragma once
 
 #include "batch/query/forward.h"
-#include "core/limits.h"
+#include "core/angle_limits.h"
 #include "include/swivel/swivel.h"
 
 namespace swivel {

@@ -80,26 +80,28 @@ const swivel_region& allowing_region()
     return allowing;
 }
 
-// The stages of a limb with a hand and an incoming pose, from `goal` to `wrist` (simd/stages.h).
+// The stages of a limb with a hand and an incoming pose, from `goal` to `wrist` (simd/stages.h). region: null if it has
+// none.
 struct SolvedLimb {
     swivel::ArmPose<Counted> arm;
     Rotor<Counted> wrist;
 };
-SolvedLimb solve_limb(const swivel::LimbUse& use, const swivel::LimbGoal<Counted>& goal)
+SolvedLimb solve_limb(const swivel::LimbUse& use, const swivel::LimbGoal<Counted>& goal, const swivel_region* region)
 {
-    const swivel::Mask<Counted> valid = swivel::is_valid(use, goal);
+    const swivel::Mask<Counted> valid =
+        swivel::is_valid(goal.arm) & swivel::is_product(goal.hand) & swivel::is_valid(goal.incoming);
     const auto wrist = swivel::wrist_goal(use, goal);
     const auto to = swivel::wrist_line(wrist.place);
     const auto bones = swivel::place_bones(use, goal, to.wanted);
     const auto wish = swivel::limb_normal(use, goal, wrist.hand, to.line);
     const swivel::Hinge<Counted> elbow = swivel::hinge(bones.cos_half, -bones.sin_half);
     swivel::Vector<Counted> normal = wish.normal;
-    if (use.limits.region) {
+    if (region) {
         const swivel::SwivellingArm<Counted, decltype(bones.lift)> arm{to.line, normal, bones.lift, elbow, wrist.hand};
-        const auto region = swivel::region_limit(arm, use.limits.region);
-        swivel::room(region, swivel::Turned<Counted>{Counted(1.0), Counted(0.0)});
+        const auto allowed = swivel::region_limit(arm, region);
+        swivel::room(allowed, swivel::Turned<Counted>{Counted(1.0), Counted(0.0)});
         const auto chosen = swivel::choose_swivel(
-            swivel::LimitsInRegion<Counted, swivel::kMaxBoxes>{swivel::Limits<Counted>{}, region}, valid);
+            swivel::LimitsInRegion<Counted, swivel::kMaxBoxes>{swivel::Limits<Counted>{}, allowed}, valid);
         normal = swivel::swivelled(normal, to.line, chosen.swivel);
     }
     const Rotor<Counted> shoulder = swivel::lifted(to.line, normal, bones.lift);
@@ -125,20 +127,21 @@ void count_body_limb(const Frames& frames, const BodyChain& chain, Arm arm = Arm
     swivel::LimbUse use;
     use.hand = use.incoming = true;
     use.wish = swivel::Wish::incoming;
+    const swivel_region* region = nullptr;
     swivel::LimbGoal<Counted> goal;
     goal.arm = {per_scale * seen.back(target - root - shoulder.place), vector(0, 0, 0),
                 per_scale * seen.bones.upper_length, per_scale * seen.bones.fore_length};
     goal.hand = ~seen.arm * rotor(0.3, 0.2, 0.1, 0.9) * ~of_binding;
     goal.incoming = {seen.model.upper, seen.model.upper, seen.model.upper};  // of which the first is used
     if (arm == Arm::rifle) {
-        use.weights = use.limits.flexion = true;
-        use.limits.region = &allowing_region();
+        use.weights = use.flexion = true;
+        region = &allowing_region();
         goal.incoming = {seen.model.upper, ~seen.model.upper * seen.model.fore,
                          ~seen.frames.fore * wrist.rotation * ~of_binding};
         goal.weights = {Counted(0.9), Counted(0.8), Counted(0.0)};
-        goal.limits.flexion = {Counted(0.9997), Counted(0.3)};
+        goal.flexion = {Counted(0.9997), Counted(0.3)};
     }
-    const SolvedLimb solved = solve_limb(use, goal);
+    const SolvedLimb solved = solve_limb(use, goal, region);
 
     store(of_binding * solved.arm.shoulder * ~upper_from_arm, local);
     store(upper_from_arm * swivel::elbow_rotor(solved.arm) * ~fore_from_arm, local);

@@ -234,7 +234,8 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
     const swivel_supports ground = {{&walkers[body].support, 0},
                                     {&walkers[body].support_rotation, 0}};
     const swivel_supports on_lift = {{&lift.place, 0}, {&lift.rotation, 0}};
-    swivel::change_support(crowd, 0, body, 1, ground, on_lift);  // for each leg
+    swivel::check(swivel_change_support(crowd.get(), 0, body, 1, ground,
+                                        on_lift));  // for each leg
     // [end]
     const auto ride = [&] {
         // [ride]

@@ -161,8 +161,8 @@ TEST_CASE("docs: feet on hills")
     };
     for (int n = 0; n < 30; ++n) {
         // [sample]
-        const auto sample = [](const swivel::Probes& probes) {
-            for (std::size_t foot = 0; foot < probes.places.size(); ++foot) {
+        const auto sample = [](const swivel_probes& probes) {
+            for (std::size_t foot = 0; foot < probes.count; ++foot) {
                 const auto& at = probes.places[foot];
                 probes.grounds[foot][0] = at[0];
                 probes.grounds[foot][1] = terrain.height(at[0], at[2]);
@@ -222,8 +222,8 @@ TEST_CASE("docs: feet on hills")
     reset();
     for (int n = 0; n < 30; ++n) {
         // [far]
-        const auto sample = [&](const swivel::Probes& probes) {
-            for (std::size_t foot = 0; foot < probes.places.size(); ++foot) {
+        const auto sample = [&](const swivel_probes& probes) {
+            for (std::size_t foot = 0; foot < probes.count; ++foot) {
                 const auto& at = probes.places[foot];              // from the root
                 const Double3& root = roots[probes.bodies[foot]];  // in the world
                 const double x = root[0] + double{at[0]}, z = root[2] + double{at[2]};

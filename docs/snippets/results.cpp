@@ -80,9 +80,7 @@ TEST_CASE("docs: packed results")
     crowd.solve();
     // [pack]
     // 16-bit rows: keep these, send them, or give them to a GPU.
-    const std::uint32_t rows = swivel_packed_row(crowd.get(), 0, SWIVEL_RESULT_END);
-    std::vector<std::uint16_t> words(SWIVEL_LANES * rows);  // one block
-    crowd.pack(0, words);
+    const std::vector<std::uint16_t> words = crowd.pack(0);  // of group 0
     const std::uint32_t row = swivel_packed_row(crowd.get(), 0, SWIVEL_SHOULDER);
     Float4 shoulder;  // limb 1 of block 0
     swivel_unpack_rotation(words.data() + row * SWIVEL_LANES + 1, SWIVEL_LANES,

@@ -38,32 +38,31 @@
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
 #define SWIVEL_HAS_EXCEPTIONS 1
 #define SWIVEL_NAMESPACE swivel
+#else
+#define SWIVEL_HAS_EXCEPTIONS 0
+// A name of its own. Otherwise a linker could give these functions to a file that expects an exception.
+#define SWIVEL_NAMESPACE swivel::inline without_exceptions
+#ifndef SWIVEL_ON_ERROR
+#define SWIVEL_ON_ERROR(status, text) std::fprintf(stderr, "swivel: %s\n", text)
+#endif
+#endif
 namespace SWIVEL_NAMESPACE {
 
 // A failed call: its status, and one line of text, which is swivel_last_error() where the library refused it.
 struct Error : std::runtime_error {
-    explicit Error(swivel_status failed) : Error(failed, swivel_last_error()) {}
     Error(swivel_status failed, const std::string& text) : std::runtime_error(text), status(failed) {}
     swivel_status status;
 };
 
-[[noreturn]] inline void fail(swivel_status status, const std::string& text) { throw Error(status, text); }
-#else
-#define SWIVEL_HAS_EXCEPTIONS 0
-#ifndef SWIVEL_ON_ERROR
-#define SWIVEL_ON_ERROR(status, text) std::fprintf(stderr, "swivel: %s\n", text)
-#endif
-// A name of its own. Otherwise a linker could give these functions to a file that expects an exception.
-#define SWIVEL_NAMESPACE swivel::inline without_exceptions
-namespace SWIVEL_NAMESPACE {
-
 [[noreturn]] inline void fail([[maybe_unused]] swivel_status status, [[maybe_unused]] const std::string& text)
 {
+#if SWIVEL_HAS_EXCEPTIONS
+    throw Error(status, text);
+#else
     SWIVEL_ON_ERROR(status, text.c_str());
     std::abort();
-}
 #endif
-
+}
 inline void check(swivel_status status)
 {
     if (status != SWIVEL_OK) fail(status, swivel_last_error());
@@ -127,41 +126,36 @@ inline std::array<float, 2> cos_sin(double angle)
 // An angle in radians, as all of swivel takes them.
 constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }
 
-// The numbers that a limb's value is made of: its own type, an array's, a container's value_type, or that which a plain
-// structure starts with. void: a class that is taken at its word.
-template <class Each, class Number>
-concept StartsWith = std::is_aggregate_v<Each> && requires(Number first)
+// Whether a limb's value is made of one of these numbers: an arithmetic type itself, an array, a container with a
+// value_type, or a plain structure that starts with a number. Other classes are taken at their word.
+template <class Structure, class Number>
+concept StartsWith = std::is_aggregate_v<Structure> && requires(Number first)
 {
-    Each{first};
+    Structure{first};
 };
-template <class Value>
-constexpr auto number_of()
+template <class Value, class... Numbers>
+constexpr bool is_made_of()
 {
     using Each = std::remove_cv_t<std::remove_all_extents_t<Value>>;
     if constexpr (std::is_arithmetic_v<Each>)
-        return std::type_identity<Each>();
+        return (std::same_as<Each, Numbers> || ...);
     else if constexpr (requires { typename Each::value_type; })
-        return number_of<typename Each::value_type>();
-    else if constexpr (StartsWith<Each, double>)
-        return std::type_identity<double>();
-    else if constexpr (StartsWith<Each, float>)
-        return std::type_identity<float>();
-    else if constexpr (StartsWith<Each, std::uint32_t>)
-        return std::type_identity<std::uint32_t>();
-    else if constexpr (StartsWith<Each, int>)
-        return std::type_identity<int>();
+        return is_made_of<typename Each::value_type, Numbers...>();
+    else if constexpr (StartsWith<Each, double>)  // a float would do, too
+        return (std::same_as<double, Numbers> || ...);
+    else if constexpr (StartsWith<Each, float> || StartsWith<Each, std::uint32_t> || StartsWith<Each, int>)
+        return (StartsWith<Each, Numbers> || ...);
     else
-        return std::type_identity<void>();
+        return true;
 }
 template <class Value, class... Numbers>
-concept MadeOf = std::is_trivially_copyable_v<std::remove_cv_t<Value>> &&
-    (std::same_as<typename decltype(number_of<Value>())::type, Numbers> || ...);
+concept MadeOf = std::is_trivially_copyable_v<std::remove_cv_t<Value>> && is_made_of<Value, Numbers...>();
 
-// A field's value: floats, or a uint32_t (flags). And what is in double: positions and forward kinematics.
+// A field's value is of floats, or a uint32_t (flags). Positions and forward kinematics may be of doubles.
 template <class Value>
-concept FieldValue = MadeOf<Value, float, std::uint32_t, void>;
+concept FieldValue = MadeOf<Value, float, std::uint32_t>;
 template <class Value>
-concept DoubleValue = MadeOf<Value, double, void>;
+concept DoubleValue = MadeOf<Value, double>;
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
 template <class Range>
@@ -170,8 +164,8 @@ concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::r
 inline swivel_field_info describe(swivel_field field)
 {
     swivel_field_info info{};
-    for (std::uint32_t n = 0; swivel_describe_field(n, &info) && info.field != field; ++n) {
-    }
+    std::uint32_t index = 0;
+    while (swivel_describe_field(index, &info) && info.field != field) ++index;
     return info;
 }
 
@@ -196,39 +190,22 @@ struct Stream {
     operator swivel_in() const { return {data, stride}; }
     operator swivel_out() const requires(!std::is_const_v<Value>) { return {data, stride}; }
 };
-template <class At>
-At& reached(At& at)
-{
-    return at;
-}
-template <class At, class Step, class... Steps>
-auto& reached(At& at, Step step, Steps... steps)
-{
-    if constexpr (std::is_member_pointer_v<Step>)
-        return reached(at.*step, steps...);
-    else
-        return reached(at[static_cast<std::size_t>(step)], steps...);
-}
-// Where the first structure's member is, and the stride: swivel::stream(characters, &Character::grip). Members of
-// members and elements of arrays follow: stream(characters, &Character::legs, 1, &Leg::target). Without characters it
-// is null, which leaves the field out. Doubles are for positions of streams with an origin, int32_t for skeletons'
-// parents.
-template <std::ranges::contiguous_range Range, class... Steps>
+// Where the first structure's member is, and the stride: swivel::stream(characters, &Character::grip). In place of a
+// member it takes a function that returns a reference to a part. Without characters it is null, which leaves the field
+// out. Doubles are for positions, int32_t for skeletons' parents.
+template <std::ranges::contiguous_range Range, class Member = std::identity>
 requires std::ranges::borrowed_range<Range>
-auto stream(Range&& values, Steps... steps)
+auto stream(Range&& values, Member member = {})
 {
     auto* const first = std::ranges::data(values);
-    using Value = std::remove_reference_t<decltype(reached(*first, steps...))>;
-    static_assert(MadeOf<Value, float, double, std::uint32_t, std::int32_t, void>);
-    return Stream<Value>{std::ranges::empty(values) ? nullptr : &reached(*first, steps...), sizeof *first};
+    using Value = std::remove_reference_t<decltype(std::invoke(member, *first))>;
+    static_assert(MadeOf<Value, float, double, std::uint32_t, std::int32_t>);
+    return Stream<Value>{std::ranges::empty(values) ? nullptr : &std::invoke(member, *first), sizeof *first};
 }
 
 // A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_streams, which views it
 // until it moves or ends, with fields that are added later, but not with a later origin(). Keep it from solve to solve
 // while the arrays stay where they are.
-//     swivel::Streams arms;
-//     arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
-//     arms.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
 class Streams {
 public:
     Streams& in(swivel_field field, const swivel_in& values)
@@ -247,11 +224,15 @@ public:
     requires(FieldValue<Value> || DoubleValue<Value>) Streams& in(swivel_field field, const Stream<Value>& values)
     {
         check_value<std::remove_cv_t<Value>>(field);
-        if (describe(field).is_position) {
-            if constexpr (FieldValue<Value> != DoubleValue<Value>)
-                say_positions(DoubleValue<Value> ? SWIVEL_DOUBLES : SWIVEL_FLOATS);
-        } else if (!FieldValue<Value>) {
+        const bool may_be_floats = FieldValue<Value>, may_be_doubles = DoubleValue<Value>;
+        const bool is_position = describe(field).is_position;
+        if (!may_be_floats && !is_position)
             fail(SWIVEL_INVALID_ARGUMENT, "field " + std::to_string(field) + " is no position; give it floats");
+        if (is_position && may_be_floats != may_be_doubles) {
+            const swivel_numbers numbers = may_be_floats ? SWIVEL_FLOATS : SWIVEL_DOUBLES;
+            if (positions_ != SWIVEL_NUMBERS_UNSPECIFIED && positions_ != numbers)
+                fail(SWIVEL_INVALID_ARGUMENT, "streams mix positions in floats and in doubles; give all in one");
+            positions_ = numbers;
         }
         return in(field, swivel_in(values));
     }
@@ -287,13 +268,6 @@ private:
         fields_[count_++] = field;
         return *this;
     }
-    void say_positions(swivel_numbers are)
-    {
-        if (positions_ != SWIVEL_NUMBERS_UNSPECIFIED && positions_ != are)
-            fail(SWIVEL_INVALID_ARGUMENT, "streams have positions in floats and in doubles; give all in one of them");
-        positions_ = are;
-    }
-
     // As many as a group has. Those that are not used yet are null, which lists nothing.
     std::array<swivel_stream, 64> fields_ = {};
     std::size_t count_ = 0;
@@ -301,8 +275,8 @@ private:
     swivel_numbers positions_ = SWIVEL_NUMBERS_UNSPECIFIED;
 };
 
-// Samples the ground: anything that may be copied and called with swivel::Probes (swivel_bodies.hpp), by several
-// threads at a time. To copy a capture of more than two pointers may allocate; std::ref(ask) does not.
+// Samples the ground: anything that may be copied, and called by several threads at a time. To copy a capture of more
+// than two pointers may allocate; std::ref(ask) does not.
 using Sample = std::function<void(const swivel_probes&)>;
 
 // Samples for one solve. An exception waits here until the solve is over, because none may cross C.
@@ -350,12 +324,12 @@ public:
     using First = std::optional<std::uint32_t>;
 
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
-    explicit Crowd(std::span<const Definition> groups) { create(swivel_default_crowd_def(), groups); }
-    Crowd(std::initializer_list<Definition> groups) : Crowd(std::span(groups.begin(), groups.size())) {}
-    explicit Crowd(const Definition& group) : Crowd(std::span(&group, 1)) {}
+    explicit Crowd(const std::vector<Definition>& groups) { create(swivel_default_crowd_def(), groups); }
+    Crowd(std::initializer_list<Definition> groups) : Crowd(std::vector(groups)) {}
+    explicit Crowd(const Definition& group) : Crowd(std::vector{group}) {}
     // Bodies of one skeleton, with a group for each limb, and perhaps for their looks, props and shift. up: see
     // swivel_crowd_def.
-    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const Definition> groups,
+    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, const std::vector<Definition>& groups,
           const std::array<float, 3>& up = {0, 1, 0})
     {
         swivel_crowd_def def = swivel_default_crowd_def();
@@ -363,11 +337,6 @@ public:
         def.body_count = body_count;
         for (std::size_t c = 0; c < 3; ++c) def.up[c] = up[c];
         create(def, groups);
-    }
-    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::initializer_list<Definition> groups,
-          const std::array<float, 3>& up = {0, 1, 0})
-        : Crowd(skeleton, body_count, std::span(groups.begin(), groups.size()), up)
-    {
     }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
     Crowd& operator=(Crowd&& other) noexcept
@@ -379,11 +348,10 @@ public:
 
     swivel_crowd* get() const { return crowd_; }
 
-    template <FieldRange R>
-    void write(swivel_field field, std::uint32_t group, const R& values, First first = {})
+    void write(swivel_field field, std::uint32_t group, const FieldRange auto& values, First first = {})
     {
-        check_value<std::ranges::range_value_t<R>>(field);
-        check(swivel_write(crowd_, field, group, first.value_or(0), checked(group, values, first), in(values)));
+        check_value<std::ranges::range_value_t<decltype(values)>>(field);
+        check(swivel_write(crowd_, field, group, first.value_or(0), checked(group, values, first), stream(values)));
     }
     // The same value for every limb of the group.
     template <FieldValue Value>
@@ -394,18 +362,16 @@ public:
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
     }
     // Positions in double, from origins as in swivel.h: {&origin, 0} is one for all.
-    template <DoubleRange R>
-    void write_doubles(swivel_field field, std::uint32_t group, const R& values, swivel_in origins = {},
+    void write_doubles(swivel_field field, std::uint32_t group, const DoubleRange auto& values, swivel_in origins = {},
                        First first = {})
     {
-        check(swivel_write_doubles(crowd_, field, group, first.value_or(0), checked(group, values, first), in(values),
-                                   origins));
+        check(swivel_write_doubles(crowd_, field, group, first.value_or(0), checked(group, values, first),
+                                   stream(values), origins));
     }
-    template <FieldRange R>
-    void read(swivel_field field, std::uint32_t group, R&& values, First first = {}) const
+    void read(swivel_field field, std::uint32_t group, FieldRange auto&& values, First first = {}) const
     {
-        check_value<std::ranges::range_value_t<R>>(field);
-        check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, values, first), out(values)));
+        check_value<std::ranges::range_value_t<decltype(values)>>(field);
+        check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, values, first), stream(values)));
     }
 
     // swivel_solve(): crowd.solve(), or crowd.solve({.streams = {arms}}). Returns how many limbs were solved.
@@ -465,48 +431,41 @@ public:
     }
 
     // swivel_forward(), of one joint; swivel_joint_angles(); swivel_residuals().
-    template <DoubleRange R>
-    void elbows(std::uint32_t group, R&& values, First first = {}) const
+    void elbows(std::uint32_t group, DoubleRange auto&& values, First first = {}) const
     {
-        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), out(values), {}, {}));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), stream(values), {}, {}));
     }
-    template <DoubleRange R>
-    void wrists(std::uint32_t group, R&& values, First first = {}) const
+    void wrists(std::uint32_t group, DoubleRange auto&& values, First first = {}) const
     {
-        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), {}, out(values), {}));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), {}, stream(values), {}));
     }
-    template <DoubleRange R>
-    void hands(std::uint32_t group, R&& values, First first = {}) const
+    void hands(std::uint32_t group, DoubleRange auto&& values, First first = {}) const
     {
-        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), {}, {}, out(values)));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), {}, {}, stream(values)));
     }
-    template <DoubleRange R>
     void joint_angles(std::uint32_t group, swivel_euler_order shoulder, swivel_euler_order wrist, int family,
-                      R&& values, First first = {}) const
+                      DoubleRange auto&& values, First first = {}) const
     {
         check(swivel_joint_angles(crowd_, group, first.value_or(0), checked(group, values, first), shoulder, wrist,
-                                  family, out(values)));
+                                  family, stream(values)));
     }
-    template <DoubleRange R>
-    void residuals(std::uint32_t group, R&& values, First first = {}) const
+    void residuals(std::uint32_t group, DoubleRange auto&& values, First first = {}) const
     {
-        check(swivel_residuals(crowd_, group, first.value_or(0), checked(group, values, first), out(values)));
+        check(swivel_residuals(crowd_, group, first.value_or(0), checked(group, values, first), stream(values)));
     }
     // swivel_pack(): the words of a group's results, all of its blocks.
-    void pack(std::uint32_t group, std::span<std::uint16_t> words) const
+    std::vector<std::uint16_t> pack(std::uint32_t group) const
     {
         const std::uint32_t blocks = (swivel_group_limb_count(crowd_, group) + SWIVEL_LANES - 1) / SWIVEL_LANES;
-        const std::size_t wanted =
-            std::size_t{SWIVEL_LANES} * blocks * swivel_packed_row(crowd_, group, SWIVEL_RESULT_END);
-        if (blocks > 0 && words.size() != wanted)  // 0: the call says that there is no group
-            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(words.size()) + " words; group " + std::to_string(group) +
-                                              " takes " + std::to_string(wanted));
+        const std::size_t rows = swivel_packed_row(crowd_, group, SWIVEL_RESULT_END);
+        std::vector<std::uint16_t> words(blocks * rows * SWIVEL_LANES);
         check(swivel_pack(crowd_, group, {0, blocks}, words.data()));
+        return words;
     }
     std::uint64_t digest() const { return swivel_digest(crowd_); }
 
 private:
-    void create(swivel_crowd_def def, std::span<const Definition> groups)
+    void create(swivel_crowd_def def, const std::vector<Definition>& groups)
     {
         std::vector<swivel_group_def> defs(groups.size(), swivel_default_group_def());
         for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -522,8 +481,7 @@ private:
     }
 
     // How many values there are for limbs from `first` on: without it one for each limb of the group.
-    template <class R>
-    std::uint32_t checked(std::uint32_t group, const R& values, First first) const
+    std::uint32_t checked(std::uint32_t group, const auto& values, First first) const
     {
         const std::uint32_t has = swivel_group_limb_count(crowd_, group);  // 0: the call says that there is no group
         if (!first && has > 0) check_count(count(values), "values", has, "limbs; or say from which limb on");
@@ -535,21 +493,7 @@ private:
             fail(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " " + what + " for " + std::to_string(wanted) + " " +
                                               of_what + "; give one for each");
     }
-    template <class R>
-    static swivel_in in(const R& values)
-    {
-        return {std::ranges::data(values), sizeof(std::ranges::range_value_t<R>)};
-    }
-    template <class R>
-    static swivel_out out(R& values)
-    {
-        return {std::ranges::data(values), sizeof(std::ranges::range_value_t<R>)};
-    }
-    template <class R>
-    static std::uint32_t count(const R& values)
-    {
-        return static_cast<std::uint32_t>(std::ranges::size(values));
-    }
+    static std::uint32_t count(const auto& values) { return static_cast<std::uint32_t>(std::ranges::size(values)); }
 
     // A bit for each group, set for these.
     std::vector<std::uint32_t> bits_of(std::span<const std::uint32_t> groups) const

@@ -30,29 +30,5 @@ inline swivel_look_def look(std::initializer_list<std::uint32_t> joints)
     return look(std::span(joints.begin(), joints.size()));
 }
 
-// Feet of one group that want to know the ground, as swivel_probes: one entry of each range for a foot. Where there is
-// no ground, a number of `grounds` becomes NaN.
-struct Probes {
-    Probes(const swivel_probes& asked)
-        : group(asked.group),
-          bodies(asked.bodies, asked.count),
-          places(asked.places, asked.count),
-          grounds(asked.grounds, asked.count),
-          normals(asked.normals, asked.count)
-    {
-    }
-    std::uint32_t group;
-    std::span<const std::uint32_t> bodies;
-    std::span<const float[3]> places;
-    std::span<float[3]> grounds, normals;
-};
-
-// swivel_change_support(), of some bodies from `first` on: {.position = {&place, 0}} is one support for all.
-inline void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t first, std::uint32_t body_count,
-                           const swivel_supports& from, const swivel_supports& to)
-{
-    check(swivel_change_support(crowd.get(), group, first, body_count, from, to));
-}
-
 }  // namespace SWIVEL_NAMESPACE
 #endif

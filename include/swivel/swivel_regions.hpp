@@ -10,10 +10,7 @@
 namespace SWIVEL_NAMESPACE {
 
 // Where the upper arms of a group may point. It starts empty, and allows nothing. A group WITH_REGION takes get(),
-// which must live until the crowd is made:
-//     swivel::Region region;
-//     region.add_cones({{{0, 0, 1}, 0.9f}, {{0, 1, 1}, 0.6f}});
-//     arms.region = &region.get();
+// which must live until the crowd is made: arms.region = &region.get().
 class Region {
 public:
     Region& add_cones(std::span<const swivel_region_cone> cones, bool closed = false)
@@ -29,10 +26,6 @@ public:
     {
         check(swivel_region_add_polygon(&region_, first_of(corners), static_cast<std::uint32_t>(corners.size())));
         return *this;
-    }
-    Region& add_polygon(std::initializer_list<std::array<float, 3>> corners)
-    {
-        return add_polygon(std::span(corners.begin(), corners.size()));
     }
     Region& add_directions(std::span<const std::array<float, 3>> directions, float margin, std::uint32_t max_cones)
     {

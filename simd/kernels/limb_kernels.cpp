@@ -81,8 +81,8 @@ std::uint32_t store_arcs(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[
     const Binding bind = binding_of<kRuntimeFeatures>(run);
     Strip strip{run, bind, run.strip.rows};
     add_block(strip, static_cast<std::uint32_t>(limb / kLanes), 1u << limb % kLanes);
-    for (std::uint32_t n = 0; run.stages->function[n] < first_function(Stage::choose); ++n)
-        kFunctions[run.stages->function[n]](strip);
+    constexpr std::size_t first_choice = first_function(Stage::choose);
+    for (std::uint32_t n = 0; run.stages->function[n] < first_choice; ++n) kFunctions[run.stages->function[n]](strip);
     static_assert(kMaxAllowedArcs == kMaxArcs);
     std::uint32_t count = 0;
     const auto store = [&](const AllowedArcs<float>& allowed) {

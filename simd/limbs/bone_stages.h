@@ -62,9 +62,9 @@ SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, const LimbUse& 
             s.has(kBody) ? s.body.get(kReachRow) : incoming_reach(normalise(s.rows.rotor(kIncomingRow + 4)), goal.arm)};
         s.require(is_valid(goal.cap));
     }
-    if (use.limits.flexion) {
-        goal.limits.flexion = {s.io.load(SWIVEL_FLEXION_LIMIT, 0), s.io.load(SWIVEL_FLEXION_LIMIT, 1)};
-        s.require(is_valid(goal.limits.flexion));
+    if (use.flexion) {
+        goal.flexion = {s.io.load(SWIVEL_FLEXION_LIMIT, 0), s.io.load(SWIVEL_FLEXION_LIMIT, 1)};
+        s.require(is_valid(goal.flexion));
     }
     return lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return place_bones(use, goal, wanted); });
 }

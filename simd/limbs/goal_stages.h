@@ -33,7 +33,7 @@ SWIVEL_INLINE LimbUse use_of(const S& s)
                : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal
                : s.has(SWIVEL_POLE_HAND)   ? Wish::hand
                                            : Wish::pole;
-    use.limits.flexion = s.has(SWIVEL_WITH_FLEXION_LIMIT);
+    use.flexion = s.has(SWIVEL_WITH_FLEXION_LIMIT);
     return use;
 }
 // Whether the caller gives a pole; and whether it is a point.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The stages of the joint limits, one for each. A stage writes what its limit says of the swivel: a line, or a box's
-// curves.
+// The stages of the joint limits: one for each limit. A stage writes what its limit says of the swivel: a line, or a
+// box's curves.
 #pragma once
 
 #include "core/joint_limits.h"
@@ -52,58 +52,40 @@ SWIVEL_INLINE void set_line(const S& s, std::uint32_t row, const OnCircle<typena
     s.rows.set(row + 1, line.b);
     s.rows.set(row + 2, line.c);
 }
-// The line of a limit comes after those of the features before it.
-template <class S, class Limit>
-SWIVEL_INLINE void set_limit(const S& s, swivel_features feature, const Limit& limit,
-                             const OnCircle<typename S::T>& line)
-{
-    s.require(is_valid(limit));
-    set_line(s, kLimitRow + 3 * line_count(s.strip.run.features & (feature - 1)), line);
-}
 
-template <>
-struct StageBody<Stage::shoulder_cone> {
+// The value of a limit that is a line, as its parts say.
+template <swivel_field limit, class S>
+SWIVEL_INLINE auto load_limit(const S& s)
+{
+    constexpr const ValueLayout& value = row_of(limit).value;
+    if constexpr (value.parts[0] == ValuePart::range)
+        return s.io.load_range(limit);
+    else if constexpr (value.parts[1] == ValuePart::cosine)
+        return s.io.load_cone(limit);
+    else
+        return Twist<typename S::T>{s.io.load_vector(limit), s.io.load_range(limit, 3)};
+}
+// The arm that it limits.
+template <swivel_field limit, class S>
+SWIVEL_INLINE auto limited_arm(const S& s)
+{
+    if constexpr ((row_of(limit).needs & kHandLimits) != 0)
+        return hand_arm_of(s);
+    else
+        return arm_of(s);
+}
+// Its line comes after those of the features before its own.
+template <Stage stage>
+requires(is_line(stage)) struct StageBody<stage> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
-        const auto cone = s.io.load_cone(SWIVEL_SHOULDER_CONE);
-        set_limit(s, SWIVEL_WITH_SHOULDER_CONE, cone, shoulder_cone_limit(arm_of(s), cone));
-    }
-};
-template <>
-struct StageBody<Stage::humeral_twist> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const auto range = s.io.load_range(SWIVEL_HUMERAL_TWIST);
-        set_limit(s, SWIVEL_WITH_HUMERAL_TWIST, range, humeral_twist_limit(arm_of(s), range));
-    }
-};
-template <>
-struct StageBody<Stage::hand_cone> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const auto cone = s.io.load_cone(SWIVEL_HAND_CONE);
-        set_limit(s, SWIVEL_WITH_HAND_CONE, cone, hand_cone_limit(hand_arm_of(s), cone));
-    }
-};
-template <>
-struct StageBody<Stage::forearm_twist> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const auto range = s.io.load_range(SWIVEL_FOREARM_TWIST);
-        set_limit(s, SWIVEL_WITH_FOREARM_TWIST, range, forearm_twist_limit(hand_arm_of(s), range));
-    }
-};
-template <>
-struct StageBody<Stage::hand_twist> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const Twist<typename S::T> twist{s.io.load_vector(SWIVEL_HAND_TWIST), s.io.load_range(SWIVEL_HAND_TWIST, 3)};
-        set_limit(s, SWIVEL_WITH_HAND_TWIST, twist, hand_twist_limit(hand_arm_of(s), twist));
+        constexpr swivel_field limit = line_limit_of(stage);
+        constexpr swivel_features before = row_of(limit).needs - 1;
+        const auto value = load_limit<limit>(s);
+        const OnCircle<typename S::T> line = limit_line<limit>(limited_arm<limit>(s), value);
+        s.require(is_valid(value));
+        set_line(s, kLimitRow + 3 * line_count(s.strip.run.features & before), line);
     }
 };
 

@@ -29,7 +29,7 @@ CachedCrowd some_crowd()
     crowd.frame_count = up_to(60);
     crowd.character_count = up_to(300);
     crowd.limbs.resize(up_to(4));
-    if (*rc::gen::arbitrary<bool>()) crowd.limbs.back().setup.features = SWIVEL_WITH_MAX_SWIVEL;
+    if (*rc::gen::arbitrary<bool>()) crowd.limbs.back().setup.features = SWIVEL_WITH_PLANT;
     crowd.chunk = {up_to(20), 16 * up_to(6)};
     return crowd;
 }

@@ -101,56 +101,17 @@ swivel_binding binding_of(Random random)
     return binding;
 }
 
-// The bits of features in seeds, in the order in which these are taken. They are the seeds' own: the library's may
-// change.
-struct SeedBit {
-    std::uint32_t bit;
-    swivel_features feature;
-};
-constexpr SeedBit kSeedBits[] = {{0, SWIVEL_WORLD},
-                                 {1, SWIVEL_JOINTS},
-                                 {2, SWIVEL_WITH_HAND},
-                                 {3, SWIVEL_POLE_DIRECTION},
-                                 {5, SWIVEL_WITH_EFFECTOR},
-                                 {6, SWIVEL_WITH_ANGLE},
-                                 {7, SWIVEL_POLE_NORMAL},
-                                 {8, SWIVEL_WITH_INCOMING},
-                                 {9, SWIVEL_POLE_INCOMING},
-                                 {10, SWIVEL_WITH_WEIGHTS},
-                                 {11, SWIVEL_WITH_REACH},
-                                 {12, SWIVEL_WITH_MAX_SWIVEL},
-                                 {13, SWIVEL_WITH_FLEXION_LIMIT},
-                                 {14, SWIVEL_WITH_SHOULDER_CONE},
-                                 {15, SWIVEL_WITH_HUMERAL_TWIST},
-                                 {16, SWIVEL_WITH_SHOULDER_BOX},
-                                 {17, SWIVEL_WITH_HAND_CONE},
-                                 {18, SWIVEL_WITH_FOREARM_TWIST},
-                                 {19, SWIVEL_WITH_HAND_TWIST},
-                                 {20, SWIVEL_WITH_WRIST_BOX},
-                                 {21, SWIVEL_WITH_AIM},
-                                 {22, SWIVEL_WITH_CLAVICLE},
-                                 {24, SWIVEL_WITH_RECORD},
-                                 {25, SWIVEL_WITH_PLANT},
-                                 {26, SWIVEL_WITH_PLANT_ROTATION},
-                                 {27, SWIVEL_PLANT_BY_MOTION},
-                                 {28, SWIVEL_WITH_CAP},
-                                 {29, SWIVEL_WITH_PELVIS_FIT},
-                                 {30, SWIVEL_WITH_NEXT_TARGET},
-                                 {32, SWIVEL_HAND_YIELDS},
-                                 {33, SWIVEL_WITH_HAND_TRANSFORM},
-                                 {34, SWIVEL_WITH_LINK},
-                                 {36, SWIVEL_WITH_GROUND},
-                                 {39, SWIVEL_WITH_REGION},
-                                 {43, SWIVEL_STEP_WINS},
-                                 {44, SWIVEL_POLE_HAND}};
+// Bits of seeds that stand for no feature.
+constexpr std::uint32_t kOtherBits[] = {4, 23, 31, 35, 37, 38, 40, 41, 42};
 constexpr std::uint32_t kTwistBonesBit = 40;  // the first of three for the number of twist bones
 
-swivel_feature_info described_feature(swivel_features feature)
+// The bit that stands for a feature in seeds, by the feature's place in the library's table. Seeds count on the table's
+// order, so new features come to its end.
+std::uint32_t seed_bit(std::uint32_t place)
 {
-    swivel_feature_info info = {};
-    for (std::uint32_t n = 0; swivel_describe_feature(n, &info) && info.feature != feature;) ++n;
-    SWIVEL_REQUIRE(info.feature == feature);
-    return info;
+    std::uint32_t bit = place;
+    for (const std::uint32_t other : kOtherBits) bit += other <= bit;
+    return bit;
 }
 
 // A feature of a kind of limbs with all that it needs, which may need others, and what these exclude.
@@ -190,10 +151,11 @@ LimbFeatures features_of(Bytes& bytes, swivel_kind kind)
     const std::uint64_t wanted = choice < 2 ? bits : bits & bytes.take<std::uint64_t>();
     LimbFeatures taken;
     swivel_features excluded = 0;
-    for (const auto& [bit, feature] : kSeedBits) {
-        const bool is_wanted = (wanted >> bit & 1) != 0 && (choice != 1 || feature & kPlain);
-        const Whole whole(feature, kind);
-        if (!is_wanted || !(described_feature(feature).kinds >> kind & 1)) continue;
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
+        const bool is_wanted = (wanted >> seed_bit(n) & 1) != 0 && (choice != 1 || info.feature & kPlain);
+        const Whole whole(info.feature, kind);
+        if (!is_wanted || !(info.kinds >> kind & 1)) continue;
         if ((excluded & whole.features) || (taken.features & whole.excludes)) continue;
         taken.features |= whole.features;
         excluded |= whole.excludes;
@@ -205,8 +167,9 @@ LimbFeatures features_of(Bytes& bytes, swivel_kind kind)
 
 swivel_features feature_of_bit(std::uint32_t bit)
 {
-    for (const SeedBit& each : kSeedBits)
-        if (each.bit == bit) return each.feature;
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
+        if (seed_bit(n) == bit) return info.feature;
     return swivel_features{1} << 63;
 }
 

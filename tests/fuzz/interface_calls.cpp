@@ -272,8 +272,8 @@ void call_reset(Session& session)
     if (session.bodies && session.bytes.one_in(2)) return call_change_support(session);
     const Limbs limbs = take_limbs(session);
     check_status(session, swivel_reset(session.crowd, limbs.group, limbs.first, limbs.count), limbs.is_valid);
-    for (std::uint32_t n = 0;
-         limbs.is_valid && n < limbs.count && has_features(session, limbs.group, SWIVEL_WITH_MAX_SWIVEL); ++n)
+    const bool has_normals = limbs.is_valid && component_count(session, limbs.group, SWIVEL_NORMAL) > 0;
+    for (std::uint32_t n = 0; has_normals && n < limbs.count; ++n)
         session.is_solved[limbs.group][limbs.first + n] = false;  // their normal is none
     for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count; ++n)
         session.is_overwritten[limbs.group][limbs.first + n] = false;

@@ -47,7 +47,7 @@ std::vector<const Recipe*> few_crowds()
     return {&recipe_of(Part::ordinary, "world-joints-hand"),
             &recipe_of(Part::hard, "arms"),
             &recipe_of(Part::hard, "world-joints-hand-direction"),
-            &recipe_of(Part::limbs, "set-world-joints-normal-angle-step"),
+            &recipe_of(Part::limbs, "set-pole-normal"),
             &recipe_of(Part::limbs, "set-all-limits"),
             &recipe_of(Part::bodies, "set-all-limits"),
             &recipe_of(Part::standing, "palms-by-motion"),

@@ -29,14 +29,6 @@ constexpr swivel_features kOtherwise = SWIVEL_JOINTS | SWIVEL_WITH_CLAVICLE | SW
 constexpr double kSame = 3e-4;
 using Values = std::map<swivel_field, std::vector<float>>;  // of a limb's inputs
 
-bool is_whole(swivel_features features)
-{
-    swivel_feature_info info;
-    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
-        if ((features & info.feature) && ((features & info.needs) != info.needs || (features & info.excludes)))
-            return false;
-    return true;
-}
 swivel_features random_features(Random& random)
 {
     swivel_feature_info info;

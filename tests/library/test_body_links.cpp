@@ -55,9 +55,11 @@ private:
         constexpr swivel_features poles[] = {0, SWIVEL_POLE_DIRECTION, SWIVEL_POLE_NORMAL, SWIVEL_POLE_INCOMING};
         swivel_features features = SWIVEL_WITH_HAND | poles[random.below(4)];
         if (!is_linked && random.below(6) == 0) return features | SWIVEL_WITH_AIM;
-        features |= maybe(SWIVEL_WITH_EFFECTOR) | maybe(SWIVEL_WITH_FLEXION_LIMIT) | maybe(SWIVEL_WITH_ANGLE) |
-                    maybe(SWIVEL_WITH_MAX_SWIVEL) | maybe(SWIVEL_WITH_SHOULDER_CONE) | maybe(SWIVEL_WITH_HAND_CONE) |
-                    maybe(SWIVEL_WITH_RECORD) | maybe(random.below(2) ? SWIVEL_WITH_REACH : SWIVEL_WITH_CAP);
+        features |= maybe(SWIVEL_WITH_EFFECTOR) | maybe(SWIVEL_WITH_RECORD) |
+                    maybe(random.below(2) ? SWIVEL_WITH_REACH : SWIVEL_WITH_CAP);
+        for (const char* const function : {"swivel_cos_sin()", "swivel_flexion()", "swivel_cone()"})
+            for (const swivel_field field : every_field())
+                if (is_made_by(function, field)) features |= maybe(describe(field).needs);
         if (features & SWIVEL_WITH_EFFECTOR) features |= maybe(SWIVEL_HAND_YIELDS);
         if (!is_linked) features |= maybe(SWIVEL_WITH_WEIGHTS);
         if (has_clavicle(limb)) features |= maybe(SWIVEL_WITH_CLAVICLE);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: the corpus is what it says. Whole limbs have every flag of theirs, and so have bodies; those that stand
-// have the others. Names and seeds are unique, and golden.h has each crowd once.
+// have the others. Every feature is in a crowd, and alone in one if free limbs may have it. Names and seeds are unique,
+// and golden.h has each crowd once.
 #include "tools/corpus/corpus.h"
 
 #include <algorithm>
@@ -57,9 +58,34 @@ TEST_CASE("ordinary arms are reached, too far and too near; limbs, bodies and th
     CHECK(flags_of(Part::hard) == (reach | SWIVEL_SWIVEL_UNDEFINED | SWIVEL_BAD_INPUT));
     CHECK(flags_of(Part::limbs) == (every_flag() & ~plants & ~looks));
     CHECK(flags_of(Part::bodies) == (every_flag() & ~plants & ~looks));
-    constexpr std::uint32_t stand =
-        reach | plants | looks | SWIVEL_LIMITED_STEP | SWIVEL_SOFTENED | SWIVEL_STRETCHED | SWIVEL_BAD_INPUT;
+    constexpr std::uint32_t stand = reach | plants | looks | SWIVEL_LIMITED_STEP | SWIVEL_LIMITED_FLEXION |
+                                    SWIVEL_SOFTENED | SWIVEL_STRETCHED | SWIVEL_BAD_INPUT;
     CHECK(flags_of(Part::standing) == stand);
+}
+
+TEST_CASE("every feature is in a crowd, and if free limbs may have it, in one of only what it needs")
+{
+    const auto needs_of = [](swivel_features features) {
+        swivel_features needs = 0;
+        swivel_feature_info info;
+        for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
+            if (features & info.feature) needs |= info.needs;
+        return needs;
+    };
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
+        bool is_somewhere = false, is_alone = false;
+        for (const Part part : kParts)
+            for (const Recipe& recipe : recipes_of(part)) {
+                if (!((recipe.features | recipe.holding) & info.feature)) continue;
+                is_somewhere = true;
+                const bool has_more = recipe.features != (needs_of(recipe.features) | info.feature);
+                if (part == Part::limbs && !has_more) is_alone = true;
+            }
+        INFO(info.name);
+        CHECK(is_somewhere);
+        CHECK(is_alone == ((info.kinds >> SWIVEL_KIND_LIMB & 1) != 0));
+    }
 }
 
 TEST_CASE("limbs have the same numbers in crowds of any size")
@@ -67,7 +93,7 @@ TEST_CASE("limbs have the same numbers in crowds of any size")
     for (const Part part : kParts) {
         const Recipe& recipe = recipes_of(part).back();
         const Crowd small = make_crowd(recipe, 70), large = make_crowd(recipe, 200);
-        for (const Field field : inputs_of(small)) {
+        for (const swivel_field field : inputs_of(small)) {
             const std::vector<std::uint32_t> few = read_field(small, recipe, field, 0),
                                              many = read_field(large, recipe, field, 0);
             CHECK(std::equal(few.begin(), few.end(), many.begin()));

@@ -217,8 +217,9 @@ TEST_CASE("C++: a matrix is no rotation, and other arrays of floats are no other
     std::vector<std::array<float, 12>> boxes(3);
     Crowd crowd(limbs(3, SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_BOX));
     Streams frame;
+    const auto world_of_leg = [](const Person& person) -> auto& { return person.legs[0].world; };
     const auto no_value = Catch::Contains("floats is no value of");
-    CHECK_THROWS_WITH(frame.in(SWIVEL_PARENT_ROTATION, stream(people, &Person::legs, 0, &Leg::world)), no_value);
+    CHECK_THROWS_WITH(frame.in(SWIVEL_PARENT_ROTATION, stream(people, world_of_leg)), no_value);
     CHECK_THROWS_WITH(crowd.write(SWIVEL_PARENT_ROTATION, 0, matrices), no_value);
     CHECK_THROWS_WITH(crowd.write_all(SWIVEL_PARENT_ROTATION, 0, matrices[0]), no_value);
     CHECK_THROWS_WITH(crowd.read(SWIVEL_SHOULDER, 0, matrices), no_value);
@@ -261,9 +262,12 @@ TEST_CASE("C++: a stream is the first one's member, or a part of it, and the way
     made.in(SWIVEL_TARGET, stream(characters, &Person::grip));  // a view sees what is added later
     CHECK(view.fields[1].data == &characters[0].grip);
     CHECK(swivel_streams(made).positions == SWIVEL_FLOATS);
-    const swivel_out left = stream(characters, &Person::legs, 1, &Leg::target);
+    const auto second_target = [](auto& person) -> auto& { return person.legs[1].target; };
+    const swivel_out left = stream(characters, second_target);
     CHECK((left.data == &characters[0].legs[1].target && left.stride == sizeof(Person)));
-    CHECK(swivel_in(stream(characters, &Person::pose, 2)).data == &characters[0].pose[2]);
+    const std::vector<Person>& seen = characters;
+    const auto component = [](const Person& person) -> auto& { return person.pose[2]; };
+    CHECK(swivel_in(stream(seen, component)).data == &characters[0].pose[2]);
     characters.clear();
     CHECK(swivel_in(stream(characters, &Person::grip)).data == nullptr);
     CHECK(degrees(180) == Approx(3.14159265358979));

@@ -140,8 +140,7 @@ TEST_CASE("limits of the shoulder and regions hold for aims")
     int kept = 0;
     for (int n = 0; n < 5; ++n) {
         LimitedArms arms(random, count, true);
-        arms.features = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST |
-                        SWIVEL_WITH_REGION;
+        arms.features = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | kUpperArmLimits | SWIVEL_WITH_REGION;
         for (LimitedArm& each : arms.arms) each.arm.wrist = rounded(random.between(2, 8) * each.arm.wrist.normalized());
         Crowd crowd = arms.crowd();
         for (std::uint32_t arm = 0; arm < count; ++arm) put(crowd, SWIVEL_AIM, arm, value_of(random_aim(random)));
@@ -155,24 +154,6 @@ TEST_CASE("limits of the shoulder and regions hold for aims")
         }
     }
     CHECK(kept > 50);
-}
-
-TEST_CASE("a carried swivel turns an aiming arm no further than its step")
-{
-    Crowd crowd = crowd_of(SWIVEL_WITH_AIM | SWIVEL_WITH_MAX_SWIVEL, 1);
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 5});
-    const Aim bent{Vector3d::UnitZ(), Vector3d::Zero(), 1};
-    crowd.write_all(SWIVEL_AIM, 0, value_of(bent));
-    const Float2 max = {std::cos(0.1f), std::sin(0.1f)};
-    crowd.write_all(SWIVEL_MAX_SWIVEL, 0, max);
-    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
-    crowd.solve();
-    const Quaterniond before = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[0]).normalized();
-    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, 0});
-    crowd.solve();
-    const Quaterniond after = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[0]).normalized();
-    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == (SWIVEL_REACHED | SWIVEL_LIMITED_STEP));
-    CHECK(2 * std::acos(std::fabs(before.dot(after))) == Approx(0.1).margin(1e-3));
 }
 
 namespace {

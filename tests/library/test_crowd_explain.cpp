@@ -192,10 +192,9 @@ void tell_of_reach(ApprovedTexts& texts)
 
 void tell_of_limits(ApprovedTexts& texts)
 {
-    Told limited(texts, "limits of the elbow's place", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST);
+    Told limited(texts, "limits of the elbow's place", SWIVEL_WITH_SHOULDER_CONE);
     limited.with("a cone on the other side", SWIVEL_SHOULDER_CONE, cone({0, 1, 0.2}, 0.5));
     limited.with("a cone that no place keeps", SWIVEL_SHOULDER_CONE, cone({0, -1, 0}, 0.5));
-    limited.with("a twist, too", SWIVEL_HUMERAL_TWIST, range(2, 2.1));
 
     Told box(texts, "a box of the shoulder", SWIVEL_WITH_SHOULDER_BOX);
     Float12 ranges;
@@ -270,8 +269,7 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
     const auto narrow = [&] { return AngleRange{random.between(-3, 3), random.between(0.05, 0.6)}; };
     int named = 0, turned = 0;
     for (const swivel_features limits :
-         {SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST,
-          SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
+         {kUpperArmLimits, kUpperArmLimits | SWIVEL_WITH_HAND_CONE,
           SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
           SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {
         const BoundLimb limb = bound_limb(random);
@@ -305,29 +303,24 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
             INFO(text);
             const LocalPose q = added_to_rest(local_pose(crowd, n), limb.bound);
             const Vector3d bone = Vector3d::UnitZ();
-            const std::tuple<std::uint32_t, std::uint32_t, std::string, double> off[] = {
-                {SWIVEL_WITH_SHOULDER_CONE, SWIVEL_LIMITED_SHOULDER_CONE, "shoulder_cone",
-                 off_cone(l.shoulder_axis, q.shoulder * bone, l.shoulder)},
-                {SWIVEL_WITH_HUMERAL_TWIST, SWIVEL_LIMITED_HUMERAL_TWIST, "humeral_twist",
-                 off_twist(q.shoulder, bone, l.humeral)},
-                {SWIVEL_WITH_SHOULDER_BOX, SWIVEL_LIMITED_SHOULDER_BOX, "shoulder_box",
-                 off_box(q.shoulder, l.shoulder_box)},
-                {SWIVEL_WITH_HAND_CONE, SWIVEL_LIMITED_HAND_CONE, "hand_cone",
-                 off_cone(bone, q.wrist * l.hand_axis, 0.3)},
-                {SWIVEL_WITH_FOREARM_TWIST, SWIVEL_LIMITED_FOREARM_TWIST, "forearm_twist",
-                 off_twist(q.wrist, bone, l.forearm)},
-                {SWIVEL_WITH_HAND_TWIST, SWIVEL_LIMITED_HAND_TWIST, "hand_twist",
-                 off_twist(q.wrist, l.twist_axis, l.twist)},
-                {SWIVEL_WITH_WRIST_BOX, SWIVEL_LIMITED_WRIST_BOX, "wrist_box", off_box(q.wrist, l.wrist_box)},
-            };
+            const double off[] = {off_cone(l.shoulder_axis, q.shoulder * bone, l.shoulder),
+                                  off_twist(q.shoulder, bone, l.humeral),
+                                  off_cone(bone, q.wrist * l.hand_axis, l.hand),
+                                  off_twist(q.wrist, bone, l.forearm),
+                                  off_twist(q.wrist, l.twist_axis, l.twist),
+                                  off_box(q.shoulder, l.shoulder_box),
+                                  off_box(q.wrist, l.wrist_box)};  // of kSwivelLimits
+            static_assert(std::size(off) == std::size(kSwivelLimits));
             const std::size_t violates = text.find("Its pose violates");
             REQUIRE((violates != std::string::npos) == ((flags[n] & SWIVEL_INFEASIBLE) != 0));
-            for (const auto& [limit, flag, name, angle] : off) {
+            for (std::size_t k = 0; k < std::size(off); ++k) {
+                const swivel_features limit = describe(kSwivelLimits[k]).needs;
+                const std::string name = describe(kSwivelLimits[k]).name;
                 if (violates == std::string::npos) {
-                    CHECK((text.find(name) != std::string::npos) == ((flags[n] & flag) != 0));
+                    CHECK((text.find(name) != std::string::npos) == ((flags[n] & flag_of(kSwivelLimits[k])) != 0));
                     continue;
                 }
-                const double degrees_off = angle / degrees(1);
+                const double degrees_off = off[k] / degrees(1);
                 const std::string pose = text.substr(violates);
                 const bool is_named = pose.find(name + " by") != std::string::npos;
                 if (!(limits & limit) || degrees_off < -0.03) CHECK_FALSE(is_named);
@@ -354,10 +347,8 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
 
 TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every input is bad")
 {
-    constexpr swivel_features all = kWorldJointsHand | kLimits | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE |
-                                    SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
-                                    SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_CLAVICLE,
-                              aim = kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM;
+    const swivel_features all = all_beside(kWorldJointsHand, kPoleFeatures | SWIVEL_WITH_REGION),
+                          aim = kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM;
     Random random{10};
     for (const swivel_features features : {all, aim}) {
         Crowd crowd = crowd_of(features, 1, bound_limb(random).bound);

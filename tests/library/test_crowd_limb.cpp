@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: swivel.h's words about the whole limb hold in crowds, through skeletons and worlds. Inputs with neutral
-// values change nothing. Stretch, flexion, a swivel that is reset and joint angles mean what swivel.h says. Goals of
-// limbs in their own frame are in test_limb_goals.cpp.
+// values change nothing. Stretch, flexion and joint angles mean what swivel.h says. Goals of limbs in their own frame
+// are in test_limb_goals.cpp, and steps of the swivel in test_swivel_steps.cpp.
 //
 // SWIVEL_REACHED says that the wrist of a plain arm is within 1e-6 arm lengths of its target (test_plain_arms.cpp).
 // With features, wrist or effector is within 3e-6 of the target or the blended target. Limbs at random, as here, stay
@@ -17,7 +17,8 @@ TEST_CASE("whole limbs at rest are the plain arms")
 {
     constexpr std::uint32_t count = 200;
     const swivel_features at_rest =
-        SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_EFFECTOR | kLimits;
+        all_beside(SWIVEL_WITH_HAND, SWIVEL_WORLD | SWIVEL_JOINTS | kPoleFeatures | SWIVEL_WITH_INCOMING |
+                                         SWIVEL_HAND_YIELDS | SWIVEL_WITH_REGION);
     for (const swivel_features features :
          {swivel_features{0}, kWorldJointsHand & ~SWIVEL_WORLD, kWorldJointsHand,
           kWorldJointsHand | SWIVEL_POLE_DIRECTION, swivel_features{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
@@ -113,20 +114,6 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     }
     CHECK(straight > 30);
     CHECK(bent > 30);
-}
-
-TEST_CASE("the swivel carried from solve to solve is forgotten on reset")
-{
-    for (const bool is_reset : {false, true}) {
-        FreeLimb limb({{0, 0, 1}, {0, -1, 0}, 1, 1}, SWIVEL_WITH_MAX_SWIVEL);
-        limb.write(SWIVEL_MAX_SWIVEL, cos_sin(0.1));
-        limb.solve();
-        limb.write(SWIVEL_POLE, Float3{0, 1, 0.1f});
-        if (is_reset) CHECK(swivel_reset(limb.crowd.get(), 0, 0, 1) == SWIVEL_OK);
-        const LimbPose pose = limb.solve();
-        CHECK(pose.flags == (is_reset ? SWIVEL_REACHED : SWIVEL_REACHED | SWIVEL_LIMITED_STEP));
-        CHECK(std::fabs(pose.hinge().x() - (is_reset ? -1 : std::cos(0.1))) <= 1e-6);
-    }
 }
 
 TEST_CASE("joint angles turn back into the rotations they are of, in every order and both families")

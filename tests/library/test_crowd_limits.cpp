@@ -18,6 +18,12 @@ Quaterniond mirrored(const Quaterniond& q) { return {q.w(), q.x(), -q.y(), -q.z(
 
 }  // namespace
 
+TEST_CASE("the tests' limits of the swivel are all that the library has a flag for")
+{
+    for (const swivel_field field : every_field())
+        CHECK((flag_of(field) != 0) == (std::ranges::find(kSwivelLimits, field) != std::end(kSwivelLimits)));
+}
+
 TEST_CASE("limits made of angles are kept through a skeleton")
 {
     constexpr std::uint32_t count = 1000;

@@ -168,6 +168,10 @@ TEST_CASE("the library describes the fields, features and flags that the header 
         CHECK((*field.range != 0) == is_input);
     }
     CHECK(got == wanted);
+    const std::vector<swivel_field> all = every_field();
+    for (const char* const function :
+         {"swivel_cos_sin()", "swivel_flexion()", "swivel_cone()", "swivel_aim()", "swivel_range()"})
+        CHECK(std::ranges::any_of(all, [&](swivel_field each) { return is_made_by(function, each); }));
     // A group has a field just if it is of its kinds, has what the field needs and lacks what it excludes. Further,
     // some have twist bones, a solved goal is that of a plant or a link, and a hand that others hold has its transform.
     for (const corpus::Part part : corpus::kParts)

@@ -63,14 +63,17 @@ Float12 made_value(Random& random, swivel_field field)
     limits.humeral = limits.forearm = limits.twist = any_range();
     for (AngleBox* const box : {&limits.shoulder_box, &limits.wrist_box})
         for (AngleRange& range : box->range) range = any_range();
-    Float12 value = {};
+    std::vector<float> value;
     const auto take = [&](swivel_field made, const auto& numbers) {
-        if (made == field) std::ranges::copy(numbers, value.begin());
+        if (made == field) value.assign(numbers.begin(), numbers.end());
     };
     each_limit(limits, take);
     take(SWIVEL_AIM, aim({axis.x(), axis.y(), axis.z()}, any_angle(random, kPi)));
-    take(SWIVEL_MAX_SWIVEL, cos_sin(any_angle(random, 3.14159)));
-    return value;
+    const Float2 pair = cos_sin(any_angle(random, 3.14159));  // the other fields are one pair
+    if (value.empty()) value.assign(pair.begin(), pair.end());
+    Float12 numbers = {};
+    std::ranges::copy(value, numbers.begin());
+    return numbers;
 }
 
 Crowd solved_with(const UnitPart& part, const std::vector<Float12>& values, const swivel_binding& binding = {})
@@ -156,26 +159,27 @@ TEST_CASE("limits hold to 3e-6 of a cosine with axes and pairs as far from unit 
 {
     Random random{4};
     LimitedArms arms(random, 20'000, false);
-    arms.features = SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
+    arms.features = SWIVEL_WITH_HAND | kUpperArmLimits;
     Crowd crowd = arms.crowd();
-    std::vector<Float4> cones = read<Float4>(crowd, SWIVEL_SHOULDER_CONE),
-                        twists = read<Float4>(crowd, SWIVEL_HUMERAL_TWIST);
-    const auto scale = [&](float* part, std::size_t size) {
-        for (std::size_t c = 0; c < size; ++c) part[c] *= random.below(2) ? 1.0000004f : 0.9999996f;
-    };
-    for (Float4& cone : cones) scale(cone.data(), 3);
-    for (Float4& twist : twists) scale(twist.data(), 2), scale(twist.data() + 2, 2);
-    crowd.write(SWIVEL_SHOULDER_CONE, 0, cones);
-    crowd.write(SWIVEL_HUMERAL_TWIST, 0, twists);
+    std::uint32_t limits = 0;  // their flags
+    for (const UnitPart& part : every_part()) {
+        if (!swivel_field_row_count(crowd.get(), 0, part.field)) continue;
+        limits |= flag_of(part.field);
+        std::vector<Float4> values = read<Float4>(crowd, part.field);
+        for (Float4& value : values)
+            for (std::uint32_t c = part.first; c < part.first + part.size; ++c)
+                value[c] *= random.below(2) ? 1.0000004f : 0.9999996f;
+        crowd.write(part.field, 0, values);
+    }
     crowd.solve();
     double worst = -1;
     int limited = 0;
-    for (std::uint32_t n = 0; n < cones.size(); ++n) {
+    for (std::uint32_t n = 0; n < arms.arms.size(); ++n) {
         const LimbPose pose = pose_of(crowd, n);
         REQUIRE_FALSE(pose.flags & SWIVEL_BAD_INPUT);
         if (pose.flags & SWIVEL_INFEASIBLE) continue;
         worst = std::max(worst, -arms.room(n, pose));
-        limited += (pose.flags & (SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_HUMERAL_TWIST)) != 0;
+        limited += (pose.flags & limits) != 0;
     }
     CHECK(worst <= 3e-6);
     CHECK(worst > 2e-7);  // the axes' own error shows

@@ -322,7 +322,6 @@ std::vector<Spoilt> every_spoilt(const Crowd& crowd)
     for (const swivel_field field : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) add(field, 3, 1, {-1.1f, 1.1f});
     for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_FLEXION_LIMIT, c, 1, {-0.1f, 1.1f});
     add(SWIVEL_AIM, 3, 1, {-1});
-    add(SWIVEL_MAX_SWIVEL, 1, 1, {-1});
     return ways;
 }
 
@@ -334,11 +333,8 @@ TEST_CASE("a bad number spoils its limb and no other")
         swivel_features features;
         std::uint32_t twist_bone_count = 0;
     };
-    std::vector<LimbKind> kinds = {
-        {SWIVEL_WITH_AIM | SWIVEL_WITH_ANGLE},
-        {kWorldJointsHand | kLimits | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE | SWIVEL_WITH_INCOMING |
-             SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_CLAVICLE,
-         3}};
+    std::vector<LimbKind> kinds = {{SWIVEL_WITH_AIM | SWIVEL_WITH_ANGLE},
+                                   {all_beside(kWorldJointsHand, kPoleFeatures | SWIVEL_WITH_REGION), 3}};
     for (const swivel_features features : every_plain_set()) kinds.push_back({features});
     for (const auto& [features, twist_bone_count] : kinds) {
         const std::vector<Spoilt> ways = every_spoilt(good_crowd(features, twist_bone_count));

@@ -3,129 +3,17 @@
 // The promise: swivel_explain() says of a planted limb why it stands or slides, what the ground does to a foot, and
 // where a shift goes, in the words of approved/feet.txt. It warns of other units and origins, and names bad input. The
 // animation and the places of targets confirm its numbers.
-#include "swivel/swivel_bodies.hpp"
-#include "swivel/swivel_explain.hpp"
 #include "tests/approved_texts.h"
-#include "tests/test_arm.h"
-#include "tests/test_crowd.h"
-#include "tests/test_random.h"
+#include "tests/gliding_leg.h"
 
 using namespace swivel;
 using namespace swivel::test;
 
 namespace {
 
-// A body of one planted leg. Its pose stays as it is while its root glides along x, so where the animation has the foot
-// is known without the library.
-struct GlidingLeg {
-    static constexpr std::array<std::int32_t, 4> kParents = {-1, 0, 1, 2};  // hips, thigh, shin, foot
-    static constexpr std::array<Float3, 4> kOffsets = {{{0, 1, 0}, {0.1f, 0, 0}, {0, -0.5f, 0}, {0, -0.4f, 0}}};
-    static constexpr double kLength = 0.9;
-    static constexpr float kFrame = 0.02f;
-    static constexpr swivel_features kPlants = SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT;
-
-    swivel_limb_joints joints = joints_of_leg();
-    std::vector<Definition> groups;
-    Crowd crowd;
-    std::array<Float4, 4> rotations{};
-    Float3 root{}, support{};
-    float time = kFrame, scale = 1;
-    float stretch = 1;  // of the pose's bones
-    bool is_in_place = false;
-    std::vector<Vector3d> sent;  // the target of each frame
-
-    explicit GlidingLeg(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant(),
-                        swivel_ground ground = swivel_default_ground())
-        : groups(groups_of(joints, features, plant, ground)), crowd(skeleton(), 1, groups)
-    {
-        rotations.fill({0, 0, 0, 1});
-        rotations[1] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
-        rotations[2] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
-    }
-    // The ankle as the pose has it, in the world.
-    Vector3d animated() const
-    {
-        const Quaterniond thigh = quat(rotations[1]), shin = thigh * quat(rotations[2]);
-        const Vector3d hip(0.1, 1, 0), leg = thigh * Vector3d(0, -0.5, 0) + shin * Vector3d(0, -0.4, 0);
-        return vec(root) + double{scale} * (hip + leg);
-    }
-    void solve()
-    {
-        std::array<Float4, 4> solved = rotations;
-        swivel_pose pose = swivel_default_pose();
-        pose.rotations = {rotations.data(), sizeof rotations, sizeof rotations[0], nullptr};
-        if (!is_in_place) pose.results = {solved.data(), sizeof solved, sizeof solved[0], nullptr};
-        std::array<Float3, 4> places = kOffsets;
-        for (Float3& place : places)
-            for (float& number : place) number *= stretch;
-        if (stretch != 1) pose.translations = {places.data(), sizeof places, sizeof places[0], nullptr};
-        pose.root_position = {&root, 0};
-        pose.root_scale = {&scale, 0};
-        pose.support_position = {&support, 0};
-        pose.time = {&time, 0};
-        crowd.solve({.pose = &pose});
-        if (!(swivel_group_features(crowd.get(), 0) & SWIVEL_WITH_PLANT)) return;
-        std::array<float, 7> goal;
-        crowd.read(SWIVEL_SOLVED_GOAL, 0, std::span(&goal, 1));
-        sent.emplace_back(goal[0], goal[1], goal[2]);
-    }
-    // Frames in which the root glides along x.
-    void glide(float label, double speed, int frames = 1)
-    {
-        if (swivel_field_row_count(crowd.get(), 0, SWIVEL_CONTACT))
-            crowd.write_all(SWIVEL_CONTACT, 0, std::array{label});
-        for (int n = 0; n < frames; ++n) {
-            root[0] += static_cast<float>(speed * double{time});
-            solve();
-        }
-    }
-    std::string text(std::uint32_t group = 0) const { return explain(crowd, group, 0); }
-    std::uint32_t flags() const
-    {
-        std::uint32_t flags = 0;
-        crowd.read(SWIVEL_FLAGS, 0, std::span(&flags, 1));
-        return flags;
-    }
-
-private:
-    static swivel_skeleton skeleton()
-    {
-        swivel_skeleton made = swivel_default_skeleton();
-        made.parents = stream(kParents);
-        made.translations = stream(kOffsets);
-        made.joint_count = 4;
-        return made;
-    }
-    static swivel_limb_joints joints_of_leg()
-    {
-        swivel_limb_joints made = swivel_default_limb_joints(1, 2, 3);
-        made.bend[2] = -1;
-        return made;
-    }
-    static std::vector<Definition> groups_of(const swivel_limb_joints& joints, swivel_features features,
-                                             const swivel_plant& plant, const swivel_ground& ground)
-    {
-        swivel_body_limb_def leg = body_limb(joints, features);
-        leg.plant = plant;
-        leg.ground = ground;
-        std::vector<Definition> groups = {leg};
-        if (features & SWIVEL_WITH_PELVIS_FIT) groups.push_back(swivel_default_shift_def());
-        return groups;
-    }
-};
-
-constexpr double kLength = GlidingLeg::kLength;
-constexpr swivel_features kPlants = GlidingLeg::kPlants;
-constexpr swivel_features kStands =
-    kPlants | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_HAND_YIELDS | SWIVEL_WITH_GROUND;
+constexpr swivel_features kPlants = GlidingLeg::kPlants, kStands = GlidingLeg::kStands;
 constexpr Float3 kToe{0, -0.07f, 0.13f}, kHeel{0, -0.07f, -0.05f};  // in the foot's frame
 
-swivel_plant with(float swivel_plant::*member, float value)
-{
-    swivel_plant plant = swivel_default_plant();
-    plant.*member = value;
-    return plant;
-}
 swivel_ground sole()
 {
     swivel_ground ground = swivel_default_ground();
@@ -191,7 +79,7 @@ void tell_of_contact(ApprovedTexts& texts)
     CHECK(swivel_reset(free.crowd.get(), 0, 0, 1) == SWIVEL_OK);
     free.says("reset");
 
-    swivel_plant low = with(&swivel_plant::relock_speed, 0.07f);
+    swivel_plant low = plant_with(&swivel_plant::relock_speed, 0.07f);
     low.speed[0] = 0.55f, low.height[0] = 0.45f, low.height[1] = 0.5f;  // the ankle is 0.14 over the root
     ToldLeg moves(texts, "contact by motion", kPlants | SWIVEL_PLANT_BY_MOTION, low);
     moves.glide(0, 0.8, 3), moves.says("fast");
@@ -208,7 +96,7 @@ void tell_of_contact(ApprovedTexts& texts)
     for (const float again : {0.06f, 0.0f}) {
         ToldLeg away(texts,
                      again > 0 ? "a foot breaks away" : "a foot breaks away, which never locks in a contact again",
-                     kPlants, with(&swivel_plant::relock_speed, again));
+                     kPlants, plant_with(&swivel_plant::relock_speed, again));
         away.glide(1, 0, 10);
         while (!(away.flags() & SWIVEL_RELEASED)) away.glide(1, 0.5);
         away.says("breaks away");
@@ -226,7 +114,7 @@ void tell_of_contact(ApprovedTexts& texts)
         const char* const scene = cap & SWIVEL_WITH_FLEXION_LIMIT ? "a cap that binds is no limit of the flexion"
                                   : cap                           ? "a cap keeps a leg from its foot"
                                                                   : "bones keep a leg from its foot";
-        ToldLeg high(texts, scene, kPlants | cap, with(&swivel_plant::unlock_radius, 5));
+        ToldLeg high(texts, scene, kPlants | cap, plant_with(&swivel_plant::unlock_radius, 5));
         high.glide(1, 0, 3);
         high.root[1] += 0.3f;
         high.solve(), high.says("the root rises");
@@ -311,7 +199,8 @@ void tell_of_limits(ApprovedTexts& texts)
 
 void tell_of_shifts(ApprovedTexts& texts)
 {
-    ToldLeg leg(texts, "a shift of the body", kPlants | SWIVEL_WITH_PELVIS_FIT, with(&swivel_plant::unlock_radius, 5));
+    ToldLeg leg(texts, "a shift of the body", kPlants | SWIVEL_WITH_PELVIS_FIT,
+                plant_with(&swivel_plant::unlock_radius, 5));
     leg.says("not solved", 1);
     leg.glide(1, 0, 3), leg.says("at rest", 1);
     leg.root[1] += 0.15f;
@@ -391,100 +280,4 @@ TEST_CASE("explain speaks of feet as approved")
     tell_of_shifts(texts);
     tell_of_ground(texts);
     texts.compare();
-}
-
-TEST_CASE("explain names each bad input of a body, and its range as the library describes it")
-{
-    for (const swivel_features features :
-         {kStands | SWIVEL_WITH_CAP, kPlants | SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_NEXT_TARGET,
-          swivel_features{SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_WEIGHTS}}) {
-        GlidingLeg leg(features);
-        if (!(features & SWIVEL_WITH_PLANT)) leg.crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0.2f, 0.1f});
-        leg.glide(1, 0, 3);
-        swivel_field_info field;
-        for (std::uint32_t g = 0; g < leg.groups.size(); ++g)
-            for (std::uint32_t n = 0; swivel_describe_field(n, &field); ++n) {
-                const std::uint32_t size = swivel_field_row_count(leg.crowd.get(), g, field.field);
-                // Ground that is out of its range is none, and no bad input.
-                if (field.kind != SWIVEL_FIELD_INPUT || size == 0 || field.field == SWIVEL_GROUND) continue;
-                std::vector<float> good(size), bad(size, 2e16f);  // which is out of every range
-                const std::size_t bytes = size * sizeof(float);
-                check(swivel_read(leg.crowd.get(), field.field, g, 0, 1, {good.data(), bytes}));
-                check(swivel_write(leg.crowd.get(), field.field, g, 0, 1, {bad.data(), bytes}));
-                for (const bool is_solved : {false, true}) {
-                    if (is_solved) leg.solve();
-                    if (!is_solved && field.field == SWIVEL_LENGTHS) continue;  // it tells of those of the last solve
-                    INFO(leg.text(g));
-                    CHECK_THAT(leg.text(g), Catch::Contains("Bad input: " + std::string(field.name) + " (2e+16"));
-                    CHECK_THAT(leg.text(g),
-                               Catch::Contains(") is out of its range, " + std::string(field.range) + "."));
-                }
-                if (g == 0) CHECK(leg.flags() == SWIVEL_BAD_INPUT);
-                check(swivel_write(leg.crowd.get(), field.field, g, 0, 1, {good.data(), bytes}));
-                leg.solve();
-                CHECK_THAT(leg.text(g), !Catch::Contains("Bad input"));
-            }
-    }
-}
-
-TEST_CASE("whatever happens, explain says what the flags say, and how far the animated point and the target are")
-{
-    Random random{3};
-    int planted = 0, released = 0, broke = 0, cut = 0, free = 0, far = 0;
-    for (int n = 0; n < 60; ++n) {
-        swivel_features features = kPlants;
-        for (const swivel_features each :
-             {SWIVEL_WITH_HAND, SWIVEL_PLANT_BY_MOTION, SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_CAP, SWIVEL_WITH_PELVIS_FIT})
-            if (random.below(2)) features |= each;
-        if (features & SWIVEL_WITH_HAND && random.below(2)) features |= SWIVEL_WITH_PLANT_ROTATION;
-        swivel_plant plant = with(&swivel_plant::anchor_lead, static_cast<float>(random.unit()));
-        plant.height[0] = plant.height[1] = 1;
-        GlidingLeg leg(features, plant);
-        leg.scale = static_cast<float>(random.spread(0.3, 3));
-        for (int step = 0; step < 60; ++step) {
-            const double speed = random.below(4) ? random.between(-1, 1) : random.between(-9, 9);
-            if (random.below(5) == 0) leg.root[1] = static_cast<float>(random.between(-0.2, 0.2)) * leg.scale;
-            leg.glide(random.below(5) ? 0.9f : 0.1f, double{leg.scale} * speed, 1 + static_cast<int>(random.below(6)));
-            const std::string text = leg.text();
-            INFO(text);
-            const std::uint32_t flags = leg.flags();
-            const auto says = [&](const char* part) { return text.find(part) != std::string::npos; };
-            CHECK((flags & SWIVEL_BAD_INPUT) == 0);
-            CHECK(text.starts_with("It is planted") == ((flags & SWIVEL_PLANTED) != 0));
-            CHECK(text.starts_with("It broke away") == ((flags & SWIVEL_BROKE_AWAY) != 0));
-            CHECK((says("It was just released") || says("It broke away, though")) == ((flags & SWIVEL_RELEASED) != 0));
-            CHECK(says("was cut") == ((flags & SWIVEL_CUT) != 0));
-            CHECK(text.starts_with("Its target ") == ((flags & (SWIVEL_PLANTED | SWIVEL_RELEASED)) == 0));
-            CHECK(!says("nan"));
-            planted += (flags & SWIVEL_PLANTED) != 0, released += (flags & SWIVEL_RELEASED) != 0;
-            broke += (flags & SWIVEL_BROKE_AWAY) != 0, cut += (flags & SWIVEL_CUT) != 0;
-            free += text.starts_with("Its target ");
-
-            const double offset = (leg.animated() - leg.sent.back()).norm(), length = kLength * double{leg.scale};
-            for (const char* const words : {"contact ended: the animated point is ", "limb lengths. It is ",
-                                            "fades back to the animated point: "})
-                if (says(words)) CHECK(number_after(text, words) == Approx(offset).epsilon(6e-4).margin(2e-6));
-            if (says("It cannot lock: "))
-                CHECK(number_after(text, "It cannot lock: ") == Approx(offset / length).epsilon(6e-3));
-            if (!says(" out of reach: ") || says("blended") || features & SWIVEL_WITH_PELVIS_FIT) continue;
-            const Vector3d hip = vec(leg.root) + double{leg.scale} * Vector3d(0.1, 1, 0);
-            const double reach = number_after(text, "the wrist is ");
-            CHECK(number_after(text, "The target is ") + reach == Approx((leg.sent.back() - hip).norm()).epsilon(1e-3));
-            if (says("as its bones let")) CHECK(reach == Approx(length).epsilon(1e-3));
-            ++far;
-        }
-    }
-    CHECK(std::min({planted, released, broke, cut, free, far}) > 30);
-}
-
-TEST_CASE("a body is explained group after group, in a line each, as far as there is room")
-{
-    GlidingLeg leg(kPlants | SWIVEL_WITH_PELVIS_FIT);
-    leg.glide(1, 0, 3);
-    const std::string all = "group 0: " + leg.text(0) + "\ngroup 1: " + leg.text(1);
-    const auto before = all_words(leg.crowd);
-    for (const std::uint32_t group : {0u, 1u, std::uint32_t{SWIVEL_EVERY_GROUP}})
-        check_room(group == SWIVEL_EVERY_GROUP ? all : leg.text(group),
-                   [&](char* room, std::size_t size) { return swivel_explain(leg.crowd.get(), group, 0, room, size); });
-    CHECK((all_words(leg.crowd) == before));
 }

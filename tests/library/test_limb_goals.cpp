@@ -157,7 +157,7 @@ TEST_CASE("where the elbow goes")
                  const auto own = across(line, pose.hinge());
                  if (!own) return;
                  for (const bool is_carried : {false, true}) {
-                     FreeLimb limb(arm, SWIVEL_WITH_INCOMING | (is_carried ? SWIVEL_WITH_MAX_SWIVEL : 0));
+                     FreeLimb limb(arm, SWIVEL_WITH_INCOMING | (is_carried ? describe(SWIVEL_NORMAL).needs : 0));
                      limb.write(SWIVEL_POLE, floats(Vector3d(random.between(-2, 2) * line)));
                      pose.write(limb);
                      if (is_carried) limb.write(SWIVEL_NORMAL, floats(previous));

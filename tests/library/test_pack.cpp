@@ -31,16 +31,6 @@ std::uint32_t row_count_of(const Crowd& crowd, std::uint32_t group)
 {
     return swivel_packed_row(crowd.get(), group, SWIVEL_RESULT_END);
 }
-std::uint32_t block_count_of(const Crowd& crowd, std::uint32_t group)
-{
-    return (swivel_group_limb_count(crowd.get(), group) + 15) / 16;
-}
-Words words_of(const Crowd& crowd, std::uint32_t group)
-{
-    Words words(std::size_t{block_count_of(crowd, group)} * row_count_of(crowd, group) * SWIVEL_LANES);
-    crowd.pack(group, words);
-    return words;
-}
 // The words of a value of a limb.
 Words words_of(const Words& words, std::uint32_t row_count, std::uint32_t limb, std::uint32_t row, std::uint32_t count)
 {
@@ -227,7 +217,8 @@ TEST_CASE("a group's words are those of its results, for every set of features")
     for_each_crowd([&](const Crowd& crowd) {
         for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
             const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group), rows = row_count_of(crowd, group);
-            const Words all = words_of(crowd, group);
+            const Words all = crowd.pack(group);
+            REQUIRE(all.size() == std::size_t{(limbs + 15) / 16} * rows * SWIVEL_LANES);
             std::uint32_t row = 0;
             for (int n = SWIVEL_SHOULDER; n < SWIVEL_RESULT_END; ++n) {
                 const auto field = static_cast<swivel_field>(n);
@@ -280,7 +271,7 @@ TEST_CASE("every instruction set gives the words, in every block range, and writ
     const IsaScope scope;
     for_each_crowd([&](const Crowd& crowd) {
         REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
-        const Words expected = words_of(crowd, 0);
+        const Words expected = crowd.pack(0);
         REQUIRE(swivel_use_isa(scope.before.c_str()) == SWIVEL_OK);
         const std::size_t block_words = std::size_t{row_count_of(crowd, 0)} * SWIVEL_LANES;
         for (const swivel_blocks blocks : {swivel_blocks{0, 7}, {0, 1}, {1, 3}, {2, 5}, {6, 1}, {5, 0}, {7, 0}}) {
@@ -322,7 +313,7 @@ TEST_CASE("wrists of random arms stay within the stated distance of the results'
         crowd.wrists(0, wrists);
 
         // The words as floats, in place of the results.
-        const Words words = words_of(crowd, 0);
+        const Words words = crowd.pack(0);
         const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
         for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST})
             for (std::uint32_t n = 0; n < limbs; ++n) {

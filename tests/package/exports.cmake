@@ -3,7 +3,7 @@
 # The promise: the shared library exports every function of the public headers and nothing else. Its name has its major version.
 #   LIBRARY: libswivel.so, MAJOR, NM, READELF. Or LIBRARY: swivel's DLL, OBJDUMP.
 cmake_minimum_required(VERSION 3.22)
-include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/headers.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/described_headers.cmake)
 swivel_functions(declared)
 
 if(OBJDUMP)

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "tools/cache/cached_crowd.h"
 
+#include "swivel/swivel.hpp"
+
 namespace swivel::tools {
 
 bool CachedCrowd::carries_state() const
 {
-    return look || std::ranges::any_of(limbs, [](const CachedLimb& limb) {
-               return limb.setup.has(SWIVEL_WITH_MAX_SWIVEL | SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT);
-           });
+    swivel_features carrying = SWIVEL_WITH_PELVIS_FIT;  // its body's shift
+    swivel_field_info info;
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        if (info.kind == SWIVEL_FIELD_CARRIED) carrying |= info.needs;
+    return look || std::ranges::any_of(limbs, [&](const CachedLimb& limb) { return limb.setup.has(carrying); });
 }
 
 std::vector<LimbSetup> setups_of(const CachedCrowd& crowd)
@@ -59,7 +63,7 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd)
         fields.push_back({SWIVEL_WRIST, "wrist", "local rotation of the wrist joint, x y z w", {4}, {"xyzw"}});
     fields.push_back({SWIVEL_FLAGS, "flags", "bits of swivel_flag", {}, {}});
     if (has(SWIVEL_WITH_REACH)) fields.push_back({SWIVEL_STRETCH, "stretch", "factor of both bone lengths", {}, {}});
-    if (has(SWIVEL_WITH_MAX_SWIVEL))
+    if (has(describe(SWIVEL_NORMAL).needs))
         fields.push_back({SWIVEL_NORMAL, "normal", "unit normal of the swivel plane, arm frame", {3}, {"xyz"}});
     if (twist_bones > 0)
         fields.push_back(

@@ -2,9 +2,8 @@
 #include "tools/corpus/arms.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
+#include "simd/fields.h"
 #include "tools/corpus/hard_cases.h"
 #include "tools/corpus/random.h"
 #include "tools/corpus/vectors.h"
@@ -68,6 +67,8 @@ std::array<float, 3> placed(const Arm& arm, const Vector& v, bool is_point)
 }
 
 double size_of(double x) { return x < 0 ? -x : x; }
+// One in eight is 0, and one in eight is 1.
+double as_share(double x) { return x >= -1 && x < -0.75 ? 0 : x > 0.75 && x <= 1 ? 1 : size_of(x); }
 
 // Numbers scaled to unit length. What cannot be scaled stays bad.
 void make_unit(double* v, int count)
@@ -76,82 +77,66 @@ void make_unit(double* v, int count)
     for (int n = 0; n < count; ++n) length2 += v[n] * v[n];
     for (int n = 0; n < count; ++n) v[n] /= square_root(length2);
 }
-// A cosine and a sine.
-void make_turn(double* pair) { make_unit(pair, 2); }
-// The same of an angle in 0 to pi.
-void make_half(double* pair)
+// The cosine and sine of an angle in 0 to pi.
+void make_half_turn(double* v)
 {
-    pair[1] = size_of(pair[1]);
-    make_unit(pair, 2);
-}
-void make_range(double* four)
-{
-    make_turn(four);
-    make_half(four + 2);
-}
-void make_shares(double* v, int count, double max)
-{
-    for (int n = 0; n < count; ++n) v[n] = max * size_of(v[n]);
-}
-// Soft far and near, most stretch, least distance.
-void make_reach(double* v)
-{
-    make_shares(v, 4, 0.25);
-    v[2] += 1;
-}
-void make_longer(double* v, int count, double factor)
-{
-    for (int n = 0; n < count; ++n) v[n] *= factor;
+    v[1] = size_of(v[1]);
+    make_unit(v, 2);
 }
 
-// Numbers in -1..1, some of them perhaps hard, become a value of the field. length: of the arm.
-void shape(Field field, double* v, std::uint32_t count, double length)
+// Numbers in -1..1, some of them perhaps hard, become a part of a value. length: of the arm.
+void shape(ValuePart part, double* v, double length)
 {
-    switch (field) {
-        case Field::effector:
-            return make_longer(v, 3, 0.25 * length);
-        case Field::angle:
-        case Field::incoming_shoulder:
-        case Field::incoming_elbow:
-        case Field::incoming_wrist:
-            return;
-        case Field::weights:
-            return make_shares(v, 3, 1);
-        case Field::reach:
-            return make_reach(v);
-        case Field::cap:
-            return make_shares(v, 3, 0.5);
-        case Field::max_swivel:
-            return make_half(v);
-        case Field::flexion_limit:
+    switch (part) {
+        case ValuePart::axis:
+            return make_unit(v, 3);
+        case ValuePart::half_turn:
+            return make_half_turn(v);
+        case ValuePart::right_turn:
+            v[0] = size_of(v[0]);
+            return make_half_turn(v);
+        case ValuePart::range:
+            make_unit(v, 2);
+            return make_half_turn(v + 2);
+        case ValuePart::flexion:
             v[0] = 0.5 + 0.5 * size_of(v[0]);
             v[1] = 0.5 * size_of(v[1]);
             return;
-        case Field::shoulder_cone:
-        case Field::hand_cone:
-            return make_unit(v, 3);
-        case Field::humeral_twist:
-        case Field::forearm_twist:
-            return make_range(v);
-        case Field::hand_twist:
-            make_unit(v, 3);
-            return make_range(v + 3);
-        case Field::shoulder_box:
-        case Field::wrist_box:
-            for (int n = 0; n < 12; n += 4) make_range(v + n);
+        case ValuePart::point:
+            for (int n = 0; n < 3; ++n) v[n] *= 0.25 * length;
             return;
-        case Field::aim:
-            make_unit(v, 3);
-            v[3] = size_of(v[3]);
-            return make_half(v + 3);
-        case Field::clavicle:
-            if (count == 1) return make_shares(v, 1, 1);  // of bodies
-            make_longer(v, 3, 0.25 * length);
-            v[3] = size_of(v[3]);
+        case ValuePart::stretch:
+            v[0] = 1 + 0.25 * size_of(v[0]);
             return;
-        default:
-            throw std::logic_error("corpus: arms.cpp has no shape for field " +
-                                   std::to_string(static_cast<int>(field)));
+        case ValuePart::share:
+            v[0] = as_share(v[0]);
+            return;
+        case ValuePart::length:
+        case ValuePart::scale:
+        case ValuePart::time:
+            v[0] = size_of(v[0]);
+            return;
+        default:  // any numbers will do
+            return;
+    }
+}
+
+// The same of a whole value, part after part. Bodies' clavicles have the last part alone.
+void shape(swivel_field field, std::span<double> value, double length)
+{
+    const FieldRow& row = row_of(field);
+    std::size_t left_out = row.component_count - value.size();
+    double* number = value.data();
+    for (const ValuePart part : row.value.parts) {
+        const std::uint32_t count = row_of(part).count;
+        if (left_out > 0) {
+            left_out -= count;
+            continue;
+        }
+        shape(part, number, length);
+        // Margins and zones of the reach, which leave some of it.
+        if (part == ValuePart::share && (field == SWIVEL_REACH || field == SWIVEL_CAP)) *number *= 0.25;
+        number += count;
     }
 }
 
@@ -164,22 +149,22 @@ void keep_some(std::uint32_t body, std::span<double> weights)
 
 }  // namespace
 
-std::span<float> Arm::values(Field field)
+std::span<float> Arm::values(swivel_field field)
 {
     switch (field) {
-        case Field::target:
+        case SWIVEL_TARGET:
             return target;
-        case Field::pole:
+        case SWIVEL_POLE:
             return pole;
-        case Field::lengths:
+        case SWIVEL_LENGTHS:
             return lengths;
-        case Field::parent_position:
+        case SWIVEL_SHOULDER_POSITION:
             return parent_position;
-        case Field::parent_rotation:
+        case SWIVEL_PARENT_ROTATION:
             return parent_rotation;
-        case Field::parent_scale:
+        case SWIVEL_PARENT_SCALE:
             return parent_scale;
-        case Field::hand:
+        case SWIVEL_HAND:
             return hand;
         default:
             return {};
@@ -191,20 +176,20 @@ void set_goals(const Recipe& recipe, Random& targets, Random& poles, Arm& arm)
     const Vector line = random_direction(targets);
     const double distance = random_distance(targets, arm.lengths);
     arm.target = placed(arm, distance * line, true);
-    const Vector pole = random_pole(poles, line, double{arm.lengths[0]} + arm.lengths[1]);
-    arm.pole = placed(arm, pole, !(recipe.features & (kPoleDirection | kPoleNormal)));
+    const Vector pole = random_pole(poles, line, arm.length());
+    arm.pole = placed(arm, pole, !(recipe.features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL)));
 }
 
 std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count, std::uint32_t frame)
 {
-    const auto random_of = [&](Field field, std::uint32_t in_frame) {
+    const auto random_of = [&](swivel_field field, std::uint32_t in_frame) {
         return stream(recipe.seed, group, field, Use::value, in_frame);
     };
-    Random targets = random_of(Field::target, frame), poles = random_of(Field::pole, frame),
-           lengths = random_of(Field::lengths, 0), positions = random_of(Field::parent_position, 0),
-           rotations = random_of(Field::parent_rotation, 0), scales = random_of(Field::parent_scale, 0),
-           hands = random_of(Field::hand, 0);
-    const bool world = recipe.features & kWorld;
+    Random targets = random_of(SWIVEL_TARGET, frame), poles = random_of(SWIVEL_POLE, frame),
+           lengths = random_of(SWIVEL_LENGTHS, 0), positions = random_of(SWIVEL_SHOULDER_POSITION, 0),
+           rotations = random_of(SWIVEL_PARENT_ROTATION, 0), scales = random_of(SWIVEL_PARENT_SCALE, 0),
+           hands = random_of(SWIVEL_HAND, 0);
+    const bool world = recipe.features & SWIVEL_WORLD;
     std::vector<Arm> arms(limb_count);
     for (Arm& arm : arms) {
         arm.lengths = random_lengths(lengths);
@@ -219,7 +204,7 @@ std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::u
     return arms;
 }
 
-std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t components, std::uint32_t group,
+std::vector<float> limb_values(const Recipe& recipe, swivel_field field, std::uint32_t components, std::uint32_t group,
                                std::span<const Arm> arms)
 {
     Random random = stream(recipe.seed, group, field, Use::value, 0),
@@ -229,10 +214,9 @@ std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t 
     std::vector<double> value(components);
     for (std::uint32_t limb = 0; limb < arms.size(); ++limb) {
         for (double& x : value) x = random.signed_unit();
-        if (is_spoilt_run(limb)) spoil(spoiling, std::span(value), 64);
-        const Arm& arm = arms[limb];
-        shape(field, value.data(), components, double{arm.lengths[0]} + arm.lengths[1]);
-        if (recipe.part == Part::bodies && field == Field::weights) keep_some(limb, value);
+        if (recipe.part != Part::standing && is_spoilt_run(limb)) spoil(spoiling, std::span(value), 64);
+        shape(field, value, arms[limb].length());
+        if (recipe.part == Part::bodies && field == SWIVEL_WEIGHTS) keep_some(limb, value);
         for (const double x : value) values.push_back(static_cast<float>(x));
     }
     return values;

@@ -23,12 +23,12 @@ struct Arm {
     std::array<float, 4> hand = {0.1f, 0.5f, 0.5f, 0.7f};
 
     // Empty for fields that plain arms do not have.
-    std::span<float> values(Field field);
-    float length() const { return lengths[0] + lengths[1]; }
+    std::span<float> values(swivel_field field);
+    double length() const { return double{lengths[0]} + lengths[1]; }
 };
-inline constexpr Field kArmFields[] = {
-    Field::target,          Field::pole,         Field::lengths, Field::parent_position,
-    Field::parent_rotation, Field::parent_scale, Field::hand};
+inline constexpr swivel_field kArmFields[] = {
+    SWIVEL_TARGET,          SWIVEL_POLE,         SWIVEL_LENGTHS, SWIVEL_SHOULDER_POSITION,
+    SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND};
 
 // An arm's target, in one of the bands of its reach, and its pole.
 void set_goals(const Recipe& recipe, Random& targets, Random& poles, Arm& arm);
@@ -41,8 +41,8 @@ std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::u
 inline constexpr std::uint32_t kRunLimbs = 64;
 inline bool is_spoilt_run(std::uint32_t limb) { return limb / kRunLimbs % 2 == 0; }
 
-// A field's value, of so many floats, for each limb of a group.
-std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t components, std::uint32_t group,
+// A field's value, of so many floats, for each limb of a group. Bodies that stand keep theirs, and none is spoilt.
+std::vector<float> limb_values(const Recipe& recipe, swivel_field field, std::uint32_t components, std::uint32_t group,
                                std::span<const Arm> arms);
 
 }  // namespace swivel::corpus

@@ -68,18 +68,18 @@ struct Streams {
     Random rotations, translations, scales, bends, root_positions, root_rotations, root_scales;
 
     Streams(const Recipe& recipe, std::uint32_t frame)
-        : rotations(of(recipe, Field::joint_rotation, frame)),
-          translations(of(recipe, Field::joint_translation, frame)),
-          scales(of(recipe, Field::joint_scale, frame)),
-          bends(of(recipe, Field::bend, frame)),
-          root_positions(of(recipe, Field::root_position, frame)),
-          root_rotations(of(recipe, Field::root_rotation, frame)),
-          root_scales(of(recipe, Field::root_scale, frame))
+        : rotations(of(recipe, "joint_rotation", frame)),
+          translations(of(recipe, "joint_translation", frame)),
+          scales(of(recipe, "joint_scale", frame)),
+          bends(of(recipe, "bend", frame)),
+          root_positions(of(recipe, "root_position", frame)),
+          root_rotations(of(recipe, "root_rotation", frame)),
+          root_scales(of(recipe, "root_scale", frame))
     {
     }
-    static Random of(const Recipe& recipe, Field field, std::uint32_t frame)
+    static Random of(const Recipe& recipe, std::string_view name, std::uint32_t frame)
     {
-        return stream(recipe.seed, 0, field, Use::value, frame);
+        return stream(recipe.seed, 0, name, Use::value, frame);
     }
 };
 
@@ -107,7 +107,7 @@ Body random_body(Streams& streams, const Recipe& recipe, const Skeleton& skeleto
 
 }  // namespace
 
-bool has_matrices(const Recipe& recipe) { return recipe.form != Form::rotations; }
+bool has_matrices(const Recipe& recipe) { return recipe.form != SWIVEL_ROTATIONS; }
 
 Body in_body_space(const Skeleton& skeleton, const Body& local)
 {
@@ -124,7 +124,7 @@ Body in_body_space(const Skeleton& skeleton, const Body& local)
 
 Skeleton skeleton_of(const Recipe& recipe)
 {
-    Random random = stream(recipe.seed, 0, Field::skeleton, Use::value, 0);
+    Random random = stream(recipe.seed, 0, "skeleton", Use::value, 0);
     Skeleton skeleton;
     const auto add = [&](std::int32_t parent) {
         skeleton.parents.push_back(parent);
@@ -140,7 +140,7 @@ Skeleton skeleton_of(const Recipe& recipe)
     add(add(add(-1)));  // the trunk
     for (LimbJoints& limb : skeleton.limbs) {
         std::int32_t above = static_cast<std::int32_t>(random.below(4)) - 1;
-        if (recipe.features & kClavicle) above = add(above);
+        if (recipe.features & SWIVEL_WITH_CLAVICLE) above = add(above);
         const std::int32_t shoulder = add(above), elbow = below(shoulder), wrist = below(elbow);
         add(wrist);  // which no limb needs
         limb = {static_cast<std::uint32_t>(shoulder),
@@ -171,9 +171,9 @@ std::vector<Body> bodies_of(const Recipe& recipe, std::uint32_t body_count, std:
 
 std::vector<Arm> body_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t body_count, std::uint32_t frame)
 {
-    Random targets = stream(recipe.seed, group, Field::target, Use::value, frame),
-           poles = stream(recipe.seed, group, Field::pole, Use::value, frame),
-           hands = stream(recipe.seed, group, Field::hand, Use::value, frame);
+    Random targets = stream(recipe.seed, group, SWIVEL_TARGET, Use::value, frame),
+           poles = stream(recipe.seed, group, SWIVEL_POLE, Use::value, frame),
+           hands = stream(recipe.seed, group, SWIVEL_HAND, Use::value, frame);
     const Skeleton skeleton = skeleton_of(recipe);
     const LimbJoints& limb = skeleton.limbs[group];
     std::vector<Arm> arms;

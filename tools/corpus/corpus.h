@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowds that the promise of equal bits is checked on, in five parts, and their digests. Frozen: a crowd's
-// numbers are its own, whatever the library's names, defaults and orders are. golden.h has what the digests must be.
+// The crowds that the promise of equal bits is checked on, in five parts, and their digests. A crowd's numbers come
+// from its own name and those of its fields, so that a further feature or field moves no other crowd's. golden.h has
+// what the digests must be.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/corpus/interface.h"
@@ -15,18 +15,11 @@
 
 namespace swivel::corpus {
 
-const char* name_of(Part part);
-std::span<const Recipe> recipes_of(Part part);
-// Throws std::out_of_range where there is none.
-const Recipe& recipe_of(Part part, std::string_view name);
-// "hard world-joints", for messages.
-std::string full_name(const Recipe& recipe);
-
 // Limbs in the first group of a crowd at its own size, which golden.h is about; of bodies, bodies.
 std::uint32_t own_limb_count(Part part);
 // The crowd with every input written: limb_count limbs in the first group, half as many and one in the second, seven
-// in the third; of bodies as many in each. A limb's numbers do not depend on how many there are. Throws
-// std::logic_error where the library has other inputs or results than the recipe's features bring here.
+// in the third; of bodies as many in each. A limb's numbers do not depend on how many there are. Goals of bodies that
+// stand come with their frames.
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count);
 
 // How many times a crowd is solved, with other goals and poses each time. Some crowds carry things on. Bodies that
@@ -46,8 +39,8 @@ void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
 // The poses of a frame; those of free limbs are empty. Bodies that stand get their other inputs here, too.
 Poses poses_of(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
 
-// FNV-1a (64 bits) of the words of all limbs' results, field by field as the recipe lists them, group by group.
-inline constexpr std::uint64_t kDigestStart = 0xcbf29ce484222325u;
+// FNV-1a (64 bits) of the words of all limbs' results, field by field in the order of enum swivel_field, group by
+// group.
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash = kDigestStart);
 // The same of solved poses, body by body.
 std::uint64_t digest_poses(const Poses& poses, std::uint64_t hash);
@@ -117,7 +110,7 @@ std::uint64_t digest_of_start(Solve&& solve)
     return fold(digests);
 }
 
-// The names of a part's crowds whose digests, at their own sizes, are not the golden ones.
+// The names of a part's crowds whose digests, at their own sizes, are not the golden ones, or are not in golden.h yet.
 std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t>& digests);
 
 }  // namespace swivel::corpus

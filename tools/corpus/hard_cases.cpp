@@ -184,7 +184,7 @@ static_assert(kLimbCaseCount <= kPoseCount);
 Arm with_number(std::uint32_t c, float bad)
 {
     Arm arm;
-    for (const Field field : kArmFields) {
+    for (const swivel_field field : kArmFields) {
         const std::span<float> values = arm.values(field);
         if (c < values.size()) values[c] = bad;
         c -= static_cast<std::uint32_t>(values.size());

@@ -13,7 +13,7 @@ namespace {
 
 Holder holder_of(const Recipe& recipe, std::uint32_t n, const Body& body)
 {
-    Holder holder{stream(recipe.seed, 1, Field::motion, Use::value, n), body.root_scale, {}, {}, {}, {}, {}, {}};
+    Holder holder{stream(recipe.seed, 1, "motion", Use::value, n), body.root_scale, {}, {}, {}, {}, {}, {}};
     Random& random = holder.random;
     const Vector up = unit(turn(unit(rotation_of(body.root_rotation)), {1, 3, -2}));  // the crowd's
     for (std::size_t group = 0; group < kGroupCount; ++group) {
@@ -51,7 +51,7 @@ Looking::Looking(const Recipe& recipe, const std::vector<Body>& bodies, Poses& p
         rows_[k].weights.resize(body_count);
     }
     for (std::uint32_t n = 0; n < body_count; ++n) {
-        Looker looker{stream(recipe.seed, 2, Field::motion, Use::value, n), bodies[n].root_scale, {}};
+        Looker looker{stream(recipe.seed, 2, "motion", Use::value, n), bodies[n].root_scale, {}};
         for (auto& places : looker.places)
             for (Vector& place : places) {
                 const double size = looker.random.spread(-2, 4);
@@ -92,7 +92,14 @@ void Looking::spoil_body(std::uint32_t n, Poses& poses)
         spoil(random, std::span(poses.far_look_targets[k]).subspan(3 * n, 3), 2);
 }
 
-void Looking::write(Crowd& crowd) const { write_looks(crowd, rows_); }
+void Looking::write(Crowd& crowd) const
+{
+    std::uint32_t group = first_of(crowd, SWIVEL_KIND_LOOK);
+    for (const Rows& rows : rows_) {
+        if (!rows.targets.empty()) write_field(crowd, SWIVEL_LOOK_TARGET, group, rows.targets);
+        write_field(crowd, SWIVEL_LOOK_WEIGHT, group++, rows.weights);
+    }
+}
 
 Holding::Holding(const Recipe& recipe, const std::vector<Body>& bodies, Poses& poses) : recipe_(recipe)
 {
@@ -100,17 +107,17 @@ Holding::Holding(const Recipe& recipe, const std::vector<Body>& bodies, Poses& p
     const bool is_far = recipe.pose & kFar;
     for (std::uint32_t n = 0; n < body_count; ++n) holders_.push_back(holder_of(recipe, n, bodies[n]));
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-        if (features_of(recipe, group) & kGround) {
+        if (features_of(recipe, group) & SWIVEL_WITH_GROUND) {
             is_far ? poses.far_grounds[group].resize(three) : grounds_[group].resize(three);
             normals_[group].resize(three);
         }
-        if (features_of(recipe, group) & kLink) grips_[group].resize(7 * body_count);
+        if (features_of(recipe, group) & SWIVEL_WITH_LINK) grips_[group].resize(7 * body_count);
     }
     poses.has_prop = has_prop(recipe);
     if (!poses.has_prop) return;
-    is_far ? poses.far_props.resize(three) : props_.places.resize(three);
-    props_.turns.resize(4 * body_count);
-    props_.shares.resize(body_count);
+    is_far ? poses.far_props.resize(three) : props_.positions.resize(three);
+    props_.rotations.resize(4 * body_count);
+    props_.blends.resize(body_count);
 }
 
 // One body in eight has no ground, and others have none now and then.
@@ -141,22 +148,22 @@ void Holding::set_prop(std::uint32_t n, const Vector& root, double swing, Poses&
                          : recipe_.holds == Holds::prop_at_joint ? way
                                                                  : root + way;
     if (poses.far_props.empty())
-        put_vector(place, &props_.places[3 * n]);
+        put_vector(place, &props_.positions[3 * n]);
     else
         put_vector(place, &poses.far_props[3 * n]);
     for (std::size_t c = 0; c < 4; ++c) {
         const double from = holder.prop_rotations[0][c], to = holder.prop_rotations[1][c];
-        props_.turns[4 * n + c] = has_turn ? static_cast<float>(from + swing * (to - from)) : kNan;
+        props_.rotations[4 * n + c] = has_turn ? static_cast<float>(from + swing * (to - from)) : kNan;
     }
     const double shares[] = {0, 1, swing, 0.5};
-    props_.shares[n] = static_cast<float>(shares[n / 4 % 4]);
+    props_.blends[n] = static_cast<float>(shares[n / 4 % 4]);
 }
 
 void Holding::spoil_body(std::uint32_t n, Poses& poses)
 {
     Random& random = holders_[n].random;
-    std::vector<float>* const values[] = {&grounds_[0],   &normals_[0],   &grips_[1],    &grips_[2],
-                                          &props_.places, &props_.shares, &props_.turns, &normals_[1]};
+    std::vector<float>* const values[] = {&grounds_[0],      &normals_[0],   &grips_[1],        &grips_[2],
+                                          &props_.positions, &props_.blends, &props_.rotations, &normals_[1]};
     std::vector<double>* const far_values[] = {&poses.far_grounds[0], &poses.far_grounds[1], &poses.far_props};
     const std::uint32_t chosen = random.below(static_cast<std::uint32_t>(std::size(values) + std::size(far_values)));
     if (chosen < std::size(values)) {
@@ -182,11 +189,15 @@ void Holding::move_body(std::uint32_t n, const Vector& root, double swing, Poses
 void Holding::write(Crowd& crowd) const
 {
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-        if (!grounds_[group].empty()) write_field(crowd, Field::ground, group, grounds_[group]);
-        if (!normals_[group].empty()) write_field(crowd, Field::ground_normal, group, normals_[group]);
-        if (!grips_[group].empty()) write_field(crowd, Field::grip, group, grips_[group]);
+        if (!grounds_[group].empty()) write_field(crowd, SWIVEL_GROUND, group, grounds_[group]);
+        if (!normals_[group].empty()) write_field(crowd, SWIVEL_GROUND_NORMAL, group, normals_[group]);
+        if (!grips_[group].empty()) write_field(crowd, SWIVEL_GRIP, group, grips_[group]);
     }
-    if (has_prop(recipe_)) write_props(crowd, props_);
+    if (!has_prop(recipe_)) return;
+    const std::uint32_t prop = first_of(crowd, SWIVEL_KIND_PROP);
+    if (!props_.positions.empty()) write_field(crowd, SWIVEL_PROP_POSITION, prop, props_.positions);
+    write_field(crowd, SWIVEL_PROP_ROTATION, prop, props_.rotations);
+    write_field(crowd, SWIVEL_HAND_BLEND, prop, props_.blends);
 }
 
 }  // namespace swivel::corpus

@@ -34,8 +34,11 @@ public:
 private:
     void spoil_body(std::uint32_t body, Poses& poses);
 
+    struct Rows {
+        std::vector<float> targets, weights;  // body by body; targets that are far away are the poses'
+    };
     std::vector<Looker> lookers_;
-    std::array<LookRows, kLookCount> rows_;
+    std::array<Rows, kLookCount> rows_;
 };
 
 // How one body stands and holds. Places are from the root, in the unit of its scale.
@@ -65,7 +68,9 @@ private:
     const Recipe& recipe_;
     std::vector<Holder> holders_;
     std::array<std::vector<float>, kGroupCount> grounds_, normals_, grips_;
-    PropRows props_;
+    struct {
+        std::vector<float> positions, rotations, blends;  // body by body; positions likewise
+    } props_;
 };
 
 }  // namespace swivel::corpus

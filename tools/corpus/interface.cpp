@@ -5,8 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "swivel/swivel_regions.h"
@@ -16,41 +14,31 @@ namespace swivel::corpus {
 
 namespace {
 
-swivel_field library_field(Field field) { return static_cast<swivel_field>(field); }
-
-std::vector<Field> fields_of(const Crowd& crowd, std::uint32_t group, std::span<const Field> all)
+std::vector<swivel_field> fields_of(const Crowd& crowd, std::uint32_t group, bool are_inputs)
 {
-    std::vector<Field> fields;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(fields),
-                 [&](Field field) { return component_count(crowd, field, group) > 0; });
+    std::vector<swivel_field> fields;
+    swivel_field_info info;
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        if ((info.kind == SWIVEL_FIELD_INPUT) == are_inputs &&
+            swivel_field_row_count(crowd.get(), group, info.field) > 0)
+            fields.push_back(info.field);
     return fields;
 }
 
 // The 16-bit words of a field, limb by limb.
-std::vector<std::uint32_t> packed_field(const Crowd& crowd, Field field, std::uint32_t group)
+std::vector<std::uint32_t> packed_field(const Crowd& crowd, swivel_field field, std::uint32_t group)
 {
-    const swivel_field of = library_field(field), next = static_cast<swivel_field>(of + 1);
+    const auto next = static_cast<swivel_field>(field + 1);
     const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group),
-                        first = swivel_packed_row(crowd.get(), group, of),
+                        first = swivel_packed_row(crowd.get(), group, field),
                         end = swivel_packed_row(crowd.get(), group, next),
                         rows = swivel_packed_row(crowd.get(), group, SWIVEL_RESULT_END);
-    std::vector<std::uint16_t> packed(std::size_t{(limbs + 15) / 16} * 16 * rows);
-    crowd.pack(group, packed);
+    const std::vector<std::uint16_t> packed = crowd.pack(group);
     std::vector<std::uint32_t> words;
     for (std::size_t limb = 0; limb < limbs; ++limb)
         for (std::uint32_t row = first; row < end; ++row)
             words.push_back(packed[(limb / 16 * rows + row) * 16 + limb % 16]);
     return words;
-}
-
-std::uint32_t own_flags(std::uint32_t library)
-{
-    std::uint32_t flags = 0;
-    for (std::uint32_t n = 0; n < std::size(kFlags); ++n) {
-        if (library & kFlags[n]) flags |= 1u << n;
-        library &= ~kFlags[n];
-    }
-    return library == 0 ? flags : flags | 1u << 31;  // a bit that the corpus does not know
 }
 
 // How the arm frame lies in the skeletons of the corpus, a binding for each group: written out, so that no change of
@@ -164,9 +152,9 @@ using TakeDefinition = std::function<void(const swivel_crowd_def&)>;
 template <class Limb>
 void put_limb(const Recipe& recipe, std::uint32_t group, Limb& limb)
 {
-    limb.features = features_of(recipe, group) & ~kCompact;
-    limb.shoulder_order = static_cast<swivel_euler_order>(recipe.shoulder_order);
-    limb.wrist_order = static_cast<swivel_euler_order>(recipe.wrist_order);
+    limb.features = features_of(recipe, group);
+    limb.shoulder_order = recipe.shoulder_order;
+    limb.wrist_order = recipe.wrist_order;
     if (limb.features & SWIVEL_WITH_REGION) limb.region = &kUpperArms;
 }
 
@@ -212,10 +200,11 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, const TakeDef
         limbs[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
         limbs[g].plant = kPlants[g];
         limbs[g].ground = kGrounds[g];
-        if (is_holding(recipe, g)) limbs[g].link = has_prop(recipe) ? prop_group(recipe.features & kFit) : 0;
+        if (is_holding(recipe, g))
+            limbs[g].link = has_prop(recipe) ? prop_group(recipe.features & SWIVEL_WITH_PELVIS_FIT) : 0;
         groups[g].body_limb = &limbs[g];
     }
-    if (recipe.features & kFit) groups[count++].shift = &kShifts;
+    if (recipe.features & SWIVEL_WITH_PELVIS_FIT) groups[count++].shift = &kShifts;
     // One of the trunk's joints, which come last.
     const bool is_at_joint = recipe.holds == Holds::prop_at_joint;
     const swivel_prop_def prop = {sizeof(swivel_prop_def),
@@ -240,21 +229,6 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, const TakeDef
     take(def);
 }
 
-// Values of all limbs of a group.
-void write_values(Crowd& crowd, swivel_field field, std::uint32_t group, std::span<const float> values)
-{
-    const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
-    check(swivel_write(crowd.get(), field, group, 0, count, {values.data(), values.size() / count * sizeof(float)}));
-}
-
-// The first group of a kind; there is one.
-std::uint32_t first_of(const Crowd& crowd, swivel_kind kind)
-{
-    std::uint32_t group = 0;
-    while (swivel_group_kind(crowd.get(), group) != kind) ++group;
-    return group;
-}
-
 // Values of bodies; none where they are empty.
 template <class Value>
 swivel_in body_values(const Poses& poses, const std::vector<Value>& values)
@@ -271,7 +245,7 @@ swivel_joint_values joint_values(const Poses& poses, std::vector<float>& values,
 swivel_pose library_pose(Poses& poses)
 {
     swivel_pose pose = swivel_default_pose();
-    pose.form = static_cast<swivel_pose_form>(poses.form);
+    pose.form = poses.form;
     pose.rotations = joint_values(poses, poses.rotations, poses.offsets);
     pose.translations = joint_values(poses, poses.translations, {});
     pose.scales = joint_values(poses, poses.scales, {});
@@ -292,7 +266,9 @@ swivel_pose library_pose(Poses& poses)
     return pose;
 }
 
-void with_library_definition(const Recipe& recipe, const LimbCounts& limb_counts, const TakeDefinition& take)
+}  // namespace
+
+void with_definition(const Recipe& recipe, const LimbCounts& limb_counts, const TakeDefinition& take)
 {
     if (is_of_bodies(recipe.part))
         define_bodies(recipe, limb_counts[0], take);
@@ -300,22 +276,15 @@ void with_library_definition(const Recipe& recipe, const LimbCounts& limb_counts
         define_free_limbs(recipe, limb_counts, take);
 }
 
-}  // namespace
-
-void with_definition(const Recipe& recipe, const LimbCounts& limb_counts, const std::function<void(const void*)>& take)
-{
-    with_library_definition(recipe, limb_counts, [&](const swivel_crowd_def& def) { take(&def); });
-}
-
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
 {
     std::optional<Crowd> crowd;
-    with_library_definition(recipe, limb_counts, [&](const swivel_crowd_def& def) { crowd.emplace(def); });
+    with_definition(recipe, limb_counts, [&](const swivel_crowd_def& def) { crowd.emplace(def); });
     return std::move(*crowd);
 }
 
-std::vector<Field> inputs_of(const Crowd& crowd, std::uint32_t group) { return fields_of(crowd, group, kDrawn); }
-std::vector<Field> results_of(const Crowd& crowd, std::uint32_t group) { return fields_of(crowd, group, kResults); }
+std::vector<swivel_field> inputs_of(const Crowd& crowd, std::uint32_t group) { return fields_of(crowd, group, true); }
+std::vector<swivel_field> results_of(const Crowd& crowd, std::uint32_t group) { return fields_of(crowd, group, false); }
 
 LimbCounts limb_counts(const Crowd& crowd)
 {
@@ -325,38 +294,28 @@ LimbCounts limb_counts(const Crowd& crowd)
     return counts;
 }
 
-std::uint32_t input_row_count(const Crowd& crowd, std::uint32_t group)
+void write_field(Crowd& crowd, swivel_field field, std::uint32_t group, std::span<const float> values)
 {
-    return swivel_input_rows(crowd.get(), group).row_count;
-}
-std::uint32_t result_row_count(const Crowd& crowd, std::uint32_t group)
-{
-    return swivel_result_rows(crowd.get(), group).row_count;
+    const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
+    check(swivel_write(crowd.get(), field, group, 0, count, {values.data(), values.size() / count * sizeof(float)}));
 }
 
-std::uint32_t component_count(const Crowd& crowd, Field field, std::uint32_t group)
+std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, swivel_field field, std::uint32_t group)
 {
-    return swivel_field_row_count(crowd.get(), group, library_field(field));
-}
-
-void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values)
-{
-    write_values(crowd, library_field(field), group, values);
-}
-
-std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group)
-{
-    if ((recipe.features & kCompact) && field >= Field::shoulder && field != Field::flags)
-        return packed_field(crowd, field, group);
-    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group);
-    std::vector<std::uint32_t> words(std::size_t{limbs} * component_count(crowd, field, group));
-    const swivel_out out{words.data(), words.size() / limbs * sizeof(std::uint32_t)};
-    check(swivel_read(crowd.get(), library_field(field), group, 0, limbs, out));
-    if (field == Field::flags)
-        for (std::uint32_t& word : words) word = own_flags(word);
+    if (recipe.is_packed && field > SWIVEL_INPUT_END) return packed_field(crowd, field, group);
+    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group),
+                        count = swivel_field_row_count(crowd.get(), group, field);
+    std::vector<std::uint32_t> words(std::size_t{limbs} * count);
+    check(swivel_read(crowd.get(), field, group, 0, limbs, {words.data(), count * sizeof(std::uint32_t)}));
     return words;
 }
 
+std::uint32_t first_of(const Crowd& crowd, swivel_kind kind)
+{
+    std::uint32_t group = 0;
+    while (swivel_group_kind(crowd.get(), group) != kind) ++group;
+    return group;
+}
 void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb)
 {
     check(swivel_reset(crowd.get(), group, limb, 1));
@@ -366,27 +325,6 @@ void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const
     const auto view = [](const Support& of) { return swivel_supports{{&of.position, 0}, {&of.rotation, 0}}; };
     check(swivel_change_support(crowd.get(), group, body, 1, view(from), view(to)));
 }
-void write_shift_wishes(Crowd& crowd, std::span<const float> wishes)
-{
-    crowd.write(SWIVEL_SHIFT_WISH, kGroupCount, wishes);
-}
-void write_props(Crowd& crowd, const PropRows& props)
-{
-    const std::uint32_t group = first_of(crowd, SWIVEL_KIND_PROP);
-    if (!props.places.empty()) write_values(crowd, SWIVEL_PROP_POSITION, group, props.places);
-    write_values(crowd, SWIVEL_PROP_ROTATION, group, props.turns);
-    write_values(crowd, SWIVEL_HAND_BLEND, group, props.shares);
-}
-
-void write_looks(Crowd& crowd, const std::array<LookRows, kLookCount>& looks)
-{
-    std::uint32_t group = first_of(crowd, SWIVEL_KIND_LOOK);
-    for (const LookRows& look : looks) {
-        if (!look.targets.empty()) write_values(crowd, SWIVEL_LOOK_TARGET, group, look.targets);
-        write_values(crowd, SWIVEL_LOOK_WEIGHT, group++, look.weights);
-    }
-}
-
 void with_job(Poses& poses, const std::function<void(const Job&)>& take)
 {
     if (poses.body_count == 0) return take({});

@@ -16,20 +16,20 @@ void append(std::vector<float>& to, const Values& values)
 }
 
 // A scaled rotation and a place, as 16 or 12 numbers.
-void append_matrix(std::vector<float>& to, Form form, const Body& body, std::size_t joint)
+void append_matrix(std::vector<float>& to, swivel_pose_form form, const Body& body, std::size_t joint)
 {
     const Rotation q = unit(rotation_of(body.rotations[joint]));
     const double scale = body.scales[joint];
     const std::array<float, 3> columns[] = {floats(scale * turn(q, {1, 0, 0})), floats(scale * turn(q, {0, 1, 0})),
                                             floats(scale * turn(q, {0, 0, 1})), body.translations[joint]};
-    if (form == Form::rows) {
+    if (form == SWIVEL_MATRIX_ROWS) {
         for (std::size_t row = 0; row < 3; ++row)
             for (const auto& column : columns) to.push_back(column[row]);
         return;
     }
     for (const auto& column : columns) {
         append(to, column);
-        if (form == Form::columns) to.push_back(&column == &columns[3] ? 1.0f : 0.0f);
+        if (form == SWIVEL_MATRIX_COLUMNS) to.push_back(&column == &columns[3] ? 1.0f : 0.0f);
     }
 }
 
@@ -57,10 +57,10 @@ void append_body(Poses& poses, const Recipe& recipe, const Body& body)
 }
 
 // Numbers of the bodies in every other run, one in 256.
-void spoil_bodies(const Recipe& recipe, Field field, std::uint32_t frame, std::uint32_t body_count,
+void spoil_bodies(const Recipe& recipe, std::string_view name, std::uint32_t frame, std::uint32_t body_count,
                   std::vector<float>& values)
 {
-    Random random = stream(recipe.seed, 0, field, Use::spoil, frame);
+    Random random = stream(recipe.seed, 0, name, Use::spoil, frame);
     const std::size_t each = values.size() / body_count;
     for (std::uint32_t n = 0; n < body_count; ++n)
         if (is_spoilt_run(n)) spoil(random, std::span(values).subspan(n * each, each), 256);
@@ -68,7 +68,10 @@ void spoil_bodies(const Recipe& recipe, Field field, std::uint32_t frame, std::u
 
 }  // namespace
 
-std::uint32_t Poses::rotation_floats() const { return form == Form::rotations ? 4 : form == Form::columns ? 16 : 12; }
+std::uint32_t Poses::rotation_floats() const
+{
+    return form == SWIVEL_ROTATIONS ? 4 : form == SWIVEL_MATRIX_COLUMNS ? 16 : 12;
+}
 
 std::array<const std::vector<float>*, 4> Poses::solved() const
 {
@@ -90,15 +93,15 @@ Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t f
     poses.is_in_body = recipe.pose & kInBody;
     const Skeleton skeleton = skeleton_of(recipe);
     for (const Body& body : bodies) append_body(poses, recipe, poses.is_in_body ? in_body_space(skeleton, body) : body);
-    const auto spoil_all = [&](Field field, std::vector<float>& values) {
-        spoil_bodies(recipe, field, frame, poses.body_count, values);
+    const auto spoil_all = [&](std::string_view name, std::vector<float>& values) {
+        spoil_bodies(recipe, name, frame, poses.body_count, values);
     };
-    spoil_all(Field::joint_rotation, poses.rotations);
-    spoil_all(Field::joint_translation, poses.translations);
-    spoil_all(Field::joint_scale, poses.scales);
-    spoil_all(Field::root_position, poses.root_positions);
-    spoil_all(Field::root_rotation, poses.root_rotations);
-    spoil_all(Field::root_scale, poses.root_scales);
+    spoil_all("joint_rotation", poses.rotations);
+    spoil_all("joint_translation", poses.translations);
+    spoil_all("joint_scale", poses.scales);
+    spoil_all("root_position", poses.root_positions);
+    spoil_all("root_rotation", poses.root_rotations);
+    spoil_all("root_scale", poses.root_scales);
     if (recipe.pose & kApart) poses.results.resize(poses.rotations.size());
     if ((recipe.pose & kApart) && poses.is_in_body) poses.translation_results.resize(poses.translations.size());
     if (recipe.pose & kAllJoints) {

@@ -15,7 +15,7 @@ namespace swivel::corpus {
 // Values body after body, and within a body joint after joint. What is empty is not given.
 struct Poses {
     std::uint32_t body_count = 0, joint_count = 0;  // 0: the crowd is of free limbs
-    Form form = Form::rotations;
+    swivel_pose_form form = SWIVEL_ROTATIONS;
     bool is_in_body = false;
     std::vector<float> rotations, translations, scales;  // rotations: or matrices
     std::vector<float> results, translation_results;     // empty: rotations and translations

@@ -3,11 +3,10 @@
 // Random numbers of the corpus: integers and exact conversions, so the same numbers on every machine.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <iterator>
+#include <string_view>
 
-#include "tools/corpus/recipe.h"
+#include "swivel/swivel.h"
 
 namespace swivel::corpus {
 
@@ -37,18 +36,36 @@ struct Random {
     }
 };
 
+// FNV-1a (64 bits).
+inline constexpr std::uint64_t kDigestStart = 0xcbf29ce484222325u;
+constexpr std::uint64_t add_byte(std::uint64_t hash, std::uint64_t byte) { return (hash ^ byte) * 0x100000001b3u; }
+constexpr std::uint64_t hash_of(std::string_view text)
+{
+    std::uint64_t hash = kDigestStart;
+    for (const char c : text) hash = add_byte(hash, static_cast<unsigned char>(c));
+    return hash;
+}
+
 // The purpose that the numbers of a field are drawn for.
 enum class Use : std::uint32_t { value = 0, spoil = 1 };
 
-// Each field of each group draws from a stream of its own. So its numbers stay the same whatever else a crowd is given.
+// Each field of each group draws from a stream of its own, which its name starts. So its numbers stay the same whatever
+// else a crowd is given, and whatever other fields there are. What bodies have besides fields, such as their "skeleton"
+// and their "motion", draws by names of the corpus.
 // frame: 0, except for values that are new in each frame.
-inline Random stream(std::uint64_t seed, std::uint32_t group, Field field, Use use, std::uint32_t frame)
+inline Random stream(std::uint64_t seed, std::uint32_t group, std::string_view name, Use use, std::uint32_t frame)
 {
-    const auto number =
-        static_cast<std::uint64_t>(std::find(std::begin(kDrawn), std::end(kDrawn), field) - std::begin(kDrawn)) + 1;
-    Random key{(std::uint64_t{frame} << 32) | (static_cast<std::uint64_t>(use) << 24) | (std::uint64_t{group} << 8) |
-               number};
+    const std::uint64_t place =
+        (std::uint64_t{frame} << 32) | (static_cast<std::uint64_t>(use) << 24) | std::uint64_t{group};
+    Random key{hash_of(name) ^ place};
     return {Random{seed ^ key.bits()}.bits()};
+}
+inline Random stream(std::uint64_t seed, std::uint32_t group, swivel_field field, Use use, std::uint32_t frame)
+{
+    swivel_field_info info{};
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info) && info.field != field; ++n) {
+    }
+    return stream(seed, group, info.name, use, frame);
 }
 
 }  // namespace swivel::corpus

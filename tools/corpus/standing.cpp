@@ -48,7 +48,7 @@ Vector root_of(const Recipe& recipe, const Body& body)
 
 Mover mover_of(const Recipe& recipe, std::uint32_t n, const std::array<Body, 2>& poses)
 {
-    Mover mover{stream(recipe.seed, 0, Field::motion, Use::value, n), poses[0], poses[1], {}, {}, {}, {}, {}, {}, {}};
+    Mover mover{stream(recipe.seed, 0, "motion", Use::value, n), poses[0], poses[1], {}, {}, {}, {}, {}, {}, {}};
     for (std::size_t joint = 0; joint < mover.to.rotations.size(); ++joint)
         take_nearer_sign(mover.from.rotations[joint], mover.to.rotations[joint]);
     take_nearer_sign(mover.from.root_rotation, mover.to.root_rotation);
@@ -86,7 +86,7 @@ Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
             }
         }
     const bool is_far = recipe.pose & kFar;
-    poses_.has_shift = recipe.features & kFit;
+    poses_.has_shift = recipe.features & SWIVEL_WITH_PELVIS_FIT;
     poses_.times.resize(body_count);
     if (recipe.pose & kSupports) {
         poses_.support_rotations.resize(std::size_t{4} * body_count);
@@ -100,38 +100,13 @@ Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
         rows_.next_times[group].resize(body_count);
         rows_.next_targets[group].resize(std::size_t{3} * body_count);
         rows_.targets[group].resize(std::size_t{3} * body_count);
-        if (is_far && features_of(recipe, group) & kNextTarget)
+        if (is_far && features_of(recipe, group) & SWIVEL_WITH_NEXT_TARGET)
             poses_.far_next_targets[group].resize(std::size_t{3} * body_count);
     }
     if (is_far) poses_.far_targets[kGroupCount - 1].resize(std::size_t{3} * body_count);
     rows_.shift_wishes.resize(body_count);
-    if (recipe.features & kGround || recipe.holds != Holds::nothing) holding_.emplace(recipe, from, poses_);
+    if (recipe.features & SWIVEL_WITH_GROUND || recipe.holds != Holds::nothing) holding_.emplace(recipe, from, poses_);
     if (recipe.pose & kLooks) looking_.emplace(recipe, from, poses_);
-}
-
-// Shares, some of them all or nothing; small ones of caps and zones.
-void Standing::write_constants(Crowd& crowd) const
-{
-    const auto body_count = static_cast<std::uint32_t>(movers_.size());
-    for (const Field field : {Field::effector, Field::cap, Field::pelvis_fit_weight, Field::clavicle,
-                              Field::ground_weight, Field::reach, Field::weights})
-        for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-            const std::vector<Field> fields = inputs_of(crowd, group);
-            if (std::find(fields.begin(), fields.end(), field) == fields.end()) continue;
-            if (field == Field::weights && !is_holding(recipe_, group)) continue;  // theirs stay as at the start
-            Random random = stream(recipe_.seed, group, field, Use::value, 0);
-            std::vector<float> values(std::size_t{body_count} * component_count(crowd, field, group));
-            for (float& x : values) {
-                const std::uint32_t kind = random.below(4);
-                const double share = random.unit();
-                x = static_cast<float>(field == Field::cap || field == Field::reach ? 0.2 * share
-                                       : field == Field::effector                   ? 0.1 * share
-                                       : kind < 2                                   ? kind
-                                                                                    : share);
-            }
-            for (std::size_t n = 2; field == Field::reach && n < values.size(); n += 4) values[n] += 1;  // the stretch
-            write_field(crowd, field, group, values);
-        }
 }
 
 void Standing::set_joints(std::uint32_t n, double swing)
@@ -259,7 +234,7 @@ void Standing::change_carried(std::uint32_t frame, std::uint32_t n, Crowd& crowd
     const Support was = support_of(n, mover.stands_on, swing), is = support_of(n, 1 - mover.stands_on, swing);
     mover.stands_on = 1 - mover.stands_on;
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-        if (!(features_of(recipe_, group) & kPlant)) continue;
+        if (!(features_of(recipe_, group) & SWIVEL_WITH_PLANT)) continue;
         carried_.push_back({group, n, {{was, is}}});
         change_support(crowd, group, n, was, is);
     }
@@ -287,15 +262,15 @@ void Standing::go_to(std::uint32_t frame, Crowd& crowd)
     const bool is_far = recipe_.pose & kFar;
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
         const std::uint64_t features = features_of(recipe_, group);
-        if ((features & (kPlant | kByMotion)) == kPlant)
-            write_field(crowd, Field::contact, group, rows_.contacts[group]);
-        if (features & kNextTarget) {
-            if (!is_far) write_field(crowd, Field::next_target, group, rows_.next_targets[group]);
-            write_field(crowd, Field::next_time, group, rows_.next_times[group]);
+        if ((features & (SWIVEL_WITH_PLANT | SWIVEL_PLANT_BY_MOTION)) == SWIVEL_WITH_PLANT)
+            write_field(crowd, SWIVEL_CONTACT, group, rows_.contacts[group]);
+        if (features & SWIVEL_WITH_NEXT_TARGET) {
+            if (!is_far) write_field(crowd, SWIVEL_NEXT_TARGET, group, rows_.next_targets[group]);
+            write_field(crowd, SWIVEL_NEXT_TIME, group, rows_.next_times[group]);
         }
     }
-    if (!is_far) write_field(crowd, Field::target, kGroupCount - 1, rows_.targets[kGroupCount - 1]);
-    if (poses_.has_shift) write_shift_wishes(crowd, rows_.shift_wishes);
+    if (!is_far) write_field(crowd, SWIVEL_TARGET, kGroupCount - 1, rows_.targets[kGroupCount - 1]);
+    if (poses_.has_shift) write_field(crowd, SWIVEL_SHIFT_WISH, kGroupCount, rows_.shift_wishes);
     if (holding_) holding_->write(crowd);
     if (looking_) looking_->write(crowd);
 }

@@ -32,8 +32,6 @@ struct Mover {
 class Standing {
 public:
     Standing(const Recipe& recipe, std::uint32_t body_count);
-    // Values that stay: shares, and places on hands.
-    void write_constants(Crowd& crowd) const;
     // Brings a crowd and the poses to a frame. Frames come in order, from 0 on.
     void go_to(std::uint32_t frame, Crowd& crowd);
     Poses& poses() { return poses_; }

@@ -74,7 +74,7 @@ LimitInfo limit_info(std::size_t limit)
         ++n;
     swivel_feature_info brings{};
     for (std::uint32_t n = 0; swivel_describe_feature(n, &brings) && brings.feature != info.needs;) ++n;
-    return {info.field, info.needs, (brings.needs & SWIVEL_WITH_HAND) != 0};
+    return {info.field, (brings.needs & SWIVEL_WITH_HAND) != 0};
 }
 
 void require_sense(const CrowdFile& file, const LimbSettings& s)

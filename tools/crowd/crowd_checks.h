@@ -22,10 +22,9 @@ void require_solved(const formats::CrowdFile& file, std::span<const Limb> limbs)
 // No key of a limb does nothing because of another.
 void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& settings);
 
-// What the solver says of a limit, and of the feature that brings it. limit: its place in formats::kLimitKeys.
+// What the solver says of a limit. limit: its place in formats::kLimitKeys.
 struct LimitInfo {
     swivel_field field;
-    swivel_features feature;
     bool is_of_hand;
 };
 LimitInfo limit_info(std::size_t limit);

@@ -162,14 +162,15 @@ struct Planner {
         return parent_at_rest(clip, limb.end()).mirrored ? formats::mirrored(v) : v;
     }
 
+    // Fixes the value of a field, for which the limb gets the features that the field needs.
     template <std::size_t Count>
-    void put(swivel_features feature, swivel_field field, const std::array<float, Count>& value, bool mirrored = false,
+    void put(swivel_field field, const std::array<float, Count>& value, bool mirrored = false,
              swivel_euler_order order = SWIVEL_XYZ)
     {
         FixedField fixed{field, {}};
         std::copy(value.begin(), value.end(), fixed.value.begin());
         if (mirrored) check(swivel_mirror(field, order, fixed.value.data(), fixed.value.data()));
-        plan.features |= feature;
+        plan.features |= describe(field).needs;
         plan.fields.push_back(fixed);
     }
 
@@ -181,7 +182,7 @@ struct Planner {
         if (from.effector) {
             plan.effector = in_hand(from.effector->value);
             const Eigen::Vector3f point = plan.effector.cast<float>();
-            put(SWIVEL_WITH_EFFECTOR, SWIVEL_EFFECTOR, std::array{point.x(), point.y(), point.z()});
+            put(SWIVEL_EFFECTOR, std::array{point.x(), point.y(), point.z()});
         }
         if (from.twist_bones) plan.twist_bone_count = static_cast<std::uint32_t>(from.twist_bones->value);
     }
@@ -195,8 +196,7 @@ struct Planner {
         if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING;
         if (plan.pole == PoleKind::hand) plan.features |= SWIVEL_POLE_HAND;
         if (from.pole_angle_deg)
-            put(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, cos_sin(kRadians * from.pole_angle_deg->value),
-                from.pole_angle_deg->mirrored);
+            put(SWIVEL_ANGLE, cos_sin(kRadians * from.pole_angle_deg->value), from.pole_angle_deg->mirrored);
         plan.holds_pole = from.pole_angle_deg || plan.pole == PoleKind::hand;
         plan.follows_pole = !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg &&
                             plan.pole != PoleKind::hand;
@@ -209,14 +209,14 @@ struct Planner {
         const Eigen::Vector3d axis = in_hand(from.aim->value.axis);
         std::array<float, 5> value;
         check(swivel_aim(axis.data(), kRadians * from.aim->value.flexion_deg, value.data()));
-        put(SWIVEL_WITH_AIM, SWIVEL_AIM, value);
+        put(SWIVEL_AIM, value);
     }
 
     void clavicle()
     {
         if (!from.clavicle_share) return;
         plan.clavicle = limb.scale * formats::joint_at(clip, limb.upper()).offset;
-        put(SWIVEL_WITH_CLAVICLE, SWIVEL_CLAVICLE, std::array{static_cast<float>(from.clavicle_share->value)});
+        put(SWIVEL_CLAVICLE, std::array{static_cast<float>(from.clavicle_share->value)});
     }
 
     void weights()
@@ -231,7 +231,7 @@ struct Planner {
         if (std::ranges::none_of(from.reach, [](const auto& given) { return given.has_value(); })) return;
         for (std::size_t n = 0; n < value.size(); ++n)
             if (from.reach[n]) value[n] = static_cast<float>(from.reach[n]->value);
-        put(SWIVEL_WITH_REACH, SWIVEL_REACH, value);
+        put(SWIVEL_REACH, value);
     }
 
     void swivel()
@@ -240,7 +240,7 @@ struct Planner {
         if (from.step_deg_per_frame) max_deg = from.step_deg_per_frame->value;
         if (from.step_deg_per_second) max_deg = std::min(180.0, clip.frame_time * from.step_deg_per_second->value);
         if (from.step_deg_per_frame || from.step_deg_per_second)
-            put(SWIVEL_WITH_MAX_SWIVEL, SWIVEL_MAX_SWIVEL, cos_sin(in_a_60th(kRadians * max_deg)));
+            put(SWIVEL_MAX_SWIVEL, cos_sin(in_a_60th(kRadians * max_deg)));
         if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
     }
 
@@ -262,7 +262,7 @@ struct Planner {
             swivel_euler_order order = SWIVEL_XYZ;
             if (const auto* const box = std::get_if<formats::BoxLimit>(&given->value))
                 order = (info.is_of_hand ? plan.wrist_order : plan.shoulder_order) = order_of(*box);
-            put(info.feature, info.field, limit.value, given->mirrored, order);
+            put(info.field, limit.value, given->mirrored, order);
         }
     }
 };

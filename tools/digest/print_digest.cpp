@@ -23,11 +23,11 @@ void print_golden()
 {
     for (const Part part : kParts)
         std::printf("    0x%016llxu,  // %s\n", static_cast<unsigned long long>(digest_of(part, solve)), name_of(part));
-    std::printf("    0x%016llxu, the start\n", static_cast<unsigned long long>(digest_of_start(solve)));
+    std::printf("kGoldenStart = 0x%016llxu;\n", static_cast<unsigned long long>(digest_of_start(solve)));
     for (const Part part : kParts) {
-        std::printf("%s:\n", name_of(part));
+        std::printf("%s:", name_of(part));
         for (std::size_t n = 0; const std::uint64_t digest : digests_of(part, solve))
-            std::printf("0x%016llxu,%s", static_cast<unsigned long long>(digest), ++n % 5 == 0 ? "\n" : " ");
+            std::printf("%s0x%016llxu,", n++ % 5 == 0 ? "\n    " : " ", static_cast<unsigned long long>(digest));
         std::printf("\n");
     }
 }

@@ -41,7 +41,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint32_t kBodies = 2, kStandingBodies = 6, kFreeLimbs = 2, kFrames = 2;
+constexpr std::uint32_t kBodies = 2, kStandingBodies = 10, kFreeLimbs = 2, kFrames = 2;
 // Standing bodies change little from frame to frame, so scenes have every ninth.
 constexpr std::uint32_t kStandingFramesShown = 8, kStandingStep = 9;
 
@@ -61,14 +61,6 @@ std::vector<Value> copied(const void* data, std::size_t count)
     return {static_cast<const Value*>(data), static_cast<const Value*>(data) + count};
 }
 
-// The field's name in the library.
-std::string name_of_field(swivel_field field)
-{
-    swivel_field_info info;
-    for (std::uint32_t n = 0; swivel_describe_field(n, &info) && info.field != field; ++n) {
-    }
-    return info.name;
-}
 Json names_of(swivel_features features)
 {
     Json names = Json::array();
@@ -244,8 +236,7 @@ public:
     {
         if (number % 3 == 1 && is_of_bodies(recipe.part)) weights_.assign(count_, 0.75f), weights_[0] = 1;
         if (recipe.part == Part::standing) standing_.emplace(recipe_, count_);
-        with_definition(recipe, limb_counts(corpus_),
-                        [&](const void* def) { create(*static_cast<const swivel_crowd_def*>(def)); });
+        with_definition(recipe, limb_counts(corpus_), [&](const swivel_crowd_def& def) { create(def); });
         for (std::uint32_t group = 0; group < groups_.size(); ++group)
             if (std::holds_alternative<swivel_prop_def>(groups_[group]))
                 corpus_.write(SWIVEL_PROP_WEIGHT, group, std::vector<float>(count_, 0.5f));
@@ -368,7 +359,7 @@ private:
             groups.push_back(Json::object());
             for (std::uint32_t n = 0; group < frames.size() && n < frames[group].field_count; ++n) {
                 const auto& [field, data, stride] = frames[group].fields[n];
-                if (data) groups.back()[name_of_field(field)] = copied<double>(data, 3 * count_);
+                if (data) groups.back()[describe(field).name] = copied<double>(data, 3 * count_);
             }
         }
         return groups;
@@ -412,7 +403,8 @@ Json scenes()
     Json made;
     for (const Part part : {Part::limbs, Part::bodies, Part::standing})
         for (const Recipe& recipe : recipes_of(part))
-            if (is_of_bodies(part) || !(recipe.features & kJoints))  // languages make bindings from skeletons alone
+            // Languages make bindings from skeletons alone.
+            if (is_of_bodies(part) || !(recipe.features & SWIVEL_JOINTS))
                 made.push_back(Scene(recipe, static_cast<std::uint32_t>(made.size())).json());
     return made;
 }

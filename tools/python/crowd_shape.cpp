@@ -48,9 +48,9 @@ py::array pack(const HeldCrowd& held, std::int64_t number)
 {
     const Limbs limbs = limbs_of(held, number, 0, {});
     const std::uint32_t rows = swivel_packed_row(held.crowd.get(), limbs.group, SWIVEL_RESULT_END);
-    const std::vector<py::ssize_t> shape{(limbs.count + SWIVEL_LANES - 1) / SWIVEL_LANES, rows, SWIVEL_LANES};
-    py::array_t<std::uint16_t> words(shape);
-    held.crowd.pack(limbs.group, {words.mutable_data(), static_cast<std::size_t>(words.size())});
+    const std::uint32_t blocks = (limbs.count + SWIVEL_LANES - 1) / SWIVEL_LANES;
+    py::array_t<std::uint16_t> words(std::vector<py::ssize_t>{blocks, rows, SWIVEL_LANES});
+    check(swivel_pack(held.crowd.get(), limbs.group, {0, blocks}, words.mutable_data()));
     return words;
 }
 

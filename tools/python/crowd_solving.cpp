@@ -198,8 +198,9 @@ void change_support(HeldCrowd& held, const py::object& was, const py::object& is
 {
     const Limbs limbs = limbs_of(held, group, first, count);
     const SupportArrays from = supports_of("was", was, limbs.count), to = supports_of("now", is, limbs.count);
-    run(held, Way::kAlone,
-        [&] { swivel::change_support(held.crowd, limbs.group, limbs.first, limbs.count, from.view(), to.view()); });
+    run(held, Way::kAlone, [&] {
+        check(swivel_change_support(held.crowd.get(), limbs.group, limbs.first, limbs.count, from.view(), to.view()));
+    });
 }
 
 }  // namespace

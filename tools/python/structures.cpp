@@ -4,12 +4,10 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <iomanip>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -75,11 +73,15 @@ void take_constants(const std::string& structure, const py::handle& given, Struc
     }
 }
 
-// As short as the header has it, which becomes the same float again.
+// The number of the fewest digits that become the same float, as the header has it. Python prints them, because older
+// standard libraries of Apple's have no std::to_chars() for floats.
 py::float_ short_number(float x)
 {
-    char text[32];
-    return py::float_(py::str(text, std::to_chars(std::begin(text), std::end(text), x).ptr - text));
+    for (int digits = 1; digits <= 9; ++digits) {  // nine are enough for every float
+        const py::float_ number(py::str("{:.{}g}").format(x, digits));
+        if (static_cast<float>(number) == x) return number;
+    }
+    return x;  // NaN
 }
 py::object default_of(const swivel_constant_info& info)
 {
@@ -101,7 +103,7 @@ std::string line_of(const swivel_constant_info& info)
     return line.str();
 }
 
-// A member of a class beside its constants. Type: for type checkers.
+// A member of a class beside its constants. Type: for type checkers, of names that swivel/__init__.py imports.
 struct FirstMember {
     const char *name, *type;
     std::optional<int> usual;

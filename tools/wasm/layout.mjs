@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: node tools/wasm/layout.mjs HEADERS         prints C++ that compiles if the headers are as HEADERS, tools/headers/headers.json, says
+// usage: node tools/wasm/layout.mjs HEADERS         prints C++ that compiles if numbers, sizes and offsets are those of HEADERS, tools/headers/headers.json
 //        node tools/wasm/layout.mjs HEADERS WASM    prints src/layout.ts
 //
 // layout.ts has the numbers of the headers' names, where members of structures lie in WebAssembly's memory, and the functions of the module WASM.
@@ -10,8 +10,9 @@ import { readFileSync } from "node:fs";
 const [file, wasm] = process.argv.slice(2), headers = JSON.parse(readFileSync(file, "utf8"));
 const all = (kind) => Object.assign({}, ...Object.values(headers).map((header) => header[kind]));
 const structures = all("structures"), enumerations = all("enumerations"), constants = all("constants");
+const starts = { Plant: "plant", Ground: "ground", Look: "look_def", Prop: "prop_def", Shift: "shift_def" };  // constants of groups
 
-/** A build with other headers stops. */
+/** A build stops where the headers have another number, size or offset. The test `headers` compares the rest: types, defaults and functions. */
 function checks() {
     const facts = [constants, ...Object.values(enumerations)].flatMap(Object.entries);
     for (const [name, { wasm32, members }] of Object.entries(structures))
@@ -53,7 +54,8 @@ function enumeration(name) {
     return object(members.map(([member, value]) => [member.replace(/SWIVEL_(KIND_)?/, ""), value]));
 }
 
-const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+/** All names in a text. */
+const camel = (text) => text.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
 const isOfEachJoint = (count) => count === constants.SWIVEL_MAX_LOOK_JOINTS;
 
 /** Members of an interface: constants as options of a group. Bounds are as long as messages have them. */
@@ -61,7 +63,19 @@ function options(rows) {
     const type = (count) => [count > 1 && "ArrayLike<number>", (count === 1 || isOfEachJoint(count)) && "number"].filter(Boolean).join(" | ");
     const bound = (x) => (Math.abs(x) < 1e6 ? x : x.toExponential(0));
     return rows.map(({ name, unit, text, count, min, max }) =>
-        `    /** ${text[0].toUpperCase()}${text.slice(1)} (${unit && `${unit}, `}${bound(min)} to ${bound(max)}). */\n    ${camel(name)}?: ${type(count)};\n`).join("");
+        `    /** ${text[0].toUpperCase()}${camel(text.slice(1))} (${unit && `${unit}, `}${bound(min)} to ${bound(max)}). */\n    ${camel(name)}?: ${type(count)};\n`).join("");
+}
+
+/** The members of a structure that src writes as floats side by side. It writes the others of definitions by their names. */
+function floatsOf(structure) {
+    const others = structure.endsWith("_def") ? ["size", "joint", "joint_count", "joints", "reserved"] : [];
+    const floats = Object.entries(structures[`swivel_${structure}`].members).filter(([member]) => !others.includes(member));
+    let next = floats[0][1].wasm32;
+    for (const [member, { type, count, wasm32 }] of floats) {
+        if (type !== "float" || wasm32 !== next) throw new Error(`tools/wasm/src does not know how to write swivel_${structure}.${member}`);
+        next += 4 * count;
+    }
+    return floats;
 }
 
 /** One value stands for those of all joints of a look. */
@@ -78,8 +92,9 @@ async function layout() {
     const fieldsThat = (test) => `[${fields.filter(test).map(({ name }) => `Field.${name.toUpperCase()}`).join(", ")}]`;
     const enums = { Field: "field", Flag: "flag", Kind: "kind", Order: "euler_order", OnBadInput: "on_bad_input", PoseForm: "pose_form",
         PoseSpace: "pose_space", Status: "status" };
-    const starts = { Plant: "plant", Ground: "ground", Look: "look_def", Prop: "prop_def", Shift: "shift_def" };
     const places = ({ wasm32, members }) => [`bytes: ${wasm32}`, ...Object.entries(members).map(([name, member]) => `${name}: ${member.wasm32}`)];
+    const firstFloats = ["Look", "Prop", "Shift"].map((name) => [name.toLowerCase(), `"${floatsOf(starts[name])[0][0]}"`]);
+    const ofEachJoint = floatsOf("look_def").filter(([, { count }]) => isOfEachJoint(count)).map(([name]) => camel(name));
     const counts = ["LANES", "MAX_TWIST_BONES", "MAX_LOOK_JOINTS", "ENTITY_COUNT", "EXPLANATION_BYTES"];
     return `// SPDX-License-Identifier: MIT
 // Made by layout.mjs from the C headers.
@@ -99,6 +114,12 @@ export const positions = ${fieldsThat((field) => field.is_position === 1)} as co
 
 ${Object.keys(starts).map((name) => `export const default${name} = ${defaults(starts[name])} as const;
 export interface ${name}Constants {\n${optionsOf(name)}}\n\n`).join("")}\
+/** The first of the floats that a definition has side by side. */
+export const firstFloat = ${object(firstFloats)} as const;
+
+/** The constants that a look has for each of its joints. */
+export const ofEachJoint: readonly string[] = ${JSON.stringify(ofEachJoint)};
+
 // In bytes: the size of each structure, and where its members start.
 export const layout = ${object(Object.keys(structures).filter((name) => name.startsWith("swivel_")).map((name) => [name, `{ ${places(structures[name]).join(", ")} }`]))} as const;
 
@@ -111,9 +132,8 @@ ${Object.entries(all("functions")).filter(([name]) => name in module.exports).ma
 `;
 }
 
-// What src takes for granted: some structures are so many words, others have floats alone behind their size.
+// What src takes for granted: some structures are so many words, others have floats side by side.
 const words = { swivel_stream: 3, swivel_joint_values: 4, swivel_supports: 4 };
 for (const name in words) if (structures[name].wasm32 !== 4 * words[name]) throw new Error(`tools/wasm/src writes ${name} as ${words[name]} words`);
-for (const name of ["swivel_plant", "swivel_ground", "swivel_shift_def", "swivel_region_cone"])
-    if (Object.values(structures[name].members).some(({ type }) => !/^(float|size_t)$/.test(type))) throw new Error(`tools/wasm/src writes ${name} as floats`);
+for (const structure of ["region_cone", ...Object.values(starts)]) floatsOf(structure);
 process.stdout.write(wasm ? await layout() : checks());

@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import typing
 import unittest
 from pathlib import Path
 
@@ -121,6 +122,14 @@ class Names(unittest.TestCase):
                           ("swivel_prop_def", swivel.PropGroup())):
             wanted = [member["default"] for member in described("structures")[name]["members"].values() if "default" in member]
             self.assertEqual(json.loads(json.dumps(has)), wanted, name)
+
+    def test_types_of_members_are_found(self):
+        for has in (swivel.Plant, swivel.Ground, swivel.ShiftGroup, swivel.PropGroup, swivel.LookGroup, swivel.Group, swivel.BodyGroup, swivel.Skeleton,
+                    swivel.Pose, swivel.Support):
+            types = typing.get_type_hints(has)
+            self.assertEqual(list(types), list(has._fields), has.__name__)
+            self.assertFalse([name for name, each in types.items() if isinstance(each, (str, typing.ForwardRef))], has.__name__)
+        self.assertEqual(typing.get_type_hints(swivel.LookGroup)["joints"], typing.Sequence[int])
 
     def test_every_result_of_arms_has_a_place_in_arms(self):
         results = [field for field in Field if field >= Field.SHOULDER]

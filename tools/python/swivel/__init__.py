@@ -12,6 +12,11 @@ solve() takes plain arrays and gives named ones. A Crowd keeps the limbs from fr
 At rest an arm lies along +z of its frame and bends towards +y, its hinge is +x, and the elbow lies on the pole's side. Mistakes
 are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results with a Flag.
 """
+# Annotations of Plant, Ground and the groups of the module are texts with the names Sequence and npt. typing.get_type_hints() looks for them here.
+from typing import Sequence
+
+import numpy.typing as npt
+
 from ._arms import solve
 from ._bodies import BodyGroup, Pose, Skeleton, Support
 from ._core import (LANES, Arms, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, Ground, Kind, LookGroup, OnBadInput, Plant, PoseSpace,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The page's binary data: base64 of C structures, as tools/crowd/goals.h lays them out.
+// The page's binary data: base64 of C structures, as tools/crowd/goals.h lays them out, and numbers of that header.
 import { goals } from "../../headers/headers.json";
+
+export const { GOAL_JOINTS } = goals.constants;
 
 const { structures } = goals, arrays = { double: Float64Array, float: Float32Array, uint32_t: Uint32Array };
 

@@ -4,9 +4,9 @@
 // of their own, beside the one whose bits are the command's.
 import { Matrix4, Quaternion } from "three";
 
+import { GOAL_JOINTS } from "./bytes.js";
 import { Field } from "./stage.js";
 
-const GOAL_JOINTS = 4;  // as tools/crowd/goals.h has it
 const MAX_TURN = Math.cos(70 * Math.PI / 180);  // of each joint of neck and head
 
 export class Heads {

@@ -4,8 +4,8 @@
 import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
 import {
-    defaultGround, defaultLook, defaultPlant, defaultProp, defaultShift, Feature, GroundConstants, Kind, layout, LookConstants, MAX_LOOK_JOINTS, OnBadInput,
-    Order, PlantConstants, PropConstants, ShiftConstants,
+    defaultGround, defaultLook, defaultPlant, defaultProp, defaultShift, Feature, firstFloat, GroundConstants, Kind, layout, LookConstants, MAX_LOOK_JOINTS,
+    ofEachJoint, OnBadInput, Order, PlantConstants, PropConstants, ShiftConstants,
 } from "./layout.js";
 import { Borrowed, Memory, Structure } from "./memory.js";
 import { Region } from "./region.js";
@@ -184,37 +184,38 @@ export function bodyGroups(groups: readonly BodiesGroup[], features: bigint, bod
     return checkedList(groups, features, "[{ joints: { shoulder: 1, elbow: 2, wrist: 3 } }]", (group) => bodiesGroup(group, features, limbCount));
 }
 
-/** The numbers of a structure of constants. */
-function constants(of: string, given: Plant | Ground | Prop | Shift, start: Record<string, number | Numbers>): number[] {
+/** The floats of a structure of constants, side by side. jointCount: of a look. */
+function constants(of: string, given: Plant | Ground | Shift | PropConstants | LookConstants, start: Record<string, number | Numbers>, jointCount?: number): number[] {
     const all = { ...start, ...options(of, given as typeof start, ...Object.keys(start)) };
     return Object.entries(start).flatMap(([name, usual]) => {
         const value = all[name], member = `${of}.${name}`;
+        if (jointCount !== undefined && ofEachJoint.includes(name)) return eachJoint(member, value, jointCount);
         return typeof usual === "number" ? real(member, value as number) : Array.from(numbers(member, value as Numbers, usual.length));
     });
 }
+/** A number for each joint of a look, or one for all, and zeros for joints that it does not have. */
+function eachJoint(name: string, value: number | Numbers, count: number): number[] {
+    const given: number[] = typeof value === "object" ? Array.from(numbers(name, value, count)) : Array(count).fill(real(name, value));
+    return [...given, ...Array(MAX_LOOK_JOINTS - count).fill(0)];
+}
 
 function putShift(given: Shift, borrowed: Borrowed): number {
-    return borrowed.structure("swivel_shift_def").floats("drop", constants("shift", given, defaultShift)).at;
+    return borrowed.structure("swivel_shift_def").floats(firstFloat.shift, constants("shift", given, defaultShift)).at;
 }
 
 function putProp(given: Prop, borrowed: Borrowed): number {
-    const [joint, maxMove] = constants("prop", given, defaultProp);
+    const { joint: none, ...start } = defaultProp;
+    const { joint = none, ...others } = options("prop", given, ...(Object.keys(defaultProp) as (keyof Prop)[]));
     if (!Number.isInteger(joint) || Math.abs(joint) > 0x7fffffff) refuse(`prop.joint is ${shown(joint)}; give the number of a joint, or -1`);
-    return borrowed.structure("swivel_prop_def").words("joint", joint).floats("max_move", [maxMove]).at;
+    return borrowed.structure("swivel_prop_def").words("joint", joint).floats(firstFloat.prop, constants("prop", others, start)).at;
 }
 
 function putLook(given: Look, borrowed: Borrowed): number {
-    const look = { ...defaultLook, ...options("look", given as Look & Record<string, unknown>, "joints", ...Object.keys(defaultLook) as (keyof typeof defaultLook)[]) };
-    if (!Array.isArray(look.joints)) refuse(`look.joints is ${shown(look.joints)}; give numbers of joints`);
-    const joints = look.joints.slice(0, MAX_LOOK_JOINTS), def = borrowed.structure("swivel_look_def").words("joint_count", look.joints.length);
-    const each = (name: string, value: number | Numbers): number[] =>
-        typeof value === "object" ? Array.from(numbers(name, value, joints.length)) : Array(joints.length).fill(real(name, value));
-    def.words("joints", ...joints.map((joint) => whole("look.joints", joint)));
-    def.floats("share", each("look.share", look.share)).floats("cos_max", each("look.cosMax", look.cosMax));
-    def.floats("eye", numbers("look.eye", look.eye, 3)).floats("axis", numbers("look.axis", look.axis, 3));
-    for (const [member, name] of [["cos_full", "cosFull"], ["cos_none", "cosNone"], ["fade_distance", "fadeDistance"], ["rate", "rate"]] as const)
-        def.floats(member, [real(`look.${name}`, look[name])]);
-    return def.at;
+    const { joints, ...others } = options("look", given, "joints", ...(Object.keys(defaultLook) as (keyof Look)[]));
+    if (!Array.isArray(joints)) refuse(`look.joints is ${shown(joints)}; give numbers of joints`);
+    const known: number[] = joints.slice(0, MAX_LOOK_JOINTS), def = borrowed.structure("swivel_look_def").words("joint_count", joints.length);
+    def.words("joints", ...known.map((joint) => whole("look.joints", joint)));
+    return def.floats(firstFloat.look, constants("look", others, defaultLook, known.length)).at;
 }
 
 /** Makes the library's crowd. Without a skeleton its limbs are free. */

@@ -7,12 +7,13 @@ set(SWIVEL_HEADERS swivel swivel_bodies swivel_regions swivel_explain)  # they d
 # swivel_described(variable place...): the names of what is described there, such as the functions of one header.
 function(swivel_described variable)
   string(JSON count LENGTH "${SWIVEL_DESCRIPTION}" ${ARGN})
-  math(EXPR last "${count} - 1")
   set(names "")
-  foreach(n RANGE ${last})
+  set(n 0)
+  while(n LESS count)
     string(JSON name MEMBER "${SWIVEL_DESCRIPTION}" ${ARGN} ${n})
     list(APPEND names ${name})
-  endforeach()
+    math(EXPR n "${n} + 1")
+  endwhile()
   set(${variable} ${names} PARENT_SCOPE)
 endfunction()
 
