@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Aiming: the elbow's flexion and the wrist are given. The shoulder turns the arm so that a line carried by the hand
-// goes through the target. So the arm is one rigid piece, seen from the shoulder. The line starts at the effector. One
-// point of it is as far from the shoulder as the target is, and this point must come to the target. Then this is a limb
-// like any other, whose swivel is free about the line from the shoulder to the target. The goal itself is Tolani,
-// Goswami and Badler's (2000).
+// Aiming: the elbow's flexion and the wrist are given, so the arm is rigid. The shoulder turns it so that a ray from
+// the effector, fixed in the hand, goes through the target. The point of the ray that is as far from the shoulder as
+// the target must come to the target. From there this is a limb like any other, whose swivel is free about the line
+// from shoulder to target. The goal itself is Tolani, Goswami and Badler's (2000).
 #pragma once
 
 #include "core/frame_rotor.h"
@@ -13,17 +12,17 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// In sizes of the arm: from further away than this, floats tell the direction only.
+// In arm sizes. Beyond this distance, floats tell a target's direction only.
 inline constexpr double kAimFar = 1e7;
 
-// The rotor from the arm with its hand to another frame. That frame has e3 along the line to the aimed point, and the
-// elbow on the side of e2 that poles are for. point: of any length but zero.
+// The rotor from the arm frame to a frame that has e3 along the line to the aimed point, and the elbow on the pole's
+// side of e2. point: of any length but zero.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> line_from_arm(const Vector<T>& point)
 {
     const Vector<T> line = normalise(point), hinge = vector(T(1), T(0), T(0));
-    // The elbow lies along e3. If that is the line itself, the elbow has no side, and its hinge decides. Beyond, the
-    // arm is rolled over.
+    // The elbow lies along e3. If the line lies along e3, too, the elbow has no side, and its hinge decides. Past e3
+    // the arm rolls over.
     const Vector<T> normal = cross(line, vector(T(0), T(0), T(1)));
     const Mask<T> off = len2(normal) > T(kPoleOff * kPoleOff);
     return ~frame_along(line, normalise(select(off, normal, across(hinge, line))));

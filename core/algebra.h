@@ -19,8 +19,9 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A basis blade: the set of its basis vectors, one bit each. A BladeSet: bit b is set when blade b is present.
+// A basis blade: the set of its basis vectors, one bit each.
 using Blade = unsigned;
+// A set of blades: bit b is set if it has blade b.
 using BladeSet = std::uint32_t;
 
 inline constexpr Blade kScalar = 0, kE1 = 1, kE2 = 2, kE3 = 4, kEinf = 8, kE0 = 16;
@@ -106,9 +107,8 @@ struct Terms {
     std::size_t count;
 };
 
-// The products of components that add up to component `out`. A product that is added comes first, if there is one; then
-// nothing has to be negated.
-// The Euclidean parts of `out` and of one factor's blade give that of the other factor's blade.
+// The products of components that add up to component `out`. A positive term comes first, if there is one, so that
+// nothing has to be negated. The Euclidean parts of `out` and of one factor's blade determine the other factor's.
 constexpr Terms terms(Product kind, BladeSet a, BladeSet b, Blade out)
 {
     Terms list{};
@@ -146,7 +146,7 @@ constexpr std::size_t index_of(BladeSet set, Blade b)
 template <BladeSet S>
 using Components = std::make_index_sequence<std::popcount(S)>;
 
-// Worked out once for each pair of types, and not for each component that asks.
+// Computed once for each pair of types, and not for each component.
 template <Product Kind, BladeSet A, BladeSet B>
 inline constexpr BladeSet kProductBlades = product_blades(Kind, A, B);
 template <Product Kind, BladeSet A, BladeSet B, Blade Out>
@@ -301,12 +301,13 @@ SWIVEL_ALWAYS_INLINE constexpr Mv<T, blades(B)> unit()
     return Mv<T, blades(B)>(T(1));
 }
 
-// The chosen blades of a multivector, which must have them all; and all its blades of one grade.
+// The chosen blades of a multivector, which must have them all.
 template <BladeSet Part, class T, BladeSet S>
 SWIVEL_ALWAYS_INLINE constexpr Mv<T, Part> part(const Mv<T, S>& m)
 {
     return by_component::moved<by_component::same, Part>(m, table::Components<Part>{});
 }
+// All blades of one grade.
 template <int Grade, class T, BladeSet S>
 SWIVEL_ALWAYS_INLINE constexpr auto grade_part(const Mv<T, S>& m)
 {
@@ -335,12 +336,13 @@ SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S
     return by_component::multiples(scalar, m, table::Components<S>{});
 }
 
-// Some blades of a product, which must have them all; and the whole product.
+// The chosen blades of a product, which must have them all.
 template <table::Product Kind, BladeSet Part, class T, BladeSet A, BladeSet B>
 SWIVEL_ALWAYS_INLINE constexpr Mv<T, Part> product_part(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return by_component::products<Kind, Part>(a, b, table::Components<Part>{});
 }
+// The whole product.
 template <table::Product Kind, class T, BladeSet A, BladeSet B>
 SWIVEL_ALWAYS_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
 {
@@ -395,12 +397,13 @@ SWIVEL_ALWAYS_INLINE constexpr auto dual(const Mv<T, S>& m)
     return -times_blade<kPseudoscalar>(m);
 }
 
-// Component by component, a where the mask holds, b elsewhere; and m, negated where the sign bit of `sign` is set.
+// Component by component, a where the mask holds, b elsewhere.
 template <class T, BladeSet S>
 SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> select(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b)
 {
     return by_component::selected(mask, a, b, table::Components<S>{});
 }
+// m, negated where the sign bit of `sign` is set.
 template <class T, BladeSet S>
 SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> flip_sign(const Mv<T, S>& m, const T& sign)
 {

@@ -29,8 +29,8 @@ constexpr double sine_between(const Turned<T>& a, const Turned<T>& b)
 {
     return double{a.cos} * double{b.sin} - double{a.sin} * double{b.cos};
 }
-// Whether a comes before b on the way from 0 to 2 pi. This is exact: it compares the halves of the circle, then uses
-// the sine between.
+// Whether a comes before b from 0 to 2 pi. The comparison is exact: first by the half of the circle, then by the sine
+// between them.
 template <class T>
 constexpr bool is_before(const Turned<T>& a, const Turned<T>& b)
 {
@@ -38,7 +38,7 @@ constexpr bool is_before(const Turned<T>& a, const Turned<T>& b)
     if (second_half(a) != second_half(b)) return second_half(b);
     return sine_between(a, b) > 0;
 }
-// In the middle of the way from a to b.
+// Halfway from a to b.
 template <class T>
 Turned<T> between(const Turned<T>& a, const Turned<T>& b)
 {
@@ -50,7 +50,7 @@ Turned<T> between(const Turned<T>& a, const Turned<T>& b)
     return {a.cos * half_cos - a.sin * s, a.sin * half_cos + a.cos * s};
 }
 
-// Calls take(line) for each line at which allowed arcs can end.
+// Calls take(line) for each line whose zeros may end an allowed arc.
 template <class T, class Take>
 void for_each_edge(const Limits<T>& limits, const Take& take)
 {
@@ -68,7 +68,7 @@ void for_each_edge(const LimitsInRegion<T, kMaxBoxes>& both, const Take& take)
         if (region.half_space[n].is_edge != 0) take(both.region.line(n));
 }
 
-// The arcs by a group's limits, with its region or without one.
+// The arcs that a group's limits allow, with or without a region.
 template <class T, template <class, int> class Bounds>
 AllowedArcs<T> allowed_arcs(const Bounds<T, kMaxBoxes>& limits)
 {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Limits of one rotation on the swivel's circle: a cone, a range of twist, a box of Euler angles. For a given target,
-// every limit says that some a cos phi + b sin phi + c is not negative. This is a line in (cos phi, sin phi), in units
-// of a cosine. A box of Euler angles is a list of alternatives, each of several lines. The room that a limit leaves at
-// a swivel is the least over its lines, and the most over its alternatives. The swivel is allowed if the room is not
-// negative. Nothing here forms an angle.
+// each limit requires a cos phi + b sin phi + c >= 0: a line in (cos phi, sin phi), in units of a cosine. A box of
+// Euler angles is a list of alternatives, each of several lines. A limit's room at a swivel is the max over its
+// alternatives of the min over their lines. A swivel with room >= 0 is allowed. Nothing here forms an angle.
 //
 // Sources: swivel-angle intervals, D. Tolani, A. Goswami, N. Badler, Real-time inverse kinematics techniques for
 // anthropomorphic limbs (2000); swing and twist, the rotor's own components.
@@ -66,12 +65,12 @@ SWIVEL_INLINE constexpr Ends<T> ends(const Range<T>& range)
             m,
             h.cos < T(0)};
 }
-// How much room there is if the middle angle's cosine is taken as positive (front) or as negative (back).
+// The room with the middle angle's cosine positive (front) or negative (back).
 template <class T>
 struct Rooms {
     T front, back;
 };
-// How much room a direction (x, y) of any length has between the ends, and how much the opposite direction has.
+// The room between the ends for a direction (x, y) of any length, and for the opposite direction.
 template <class T>
 SWIVEL_INLINE constexpr Rooms<T> room_between(const Ends<T>& ends, const T& x, const T& y)
 {
@@ -99,13 +98,13 @@ template <class T>
 SWIVEL_INLINE constexpr Sines<T> sines(const Turned<T>& entry, const Mask<T>& entry_inside, const Turned<T>& leave,
                                        const Mask<T>& leave_inside, const Mask<T>& wide)
 {
-    const T outside_low = select(leave_inside | wide, T(-2), T(4));  // -3 and less: no other room is below -2
+    const T outside_low = select(leave_inside | wide, T(-2), T(4));  // gives a room of -3 or less, below all others
     const Mask<T> beyond = wide & entry_inside & leave_inside;
     return {select(entry_inside, entry.sin, outside_low), select(leave_inside, leave.sin, T(2)), beyond};
 }
 
 // The ranges of three Euler angles. A rotation turns by a first angle about one axis, by a middle one about the next,
-// and by a last one about the third. Each axis is as the rotations before have left it. The middle angle's cosine may
+// and by a last one about the third. Each axis goes along with the rotations before it. The middle angle's cosine may
 // have either sign. With the other sign, the first and the last angle are half a turn off.
 template <class T>
 struct EulerCurves {
@@ -145,7 +144,7 @@ SWIVEL_INLINE constexpr EulerRanges<T> euler_ranges(const Range<T>& first, const
             sines(m.high, !high_front, m.low, !low_front, m.wide)};
 }
 
-// Orders of axes: which the first, middle and last are, 0 to 2, and whether they are in cyclic order.
+// The first, middle and last axis, 0 to 2, and whether they are in cyclic order.
 struct EulerOrder {
     int first, middle, last;
     bool cyclic;

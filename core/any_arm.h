@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // One arm in the arm frame, by the same two ways as the kernels take, for tests and swivel_verify(). The plain formula
-// solves it where it holds. Any other arm is solved as a whole limb that nothing more is asked of. Kernels run that in
+// solves it where it holds. Any other arm is solved as a whole limb without further features, which kernels do in
 // stages (simd/stages.h).
 #pragma once
 
@@ -15,15 +15,15 @@ namespace swivel::inline SWIVEL_ISA {
 template <class T>
 ArmPose<T> solve_as_limb(const ArmGoal<T>& arm)
 {
-    const LimbUse nothing_more;
+    const LimbUse no_features;
     LimbGoal<T> goal{};
     goal.arm = arm;
     const Mask<T> valid = is_valid(arm);
-    const WristLine<T> to = wrist_line(arm.wrist);
-    const PlacedBones<T, Hinge<T>> bones = place_bones(nothing_more, goal, to.wanted);
-    const LimbNormal<T> wish = limb_normal(nothing_more, goal, one<T>(), to.line);
-    const Word<T> flags = bones.flags | wish.flags | word_where(to.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
-    return {select(valid, lifted(to.line, wish.normal, bones.lift), one<T>()), select(valid, bones.cos_half, T(1)),
+    const WristLine<T> target = wrist_line(arm.wrist);
+    const PlacedBones<T, Hinge<T>> bones = place_bones(no_features, goal, target.wanted);
+    const LimbNormal<T> wish = limb_normal(no_features, goal, one<T>(), target.line);
+    const Word<T> flags = bones.flags | wish.flags | word_where(target.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
+    return {select(valid, lifted(target.line, wish.normal, bones.lift), one<T>()), select(valid, bones.cos_half, T(1)),
             select(valid, bones.sin_half, T(0)), select(valid, flags, word<T>(SWIVEL_BAD_INPUT)), valid};
 }
 

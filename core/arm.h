@@ -67,12 +67,7 @@ SWIVEL_INLINE constexpr Mask<T> is_orientation(const Rotor<T>& q)
     return is_within(len2(q), 1e-18, 1e18);
 }
 
-// Forward kinematics, for rotors of unit length: elbow = q_s L1 e3 ~q_s, wrist = q_s (L1 e3 + q_e L2 e3 ~q_e) ~q_s.
-template <class T>
-SWIVEL_INLINE constexpr Vector<T> elbow_of(const ArmPose<T>& pose, const T& upper)
-{
-    return sandwich(pose.shoulder, vector(T(0), T(0), upper));
-}
+// Forward kinematics, for rotors of unit length: wrist = q_s (L1 e3 + q_e L2 e3 ~q_e) ~q_s.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> wrist_of(const ArmPose<T>& pose, const T& upper, const T& fore)
 {

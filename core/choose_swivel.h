@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Chooses the swivel. It is the wish, if the limits allow it; else the nearest end of an allowed arc. If no swivel is
-// allowed, it is the one that violates the limits least. The wish is phi = 0, so near means a large cosine. Each lane
-// chooses from a fixed list of candidates. A candidate costs one root and no angle. The nearest legal swivel as such is
-// Tolani, Goswami and Badler's (2000); they find it by angles. Lines that do not vary over the circle allow all of it
-// or nothing.
+// The two searches for a swivel. Where the limits forbid the wish, the limb takes the nearest end of an allowed arc. If
+// no swivel is allowed, it takes the one that violates the limits least. simd/limbs/choose_stages.h asks in this order.
+// The wish is phi = 0, so near means a large cosine. Each lane chooses from a fixed list of candidates. A candidate
+// costs one root and no angle. The nearest legal swivel as such is Tolani, Goswami and Badler's (2000); they find it by
+// angles. Lines that do not vary over the circle allow all of it or nothing.
+//
+// Both searches take any limits that have room(), allows(), for_each_end() and for_each_peak(): here Limits, and with a
+// region LimitsInRegion (region.h).
 #pragma once
 
 #include "core/limits.h"
@@ -42,18 +45,26 @@ SWIVEL_INLINE constexpr void for_each_end(const Limits<T, Boxes>& limits, const 
         for_both<Boxes>(ends.first, ends.second, [&](const Turned<T>& end) SWIVEL_INLINE_LAMBDA { take(end, exist); });
     }
 }
-// The nearest end of an allowed arc, where there is one.
+// Whether the limits allow a swivel. Only the lanes of a mask count; those of a region may skip the rest.
 template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Limits<T, Boxes>& limits)
+SWIVEL_INLINE constexpr Mask<T> allows(const Limits<T, Boxes>& limits, const Turned<T>& swivel, const Mask<T>&)
 {
+    return inlined_room(limits, swivel) >= T(kNoRoom);
+}
+// The nearest end of an allowed arc, where there is one.
+template <class T, template <class, int> class Bounds, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Bounds<T, Boxes>& limits)
+{
+    constexpr double kNone = -2;  // farther than any end, whose cosine is -1 or more but for rounding
     Turned<T> best{T(-1), T(0)};
-    T nearest = T(-2);
+    T nearest = T(kNone);
     for_each_end(limits, [&](const Turned<T>& end, const Mask<T>& exist) SWIVEL_INLINE_LAMBDA {
-        const Mask<T> better = exist & (end.cos > nearest) & (inlined_room(limits, end) >= T(kNoRoom));
+        const Mask<T> nearer = exist & (end.cos > nearest);
+        const Mask<T> better = nearer & allows(limits, end, nearer);
         best = select(better, end, best);
         nearest = select(better, end.cos, nearest);
     });
-    return {best, nearest >= T(-1.5)};
+    return {best, nearest > T(kNone)};
 }
 
 // Whether x and sign times y are lines of one alternative.
@@ -68,8 +79,8 @@ SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
 // Rooms and cosines that differ by less than this count as equal, so rounding seldom decides.
 inline constexpr double kTie = 1e-6;
 
-// The candidate with the most room; among equal ones the one nearest to the wish, then the first. Each
-// is compared with the best so far: of three, where each is equal to the next one only, the order decides.
+// The candidate with the most room; among equal ones the one nearest to the wish, then the first. Each candidate is
+// compared with the best one so far. Equality within kTie is not transitive, so the candidates' order matters.
 template <class T>
 struct MaxRoom {
     Turned<T> best;
@@ -91,9 +102,8 @@ struct MaxRoom {
     }
 };
 
-// Calls take(swivel, exists) for all places where the room can peak. It is the least over lines, and the most over
-// alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
-// are equal.
+// Calls take(swivel, exists) for all places where the room can peak. The room is the largest over alternatives of the
+// smallest over their lines. So it peaks where a line peaks, or where two lines of an alternative are equal.
 //
 // A box has 16 peaks and 41 pairs of lines. Nearly all are needed: in 1.8 million random cases that one box forbids,
 // each of 37 pairs won at least 7,834 times. The other four are the two ends of one range. They matter only where that
@@ -129,30 +139,16 @@ SWIVEL_INLINE constexpr void for_each_peak(const Limits<T, Boxes>& limits, const
             });
     }
 }
-// The swivel at which the limits have the most room, though this is less than none.
-template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> min_violation(const Limits<T, Boxes>& limits)
+// The swivel with the smallest violation. It is allowed where the allowed arc is too short to have two ends.
+template <class T, template <class, int> class Bounds, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> min_violation(const Bounds<T, Boxes>& limits)
 {
     const Turned<T> wish{T(1), T(0)};
     MaxRoom<T> found(wish, room(limits, wish));
-    for_each_peak(limits, [&](const Turned<T>& swivel, const Mask<T>& exists)
-                              SWIVEL_INLINE_LAMBDA { found.consider(swivel, exists, room(limits, swivel)); });
-    return {found.best, found.max_room >= T(kNoRoom)};  // an arc too short to have two ends
-}
-// valid: false where the input is bad, so that nothing is searched for.
-template <class T, template <class, int> class Bounds, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> choose_swivel(const Bounds<T, Boxes>& limits, const Mask<T>& valid)
-{
-    const Turned<T> wish{T(1), T(0)};
-    const Mask<T> granted = (room(limits, wish) >= T(kNoRoom)) | !valid;
-    if (all(granted)) return {wish, granted};
-    const FoundSwivel<T> end = nearest_end(limits);
-    const Mask<T> allowed = granted | end.allowed;
-    const Turned<T> near = select(granted, wish, end.swivel);
-    if (all(allowed)) return {near, allowed};
-    const FoundSwivel<T> min = min_violation(limits);
-    const Mask<T> any_allowed = allowed | min.allowed;
-    return {select(allowed, near, min.swivel), any_allowed};
+    for_each_peak(limits, [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_OUT_OF_LINE_LAMBDA {
+        if (any(exists)) found.consider(swivel, exists, room(limits, swivel));
+    });
+    return {found.best, found.max_room >= T(kNoRoom)};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -22,7 +22,7 @@ template <class T>
 using Sphere = Point<T>;
 template <class T>
 using Rotor = Mv<T, blades(kScalar, kI, kJ, kK)>;
-// A rotor about e1: the elbow's hinge, as the arm frame has it.
+// A rotor about e1, the elbow's hinge in the arm frame.
 template <class T>
 using Hinge = Mv<T, blades(kScalar, kI)>;
 // A line through the origin: v1 i + v2 j + v3 k along the direction (v1, v2, v3).
@@ -64,12 +64,13 @@ SWIVEL_ALWAYS_INLINE constexpr Sphere<T> sphere(const Point<T>& centre, const T&
     return centre - (T(0.5) * radius * radius) * unit<T, kEinf>();
 }
 
-// Squared length, and a multivector of Euclidean blades divided by its length.
+// Squared length.
 template <class T, BladeSet S>
 SWIVEL_ALWAYS_INLINE constexpr T len2(const Mv<T, S>& m)
 {
     return scalar_product(m, ~m);
 }
+// A multivector of Euclidean blades, divided by its length.
 template <class T, BladeSet S>
 SWIVEL_ALWAYS_INLINE constexpr Mv<T, S> normalise(const Mv<T, S>& m)
 {
@@ -108,7 +109,7 @@ SWIVEL_ALWAYS_INLINE constexpr auto sandwich(const Mv<T, Q>& q, const Mv<T, V>& 
     return grade_part<1>(q * v * ~q);
 }
 
-// The same sandwich for several vectors: what the rotor makes of e1, e2 and e3.
+// The same sandwich for several vectors, from the rotor's images of e1, e2 and e3.
 template <class T>
 struct Turn {
     Vector<T> e1, e2, e3;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A solve as a correction of the incoming pose. The arm's own formulas give each bone a frame: e3 along the bone, e1
-// the swivel plane's normal. Such a frame is laid into the incoming bones, too. A joint turns by what carries the
-// incoming frame to the solved one. So the bones go where the solver puts them, and a joint keeps whatever the solver
-// does not know: the roll of a forearm, an elbow that is no pure hinge. An untouched goal gives back the incoming pose.
+// A solve as a correction of the incoming pose. The arm's formulas give each bone a frame: e3 along the bone, e1 the
+// swivel plane's normal. The incoming bones get such frames, too. A joint turns by the rotation from the incoming frame
+// to the solved one. So the bones go where the solver puts them, and a joint keeps what the solver ignores: a forearm's
+// roll, an elbow that is no pure hinge. An untouched goal gives back the incoming pose.
 //
-// All of it is in one space, whichever the caller takes. Bones may have any length. A bone without a length lies along
-// the other one, as the solver has it.
+// All inputs are in one space. Bones may have any length. A bone without a length lies along the other one, as in the
+// solver.
 #pragma once
 
 #include "core/frame_rotor.h"
@@ -34,19 +34,19 @@ SWIVEL_INLINE constexpr BoneLines<T> bone_lines(const Vector<T>& upper, const Ve
 // Normals of the plane that the bones lie in.
 template <class T>
 struct BendNormals {
-    // Their own; of straight bones the hinge. It flips with a bend that changes sides. So use it only where the same
-    // normal serves before and after: where the elbow stays as it comes.
+    // The bones' own; for straight bones the hinge. It flips when the bend changes sides. So use it only where the
+    // elbow stays as it comes, with the same normal before and after.
     Vector<T> own;
-    // One that no small change of the bones turns far: the hinge while the bend is noise, then the bones' own normal on
-    // the hinge's side, and between both a smooth blend. It has any length. A bend against the hinge comes out as one
-    // with it.
+    // Small changes of the bones turn this one little. It is the hinge while the bend is noise, beyond that the bones'
+    // own normal on the hinge's side, with a smooth blend between. It has any length. A bend against the hinge is
+    // treated as a bend with it.
     Vector<T> steady;
     T sine;  // of the bend
 };
 // The sines of the bend below which it is noise, and above which the bones tell their plane: about 3 and 10 degrees.
 // Knees and elbows that clips hold straight bend by up to some 3 degrees, to any side.
 inline constexpr double kBendUnknown = 0.05, kBendKnown = 0.17;
-// hinge: of the elbow, unit and along neither bone. A turn about its opposite bends the limb.
+// hinge: of the elbow, unit and along neither bone. Turning about its opposite bends the limb.
 template <class T>
 SWIVEL_INLINE constexpr BendNormals<T> bend_normals(const BoneLines<T>& bones, const Vector<T>& hinge)
 {
@@ -82,7 +82,7 @@ SWIVEL_INLINE constexpr BoneFrames<T> bone_frames(const BoneLines<T>& bones, con
 {
     return {bone_frame(bones.upper, normal), bone_frame(bones.fore, normal)};
 }
-// The elbow's hinge between frames that lie across the bones' own normal, by halves of the bend's cosine and sine.
+// The elbow's hinge between the bones' own frames, from the cosine and sine of the bend.
 template <class T>
 SWIVEL_INLINE constexpr Hinge<T> own_hinge(const BoneLines<T>& bones, const T& sine)
 {

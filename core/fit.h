@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One shift of a body along an axis, such as its pelvis up or down, so that its limbs reach. Shifts are heights from
-// where the body is. Our own formulas.
+// Shifts a body along an axis, such as its pelvis up or down, so that its limbs reach. Shifts are heights over the
+// body's present place. Our own formulas.
 #pragma once
 
 #include "core/arm.h"
@@ -10,11 +10,11 @@ namespace swivel::inline SWIVEL_ISA {
 
 inline constexpr double kAnyShift = 1e15;
 
-// The shifts from which a limb reaches, or all limbs of a body.
+// The shifts from which one limb, or all limbs of a body, reach.
 template <class T>
 struct ShiftSpan {
     T low, high;
-    Mask<T> reaches;  // false: some limb reaches from no shift
+    Mask<T> reaches;  // false: no shift lets some limb reach
 };
 template <class T>
 SWIVEL_INLINE constexpr ShiftSpan<T> operator&(const ShiftSpan<T>& a, const ShiftSpan<T>& b)
@@ -24,8 +24,8 @@ SWIVEL_INLINE constexpr ShiftSpan<T> operator&(const ShiftSpan<T>& a, const Shif
 }
 
 // away: from the limb's target to its root. With b the height of the root over the target and k their distance across,
-// shifts from -b - r to -b + r bring the root into reach, r^2 = reach^2 - k^2. A limb that reaches from none has r = 0:
-// the shift where it comes closest. up: unit.
+// shifts from -b - r to -b + r bring the root into reach, r^2 = reach^2 - k^2. For a limb that no shift lets reach, r
+// is 0: it comes closest there. up: unit.
 template <class T>
 SWIVEL_INLINE constexpr ShiftSpan<T> shift_span(const Vector<T>& away, const Vector<T>& up, const T& reach)
 {
@@ -34,8 +34,8 @@ SWIVEL_INLINE constexpr ShiftSpan<T> shift_span(const Vector<T>& away, const Vec
     return {-height - room, room - height, room2 >= T(0)};
 }
 
-// The same, as far as it counts, a share of 0 to 1: an end that asks for a shift asks for its share of it, and one that
-// allows some allows more. A share of 0 asks for none and allows all.
+// The span of a limb with this weight, 0 to 1. An end that asks for a shift asks for that share of it; an end that
+// allows a shift allows more. Weight 0 asks for nothing and allows all.
 template <class T>
 SWIVEL_INLINE constexpr ShiftSpan<T> counted(const ShiftSpan<T>& span, const T& share)
 {
@@ -51,8 +51,8 @@ struct FittedShift {
     T shift;
     Mask<T> all_reach;
 };
-// The shift nearest to the wish that all limbs reach from. Where there is none, the middle between the ends that
-// conflict: the greatest distance to a limb's span is then least. drop, rise: 0 or more.
+// The shift nearest to the wish that all limbs reach from. If there is none, the middle between the conflicting ends,
+// which minimises the largest distance to a limb's span. drop, rise: 0 or more.
 template <class T>
 SWIVEL_INLINE constexpr FittedShift<T> fitted_shift(const ShiftSpan<T>& span, const T& wish, const T& drop,
                                                     const T& rise)

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The wrist's twist about the forearm, shared out over twist bones between elbow and wrist. Halves of a turn are exact
-// and take one root each. Between the quarters a straight line is close enough. Its error is under 0.12 degrees for a
-// twist of 180, and an eighth of that for a twist of 90.
+// The wrist's twist about the forearm, shared out over twist bones between elbow and wrist. Halving a turn is exact and
+// takes one root. Between the quarters a straight line is close enough. Its error is under 0.12 degrees for a twist of
+// 180, and an eighth of that for a twist of 90.
 #pragma once
 
 #include "core/swivel_circle.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// The twist of a rotor about e3, as the unit rotor that turns the short way. If the rest of the rotor turns by pi,
-// there is no twist, and this is the identity.
+// The twist of a rotor about e3, the short way, as a unit rotor. It is the identity where the rotor swings by pi,
+// because its twist is then undefined.
 template <class T>
 SWIVEL_INLINE constexpr Turned<T> twist_rotor(const Rotor<T>& q)
 {

@@ -13,9 +13,9 @@ namespace swivel::inline SWIVEL_ISA {
 // Before it starts from -e3, it is turned by pi about e1.
 template <class T>
 struct FrameStart {
-    T side;    // only its sign counts: the start is e3 with it
+    T side;    // the start is e3 with the sign of this
     T length;  // of the line
-    T height;  // along the start: of the line plus the start, made as long as the line
+    T height;  // length + |z|: how far line + length * start goes along the start
 
     // Half the squared length of the middle line between the two.
     SWIVEL_INLINE constexpr T middle_half2() const { return length * height; }
@@ -76,8 +76,8 @@ SWIVEL_INLINE constexpr Rotor<T> frame_along(const Vector<T>& line, const Vector
     return from_e3(start, frame_from_start(line, start, T(1), normal, T(1)).from_start);
 }
 
-// Steps 3 to 5 for an arm of which lift says how it lies in the line's frame: the rotor that carries e3 to the upper
-// arm and e1 to the hinge, of unit length.
+// Steps 3 to 5 for an arm: the unit rotor that carries e3 to the upper arm and e1 to the hinge. lift: the arm's pose in
+// the line's frame.
 template <class T, class Lift>
 SWIVEL_INLINE constexpr Rotor<T> lifted(const Vector<T>& line, const Vector<T>& normal, const Lift& lift)
 {

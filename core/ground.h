@@ -12,20 +12,20 @@ namespace swivel::inline SWIVEL_ISA {
 
 // The cosine of the steepest slope that feet stand on: 87 degrees.
 inline constexpr double kSteepest = 0.05;
-// The squared distance from up of a normal that counts as up: 1e-6 radians.
+// A normal whose squared distance from up is less than this counts as up: 1e-6 radians.
 inline constexpr double kUpright2 = 1e-12;
 
-// The plane of the ground below a foot, from the root's place.
+// The plane of the ground below a foot, relative to the root's place.
 template <class T>
 struct GroundPlane {
     Vector<T> place, normal;  // the normal is of unit length
-    T rise;                   // its share along up
+    T rise;                   // its component along up
     Mask<T> exists;           // whether there is ground to stand on
 
     // The normal that a foot turns to; up without ground.
     SWIVEL_INLINE constexpr Vector<T> slope(const Vector<T>& up) const { return select(exists, normal, up); }
     SWIVEL_INLINE constexpr T distance(const Vector<T>& point) const { return scalar_product(normal, point - place); }
-    // How far up a point must go to be at a distance from the plane; without ground not at all.
+    // How far a point must move up to reach this clearance from the plane; 0 without ground.
     SWIVEL_INLINE constexpr T way_up(const Vector<T>& point, const T& clearance) const
     {
         return select(exists, (clearance - distance(point)) / select(exists, rise, T(1)), T(0));
@@ -42,7 +42,7 @@ SWIVEL_INLINE constexpr GroundPlane<T> ground_plane(const Vector<T>& place, cons
     return {place, unit, rise, exists};
 }
 
-// The plane through the same point with another normal, as a foot in the air has it.
+// The plane through the same point with another normal, such as that of a foot in the air.
 template <class T>
 SWIVEL_INLINE constexpr GroundPlane<T> leaning(const GroundPlane<T>& ground, const Vector<T>& normal,
                                                const Vector<T>& up)
@@ -50,8 +50,8 @@ SWIVEL_INLINE constexpr GroundPlane<T> leaning(const GroundPlane<T>& ground, con
     return ground_plane(ground.place, normal, up);
 }
 
-// A point that locks in this step does so at its clearance over the ground. Its target stays, and its offset grows by
-// as much. up: in the support's frame. way: from the anchor up.
+// Raises the anchors of points that lock in this step by `way`, to their clearance over the ground. Their targets stay,
+// because their offsets fall by as much. up: in the support's frame.
 template <class T>
 SWIVEL_INLINE constexpr void lock_on_ground(PlantState<T>& state, const Mask<T>& locks, const Vector<T>& up,
                                             const T& way)
@@ -66,8 +66,8 @@ struct Foot {
     Vector<T> toe;
     Rotor<T> rotation;  // of unit length
 };
-// A turn of unit length and of no more than half a circle; or where an angle is less, the turn by that about its axis.
-// Half of the angle has this cosine and sine.
+// The turn, limited to a max angle about its own axis. turn: of unit length, by at most half a circle. cos_half,
+// sin_half: of half the max angle.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> no_further(const Rotor<T>& turn, const T& cos_half, const T& sin_half)
 {
@@ -81,8 +81,9 @@ SWIVEL_INLINE constexpr Rotor<T> no_further(const Rotor<T>& turn, const T& cos_h
                   rotor(axis.template at<kE1>(), axis.template at<kE2>(), axis.template at<kE3>(), cos_half), turn);
 }
 
-// The turn that lifts an end of a foot to a height along the normal, over the point that it is from. The end goes up a
-// circle, in the plane that it and the normal span; to its top at most. An end that is high enough stays.
+// The turn that lifts one end of a foot to the wanted height along the normal. The end moves up a circle about the
+// foot's other end, in the plane of foot and normal, at most to the top. An end that is high enough stays. end: from
+// the other end.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> lifting_turn(const Mask<T>& counts, const Vector<T>& normal, const Vector<T>& end,
                                               const T& wanted)
@@ -95,8 +96,8 @@ SWIVEL_INLINE constexpr Rotor<T> lifting_turn(const Mask<T>& counts, const Vecto
     return select(lifts, clavicle_rotation(end, wanted * normal + across * flat, T(1)), one<T>());
 }
 
-// The foot, turned with the ground by a share of 0 to 1, with toe and heel no nearer to it than their clearances.
-// The foot turns with the plane `slope`, and its heel is kept over that: the ground's own, or as leaning() has it.
+// Turns the foot with the ground by a share of 0 to 1, and keeps toe and heel at their clearances or higher.
+// slope: the plane that the foot turns with and its heel stays above: the ground, or leaning() of it.
 // heel_from_toe: in the foot's frame, in the world's unit. Clearances are in the same unit.
 template <class T>
 SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, const GroundPlane<T>& slope,
@@ -111,7 +112,7 @@ SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, con
 
     const T wanted = T(rules.heel_clearance) * scale - slope.distance(toe);
     const Rotor<T> lift = lifting_turn(ground.exists, slope.normal, turned(on_slope, heel_from_toe), wanted);
-    // Where the ground ends below a foot, its turn fades.
+    // Beyond the ground's end, a foot's turn fades until its slope is up again.
     const Mask<T> turns = ground.exists | (len2(slope.normal - up) > T(kUpright2));
     return {toe, select(turns, unit_rotation(lift * on_slope), foot.rotation)};
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Names the namespace of all formulas. So the same source, compiled for two instruction sets, gives functions of
-// different names. This file also has the attributes that keep calls out of kernel loops. Formulas are many small
-// functions, and compilers do not inline all of them on their own.
+// Names the namespace of all formulas, so that one source, compiled for two instruction sets, gives functions of
+// different names. Also has the attributes that keep calls out of kernel loops: formulas are many small functions, and
+// compilers do not inline all of them on their own.
 //
 // SWIVEL_ALWAYS_INLINE is for the bottom alone: numbers, lanes, multivectors and their shapes in conformal.h, numbers
 // on the swivel's circle, rows, and copies of their types. Each is one operation or a few. None has a closure: that is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Forward kinematics: a joint's frame from its parent's, and from what the joint's own rotation, translation and scale
-// say. Frames are in one space, whichever the first parent is in.
+// Forward kinematics: a joint's frame from its parent's frame and its own rotation, translation and scale. All frames
+// are in the first parent's space.
 #pragma once
 
 #include "core/arm.h"
@@ -15,8 +15,8 @@ struct JointFrame {
     T scale;  // uniform
 };
 
-// A value that goes out although its input may be bad. The NaN of an operation has other bits on other CPUs, so there
-// is one for all.
+// A value that is stored although its input may be bad. CPUs differ in the bits of a computed NaN, so every NaN is
+// replaced by one.
 template <class T>
 SWIVEL_INLINE constexpr T with_one_nan(const T& x)
 {
@@ -35,7 +35,7 @@ SWIVEL_INLINE constexpr Rotor<T> with_one_nan(const Rotor<T>& q)
                  with_one_nan(q.template at<kK>()), with_one_nan(q.template at<kScalar>()));
 }
 
-// Whether a rotation is unit but for rounding, as kinematics leaves those of good poses.
+// Whether a rotation is unit but for the rounding of kinematics.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_almost_unit(const Rotor<T>& q)
 {
@@ -44,7 +44,7 @@ SWIVEL_INLINE constexpr Mask<T> is_almost_unit(const Rotor<T>& q)
 
 // A rotation made unit. Most are unit but for rounding. For these one step of Newton's method on
 // 1 / sqrt(length^2) does: it leaves 3/8 of the squared error, less than rounding. Others take the root and the
-// quotient. Zero and what is not finite becomes NaN.
+// quotient. Zero and numbers that are not finite become NaN.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> unit_rotation(const Rotor<T>& q)
 {

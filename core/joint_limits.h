@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // An arm's joint limits, written as limits of its swivel (angle_limits.h). All of them are measured from the rest pose.
-// Axes are those of the arm frame at rest. Twists and Euler angles are those of what the joint adds to rest. The
-// elbow's flexion does not depend on the swivel: its limit is a range of reach (limb_bones.h).
+// Axes are those of the arm frame at rest. Twists and Euler angles are those of the rotation that the joint adds to
+// rest. The elbow's flexion does not depend on the swivel: its limit is a range of reach (limb_bones.h).
 #pragma once
 
 #include "core/angle_limits.h"
@@ -51,13 +51,13 @@ SWIVEL_INLINE constexpr Vector<T> in_line(const SwivellingArm<T, Lift>& arm, con
     return vector(scalar_product(arm.normal, v), scalar_product(cross(arm.line, arm.normal), v),
                   scalar_product(arm.line, v));
 }
-// A vector that moves with the arm is as much longer as to_arm's square.
+// Vectors turned by to_arm come out longer by its squared length; this undoes it.
 template <class T, class Lift>
 SWIVEL_INLINE constexpr T per_size(const SwivellingArm<T, Lift>& arm)
 {
     return T(1) / len2(arm.to_arm);
 }
-// The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
+// The forearm's rotor, which turns with the arm while the hand stays: the wrist's rotor is (arm elbow)^-1 hand.
 template <class T, class Lift>
 SWIVEL_INLINE constexpr auto forearm_of(const SwivellingArm<T, Lift>& arm)
 {
@@ -129,7 +129,7 @@ SWIVEL_INLINE constexpr OnCircle<T> hand_twist_limit(const SwivellingArm<T, Lift
     return twisting.limit({about(twist.axis, twisting.at_0), about(twist.axis, twisting.at_pi)}, twist.range);
 }
 
-// The limits that are a line each, by their fields. An arm has one box for each joint.
+// The limits that are one line each, by field. An arm has one box for each joint.
 inline constexpr int kMaxLines = 5, kMaxBoxes = 2;
 template <swivel_field limit, class Arm, class Value>
 SWIVEL_INLINE constexpr auto limit_line(const Arm& arm, const Value& value)
@@ -170,7 +170,7 @@ SWIVEL_INLINE constexpr EulerCurves<T> shoulder_box_curves(const SwivellingArm<T
 {
     return euler_curves<T>(order, turning_matrix(arm, unit<T, kE1>(), unit<T, kE2>(), unit<T, kE3>(), arm.to_arm));
 }
-// Its matrix has the forearm's axes in its rows, so what moves belongs to the row.
+// The wrist's matrix has the forearm's axes, which move, in its rows.
 template <class T, class Lift>
 SWIVEL_INLINE constexpr EulerCurves<T> wrist_box_curves(const SwivellingArm<T, Lift>& arm, const EulerOrder& order)
 {

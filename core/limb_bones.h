@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// The bones of a whole limb for a wanted distance from shoulder to wrist. This computes how far they reach, the elbow's
-// flexion, and how far the upper arm is lifted off the line to the wrist.
+// Places the bones of a whole limb for a wanted distance from shoulder to wrist: how far they reach, the elbow's
+// flexion, and the upper arm's lift off the line to the wrist.
 #pragma once
 
 #include "core/limb_goal.h"
-#include "core/reach.h"
 #include "core/soft_reach.h"
+#include "core/solve_arm.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
 template <class T, class Lift>
 struct PlacedBones {
-    Lift lift;             // from the arm's own frame to the line's: how the upper arm lies to it; of any length
+    Lift lift;             // from the arm's own frame to the line's, of any length
     T cos_half, sin_half;  // of the flexion
     T stretch;
     Word<T> flags;
@@ -31,7 +31,7 @@ SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const FlexionLimit<T>& limit
             select(limit.cos_half_min < T(1), distance(limit.cos_half_min), far), T(0), T(0), T(1)};
 }
 
-// How far the wrist is from the shoulder in an incoming pose. elbow: of unit length.
+// The distance from shoulder to wrist in an incoming pose. elbow: of unit length.
 template <class T>
 SWIVEL_INLINE constexpr T incoming_reach(const Rotor<T>& elbow, const ArmGoal<T>& arm)
 {
@@ -39,9 +39,8 @@ SWIVEL_INLINE constexpr T incoming_reach(const Rotor<T>& elbow, const ArmGoal<T>
     return sqrt(len2(Vector<T>(arm.upper * e3 + arm.fore * sandwich(elbow, e3))));
 }
 
-// The farthest that a cap lets a limb reach, and how wide the eased zone before it is. Where the zone is no
-// wider than the margin, it begins where the incoming limb is, so a target no farther than that is met. most: what the
-// bones allow. length: of both bones.
+// The max reach that a cap allows, and the width of the eased zone before it. If the zone is no wider than the margin,
+// it begins at the incoming reach, so a target within that is met. max: the bones' reach. length: of both bones.
 template <class T>
 struct CappedReach {
     T far, zone;
@@ -93,14 +92,13 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
         flags = flags | word_where(missed & (too_straight | too_bent), SWIVEL_LIMITED_FLEXION);
     }
 
-    // Steps 1 and 2 of the lecture: the triangle of the bones. A bone that is lost in the other's digits is straight
-    // with it.
+    // Steps 1 and 2 of the lecture: the triangle of the bones. A bone that is lost in the other's digits lies along it.
     const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);
     const T first = select(one_bone, T(0.5), upper), second = select(one_bone, T(0.5), fore);
     const T both = first + second, difference = first - second;
     const T side = select(one_bone, both, lo(hi(hi(reach.distance, T(kNearest)), abs(difference)), both));
     const ArmTriangle<T> triangle = arm_triangle(side, both, difference);
-    const Mask<T> larger_first = triangle.cos_lift >= T(0);
+    const Mask<T> larger_first = triangle.cos_sign >= T(0);
     const Hinge<T> lift = hinge(select(larger_first, triangle.larger, triangle.smaller),
                                 select(larger_first, triangle.smaller, triangle.larger));
     return {lift, triangle.cos_half, triangle.sin_half, reach.stretch, flags};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A goal may ask more of a limb than its wrist, its pole and its bones; a group says which parts of that it uses.
-// Everything is in the arm frame. Parts that a group does not use may hold anything.
+// The goal of a whole limb, and which of its parts a group uses. Everything is in the arm frame. Parts that a group
+// does not use may hold anything.
 #pragma once
 
 #include "core/joint_limits.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-enum class Wish { pole, normal, incoming, hand };  // what says where the elbow goes
+enum class Wish { pole, normal, incoming, hand };  // where the elbow's pole comes from
 
 // The parts that a group uses.
 struct LimbUse {
@@ -22,7 +22,7 @@ struct IncomingPose {
     Rotor<T> shoulder, elbow, wrist;  // of lengths 1/4 to 2; the elbow may turn about any axis
 };
 
-// Weights are 0 to 1: 0 keeps the incoming pose's, 1 takes the goal's.
+// 0 to 1: 0 keeps the incoming pose, 1 takes the goal.
 template <class T>
 struct Weights {
     T position, hand, pole;
@@ -34,8 +34,8 @@ struct ReachGoal {
     T soft_far, soft_near, max_stretch, min_distance;
 };
 
-// How far beyond the incoming pose a limb may reach. Fractions of the arm's length, but `incoming`, the distance from
-// shoulder to wrist in the incoming pose.
+// How far a limb may reach beyond the incoming pose, in fractions of the arm's length. incoming: the distance from
+// shoulder to wrist in that pose, a length.
 template <class T>
 struct Cap {
     T margin, min, zone, incoming;
@@ -47,11 +47,10 @@ struct Continuity {
     Turned<T> max;              // swivel in a frame, 0 to pi
 };
 
-// The line of the hand that goes through the target, from the effector on, and half the flexion that the elbow then
-// has.
+// The hand's axis, whose ray from the effector must go through the target, and half the elbow's flexion.
 template <class T>
 struct AimGoal {
-    Vector<T> axis;  // in the hand's frame, of any length; a kernel checks the one that is given
+    Vector<T> axis;  // in the hand's frame, of any length; kernels check it
     T cos_half, sin_half;
 };
 
@@ -75,9 +74,9 @@ SWIVEL_INLINE constexpr Mask<T> is_share(const T& x)
 {
     return is_within(x, 0, 1);
 }
-// Whether the square of a length is that of a unit one. Numbers rounded from double are off by at most 1.2e-7 in it,
-// and this sum in floats by 1.8e-7. So 1e-6 refuses none of them. The floats nearest to the two bounds are 1 - 1.01e-6
-// and 1 + 9.5e-7.
+// Whether a squared length is 1, but for rounding. Rounding components from double changes it by at most 1.2e-7, and
+// summing them in floats by 1.8e-7. So 1e-6 refuses no rounded unit vector. The floats nearest to the two bounds are 1
+// - 1.01e-6 and 1 + 9.5e-7.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_unit2(const T& length2)
 {
@@ -116,7 +115,7 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ArmGoal<T>& arm)
 {
     return (len2(arm.wrist) <= T(kHuge2)) & (len2(arm.pole) <= T(kHuge2)) & is_length(arm.upper) & is_length(arm.fore);
 }
-// A pair of any length, as angles are given and as turns are stored.
+// A pair of any length, in the form of angles and stored turns.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Turned<T>& turned)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// All limits of an arm together, on the circle of its swivel: the room that they leave, and the edges where the allowed
-// arcs can begin and end. joint_limits.h has their lines.
+// All limits of an arm, on the circle of its swivel: the room that they leave, and the edges of the allowed arcs.
+// joint_limits.h makes their lines.
 #pragma once
 
 #include "core/joint_limits.h"
@@ -11,10 +11,12 @@ namespace swivel::inline SWIVEL_ISA {
 // Less room than this is a violation. At the end of an allowed arc, rounding leaves about half of it in
 // random limbs; docs/howto/limits.md has the worst.
 inline constexpr double kNoRoom = -5e-7;
+// Room is a difference of cosines or sines: how far a swivel is within a limit. No limit leaves more than this.
+inline constexpr double kMaxRoom = 2;
 
 template <int Boxes>
 inline constexpr int kMaxEdges = kMaxLines + 10 * Boxes;
-// Single lines, and boxes.
+// An arm's single lines and its boxes.
 template <class T, int Boxes = kMaxBoxes>
 struct Limits {
     OnCircle<T> line[kMaxLines];
@@ -22,7 +24,7 @@ struct Limits {
     EulerBox<T> box[Boxes];
     int box_count = 0;
 };
-// Without boxes, which are nearly all of its size.
+// Without boxes, which take nearly all of the memory.
 template <class T>
 struct Limits<T, 0> {
     OnCircle<T> line[kMaxLines];
@@ -34,7 +36,7 @@ struct Limits<T, 0> {
 template <class T, int Boxes>
 SWIVEL_INLINE constexpr T inlined_room(const Limits<T, Boxes>& limits, const Turned<T>& swivel)
 {
-    T min = T(2);
+    T min = T(kMaxRoom);
     for (int n = 0; n < limits.line_count; ++n) min = lo(limits.line[n].at(swivel), min);
     SWIVEL_KEEP_LOOP
     for (int n = 0; n < limits.box_count; ++n) min = lo(room(limits.box[n], swivel), min);
@@ -52,9 +54,9 @@ SWIVEL_FLATTEN [[gnu::noinline]] constexpr T room(const Limits<T, kMaxBoxes>& li
     return inlined_room(limits, swivel);
 }
 
-// An edge of the limits: where the allowed arcs can begin and end, as there a line crosses zero. It says which line
-// that is, instead of having it, because all lines of two boxes take eight kilobytes with the widest registers. A box
-// has two rooms, front and back, for either sign of the middle angle's cosine. Lines without a box are part of both.
+// An edge of the limits: a line whose zeros may begin or end an allowed arc. It refers to the line, because copies of
+// all lines of two boxes would take eight kilobytes with the widest registers. A box has two rooms, front and back, for
+// either sign of the middle angle's cosine. Lines without a box are part of both.
 template <class T>
 struct Edge {
     enum Kind { whole, sine, past_turn, along_turn } kind;
@@ -62,7 +64,7 @@ struct Edge {
     const Turned<T>* turn;    // an end or the middle of that angle's range
     const T* bound;           // of the sine
     int box;                  // -1: none
-    int front, back;          // the sign with which it is part of that room; 0: it is no part
+    int front, back;          // its sign in that room; 0: it is no part of it
 
     SWIVEL_INLINE constexpr OnCircle<T> line() const
     {
@@ -70,12 +72,12 @@ struct Edge {
         if (kind == sine) return *x - constant(*bound);
         return kind == past_turn ? past(*turn, *x, *y) : along(*turn, *x, *y);
     }
-    // The lanes in which it is an edge at all.
+    // The lanes in which this edge exists.
     SWIVEL_INLINE constexpr Mask<T> live() const { return kind == sine ? abs(*bound) <= T(1) : all_lanes<T>(); }
 };
 
-// The edges of all limits, which must outlive them. middles: also gives those that matter only where nothing is
-// allowed. Edges that are live in no lane are left out.
+// The edges of all limits, which must outlive them. middles: also the edges that matter only where nothing is allowed.
+// Edges that are live in no lane are left out.
 template <class T, int Boxes>
 SWIVEL_INLINE constexpr int edges(const Limits<T, Boxes>& limits, bool middles, Edge<T> (&edge)[kMaxEdges<Boxes>])
 {

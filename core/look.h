@@ -23,13 +23,13 @@ SWIVEL_INLINE constexpr T smooth_step(const T& x)
     const T s = lo(hi(x, T(0)), T(1));
     return s * s * (T(3) - s - s);
 }
-// How much of a look at a target counts.
+// The weight of a look: it fades for targets behind and too near.
 template <class T>
 SWIVEL_INLINE constexpr T look_weight(const LineOfSight<T>& sight, const Vector<T>& target, const LookFade& fade,
                                       const T& unit)
 {
-    const Vector<T> to = target - sight.eye;
-    const T length = sqrt(len2(to)), cosine = scalar_product(sight.axis, to) / hi(length, T(kTiny));
+    const Vector<T> way = target - sight.eye;
+    const T length = sqrt(len2(way)), cosine = scalar_product(sight.axis, way) / hi(length, T(kTiny));
     return smooth_step((cosine - T(fade.cos_none)) * T(fade.per_cos)) *
            smooth_step(length / hi(T(fade.distance) * unit, T(kTiny)));
 }
@@ -45,9 +45,9 @@ SWIVEL_INLINE constexpr Rotor<T> turn_between(const Vector<T>& from, const Vecto
 {
     return normalise(one<T>() + to * from);
 }
-// The shortest turn from one direction to another. Their lengths are any whose product is more than kTiny. Two that are
-// opposite turn about any axis across them; to or from nothing there is no turn. From a turn by 160 degrees or more,
-// rounding leaves less of the axis. So that goes by way of a direction between, by two turns that are well known.
+// The shortest turn from one direction to another. The product of their lengths must exceed kTiny, else there is no
+// turn. Opposite directions turn about any axis across them. Beyond 160 degrees, rounding would spoil the axis, so the
+// turn goes by way of a direction between, in two accurate turns.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vector<T>& to)
 {
@@ -68,7 +68,7 @@ SWIVEL_INLINE constexpr Rotor<T> shortest_turn(const Vector<T>& from, const Vect
     const Rotor<T> way = turn_between(middle, select(none, e1, b)) * turn_between(start, middle);
     return select(none, one<T>(), select(back, way, turn));
 }
-// Its share that the cone allows. A share of 0 is no turn, to the bit.
+// A share of the shortest turn, held within the joint's cone. A share of 0 is the identity, to the bit.
 template <class T>
 SWIVEL_INLINE constexpr LookTurn<T> look_turn(const Vector<T>& from, const Vector<T>& to, const T& share,
                                               const LookJoint& joint)
@@ -86,36 +86,37 @@ SWIVEL_INLINE constexpr LookTurn<T> look_turn(const Vector<T>& from, const Vecto
             held};
 }
 
-// The turn of a joint of the chain before the last: it turns the direction of sight alone. Aimed as one rigid piece,
-// its slope would be infinite where the target is as near to the joint as the line of sight is.
+// The turn of a joint before the last: it turns the direction of sight alone. If the joint aimed the line of sight
+// itself, a small move of the target would turn it without bound where the target is as near to the joint as that line
+// is.
 template <class T>
 SWIVEL_INLINE constexpr LookTurn<T> share_of_look(const LineOfSight<T>& sight, const Vector<T>& target, const T& weight,
                                                   const LookJoint& joint)
 {
     return look_turn(sight.axis, target - sight.eye, T(joint.share) * weight, joint);
 }
-// The turn of the last joint: the point of the line of sight that is as far from the joint as the target is comes to
-// the target. A target that is nearer to the joint than all of the line is turned to as near as may be.
+// The turn of the last joint: it brings the point of the line of sight that is as far from the joint as the target to
+// the target. If the target is nearer than the whole line, the line's nearest point turns towards it.
 template <class T>
 SWIVEL_INLINE constexpr LookTurn<T> rest_of_look(const LineOfSight<T>& sight, const Vector<T>& place,
                                                  const Vector<T>& target, const T& weight, const LookJoint& joint)
 {
-    const Vector<T> eye = sight.eye - place, to = target - place;
+    const Vector<T> eye = sight.eye - place, goal = target - place;
     const T along = scalar_product(eye, sight.axis);
-    const T ahead = sqrt(hi(along * along + (len2(to) - len2(eye)), T(0)));
-    const T scale = per_power_of_two(hi(length1(to), T(kTiny)));  // far targets have products beyond all floats
-    return look_turn(scale * (eye + (ahead - along) * sight.axis), scale * to, weight, joint);
+    const T ahead = sqrt(hi(along * along + (len2(goal) - len2(eye)), T(0)));
+    const T scale = per_power_of_two(hi(length1(goal), T(kTiny)));  // far targets have products beyond all floats
+    return look_turn(scale * (eye + (ahead - along) * sight.axis), scale * goal, weight, joint);
 }
 // Whether the line of sight meets the target, within 1e-4 rad.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> sees(const LineOfSight<T>& sight, const Vector<T>& target)
 {
-    const Vector<T> to = target - sight.eye;
-    return (len2(cross(sight.axis, to)) <= T(1e-8) * len2(to)) & (scalar_product(sight.axis, to) > T(0));
+    const Vector<T> way = target - sight.eye;
+    return (len2(cross(sight.axis, way)) <= T(1e-8) * len2(way)) & (scalar_product(sight.axis, way) > T(0));
 }
 
-// How a joint of a look is turned, as it is carried: its axis times the tangent of a quarter of its angle. turn: of
-// unit length, by at most half a turn, so its scalar part is none or more.
+// A joint's turn in the form that a look carries: its axis times the tangent of a quarter of its angle. turn: of unit
+// length, by at most half a turn, so its scalar part is not negative.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> quarter_tangent(const Rotor<T>& turn)
 {
@@ -143,9 +144,9 @@ SWIVEL_INLINE constexpr LookWay<T> look_way(const Rotor<T>& from, const Rotor<T>
                            vector(way.template at<kI>(), way.template at<kJ>(), way.template at<kK>());
     return {axis, sqrt(len2(axis))};
 }
-inline constexpr double kStillTurn = 1e-6;  // a sum of such tangents below this is rounding
-// A part of it, 0 to 1. As the tangent of an angle is at least the angle, it turns by no more than 2 * part * tangent.
-// It lies between both turns, so within a cone that holds both.
+inline constexpr double kStillTurn = 1e-6;  // sums of tangents below this are rounding
+// The turn after a part of the way, 0 to 1. It differs from the present turn by at most 2 * part * tangent, because an
+// angle is at most its tangent. It lies between both turns, so a cone that holds both holds it.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> on_way(const Rotor<T>& from, const LookWay<T>& way, const T& part)
 {

@@ -7,12 +7,12 @@
 
 namespace swivel {
 
-// The rules of a joint. The turn is held by halves of angles.
+// The rules of one joint.
 struct LookJoint {
-    float share;                       // of what is left of the turn
-    float cos_half_max, sin_half_max;  // of the cone
+    float share;                       // of the turn that is left
+    float cos_half_max, sin_half_max;  // of half the joint's max turn
 };
-// Where a look fades: by the cosine between the line of sight as it comes and the line to the target; and by distance.
+// A look fades by the cosine between the incoming line of sight and the line to the target, and by distance.
 struct LookFade {
     float cos_none, per_cos;  // per_cos: 1 / (cos_full - cos_none)
     float distance;

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: MIT
 //
-// The rotation and the uniform scale that a joint's matrix has. Engines that keep matrices keep those of rotations
-// times scales. One whose axes are not at right angles, differ in length or are mirrored is no such matrix; it is
-// refused. The rotation is found from the largest of the quaternion's components, so no digits are lost: S. W.
-// Shepperd, Quaternion from Rotation Matrix (Journal of Guidance and Control, 1978).
+// The rotation and the uniform scale of a joint's matrix. Engines' matrices are rotations times scales. A matrix whose
+// axes are not at right angles, differ in length or are mirrored is refused. The rotation is found from the largest of
+// the quaternion's components, so no digits are lost: S. W. Shepperd, Quaternion from Rotation Matrix (Journal of
+// Guidance and Control, 1978).
 #pragma once
 
 #include "core/arm.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// The most that a matrix may be off from a rotation times a scale: of lengths of its axes, as a part of their mean, and
-// of cosines between them.
+// How far a matrix may be off a rotation times a scale: lengths of axes as a part of their mean, and cosines between
+// axes.
 inline constexpr double kMaxShear = 1e-3;
 
-// The mean of three sizes, exact if they are equal. How far they lie apart.
+// The mean of three sizes, exact if they are equal.
 template <class T>
 SWIVEL_INLINE constexpr T mean_of(const T& x, const T& y, const T& z)
 {
     return x + T(1.0 / 3) * ((y - x) + (z - x));
 }
+// The largest of three sizes less the smallest.
 template <class T>
 SWIVEL_INLINE constexpr T spread_of(const T& x, const T& y, const T& z)
 {
     return hi(hi(x, y), z) - lo(lo(x, y), z);
 }
-// The uniform scale of three; NaN where they are too uneven to be one.
+// The mean of three scales; NaN where they are too uneven.
 template <class T>
 SWIVEL_INLINE constexpr T uniform_scale(const T& x, const T& y, const T& z)
 {

@@ -31,7 +31,7 @@ SWIVEL_ALWAYS_INLINE double abs(double x) { return std::fabs(x); }
 SWIVEL_ALWAYS_INLINE float copysign(float x, float sign) { return std::copysign(x, sign); }
 SWIVEL_ALWAYS_INLINE double copysign(double x, double sign) { return std::copysign(x, sign); }
 
-// x with its sign bit turned over where sign's is set.
+// x, negated where the sign bit of `sign` is set.
 SWIVEL_ALWAYS_INLINE float flip_sign(float x, float sign) { return std::signbit(sign) ? -x : x; }
 SWIVEL_ALWAYS_INLINE double flip_sign(double x, double sign) { return std::signbit(sign) ? -x : x; }
 
@@ -55,36 +55,39 @@ SWIVEL_ALWAYS_INLINE float select(bool mask, float a, float b) { return mask ? a
 SWIVEL_ALWAYS_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
 SWIVEL_ALWAYS_INLINE bool any(bool mask) { return mask; }
 SWIVEL_ALWAYS_INLINE bool all(bool mask) { return mask; }
-// A mask that holds in no lane, and one that holds in all.
+// A mask that holds in no lane.
 template <class T>
 SWIVEL_ALWAYS_INLINE Mask<T> no_lanes()
 {
     return T(1) < T(0);
 }
+// A mask that holds in all lanes.
 template <class T>
 SWIVEL_ALWAYS_INLINE Mask<T> all_lanes()
 {
     return T(0) == T(0);
 }
 
-// The smaller and the larger of two numbers; b where they do not compare.
+// The smaller of two numbers; b where they do not compare.
 template <class T>
 SWIVEL_ALWAYS_INLINE T lo(const T& a, const T& b)
 {
     return select(a < b, a, b);
 }
+// The larger of two numbers; b where they do not compare.
 template <class T>
 SWIVEL_ALWAYS_INLINE T hi(const T& a, const T& b)
 {
     return select(a > b, a, b);
 }
 
-// The same word in every lane; the word where the mask holds, 0 elsewhere; one word or the other.
+// The same word in every lane.
 template <class T>
 SWIVEL_ALWAYS_INLINE Word<T> word(std::uint32_t same)
 {
     return Word<T>{same};
 }
+// The word where the mask holds, 0 elsewhere.
 SWIVEL_ALWAYS_INLINE std::uint32_t word_where(bool mask, std::uint32_t word) { return mask ? word : 0u; }
 SWIVEL_ALWAYS_INLINE std::uint32_t select(bool mask, std::uint32_t a, std::uint32_t b) { return mask ? a : b; }
 

@@ -7,9 +7,9 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A share of the angle of a rotation with the cosine of half its angle, cos_half >= 0. It goes from none to the
-// rotation by a normalised blend. A blend of `share` is up to 8 degrees off. So the share is bent by a cubic, which is
-// exact at 0, 1/2 and 1, and off by at most 0.06 degrees. Its coefficients are our own fit.
+// The blend weight with which a normalised blend from the identity to a rotation covers a share of its angle. Using
+// `share` itself would be up to 8 degrees off. The cubic below is exact at 0, 1/2 and 1, and off by at most 0.06
+// degrees. cos_half: of half the angle, >= 0. Its coefficients are our own fit.
 template <class T>
 SWIVEL_INLINE constexpr T bent_share(const T& share, const T& cos_half)
 {
@@ -19,8 +19,8 @@ SWIVEL_INLINE constexpr T bent_share(const T& share, const T& cos_half)
     return share + share * half * (share - T(1)) * bend;
 }
 
-// The rotation by a share of 0 to 1 of the way to another, the short way round. Both are of unit length. At 1 it is the
-// other, to the bit.
+// The rotation at a share of 0 to 1 of the short way to another. Both are of unit length. Share 1 gives the other, to
+// the bit.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> part_of_turn(const Rotor<T>& from, const Rotor<T>& to, const T& share)
 {

@@ -12,7 +12,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// All that the steps make, under the lecture's names. The result of a product has the type of that product.
+// The results of all steps, under the lecture's names. Each product has its own type.
 template <class T>
 struct PipelineSteps {
     using Origin = decltype(unit<T, kE0>());
@@ -44,7 +44,7 @@ struct PipelineSteps {
 };
 
 // One of the two points of a point pair PP: (PP* +- sqrt(PP*.PP*)) / (einf.PP*), brought to weight -einf.P = 1.
-// Dividing by a vector is multiplying by it and dividing by its square, which the weight takes in.
+// Dividing by a vector is multiplying by it and dividing by its square, which normalising the weight cancels.
 template <class T, BladeSet S>
 SWIVEL_INLINE constexpr Vector<T> pair_point(const Mv<T, S>& pp, const T& side)
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A point that stands: while a label says contact, it is locked to its support, and what that leaves of the animation
-// fades away. Our own design, after D. Holden, "Inverse Kinematics and Foot Locking" (2026).
+// A planted point: while a label says contact, it is locked to its support, and its offset from the animation fades
+// after release. Our own design, after D. Holden, "Inverse Kinematics and Foot Locking" (2026).
 //
-// All is in the support's frame, so what is carried moves with a platform. The point goes to (locked ? mark : animated
-// point) + offset. Offset and velocity are those of now. The cubic from them to rest in the time that is left, started
-// anew in every step, is one and the same curve. So a change only adds to them, also where it interrupts another.
+// Everything is in the support's frame, so the carried state moves with a platform. The point goes to (locked ? mark :
+// animated point) + offset. Each step restarts the cubic that brings the present offset and velocity to rest in the
+// time left; this gives one smooth curve. So a change only adds to offset and velocity, even during another change.
 //
-// mark is the anchor while locked, else the animated point of the last step. Both are never needed at once, because a
-// release waits for the next step to see how fast the animation is.
+// mark is the anchor while locked, else the animated point of the last step. One member is enough, because a release
+// waits for the next step to measure the animation's speed.
 #pragma once
 
 #include "core/joint_frame.h"
@@ -20,7 +20,7 @@ template <class T>
 struct PlantState {
     Vector<T> mark, offset, velocity;
     T left;                                 // time until offset and velocity are gone
-    Mask<T> fresh, locked, armed, waiting;  // armed: it locks where it comes; waiting: a release, not yet fading
+    Mask<T> fresh, locked, armed, waiting;  // armed: may lock at any speed; waiting: released, not yet fading
 };
 template <class T>
 struct PlantInput {
@@ -29,21 +29,21 @@ struct PlantInput {
     T time;           // since the last step, 0 or more
     T length;         // of the limb: the unit of the rules' lengths
 };
-// The events of a step. A rotation that locks with the point takes part in it (plant_rotation.h).
+// The events of a step. A rotation that locks with the point shares them (plant_rotation.h).
 template <class T>
 struct PlantStep {
-    Mask<T> fresh, moves, fades, locks, releases;  // fades: a release of the last step begins to
+    Mask<T> fresh, moves, fades, locks, releases;  // fades: a release of the last step begins to fade
     T per_time;                                    // 0 where time stands still
-    T left, per_left, share;                       // of the cubic: the time that was left, and the share that goes by
+    T left, per_left, share;                       // the cubic's time left, and the share of it that this step takes
 };
 template <class T>
 struct Planted {
     Vector<T> target;
-    Mask<T> too_far, cut;  // released by distance; a velocity was cut, so it jumps
+    Mask<T> too_far, cut;  // released by distance; a velocity was cut, so the point jumps
     PlantStep<T> step;
 };
 
-// No longer than `most`, 0 or more. longer: where it was.
+// The vector, shortened to max >= 0 where it is longer and counts. longer: gains these lanes.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> at_most(const Vector<T>& v, const T& max, const Mask<T>& counts, Mask<T>& longer)
 {
@@ -54,18 +54,18 @@ SWIVEL_INLINE constexpr Vector<T> at_most(const Vector<T>& v, const T& max, cons
     return select(is_longer, (max / sqrt(select(is_longer, length2, T(1)))) * v, v);
 }
 
-// A step of the cubic that brings both to zero in the time that is left. Where time stands still no bit changes.
+// A step of the cubic that brings offset and velocity to zero in the time left. A step of time 0 changes no bit.
 template <class T>
 SWIVEL_INLINE constexpr void fade(Vector<T>& offset, Vector<T>& velocity, const PlantStep<T>& step)
 {
     const T u = step.share, rest = T(1) - u;
-    const Vector<T> to = (rest * rest) * ((T(1) + u + u) * offset + (u * step.left) * velocity);
-    const Vector<T> fast = rest * ((T(1) - T(3) * u) * velocity - (T(6) * u * step.per_left) * offset);
-    velocity = select(step.moves, fast, velocity);
-    offset = select(step.moves, to, offset);
+    const Vector<T> faded_offset = (rest * rest) * ((T(1) + u + u) * offset + (u * step.left) * velocity);
+    const Vector<T> faded_velocity = rest * ((T(1) - T(3) * u) * velocity - (T(6) * u * step.per_left) * offset);
+    velocity = select(step.moves, faded_velocity, velocity);
+    offset = select(step.moves, faded_offset, offset);
 }
 
-// A point that was not stepped for too long starts anew.
+// A point whose last step is longer ago than reset_time starts anew.
 template <class T>
 SWIVEL_INLINE constexpr void forget_old(PlantState<T>& s, const T& time, const PlantRules& rules)
 {
@@ -93,7 +93,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     }
     Mask<T> waiting = s.waiting & !fresh;
 
-    // How fast the animated point is. That of an anchor does not count.
+    // The animated point's speed; 0 where the mark is an anchor.
     const Vector<T> speed = select(was_locked, none, per_time * (x - mark));
     const Mask<T> fades = waiting & moves;
     velocity = select(fades, at_most(velocity - speed, T(rules.fastest_out) * in.length, fades, out.cut), velocity);
@@ -106,12 +106,12 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     out.step = {fresh, moves, fades, fresh, fresh, per_time, left, per_left, share};
     fade(offset, velocity, out.step);
     left = hi(left - select(moves, in.time, T(0)), T(0));
-    out.target = select(was_locked, mark, x) + offset;  // nothing below moves it
+    out.target = select(was_locked, mark, x) + offset;  // the events below leave it
 
     const Mask<T> far = len2(x - mark) > unlock * unlock, releases = was_locked & moves & (far | !in.label);
     const Mask<T> armed = s.armed | fresh | (acts & !in.label), rests = (again > T(0)) & (len2(speed) <= again * again);
     const Mask<T> locks = acts & in.label & !was_locked & (armed | rests) & (len2(offset) <= lock * lock);
-    // Locked ahead, by the share `run` of the way that it comes to rest in by itself.
+    // The anchor lies ahead, as far as the point goes in the time rules.ahead.
     const Vector<T> entry =
         select(fresh, none, at_most(speed + velocity, T(rules.fastest_in) * in.length, locks, out.cut));
     const Vector<T> anchor = out.target + T(rules.ahead) * entry;
@@ -130,14 +130,14 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     return out;
 }
 
-// Contact as a point's own motion shows it, where nobody labels it: slow and low, with a lower bar to stay than to
-// come.
+// Contact from a point's own motion, for points without labels. A slow and low point is in contact; to stay in contact
+// it may be faster and higher than to come into it.
 template <class T>
 struct MotionState {
     Vector<T> place;  // in the support's frame, of the last step
     Mask<T> contact;
 };
-// height: of the point, over the body's root. fresh: as the plant's state; nothing is known of the speed then.
+// height: of the point, over the body's root. fresh: of the plant's state; the speed is then unknown.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> contact_by_motion(MotionState<T>& s, const Mask<T>& fresh, const PlantInput<T>& in,
                                                   const T& height, const PlantRules& rules)

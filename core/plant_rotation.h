@@ -10,7 +10,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 template <class T>
 struct TurnState {
-    Rotor<T> mark;               // the anchor's, or the animated one of the last step
+    Rotor<T> mark;               // the anchor's rotation, or the animated one of the last step
     Vector<T> offset, velocity;  // half-tangent vectors
 };
 
@@ -44,7 +44,7 @@ SWIVEL_INLINE constexpr Rotor<T> plant_rotation(TurnState<T>& s, const PlantStep
     velocity = select(step.fades, at_most(velocity - speed, T(rules.turn_out), step.fades, cut), velocity);
     fade(offset, velocity, step);
     const Rotor<T> target = unit_rotation(from_half_tangent(offset) * select(was_locked, mark, animated));
-    // Locked ahead by at most 37 degrees, at run 1.
+    // The anchor lies ahead, as plant()'s does.
     const Vector<T> entry = select(step.fresh, none, at_most(speed + velocity, T(rules.turn_in), step.locks, cut));
     const Vector<T> ahead = T(rules.ahead) * entry;
     s.mark = select(step.locks, unit_rotation(from_half_tangent(ahead) * target),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A limb as a body's pose has it, seen by the arm's formulas: its bones, and how the frames that the formulas would
-// give them lie to its joints. These take the place of a binding's constants. So what the formulas solve goes back to
-// joints as a correction of the incoming pose (correction.h).
+// A limb of a body's pose, prepared for the arm's formulas: its bones, and the rotations between the formulas' bone
+// frames and its joints. These replace a binding's constants, so that a solved arm goes back to the joints as a
+// correction of the incoming pose (correction.h).
 #pragma once
 
 #include "core/correction.h"
@@ -10,7 +10,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Which of a limb's normals its incoming frames take. chosen: lane by lane, its own or the steady one.
+// The normal in a limb's incoming frames. chosen: its own or the steady one, lane by lane.
 enum class BendNormal { own, chosen };
 
 // The part of a limb's joints that its bones need, in one space.
@@ -38,8 +38,8 @@ SWIVEL_INLINE constexpr Vector<T> hinge_across(const Vector<T>& hinge, const Vec
     return select(off, hinge, select(is_e1, vector(T(0), T(1), T(0)), vector(T(1), T(0), T(0))));
 }
 
-// parent_from_arm: as in a binding. hinge: in the shoulder joint's frame. stays: of BendNormal::chosen, where the own
-// normal serves.
+// parent_from_arm: as in a binding. hinge: in the shoulder joint's frame. stays: for BendNormal::chosen, the lanes that
+// take the own normal.
 template <BendNormal which, class T>
 SWIVEL_INLINE constexpr SeenLimb<T> seen_limb(const PosedLimb<T>& posed, const Rotor<T>& parent_from_arm,
                                               const Vector<T>& hinge, const Mask<T>& stays)

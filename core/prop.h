@@ -1,34 +1,33 @@
 // SPDX-License-Identifier: MIT
 //
-// A thing that two hands hold: where it is between them, and the least move of it so that both arms reach it. Our own
-// formulas.
+// A prop in two hands: where it lies between them, and the least move that lets both arms reach it. Our own formulas.
 #pragma once
 
 #include "core/joint_frame.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Where something is held: a rotation of unit length and a place.
+// Where a hand or a held thing is. rotation: of unit length.
 template <class T>
 struct HeldFrame {
     Rotor<T> rotation;
     Vector<T> place;
 };
-// grip: a frame in another one. scale: of places in that.
+// The grip's frame outside of `outer`. scale: of places in `outer`.
 template <class T>
 SWIVEL_INLINE constexpr HeldFrame<T> gripped(const HeldFrame<T>& outer, const HeldFrame<T>& grip, const T& scale)
 {
     return {unit_rotation(outer.rotation * grip.rotation), outer.place + turned(outer.rotation, scale * grip.place)};
 }
-// The frame on which that grip is.
+// The frame of the thing that this hand holds at this grip.
 template <class T>
 SWIVEL_INLINE constexpr HeldFrame<T> held_by(const HeldFrame<T>& hand, const HeldFrame<T>& grip)
 {
     const Rotor<T> rotation = unit_rotation(hand.rotation * ~grip.rotation);
     return {rotation, hand.place - turned(rotation, grip.place)};
 }
-// From one frame to another by a share of 0 to 1: places along their line, rotations by a normalised blend the short
-// way round. At 0 and 1 it is one of them, to the bit.
+// The frame between two, by a share of 0 to 1: places on their line, rotations by a normalised blend the short way
+// round. Shares 0 and 1 give a and b, to the bit.
 template <class T>
 SWIVEL_INLINE constexpr HeldFrame<T> between(const HeldFrame<T>& a, const HeldFrame<T>& b, const T& share)
 {
@@ -40,8 +39,8 @@ SWIVEL_INLINE constexpr HeldFrame<T> between(const HeldFrame<T>& a, const HeldFr
             select(is_a, a.place, select(is_b, b.place, mixed.place))};
 }
 
-// The moves of a thing by which an arm reaches its grip: those no further from `middle` than `reach`, and a little more
-// that is several times rounding. So rounding loses no move.
+// The moves of a prop that bring its grip within an arm's reach: those within `reach` of `middle`, plus a slack of
+// several times rounding, so that rounding loses no move.
 inline constexpr double kReachSlack = 5e-7;
 template <class T>
 struct ReachingMoves {
@@ -62,10 +61,10 @@ struct ReachingMoves {
         return way * middle;
     }
 };
-// The shortest move that both arms can reach. Where there is none, the one from which the worse of both misses least.
+// The shortest move that both arms can reach. If there is none, the move from which the worse arm misses least.
 //
-// It is one arm's shortest if that is the other's, too. Else it is the point nearest to 0 on the circle in which their
-// spheres meet. For spheres about one middle, the slack lets one have the other's.
+// If one arm's shortest move is also a move of the other's, it is that. Else it is the point nearest to 0 on the circle
+// where their spheres meet. Concentric spheres never get there, because of the slack.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> min_move(const ReachingMoves<T>& a, const ReachingMoves<T>& b)
 {

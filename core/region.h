@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // A reach region: where the upper arm may point. It is a union of parts, each an intersection of half-spaces a . d >=
-// c, less forbidden cones. The room of a direction is the least over a part's half-spaces, and the most over parts. A
-// forbidden cone takes it down to its own. While the arm swivels, each component of the direction goes as a cos phi + b
-// sin phi + c. So each half-space is a line on the circle, as every other limit is (joint_limits.h). Rows keep these
-// nine numbers, and lines are made where they are needed.
+// c, less forbidden cones. A half-space leaves a direction d the margin a . d - c. The room of d is the largest over
+// the parts of the smallest margin in a part, or the margin of a forbidden cone if that is smaller. While the arm
+// swivels, each component of the direction goes as a cos phi + b sin phi + c. So each half-space is a line on the
+// circle, as every other limit is (joint_limits.h). Rows keep these nine numbers, and lines are made where they are
+// needed.
 //
 // Sources: cones in order with bridges between them, the kusudamas of E. Gjoni, which Godot has; the search on the
 // circle is our own.
@@ -26,9 +27,10 @@ SWIVEL_INLINE constexpr T axis_of(const swivel_half_space& half, int n)
 template <class T, class RoomOf>
 SWIVEL_INLINE constexpr T room_of_parts(const swivel_region& region, const RoomOf& room_of)
 {
-    T max = T(-4);  // less than any room
+    constexpr double kLessThanAnyRoom = -4;
+    T max = T(kLessThanAnyRoom);
     for (std::uint32_t part = 0; part < region.part_count; ++part) {
-        T min = T(2);
+        T min = T(kMaxRoom);
         for (std::uint32_t n = region.first[part]; n < region.first[part + 1]; ++n) min = lo(room_of(n), min);
         max = hi(min, max);
     }
@@ -127,34 +129,24 @@ SWIVEL_FLATTEN [[gnu::noinline]] constexpr T room(const LimitsInRegion<T, Boxes>
     return lo(room(both.limits, swivel), room(both.region, swivel));
 }
 
-// The nearest end of an allowed arc, where there is one. Room that no lane needs is not looked at.
+// Skips the room where no lane counts.
 template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const LimitsInRegion<T, Boxes>& both)
+SWIVEL_INLINE constexpr Mask<T> allows(const LimitsInRegion<T, Boxes>& both, const Turned<T>& swivel,
+                                       const Mask<T>& lanes)
 {
-    Turned<T> best{T(-1), T(0)};
-    T nearest = T(-2);
-    const auto take = [&](const Turned<T>& end, const Mask<T>& exist) {
-        const Mask<T> nearer = exist & (end.cos > nearest);
-        if (!any(nearer)) return;
-        const Mask<T> better = nearer & (room(both, end) >= T(kNoRoom));
-        best = select(better, end, best);
-        nearest = select(better, end.cos, nearest);
-    };
+    if (!any(lanes)) return lanes;
+    return room(both, swivel) >= T(kNoRoom);
+}
+template <class T, int Boxes, class Take>
+SWIVEL_INLINE constexpr void for_each_end(const LimitsInRegion<T, Boxes>& both, const Take& take)
+{
     for_each_end(both.limits, take);
     for_each_end(both.region, take);
-    return {best, nearest >= T(-1.5)};
 }
-
-// The swivel at which there is the most room, though this is less than none. The room can also peak where a line of the
-// region equals one of another limit.
-template <class T, int Boxes>
-SWIVEL_INLINE constexpr FoundSwivel<T> min_violation(const LimitsInRegion<T, Boxes>& both)
+// The room can also peak where a line of the region equals one of another limit.
+template <class T, int Boxes, class Take>
+SWIVEL_INLINE constexpr void for_each_peak(const LimitsInRegion<T, Boxes>& both, const Take& take)
 {
-    const Turned<T> wish{T(1), T(0)};
-    MaxRoom<T> found(wish, room(both, wish));
-    const auto take = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_OUT_OF_LINE_LAMBDA {
-        if (any(exists)) found.consider(swivel, exists, room(both, swivel));
-    };
     for_each_peak(both.limits, take);
     for_each_peak(both.region, take);
     Edge<T> edge[kMaxEdges<Boxes>];
@@ -171,7 +163,6 @@ SWIVEL_INLINE constexpr FoundSwivel<T> min_violation(const LimitsInRegion<T, Box
             if (edge[m].front < 0 || edge[m].back < 0) for_equal(line, T(-1) * other, take_live);
         }
     }
-    return {found.best, found.max_room >= T(kNoRoom)};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

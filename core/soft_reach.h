@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How far the wrist goes for a wanted distance. The bones, the elbow's flexion and a least distance bound it. Parabolas
-// of our own choice ease it into both bounds. Stretching the bones makes up for what is missing. Bones of no length
-// reach nothing.
+// How far the wrist goes for a wanted distance. The bones, the elbow's flexion and a min distance bound it. Parabolas
+// of our own choice ease it into both bounds. Stretching the bones makes up for the rest. Bones of no length reach
+// nothing.
 #pragma once
 
 #include "core/num.h"
@@ -11,15 +11,15 @@ namespace swivel::inline SWIVEL_ISA {
 
 template <class T>
 struct ReachRange {
-    T near, far;            // the distances that elbow and least distance allow, 0 <= near <= far
-    T soft_near, soft_far;  // widths of the eased zones about them, 0: none
+    T near, far;            // the distances that elbow and min distance allow, 0 <= near <= far
+    T soft_near, soft_far;  // widths of the eased zones about these; 0: none
     T max_stretch;          // of the bones, 1: none
 };
 
 template <class T>
 struct SoftReach {
-    T distance;                           // from shoulder to wrist of the arm before it is stretched, near to far
-    T stretch;                            // of the bones, 1 to the most; the wrist is at stretch times distance
+    T distance;                           // from shoulder to wrist before stretching, near to far
+    T stretch;                            // of the bones, 1 to max_stretch; the wrist is at stretch * distance
     Mask<T> too_far, too_near, softened;  // at most one of them; softened: not at the target, in an eased zone
 };
 

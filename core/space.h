@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The way between the arm frame and the spaces around it. Goals come in from the world, through the parent's frame.
-// Results go out to the skeleton's own joint frames. The hand needs both.
+// Converts between the arm frame and the spaces around it. Goals come from the world through the parent's frame;
+// results go to the skeleton's joint frames; the hand needs both.
 //
 // Names: parent = frame of the shoulder's parent joint, arm = arm frame (arm.h), hand = the wrist joint's own frame.
 // Targets in the world are solved in the parent's frame. The rotor found there carries the arm frame's axes e3 and e1
@@ -33,9 +33,8 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ParentFrame<T>& frame)
     return is_orientation(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
 }
 
-// A goal in the world, as the parent's frame sees it: the parent's rotation is turned back. Wrist and pole are `size`
-// times as long as in the parent's units, so that nothing is divided. An arm with bones as much longer has the same
-// pose.
+// A goal in the world, brought into the parent's frame. Nothing is divided: wrist and pole come out `size` times as
+// long as in the parent's units, and bones made longer by `size` give the same pose.
 template <class T>
 struct SeenGoal {
     Vector<T> wrist, pole;
@@ -49,8 +48,8 @@ SWIVEL_INLINE constexpr SeenGoal<T> seen_by(const ParentFrame<T>& parent, const 
     return {turn(wrist_w - parent.position), turn(pole_w - pole_is_point * parent.position),
             parent.scale * turn.length2, turn.length2};
 }
-// Whether a parent's numbers are so ordinary that a goal for which the formula holds (solve_arm.h) has nothing bad in
-// it.
+// Whether a parent's numbers are ordinary: then a goal for which the plain formula holds (solve_arm.h) has no bad
+// input.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_ordinary(const ParentFrame<T>& parent, const SeenGoal<T>& seen)
 {

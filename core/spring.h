@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A critically damped spring, which eases a height or a direction over time. Without exp().
+// A critically damped spring, which eases a height or a direction over time without exp().
 #pragma once
 
 #include "core/arm.h"

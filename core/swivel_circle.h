@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// When the target and both bones are given, the swivel phi is left free: the arm's turn about the line from the
-// shoulder to the target. In the line's own frame, with e3 along it, this turn is the rotor cos(phi/2) + sin(phi/2) k.
-// So every coordinate of whatever turns with the arm is a cos phi + b sin phi + c. The same holds for every product of
-// two components of its rotor. No angle is formed: a turn is the pair (cos, sin).
+// Target and bones leave one angle free, the swivel phi: the arm's turn about the line from shoulder to target. In the
+// line's own frame, with e3 along it, this turn is the rotor cos(phi/2) + sin(phi/2) k. So every coordinate of a vector
+// that turns with the arm is a cos phi + b sin phi + c, and so is every product of two components of the arm's rotor.
+// No angle is formed: a turn is the pair (cos, sin).
 #pragma once
 
 #include "core/conformal.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A number whose squared variation over the whole circle is less than this does not vary.
+// Numbers with less squared variation over the circle than this count as constant.
 inline constexpr double kFlat2 = 1e-14;
 
 // (cos, sin) of a turn.
@@ -25,7 +25,7 @@ SWIVEL_ALWAYS_INLINE constexpr Turned<T> select(const Mask<T>& mask, const Turne
     return {select(mask, a.cos, b.cos), select(mask, a.sin, b.sin)};
 }
 
-// A number that goes as a cos phi + b sin phi + c.
+// The number a cos phi + b sin phi + c.
 template <class T>
 struct OnCircle {
     T a, b, c;
@@ -53,7 +53,7 @@ SWIVEL_ALWAYS_INLINE constexpr OnCircle<T> constant(const T& c)
     return {T(0), T(0), c};
 }
 
-// fixed . moving, both as the line's frame has them at phi = 0; only moving turns. It may lack e1, or e2 and e3.
+// fixed . moving, both in the line's frame at phi = 0; only `moving` turns. It may lack e1, or e2 and e3.
 template <class T, BladeSet S>
 SWIVEL_INLINE constexpr OnCircle<T> inner(const Vector<T>& fixed, const Mv<T, S>& moving)
 {
@@ -72,7 +72,7 @@ SWIVEL_INLINE constexpr OnCircle<T> inner(const Vector<T>& fixed, const Mv<T, S>
     }
 }
 
-// A rotor component that goes as at_0 cos(phi/2) + at_pi sin(phi/2), and the product of two.
+// The rotor component at_0 cos(phi/2) + at_pi sin(phi/2). A product of two is a number on the circle.
 template <class T>
 struct OnHalfCircle {
     T at_0, at_pi;
@@ -84,7 +84,7 @@ SWIVEL_INLINE constexpr OnCircle<T> operator*(const OnHalfCircle<T>& x, const On
     return {T(0.5) * (both_0 - both_pi), T(0.5) * (x.at_0 * y.at_pi + x.at_pi * y.at_0), T(0.5) * (both_0 + both_pi)};
 }
 
-// The two turns where x crosses zero, by one root. r2 is x.a^2 + x.b^2. There are none where r2 < x.c^2.
+// The two turns where x crosses zero, by one root. With r2 = x.a^2 + x.b^2, there are none where r2 < x.c^2.
 template <class T>
 struct Crossings {
     Turned<T> first, second;

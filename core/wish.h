@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The wish for the elbow: the normal of the swivel plane that a goal asks for, and how far it may move in a frame. A
-// wish within kPoleOff of the line does not say where the elbow goes. It is replaced by the first normal that does: the
-// previous one, the incoming pose's, the rest hinge e1, or e2.
+// The wish for the elbow: the normal of the swivel plane that a goal asks for, and how far it may turn in a frame. A
+// pole within kPoleOff of the line is undefined. The first of these that is defined replaces it: the previous normal,
+// the incoming pose's, the rest hinge e1, or e2.
 #pragma once
 
 #include "core/limb_goal.h"
@@ -15,25 +15,25 @@ SWIVEL_INLINE constexpr Vector<T> across(const Vector<T>& v, const Vector<T>& u)
 {
     return v - scalar_product(v, u) * u;
 }
-// A vector or rotor times a power of two, so that it is shorter than 1. It is not much shorter, unless it was shorter
-// than kTiny.
+// A vector or rotor times a power of two, which makes it somewhat shorter than 1. One that was shorter than kTiny stays
+// shorter still.
 template <class T, BladeSet S>
 SWIVEL_INLINE constexpr Mv<T, S> scaled(const Mv<T, S>& m)
 {
     return per_power_of_two(hi(length1(m), T(kTiny))) * m;
 }
 
-// From a hand that its wrist does not bend, the direction back along the forearm: it serves as a pole. Source: our own.
+// The direction back along the forearm if the wrist does not bend, which serves as a pole. Source: our own.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> pole_from_hand(const Rotor<T>& hand)
 {
     return -sandwich(scaled(hand), unit<T, kE3>());
 }
-// The sine of 20 degrees. The nearer a hand points along the line than this, the more the incoming normal counts.
+// The sine of 20 degrees. Within this angle of the line a hand's pole is unsure, and the incoming normal counts more.
 inline constexpr double kSureHand = 0.342;
 
-// With an incoming normal, which exists in some lanes: a normal by the hand, and so much of the incoming one as it
-// lacks.
+// The normal by the hand, filled up with the incoming normal where it is too short. exists: the lanes that have an
+// incoming normal.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> blend_with_incoming(const Vector<T>& by_hand, const Vector<T>& incoming_normal,
                                                       const Mask<T>& exists, const T& hand_length)
@@ -42,7 +42,7 @@ SWIVEL_INLINE constexpr Vector<T> blend_with_incoming(const Vector<T>& by_hand, 
     return by_hand + select(exists, lacks / sqrt(select(exists, len2(incoming_normal), T(1))), T(0)) * incoming_normal;
 }
 
-// The normal of the swivel plane that the goal wishes for, across the line.
+// The normal of the swivel plane that the goal asks for, across the line.
 template <class T>
 struct WishedNormal {
     Vector<T> normal;  // unit
@@ -53,8 +53,7 @@ template <class T>
 SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
                                                       const Vector<T>& line)
 {
-    // Whether a direction of this squared length says where the elbow goes. Its part across the line is then the
-    // normal.
+    // Whether a pole of this squared length is defined. normal: its part across the line.
     const auto is_off = [](const Vector<T>& normal, const T& of2)
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
     Vector<T> incoming_normal = vector(T(0), T(0), T(0));
@@ -75,7 +74,7 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
         is_defined = is_off(normal, len2(pole)) & (len2(given) >= T(kTiny2));
     }
     const Mask<T> undefined = !is_defined;
-    if (any(undefined)) {  // the stand-ins, the best last
+    if (any(undefined)) {  // the substitutes, the best one last
         const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
         Vector<T> instead = select(is_off(across(hinge, line), T(1)), across(hinge, line), across(other, line));
         if (use.incoming) instead = select(incoming_is_defined, incoming_normal, instead);
@@ -87,20 +86,20 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
         }
         normal = select(undefined, across(instead, line), normal);
     }
-    if (use.angle) {  // where the elbow stays as it was, the angle is in that already
+    if (use.angle) {  // a kept elbow has the angle in it already
         const Vector<T> turned = scaled(goal.angle.cos * normal + goal.angle.sin * cross(line, normal));
         normal = select(undefined & keeps_incoming, normal, turned);
     }
     if (use.weights) {
         const Vector<T> from = select(incoming_is_defined, incoming_normal, normal);
         const T from2 = len2(from);
-        const Vector<T> to = sqrt(from2 / len2(normal)) * normal, between = from + goal.weights.pole * (to - from);
+        const Vector<T> wish = sqrt(from2 / len2(normal)) * normal, between = from + goal.weights.pole * (wish - from);
         normal = select(is_off(between, from2), between, from);
     }
     return {normalise(normal), undefined};
 }
 
-// The normal no further from the previous one than the frame's max swivel.
+// A normal within the frame's max swivel of the previous one.
 template <class T>
 struct SteppedNormal {
     Vector<T> normal;
@@ -111,14 +110,14 @@ template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_beyond(const Vector<T>& from, const Vector<T>& to, const Vector<T>& line,
                                           const Turned<T>& max, double slack)
 {
-    // This is the sine of the excess over the max. Near an excess of half a turn the sine is small, and the cosines
-    // tell.
+    // The first term is the sine of the excess over the max. It is small near an excess of half a turn, so the cosines
+    // decide there.
     const T cos_turn = scalar_product(from, to), sin_turn = abs(scalar_product(cross(from, to), line));
     return (sin_turn * max.cos - cos_turn * abs(max.sin) > T(slack)) | (cos_turn < max.cos - T(1e-3));
 }
 
-// A step that is meant for a 60th of a second, in another time. The tangent of half of its angle goes with the time: so
-// do small angles, and half a turn, which is no limit, stays one in any time but 0.
+// A step for a 60th of a second, scaled to another time. The tangent of half its angle is proportional to the time. So
+// small angles are, too, and half a turn, which is no limit, stays half a turn in any time but 0.
 template <class T>
 SWIVEL_INLINE constexpr Turned<T> timed_step(const Turned<T>& step, const T& seconds)
 {
@@ -130,7 +129,7 @@ SWIVEL_INLINE constexpr Turned<T> timed_step(const Turned<T>& step, const T& sec
     return {per * (T(1) - tangent * tangent), per * (tangent + tangent)};
 }
 
-// The previous normal, carried to the new line. Where there is none, it is another one.
+// The previous normal, brought across the new line; the other normal if there is none.
 template <class T>
 struct CarriedNormal {
     Vector<T> normal;  // unit
@@ -154,7 +153,7 @@ SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& sta
     const Vector<T> stepped = state.max.cos * previous + copysign(state.max.sin, side) * cross(line, previous);
     return {select(limited, stepped, wish), limited};
 }
-// Where the step wins: the normal that the limits leave, no further from the previous one than the frame's max swivel.
+// Where the step wins over limits: their normal, brought within the frame's max swivel of the previous one.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> last_step(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line,
                                             Word<T>& flags)
@@ -163,7 +162,7 @@ SWIVEL_INLINE constexpr Vector<T> last_step(const Continuity<T>& state, const Ve
     flags = flags | word_where(step.limited, SWIVEL_LIMITED_STEP);
     return step.normal;
 }
-// Whether the normal that the limits leave is further from the previous one than the frame's max swivel.
+// Whether the limits turn the normal further from the previous one than the frame's max swivel.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line)
 {
@@ -171,8 +170,8 @@ SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T
     return has_previous & is_beyond(previous, normal, line, state.max, 1e-6);
 }
 
-// The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows.
-// Where the step wins, the limits come first. hand: as blended, for Wish::hand.
+// The normal that limits start from: the wish, within the frame's max swivel of the previous one. Where the step wins,
+// limits come before it, so this is the wish alone. hand: as blended, for Wish::hand.
 template <class T>
 struct LimbNormal {
     Vector<T> normal;  // unit
@@ -188,7 +187,7 @@ SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const Limb
         const SteppedNormal<T> step = stepped_normal(goal.continuity, limb.normal, line);
         limb = {step.normal, limb.flags | word_where(step.limited, SWIVEL_LIMITED_STEP)};
     }
-    // Once more: rounding has left some of the line in a wish close to it. This shortens the normal by less than
+    // Again, because rounding leaves a part along the line in a wish close to it. This shortens the normal by less than
     // rounding.
     limb.normal = across(limb.normal, line);
     return limb;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Where the hand goes: the wrist's place and the hand's orientation that a goal asks for, and the line from the
-// shoulder to that place. Everything is in the arm frame.
+// The wrist's place and the hand's orientation that a goal asks for, and the line from the shoulder to that place.
+// Everything is in the arm frame.
 #pragma once
 
 #include "core/limb_goal.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// From a to b by weight, along the shorter way.
+// Blends from a to b by weight, the short way.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> blended(const Rotor<T>& a, const Rotor<T>& b, const T& weight)
 {

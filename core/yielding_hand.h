@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A hand that yields. Where the wrist misses its place, the hand turns about it, to bring the effector nearest to its
-// target. So a heel lifts where the leg is too short for the toe. Our own.
+// A hand that yields: if the wrist misses its place, the hand turns about the wrist to bring the effector nearest to
+// its target. So a heel lifts where the leg is too short for the toe. Our own.
 #pragma once
 
 #include "core/clavicle.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// How far the wrist is from the shoulder once the elbow is bent: d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
+// The distance from shoulder to wrist with a bent elbow: d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
 template <class T>
 SWIVEL_INLINE constexpr T bent_reach(const T& upper, const T& fore, const T& cos_half)
 {
@@ -16,18 +16,18 @@ SWIVEL_INLINE constexpr T bent_reach(const T& upper, const T& fore, const T& cos
     return sqrt(difference * difference + T(4) * (upper * fore) * (cos_half * cos_half));
 }
 
-// 1e-6: of the limb's length, within which a wrist is at its place (SWIVEL_REACHED).
+// In limb lengths: a wrist this near to its place is at its place (SWIVEL_REACHED).
 inline constexpr double kAtItsPlace = 1e-6;
 
-// The hand after the least turn that carries the effector onto the line from the wrist to its target.
-// hand: of unit length. missing: from where the wrist is to its place. length: of the limb.
-// Where the target is straight behind, no way round is shorter, and nothing turns.
+// Whether the wrist misses its place. missing: from the wrist to its place. length: of the limb.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> misses_its_place(const Vector<T>& missing, const T& length)
 {
     const T min = T(kAtItsPlace) * length;
     return len2(missing) > min * min;
 }
+// The hand after the least turn that carries the effector onto the line from the wrist to its target. A target straight
+// behind has no shorter way round, and nothing turns. hand: of unit length.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> yielding_hand(const Rotor<T>& hand, const Vector<T>& effector,
                                                const Vector<T>& missing, const T& length)

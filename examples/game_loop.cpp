@@ -147,8 +147,10 @@ void solve_bodies(Game& game)
     pose.results = {&game.characters[0].solved, sizeof(Character), sizeof(Float4), nullptr};
     pose.root_position = swivel::stream(game.characters, &Character::place);
     std::array<swivel::Streams, kLimbs> streams;
-    for (std::size_t n = 0; n < kLimbs; ++n)
-        streams[n].in(SWIVEL_TARGET, {&game.characters[0].targets[n], sizeof(Character)});
+    for (std::size_t n = 0; n < kLimbs; ++n) {
+        const auto target = [n](Character& each) -> Float3& { return each.targets[n]; };
+        streams[n].in(SWIVEL_TARGET, swivel::stream(game.characters, target));
+    }
     game.crowd.solve({.mask = game.turns, .streams = {streams.begin(), streams.end()}, .pose = &pose});
 }
 

@@ -65,7 +65,6 @@ static swivel_status bind_limb(uint32_t first_joint, float forwards, swivel_bind
 
 static swivel_status make_crowd(swivel_crowd** crowd)
 {
-    // [groups]
     swivel_limb_def legs = swivel_default_limb_def(CHARACTER_COUNT);
     swivel_limb_def arms = swivel_default_limb_def(CHARACTER_COUNT);
     swivel_group_def groups[GROUP_COUNT];
@@ -78,7 +77,6 @@ static swivel_status make_crowd(swivel_crowd** crowd)
     groups[ARMS].limb = &arms;
     def.groups = groups;
     def.group_count = GROUP_COUNT;
-    // [end]
     if (bind_limb(HIP, -1, &legs.binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
     if (bind_limb(SHOULDER, 1, &arms.binding) != SWIVEL_OK) return SWIVEL_INVALID_ARGUMENT;
     return swivel_crowd_create(&def, crowd);
@@ -96,7 +94,6 @@ static swivel_status limit_arms(swivel_crowd* crowd)
 
 static swivel_status solve(swivel_crowd* crowd)
 {
-    // [streams]
     const size_t stride = sizeof characters[0];
     const swivel_stream leg[] = {
         {SWIVEL_SHOULDER_POSITION, characters[0].hip, stride},
@@ -122,7 +119,6 @@ static swivel_status solve(swivel_crowd* crowd)
     streams[ARMS] = swivel_default_streams();
     streams[ARMS].fields = arm, streams[ARMS].field_count = sizeof arm / sizeof arm[0];
     job.streams = streams;  // one for each group
-    // [end]
     return swivel_solve(crowd, &job);
 }
 

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: MIT *)
-(* arm_triangle (core/reach.h) and the lift: with every operation a factor 1 + e, the bent arm, lifted, ends near (0,
+(* arm_triangle (core/solve_arm.h) and the lift: with every operation a factor 1 + e, the bent arm, lifted, ends near (0,
   0, d).
    Forward kinematics is defined here: bent is the arm in its plane, wrist_fk turns it by the shoulder's rotor. *)
 From Coq Require Import Reals Lra Psatz.

@@ -103,12 +103,29 @@ struct MovedJoint {
 struct FollowingJoint {
     std::uint32_t row, number;
 };
-// A joint that a limb turns. above: the mover of its parent.
+// A joint that a limb or look turns. above: the mover of its parent.
 struct TurnedJoint {
     std::uint32_t skeleton_joint, row, parent, above;
 };
 inline constexpr std::uint32_t kMaxTurned = 4 + SWIVEL_MAX_TWIST_BONES;
 static_assert(kMaxLookJoints == SWIVEL_MAX_LOOK_JOINTS && kMaxLookJoints <= kMaxTurned);
+// The joints that a limb or look moves.
+struct GroupJoints {
+    TurnedJoint turned[kMaxTurned];  // an upper one first
+    std::uint32_t turned_count;
+    std::uint32_t above;        // the joint of a look that moves the first of them; 0: none
+    std::uint32_t above_group;  // that look's group
+    const MovedJoint* moved;    // these joints and all below them, but those that move with another group's
+    std::uint32_t moved_count;
+    const FollowingJoint* following;  // the needed joints that move with a look, but its own
+    std::uint32_t following_count;
+};
+
+// A twist bone, by its first row and its parent's.
+struct TwistBone {
+    std::uint32_t row, parent;
+    float rest[4];  // its local rotation at rest
+};
 // A limb is linked to a prop, or to another limb's hand.
 struct LinkPlan {
     std::uint32_t row;     // the first row of its frame
@@ -117,7 +134,28 @@ struct LinkPlan {
     std::uint32_t holder;  // the first row of what the limb asks of it
     std::uint32_t number;  // the limb's place among its holders
 };
+// A body's limb.
+struct BodyLimb {
+    std::uint32_t parent, shoulder, elbow_parent, elbow, wrist_parent, wrist;  // its joints, by their first rows
+    TwistBone twist_bones[SWIVEL_MAX_TWIST_BONES];
+    float hinge[3];            // in the shoulder joint's frame
+    float clavicle_rest[4];    // the parent's local rotation at rest, where it is a clavicle
+    std::uint32_t goal;        // the first row of its goal, where the library makes it
+    std::uint32_t hand_frame;  // the first row of its hand's frame, with SWIVEL_WITH_HAND_TRANSFORM
+    float per_ahead;           // 1/s: 1 / the lookahead of the crowd's shift, with SWIVEL_WITH_NEXT_TARGET
+    PlantRules plant;          // where it is planted
+    GroundRules ground;        // where it stands on ground
+    LinkPlan link;             // where it is linked
+
+    // The rows of what carries the arm frame to the parents of elbow and wrist.
+    std::uint32_t elbow_parent_row() const
+    {
+        return elbow_parent == shoulder ? kUpperFromArmRow : kElbowParentFromArmRow;
+    }
+    std::uint32_t wrist_parent_row() const { return wrist_parent == elbow ? kForeFromArmRow : kWristParentFromArmRow; }
+};
 struct PropPlan {
+    std::uint32_t frame;  // the first row of its frame
     std::uint32_t joint;  // the first row of its joint; 0: none
     std::uint32_t holder_count;
     float max_move;  // in limb lengths of its first holder
@@ -126,39 +164,15 @@ struct ShiftPlan {
     float drop, rise;  // in limb lengths of the first limb that is to fit
     SpringRule spring;
 };
-// A group of bodies: the joints of its limb or look, by their first rows, and its constants.
-struct BodyLimb {
-    std::uint32_t parent, shoulder, elbow_parent, elbow, wrist_parent, wrist;
-    std::uint32_t twist_bones[SWIVEL_MAX_TWIST_BONES], twist_parents[SWIVEL_MAX_TWIST_BONES];
-    float hinge[3];                                                 // in the shoulder joint's frame
-    float clavicle_rest[4], twist_rest[SWIVEL_MAX_TWIST_BONES][4];  // local rotations at rest
-    TurnedJoint turned[kMaxTurned];                                 // an upper one first
-    std::uint32_t turned_count;
-    const MovedJoint* moved;  // these joints and all below them, but those that move with another group's
-    std::uint32_t moved_count;
-    std::uint32_t above;              // the joint of a look that moves the first of them; 0: none
-    std::uint32_t above_group;        // the group of that
-    const FollowingJoint* following;  // of a look: the needed joints that move with it, but its own
-    std::uint32_t following_count;
-    bool is_look;
-    std::uint32_t goal;   // the first row of its goal, where the library makes it
-    std::uint32_t frame;  // the first row of its frame, where others are linked to it
-    float up[3];          // the crowd's, of unit length
-    float rest_length;    // of both bones at rest, where rules are shares of it; of no limb that of the first it serves
-    float per_ahead;      // 1/s, of the crowd's shift
-    PlantRules rules;     // where it is planted
-    GroundRules ground;   // where it stands on ground
-    LinkPlan link;        // where it is linked
-    PropPlan prop;        // of these kinds
-    ShiftPlan shift;
+// The plan of a group of bodies. Each of the last four members is for groups of one kind.
+struct GroupPlan {
+    float up[3];         // the crowd's, of unit length
+    float rest_length;   // of both bones: a planted limb's, or those of the first limb that a shift or prop serves
+    GroupJoints joints;  // a shift and a prop have none
+    BodyLimb limb;
     LookRules look;
-
-    // The rows of what carries the arm frame to the parents of elbow and wrist.
-    std::uint32_t elbow_parent_row() const
-    {
-        return elbow_parent == shoulder ? kUpperFromArmRow : kElbowParentFromArmRow;
-    }
-    std::uint32_t wrist_parent_row() const { return wrist_parent == elbow ? kForeFromArmRow : kWristParentFromArmRow; }
+    PropPlan prop;
+    ShiftPlan shift;
 };
 
 // Where a number of a joint's matrix lies in the caller's memory, in bytes.

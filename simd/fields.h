@@ -4,10 +4,12 @@
 // formula. Layout, checks, messages, frames and swivel_describe_field() read it.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
 
 #include "include/swivel/swivel_bodies.h"
 
@@ -57,7 +59,8 @@ struct FeatureRow {
     swivel_features needs = 0, excludes = 0;
     std::uint32_t kinds = kLimbs;
 };
-// Bodies' limbs have the needs of WORLD and WITH_INCOMING without the features.
+// Bodies' limbs have the needs of WORLD and WITH_INCOMING without the features. A new feature comes last, because seeds
+// of the fuzzers name features by their place.
 constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WORLD, "WORLD", 0, 0, kFreeLimbs},
     {SWIVEL_JOINTS, "JOINTS", 0, 0, kFreeLimbs},
@@ -122,8 +125,8 @@ enum class ValuePart : std::uint8_t {
     quaternion,  // a rotation
     turn,        // cosine and sine of an angle
     axis,        // unit, as are the next three
-    half_turn,   // cosine and sine of 0 to pi
-    right_turn,  // cosine and sine of 0 to pi / 2
+    half_turn,   // cosine and sine of an angle of at most half a turn: 0 to pi
+    right_turn,  // the same of at most a right angle: 0 to pi / 2
     range,       // of angles: cosine and sine of its middle, and of half its width
     cosine,      // of a cone's max angle
     flexion,     // cosines of half the min and half the max flexion
@@ -141,7 +144,8 @@ struct PartRow {
     std::uint32_t count;       // numbers
     std::uint32_t unit_count;  // of these, so many at a time have unit length; 0: none
     float start[4];            // a value that changes nothing
-    double min = 0, max = 0;   // of the number, or of the length of several
+    // Of the number, or of the length of several.
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
 };
 constexpr PartRow kValueParts[] = {
     {ValuePart::none, 0, 0, {}},
@@ -171,7 +175,7 @@ static_assert([] {
 }());
 constexpr const PartRow& row_of(ValuePart part) { return kValueParts[static_cast<std::size_t>(part)]; }
 struct ValueLayout {
-    const char* range;  // what its numbers must be, in words
+    const char* words;  // what its numbers must be
     ValuePart parts[4] = {};
 };
 inline constexpr std::uint32_t kMaxComponents = 25;  // of an input, and of what is carried
@@ -201,6 +205,22 @@ struct FieldRow {
     // Component c of a value of any number of components: values of twist bones are many of the row's.
     constexpr float start_of(std::uint32_t c) const { return start[c % component_count]; }
 };
+// Calls take(part, number) for each part of a field's value; `number` is the place of the part's first number. A group
+// has only the value's last `count` numbers: a body's clavicle is its share alone.
+template <class Take>
+constexpr void for_each_part(const FieldRow& row, std::uint32_t count, const Take& take)
+{
+    std::uint32_t left_out = row.component_count - count, number = 0;
+    for (const ValuePart part : row.value.parts) {
+        const std::uint32_t part_count = row_of(part).count;
+        if (left_out >= part_count) {  // ValuePart::none is always left out
+            left_out -= part_count;
+        } else {
+            take(part, number);
+            number += part_count;
+        }
+    }
+}
 constexpr swivel_field_kind kInput = SWIVEL_FIELD_INPUT, kResult = SWIVEL_FIELD_RESULT, kCarried = SWIVEL_FIELD_CARRIED;
 constexpr ValueLayout kPosition = {"no further than 1e15", {ValuePart::position}},
                       kPoint = {"no further than 1e15", {ValuePart::point}},
@@ -210,7 +230,8 @@ constexpr ValueLayout kPosition = {"no further than 1e15", {ValuePart::position}
                       kCone = {"a unit axis and a cosine; swivel_cone() makes them",
                                {ValuePart::axis, ValuePart::cosine}},
                       kRange = {"ranges of angles; swivel_range() makes them", {ValuePart::range}},
-                      kBox = {kRange.range, {ValuePart::range, ValuePart::range, ValuePart::range}};
+                      kBox = {kRange.words, {ValuePart::range, ValuePart::range, ValuePart::range}};
+void start_has_another_size();  // no constant expression calls it, so such a row of kFields does not compile
 // start: unless it is that of the value's parts.
 constexpr FieldRow input(swivel_field field, const char* name, swivel_features needs, const ValueLayout& value,
                          std::initializer_list<float> start = {})
@@ -218,6 +239,7 @@ constexpr FieldRow input(swivel_field field, const char* name, swivel_features n
     FieldRow row{field, name, 0, kInput, needs, 0, value};
     for (const ValuePart part : value.parts)
         for (std::uint32_t n = 0; n < row_of(part).count; ++n) row.start[row.component_count++] = row_of(part).start[n];
+    if (start.size() != 0 && start.size() != row.component_count) start_has_another_size();
     float* number = row.start;
     for (const float x : start) *number++ = x;
     return row;
@@ -347,8 +369,13 @@ constexpr std::uint32_t kinds_of(const FieldRow& row)
     return kinds;
 }
 
-// Whether NaN stands for a value that is not given, which the library or the pose then gives.
-constexpr bool may_be_missing(const FieldRow& row) { return row.starts == Start::unknown || row.field == SWIVEL_HAND; }
+// Whether limbs of a group start with NaN for a value that is not given. The library or the pose then gives it, or else
+// it is bad input. A hand that aims is relative to the forearm and starts as the identity.
+constexpr bool may_be_missing(const FieldRow& row, swivel_features features)
+{
+    const bool is_posed_hand = row.field == SWIVEL_HAND && features & kBody && !(features & SWIVEL_WITH_AIM);
+    return row.starts == Start::unknown || is_posed_hand;
+}
 
 // The features with which limbs carry something from solve to solve.
 inline constexpr swivel_features kCarryingFeatures = [] {
@@ -406,8 +433,11 @@ inline constexpr swivel_features kLineFeatures = [] {
 inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX;
 // All of them.
 inline constexpr swivel_features kSwivelLimits = kLineFeatures | kBoxFeatures | SWIVEL_WITH_REGION;
-// The lines, their features' bits and their flags are in one order.
+// The lines, their features and their flags are in one order. Each line has one feature, whose bit places it behind the
+// lines of lower bits (limit_stages.h).
 static_assert([] {
+    for (const swivel_field limit : kLineLimits)
+        if (!std::has_single_bit(row_of(limit).needs)) return false;
     std::size_t n = 0;
     swivel_features before = 0;
     for (const FlagRow& row : kFlags) {

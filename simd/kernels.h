@@ -31,14 +31,14 @@ struct SolveRun {
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
     const swivel_binding* binding;              // used with SWIVEL_JOINTS and kBody
     const std::uint16_t* first_row;             // of each field, among input or result rows
-    bool from_memory;                           // the job's rows do not fit the caches
-    bool keeps;                                 // of limbs with bad input only the flags are written
+    bool exceeds_cache;                         // the job's rows do not fit the caches
+    bool keeps_pose;                            // of limbs with bad input only the flags are written
     const std::uint32_t* mask;      // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
     std::size_t first_lane;         // of the run, in the mask
-    std::size_t padding;            // the first lane of the run that is padding, which no mask chooses
+    std::size_t first_padding;      // the first lane of the run that is padding, which no mask chooses
     const StageList* stages;        // of whole limbs
     StripMemory strip;              // the same
-    const BodyLimb* limb;           // if the group is of bodies
+    const GroupPlan* plan;          // if the group is of bodies
     std::size_t body_block_floats;  // the same: from one block to the next in strip.bodies
     const swivel_region* region;    // with SWIVEL_WITH_REGION
 };
@@ -49,8 +49,8 @@ inline constexpr std::uint32_t kEveryLane = ~0u;
 [[gnu::always_inline]] inline std::uint32_t chosen_lanes(const SolveRun& run, std::size_t limb, std::size_t lane_count)
 {
     if (!run.mask) return kEveryLane;
-    if (limb >= run.padding) return 0;
-    const std::size_t lane = run.first_lane + limb, left = run.padding - limb,
+    if (limb >= run.first_padding) return 0;
+    const std::size_t lane = run.first_lane + limb, left = run.first_padding - limb,
                       count = left < lane_count ? left : lane_count;
     return run.mask[lane / 32] >> lane % 32 & ((1u << count) - 1);
 }
@@ -75,8 +75,8 @@ static_assert(kFormulaFeatures == 7);
 
 // Plain arms, and packing: simd/kernels/arm_kernels.cpp.
 struct ArmKernels {
-    void (*solve[8])(const SolveRun& run);
-    void (*pack)(const PackRun& run);  // of any group
+    void (*solve_arms[8])(const SolveRun& run);  // by the run's kFormulaFeatures
+    void (*pack)(const PackRun& run);            // of any group
 };
 
 // How many arcs of swivels limits can leave: two for each line, and those of boxes and a region. core/allowed_arcs.h
@@ -89,7 +89,7 @@ struct ArcEnds {
 
 // Whole limbs: simd/kernels/limb_kernels.cpp.
 struct LimbKernels {
-    void (*solve)(const SolveRun& run);
+    void (*solve_limbs)(const SolveRun& run);
     // For one limb of a run: stores its arcs and returns how many there are. Null but in the build for single limbs
     // (dispatch.h).
     std::uint32_t (*allowed_arcs)(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMaxArcs]);
@@ -99,13 +99,13 @@ struct LimbKernels {
 struct BodyKernels {
     // Fills in the rows of all joints of a block from what the pose says of each.
     void (*forward)(const BodyPlan& plan, const BodyBlock& block);
-    // Finds how a solved limb moves its joints and all below them (kMotionRow).
-    void (*move)(const BodyBlock& block, const BodyLimb& limb);
+    // Finds how a solved limb moves the joints that it turns and all below them (kMotionRow).
+    void (*move)(const BodyBlock& block, const GroupJoints& joints);
     // These fill in a block's rows for a joint to be written (OutRow), where the limbs have moved it to.
     // - carry: any joint that moves, as a pose in the body's space has it.
-    // - place: a needed joint's rotation and place, in the body's space.
+    // - locate: a needed joint's rotation and position, in the body's space.
     void (*carry)(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint);
-    void (*place)(const BodyBlock& block, const BodyJoint& joint);
+    void (*locate)(const BodyBlock& block, const BodyJoint& joint);
 };
 
 struct Kernels {

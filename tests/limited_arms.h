@@ -109,9 +109,9 @@ struct LimitedArms {
     {
         // The first two are there by one bit, in half of the crowds. The others are by two, in a quarter.
         std::uint32_t kinds = random.word();
-        for (std::size_t n = 0; n < std::size(kSwivelLimits); ++n) {
+        for (std::size_t n = 0; n < std::size(kLimitFields); ++n) {
             const std::uint32_t bits = n < 2 ? 1 : 3;
-            if ((kinds & bits) == bits) features |= describe(kSwivelLimits[n]).needs;
+            if ((kinds & bits) == bits) features |= describe(kLimitFields[n]).needs;
             kinds >>= n < 2 ? 1 : 2;
         }
         if (has_region) features |= SWIVEL_WITH_REGION, region = random_region(random);

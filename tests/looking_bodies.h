@@ -169,11 +169,12 @@ struct UprightCrowd {
     {
         std::ranges::fill(rotations, std::array<Float4, 4>{{{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}});
     }
-    void solve(const std::vector<Float3>& targets, float time = 0)
+    void solve(const std::vector<Float3>& targets, float time = 0, float weight = 1)
     {
         swivel_pose pose = swivel_default_pose();
         pose.rotations = {rotations.data(), sizeof rotations[0], sizeof(Float4), nullptr};
         pose.time = {&time, 0};
+        if (weight != 1) pose.weight = {&weight, 0};
         crowd.write(SWIVEL_LOOK_TARGET, 0, std::span(targets));
         crowd.solve({.pose = &pose});
     }

@@ -2,7 +2,7 @@
 #
 # The promise: an installed swivel consists of the headers, the libraries, the command with its benchmarks, package files and the
 # licence. The page's program is installed where tools/view/build has made it. You may move all. C11 and C++20 programs outside the tree
-# find it through CMake and pkg-config. They get its place and no other options. Only a program that explains links what explains.
+# find it through CMake and pkg-config. They get its place and no other options. Only users of swivel_explain() link swivel_explain.
 #   BUILD: the build folder to install from. WORK: an own folder. SOURCE: the repository. LIBDIR, BINDIR, DOCDIR, DATADIR, VERSION,
 #   MAJOR. SHARED, TBB, TOOLS, BENCH: what BUILD has. FLAGS: what the build's programs need. NM, READELF: tools. See package/host.cmake, too.
 cmake_minimum_required(VERSION 3.22)
@@ -47,7 +47,7 @@ file(REMOVE_RECURSE ${WORK})
 set(page ${SOURCE}/build/view/view.html)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
 must_have(${WORK}/first ${page})
-if(TOOLS)  # This tree has the page or lacks it. The same installation, told of another place, meets both cases.
+if(TOOLS)  # run the install script twice, without and with view.html
   file(READ ${BUILD}/cmake_install.cmake script)
   string(REPLACE \"${page}\" \"${WORK}/view.html\" elsewhere "${script}")
   if(elsewhere STREQUAL script)
@@ -136,12 +136,10 @@ find_program(PKG_CONFIG pkg-config REQUIRED)
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 set(explains "")
 set(needed "")
-set(static_option "")
 if(SHARED)
   set(ENV{LD_LIBRARY_PATH} ${prefix}/${LIBDIR})
 else()
   set(explains -lswivel_explain)
-  set(static_option --static)
   if(TBB)
     set(needed -ltbb)
   endif()
@@ -149,7 +147,7 @@ else()
 endif()
 # Fills `options` with what pkg-config says of a package. Besides places these must be the remaining arguments.
 function(must_be_linked_by package)
-  run(${PKG_CONFIG} --cflags --libs ${static_option} ${package})
+  run(${PKG_CONFIG} --cflags --libs ${package})
   separate_arguments(options UNIX_COMMAND "${output}")
   set(places "")
   foreach(option IN LISTS options)  # lib/pkgconfig/../../include is include

@@ -14,7 +14,7 @@ struct UnmovedProp {
     std::vector<Held> points, hands;
     std::vector<Ball> moves;                 // by which each arm reaches
     std::vector<double> nearest;             // how near to its shoulder each gets
-    std::vector<bool> is_posed, is_written;  // each arm's goal: nothing of it was written, all of it
+    std::vector<bool> is_posed, is_written;  // each arm's goal: nothing of it was written, its target at least
     double max, off;                         // off: what floats may be off
 };
 
@@ -191,7 +191,7 @@ private:
         if (has_target) point.place = vec(target) - root;
         if (has_hand) point.rotation = quat(hand).normalized();
         is.points.push_back(point);
-        is.is_posed.push_back(!has_target && !has_hand), is.is_written.push_back(has_target && has_hand);
+        is.is_posed.push_back(!has_target && !has_hand), is.is_written.push_back(has_target);
     }
     static Held between(const Held& a, const Held& b, double share)
     {

@@ -132,15 +132,15 @@ inline void check_forward(const Crowd& crowd, std::uint32_t group, const std::ve
 
 inline constexpr swivel_features kWorldJointsHand = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
 // The limits of the swivel, in the order in which LimitedArms draws them.
-inline constexpr swivel_field kSwivelLimits[] = {SWIVEL_SHOULDER_CONE, SWIVEL_HUMERAL_TWIST, SWIVEL_HAND_CONE,
-                                                 SWIVEL_FOREARM_TWIST, SWIVEL_HAND_TWIST,    SWIVEL_SHOULDER_BOX,
-                                                 SWIVEL_WRIST_BOX};
+inline constexpr swivel_field kLimitFields[] = {SWIVEL_SHOULDER_CONE, SWIVEL_HUMERAL_TWIST, SWIVEL_HAND_CONE,
+                                                SWIVEL_FOREARM_TWIST, SWIVEL_HAND_TWIST,    SWIVEL_SHOULDER_BOX,
+                                                SWIVEL_WRIST_BOX};
 // Those of the upper arm that are no box.
 inline constexpr swivel_features kUpperArmLimits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
 // The features of all limits, the flexion's too.
 inline const swivel_features kLimits = [] {
     swivel_features limits = SWIVEL_WITH_FLEXION_LIMIT;
-    for (const swivel_field limit : kSwivelLimits) limits |= describe(limit).needs;
+    for (const swivel_field limit : kLimitFields) limits |= describe(limit).needs;
     return limits;
 }();
 // The flag that a limit of the swivel has, by its name; 0 for another field.

@@ -13,7 +13,7 @@
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/rest.h"
-#include "batch/solve/solve.h"
+#include "batch/solve/schedule.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
@@ -188,7 +188,7 @@ swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t gro
                            swivel_in values)
 {
     const Use use(crowd, Sharing::alone);
-    swivel_status status = use.of(group, first, limb_count);
+    swivel_status status = use.for_limbs(group, first, limb_count);
     if (status == SWIVEL_OK) status = check_values(*crowd, group, field, limb_count, values.data, values.stride, true);
     if (status != SWIVEL_OK) return status;
     copy_in(rows_of(crowd->groups[group], field), first, limb_count, values);
@@ -200,7 +200,7 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::alone);
-    swivel_status status = use.of(group, first, limb_count);
+    swivel_status status = use.for_limbs(group, first, limb_count);
     if (status == SWIVEL_OK) status = check_field(*crowd, group, field, true);
     if (status != SWIVEL_OK) return status;
     const Group& target_group = crowd->groups[group];
@@ -222,7 +222,7 @@ swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_
                           uint32_t limb_count, swivel_out values)
 {
     const Use use(crowd, Sharing::shared);
-    swivel_status status = use.of(group, first, limb_count);
+    swivel_status status = use.for_limbs(group, first, limb_count);
     if (status == SWIVEL_OK) status = check_values(*crowd, group, field, limb_count, values.data, values.stride, false);
     if (status != SWIVEL_OK) return status;
     copy_out(rows_of(crowd->groups[group], field), first, limb_count, values);

@@ -2,53 +2,23 @@
 //
 // The C entry points that solve limbs and choose them. A job is checked (job_check.cpp), becomes Work, and is solved.
 #include <bit>
-#include <cstring>
-#include <optional>
 
 #include "batch/api/check.h"
+#include "batch/api/doubts.h"
 #include "batch/api/job_check.h"
 #include "batch/api/use.h"
 #include "batch/api/workspace.h"
 #include "batch/crowd/lane_mask.h"
 #include "batch/refusal/sized.h"
 #include "batch/solve/budget.h"
-#include "batch/solve/pose.h"
+#include "batch/solve/schedule.h"
 #include "batch/solve/solve.h"
-#include "simd/float_env.h"
-#include "simd/rows.h"
 
 using namespace swivel;
 
 namespace {
 
-// The first body that a job solves; none: all are left out.
-std::optional<std::uint32_t> first_body(const Work& work)
-{
-    if (!work.mask && work.blocks.count > 0) return work.blocks.first * SWIVEL_LANES;
-    for (std::uint32_t block = work.blocks.first; block < work.blocks.first + work.blocks.count; ++block)
-        if (const LaneMask bits = chosen_limbs(work.crowd.groups[0], block, work.mask))
-            return block * SWIVEL_LANES + static_cast<std::uint32_t>(std::countr_zero(bits));
-    return std::nullopt;
-}
-// Keeps what explanations doubt of a solve: resets of all bodies, and the time of its pose.
-void note_solve(swivel_crowd& crowd, const Work& work)
-{
-    const FloatEnv env;  // a time may be anything
-    const std::uint32_t reset = crowd.reset_limbs.exchange(0, std::memory_order_relaxed);
-    if (reset >= crowd.groups[0].limb_count)
-        crowd.solves_anew.fetch_add(1, std::memory_order_relaxed);
-    else
-        crowd.solves_anew.store(0, std::memory_order_relaxed);
-    const swivel_pose pose = full_pose(work.pose);
-    const std::optional<std::uint32_t> body = first_body(work);
-    if (!body || !pose.time.data) return crowd.doubted_time.store(kNoDoubt, std::memory_order_relaxed);
-    float time;
-    std::memcpy(&time, static_cast<const char*>(pose.time.data) + *body * pose.time.stride, sizeof time);
-    const bool is_in_place = !pose.results.data || pose.results.data == pose.rotations.data;
-    const bool is_doubted = time > 1 || (time == 0 && is_in_place);
-    crowd.doubted_time.store(is_doubted ? time : kNoDoubt, std::memory_order_relaxed);
-}
-
+// How many limbs a job solves.
 std::uint32_t count_limbs(const Work& work)
 {
     std::uint32_t limb_count = 0;
@@ -94,16 +64,13 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
                     .groups = job.groups,
                     .mask = job.mask,
                     .streams = job.streams,
-                    .from_memory = is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks)),
+                    .exceeds_cache = exceeds_cache(*crowd, block_count_of(*crowd, job.groups, blocks)),
                     .strip = workspace.strip,
                     .pose = job.pose,
                     .sample = job.sample,
                     .sample_user = job.sample_user};
-    if (work.pose) note_solve(*crowd, work);
-    if (job.on_this_thread)
-        solve_here(work);
-    else
-        solve_in_chunks(work);
+    if (work.pose) note_doubts(work);
+    if (job.on_this_thread || !solve_on_threads(work)) solve_here(work);
     if (job.solved_count) *job.solved_count = count_limbs(work);
     return SWIVEL_OK;
 }

@@ -9,8 +9,8 @@
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/pose.h"
-#include "batch/solve/solve.h"
 #include "batch/solve/streams_of.h"
+#include "batch/solve/work.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -52,11 +52,11 @@ swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
 {
     for (std::uint32_t g = 0; job.groups && g < crowd.group_count; ++g) {
         if (!(crowd.groups[g].features & SWIVEL_WITH_LINK)) continue;
-        const BodyLimb& limb = crowd.groups[g].limb;
+        const LinkPlan& link = crowd.groups[g].plan.limb.link;
         if (const bool is_named_here = is_named(job.groups, g);
-            is_named_here != is_named(job.groups, limb.link.group) && (is_named_here || limb.link.is_prop))
+            is_named_here != is_named(job.groups, link.group) && (is_named_here || link.is_prop))
             return fail(SWIVEL_INVALID_ARGUMENT, "the job names group %u, but not group %u; they are linked, name both",
-                        is_named_here ? g : limb.link.group, is_named_here ? limb.link.group : g);
+                        is_named_here ? g : link.group, is_named_here ? link.group : g);
     }
     return SWIVEL_OK;
 }
@@ -122,7 +122,6 @@ swivel_status check_all_streams(const swivel_crowd& crowd, const swivel_job& job
         const auto g = static_cast<std::uint32_t>(&group - crowd.groups);
         if (status == SWIVEL_OK) status = check_streams(crowd, g, streams_at(job.streams, n), job.pose);
     });
-    if (kChecksUse && status == SWIVEL_OK) status = check_overlap(crowd, job, blocks);
     return status;
 }
 
@@ -137,6 +136,7 @@ swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel
     if (status == SWIVEL_OK) status = check_pose(crowd, job.groups, job.pose);
     if (status == SWIVEL_OK) status = check_links(crowd, job);
     if (status == SWIVEL_OK && job.streams) status = check_all_streams(crowd, job, blocks);
+    if (kChecksUse && status == SWIVEL_OK) status = check_overlap(crowd, job, blocks);
     return status;
 }
 

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "batch/api/pose_check.h"
 
+#include <algorithm>
 #include <cstring>
 
+#include "batch/api/pose_arrays.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/pose.h"
-#include "batch/solve/solve.h"
-#include "simd/transpose.h"
+#include "batch/solve/work.h"
 
 namespace swivel {
 
 namespace {
-
-// Bytes of a pose's rotation or matrix, as far as they are touched.
-std::size_t rotation_bytes(swivel_pose_form form)
-{
-    return form == SWIVEL_ROTATIONS ? 4 * sizeof(float) : entry_offset(form, 2, 3) + sizeof(float);
-}
 
 swivel_status check_stride(const char* name, const char* what, std::size_t stride, std::size_t bytes, bool may_repeat)
 {
@@ -53,7 +48,7 @@ bool needs_time(const swivel_crowd& crowd, const std::uint32_t* groups)
 {
     for (std::uint32_t g = 0; g < crowd.group_count; ++g)
         if (is_named(groups, g) &&
-            (crowd.groups[g].features & (SWIVEL_WITH_PLANT | kShift) || crowd.groups[g].limb.look.rate > 0))
+            (crowd.groups[g].features & (SWIVEL_WITH_PLANT | kShift) || crowd.groups[g].plan.look.rate > 0))
             return true;
     return false;
 }
@@ -75,6 +70,41 @@ swivel_status check_outputs(const swivel_crowd& crowd, const swivel_pose& pose)
     if (status == SWIVEL_OK) status = check_values(crowd, "joint_positions", pose.joint_positions, float3, true);
     if (status != SWIVEL_OK || !moves) return status;
     return check_values(crowd, "translations", pose.translations, float3, !pose.translation_results.data);
+}
+
+// Refuses an array without offsets in which results of two bodies overlap.
+swivel_status check_bodies_apart(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose& pose,
+                                 const PoseArray& array)
+{
+    const std::uint64_t body_count = crowd.groups[0].limb_count, body_step = array.values.body_stride,
+                        joint_step = array.values.joint_stride, bytes = array.bytes;
+    if (array.use == PoseUse::read || array.values.offsets || body_count == 1) return SWIVEL_OK;
+    std::uint32_t first = UINT32_MAX, last = 0;
+    for_each_joint(crowd, groups, pose, array.use, [&](std::uint32_t joint) {
+        first = std::min(first, joint);
+        last = std::max(last, joint);
+    });
+    if (first >= last) return SWIVEL_OK;
+    const bool is_body_by_body = body_step >= (last - first) * joint_step + bytes,
+               is_joint_by_joint = joint_step >= (body_count - 1) * body_step + bytes;
+    if (is_body_by_body || is_joint_by_joint) return SWIVEL_OK;
+    swivel_status status = SWIVEL_OK;
+    for_each_joint(crowd, groups, pose, array.use, [&](std::uint32_t low) {
+        for_each_joint(crowd, groups, pose, array.use, [&](std::uint32_t high) {
+            if (high <= low || status != SWIVEL_OK) return;
+            // No lower joint of another body is nearer to the higher joint of body 0 than one of these two.
+            const std::uint64_t at = (high - low) * joint_step, before = at / body_step, behind = before + 1;
+            const bool overlaps_before = before > 0 && before < body_count && at - before * body_step < bytes,
+                       overlaps_behind = behind < body_count && behind * body_step - at < bytes;
+            if (!overlaps_before && !overlaps_behind) return;
+            status = fail(SWIVEL_INVALID_ARGUMENT,
+                          "the pose's %s: by a body_stride of %zu joint %u of body %llu overlaps joint %u of body 0; "
+                          "give the bytes from body to body, such as the size of your structure",
+                          array.name, array.values.body_stride, low,
+                          static_cast<unsigned long long>(overlaps_before ? before : behind), high);
+        });
+    });
+    return status;
 }
 
 }  // namespace
@@ -121,8 +151,13 @@ swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
 
 swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given)
 {
-    const swivel_status status = check_pose(crowd, given);
-    if (status != SWIVEL_OK || !given || full_pose(given).time.data || !needs_time(crowd, groups)) return status;
+    swivel_status status = check_pose(crowd, given);
+    if (status != SWIVEL_OK || !given) return status;
+    const swivel_pose pose = full_pose(given);
+    for_each_array(pose, [&](const PoseArray& array) {
+        if (status == SWIVEL_OK) status = check_bodies_apart(crowd, groups, pose, array);
+    });
+    if (status != SWIVEL_OK || pose.time.data || !needs_time(crowd, groups)) return status;
     return fail(SWIVEL_INVALID_ARGUMENT,
                 "the pose has no time, which plants, shifts and looks with a rate need; give the seconds since each "
                 "body's last solve");

@@ -18,7 +18,7 @@ inline constexpr bool kChecksUse = false;
 // Calls that may run beside others of their kind, and calls that may not.
 enum class Sharing { shared, alone };
 
-// One call's use of a crowd. status: whether it may go on.
+// One call's use of a crowd. status: whether the call may go on.
 class Use {
 public:
     Use(const swivel_crowd* crowd, Sharing sharing) : crowd_(crowd), weight_(sharing == Sharing::alone ? kAlone : 1)
@@ -32,8 +32,8 @@ public:
     Use(const Use&) = delete;
     Use& operator=(const Use&) = delete;
 
-    // The same, for limbs of a group.
-    swivel_status of(std::uint32_t group, std::uint32_t first, std::uint32_t limb_count) const
+    // Whether it may go on with these limbs of a group.
+    swivel_status for_limbs(std::uint32_t group, std::uint32_t first, std::uint32_t limb_count) const
     {
         return status == SWIVEL_OK ? check(*crowd_, group, first, limb_count) : status;
     }

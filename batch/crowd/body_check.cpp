@@ -13,7 +13,7 @@ namespace swivel {
 
 namespace {
 
-// The line of a call that failed, as one about a group or the skeleton.
+// Fails with the last error's line, after the name of a group or the skeleton.
 swivel_status fail_in(const char* what, swivel_status status)
 {
     constexpr char call[] = "swivel_bind_joints: ";
@@ -23,7 +23,7 @@ swivel_status fail_in(const char* what, swivel_status status)
     return fail(status, "%s: %s", what, line + (names_call ? sizeof call - 1 : 0));
 }
 
-// Checks what the features ask of the joints.
+// Checks that a group's joints suit its features.
 swivel_status check_turned(const swivel_skeleton& skeleton, const GroupDef& group)
 {
     const swivel_limb_joints limb = joints_of(group);
@@ -34,7 +34,7 @@ swivel_status check_turned(const swivel_skeleton& skeleton, const GroupDef& grou
     return SWIVEL_OK;
 }
 
-// Whether a group's constants are within the table's bounds. Numbers for joints that a look does not have may be any.
+// Checks a group's constants against the table's bounds. Numbers for joints that a look lacks may be any.
 swivel_status check_constants(std::uint32_t g, const GroupDef& group, std::string_view structure)
 {
     for (const ConstantRow& row : constants()) {
@@ -63,7 +63,7 @@ swivel_status check_plant(std::uint32_t g, const GroupDef& group)
 
 double length2_of(const float (&v)[3]) { return double(v[0]) * v[0] + double(v[1]) * v[1] + double(v[2]) * v[2]; }
 
-// Limbs that are to fit and what shifts the body for them go together.
+// A shift needs limbs WITH_PELVIS_FIT, and these need a shift.
 swivel_status check_fits(const swivel_crowd_def& def)
 {
     std::uint32_t shifts = 0, limbs = 0, shift = 0, limb = 0;  // how many, and the last of each
@@ -95,7 +95,7 @@ swivel_status check_ground(std::uint32_t g, const GroupDef& group)
     return check_constants(g, group, "ground");
 }
 
-// Checks what a limb is linked to, and how many hold each prop.
+// Checks that a limb is linked to a prop or to an earlier limb with a hand.
 swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 {
     const GroupDef group = unlinked_group(def, g);
@@ -223,8 +223,7 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     return fail_in(name, status);
 }
 
-// Limbs hang beside each other: what one turns is above no joint that another turns. A look may be above limbs, and
-// above looks that come after it.
+// No limb may turn a joint above a joint that another group turns. A look may be above limbs and above later looks.
 swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
     const GroupDef group = unlinked_group(def, g);
@@ -246,7 +245,7 @@ swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& sk
     return SWIVEL_OK;
 }
 
-// Refuses the first needed joint that has no rest pose.
+// Refuses a skeleton in which a needed joint has no valid rest pose.
 swivel_status check_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
 {
     RestJoint rest;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The joints of a crowd of bodies, as a def names them: which of the skeleton a group's limb turns, and how they hang
-// below each other. The def's structures have the sizes that they must have.
+// The joints that the groups of a def turn and need, and their order in the skeleton. The sizes of the def's structures
+// are already checked.
 #pragma once
 
 #include "batch/crowd/crowd.h"
@@ -21,7 +21,7 @@ inline swivel_limb_joints joints_of(const GroupDef& group)
     return element(group.joints, 0, swivel_default_limb_joints(0, 0, 0));
 }
 
-// The joints that a group's limb or look turns, an upper one first.
+// The joints that a group's limb or look turns, upper ones first.
 struct TurnedJoints {
     std::uint32_t joint[kMaxTurned];
     std::uint32_t count = 0;
@@ -43,7 +43,7 @@ struct TurnedJoints {
     const std::uint32_t* end() const { return joint + count; }
 };
 
-// Whether a joint is another or above it. Both are in the skeleton, and parents lead to a root.
+// Whether `joint` is `below` or above it. Both are in the skeleton, and parents lead to a root.
 inline bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::uint32_t below)
 {
     for (auto at = static_cast<std::int32_t>(below); at >= 0; at = parent_of(skeleton, static_cast<std::uint32_t>(at)))
@@ -51,7 +51,7 @@ inline bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::
     return false;
 }
 
-// The joints at the lower ends of what a group needs: it needs them and all joints above them.
+// The lowest joints that a group needs; it also needs all joints above them.
 inline constexpr std::uint32_t kMaxNeededEnds = 1 + SWIVEL_MAX_TWIST_BONES;
 struct NeededEnds {
     std::uint32_t joint[kMaxNeededEnds];

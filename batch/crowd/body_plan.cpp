@@ -59,7 +59,7 @@ LookRules look_rules(const swivel_look_def& look)
     return rules;
 }
 
-// The first group with a feature; there is one.
+// The first group with a feature, which must exist.
 GroupDef first_with(const swivel_crowd_def& def, swivel_features feature)
 {
     std::uint32_t g = 0;
@@ -74,39 +74,40 @@ float rest_length(const swivel_crowd_def& def, const GroupDef& group)
 
 }  // namespace
 
-void plan_group(const swivel_crowd_def& def, const GroupDef& group, BodyLimb& limb)
+void plan_group(const swivel_crowd_def& def, const GroupDef& group, GroupPlan& plan)
 {
     constexpr double kLongest = 1e15;
     const Vector<double> up = normalise(vector<double>(def.up[0], def.up[1], def.up[2]));
-    for (std::size_t c = 0; c < 3; ++c) limb.up[c] = static_cast<float>(up.c[c]);
-    limb.rules = plant_rules(group.plant);
-    limb.shift = {group.shift.drop, group.shift.rise, spring_rule(group.shift.half_life)};
+    for (std::size_t c = 0; c < 3; ++c) plan.up[c] = static_cast<float>(up.c[c]);
+    plan.limb.plant = plant_rules(group.plant);
+    plan.shift = {group.shift.drop, group.shift.rise, spring_rule(group.shift.half_life)};
     if (group.features & SWIVEL_WITH_NEXT_TARGET) {
         const float ahead = first_with(def, kShift).shift.lookahead;
-        limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
+        plan.limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
     }
     if (group.features & (SWIVEL_WITH_PLANT | kShift))
-        limb.rest_length = rest_length(def, group.features & kShift ? first_with(def, SWIVEL_WITH_PELVIS_FIT) : group);
-    if (group.features & SWIVEL_WITH_GROUND) limb.ground = ground_rules(group.ground);
-    limb.prop.max_move = group.prop.max_move;
-    if (group.features & kLook) limb.look = look_rules(group.look);
+        plan.rest_length = rest_length(def, group.features & kShift ? first_with(def, SWIVEL_WITH_PELVIS_FIT) : group);
+    if (group.features & SWIVEL_WITH_GROUND) plan.limb.ground = ground_rules(group.ground);
+    plan.prop.max_move = group.prop.max_move;
+    if (group.features & kLook) plan.look = look_rules(group.look);
 }
 
 void plan_links(const swivel_crowd_def& def, const JointPlan& plan, swivel_crowd& crowd)
 {
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         const GroupDef group = unlinked_group(def, g);
-        BodyLimb& limb = crowd.groups[g].limb;
-        if (group.features & kProp && group.prop.joint >= 0) limb.prop.joint = plan.row_of(group.prop.joint);
+        GroupPlan& planned = crowd.groups[g].plan;
+        if (group.features & kProp && group.prop.joint >= 0) planned.prop.joint = plan.first_row_of(group.prop.joint);
         if (!(group.features & SWIVEL_WITH_LINK)) continue;
-        BodyLimb& held = crowd.groups[group.link].limb;
-        limb.link.row = held.frame;
-        limb.link.group = group.link;
-        limb.link.is_prop = crowd.groups[group.link].features & kProp;
-        if (!limb.link.is_prop) continue;
+        GroupPlan& held = crowd.groups[group.link].plan;
+        LinkPlan& link = planned.limb.link;
+        link.group = group.link;
+        link.is_prop = crowd.groups[group.link].features & kProp;
+        link.row = link.is_prop ? held.prop.frame : held.limb.hand_frame;
+        if (!link.is_prop) continue;
         if (held.prop.holder_count == 0) held.rest_length = rest_length(def, group);
-        limb.link.number = held.prop.holder_count++;
-        limb.link.holder = held.frame + kHoldersRow + limb.link.number * kHolderRows;
+        link.number = held.prop.holder_count++;
+        link.holder = held.prop.frame + kHoldersRow + link.number * kHolderRows;
     }
 }
 

@@ -10,7 +10,7 @@ namespace swivel {
 
 namespace {
 
-// Where a member lies, how many floats it has, and what it is called.
+// A member's place, its number of floats, and its name.
 #define SWIVEL_MEMBER(structure, name)                                            \
     offsetof(GroupDef, structure), offsetof(decltype(GroupDef::structure), name), \
         sizeof(decltype(GroupDef::structure)::name) / sizeof(float), #structure, #name
@@ -18,7 +18,7 @@ namespace {
 constexpr float kMaxValue = 1000;  // of lengths in limb lengths, of times and shares
 constexpr float kFar = 1e15f;      // of lengths in the caller's unit
 
-// Structures, and the constants of each, stand in the order of the header.
+// In the order of the header.
 constexpr ConstantRow kConstants[] = {
     {SWIVEL_MEMBER(plant, lock_radius), 0, kMaxValue, "limb lengths",
      "a point locks only within this of where it is animated"},
@@ -40,7 +40,7 @@ constexpr ConstantRow kConstants[] = {
     {SWIVEL_MEMBER(ground, heel), -kFar, kFar, "the bones' unit",
      "a point of the sole in the wrist joint's frame; zeros: the wrist itself"},
     {SWIVEL_MEMBER(ground, toe_clearance), 0, kFar, "the bones' unit",
-     "height of the effector over the ground where it stands"},
+     "distance of the effector from the ground's plane where it stands, along the normal"},
     {SWIVEL_MEMBER(ground, heel_clearance), 0, kFar, "the bones' unit",
      "the same of the heel; 0 for both where both are on the sole"},
     {SWIVEL_MEMBER(ground, cos_max), 0, 1, "", "cosine of the angle that the foot turns at most"},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The table of the constants of plants, grounds, shifts, props and looks. A row is all that the library knows of one
-// but its default, which is in swivel_bodies.h, its formula, and rules between several (body_check.cpp). Checks,
-// swivel_describe_constant(), bindings, scenes and the page of fields read it.
+// The table of the constants of plants, grounds, shifts, props and looks. Defaults are in swivel_bodies.h, and rules
+// between several constants in body_check.cpp. Checks, swivel_describe_constant(), bindings, scenes and the page of
+// fields read the table.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,15 @@
 
 namespace swivel {
 
-// A float, or several that have the same bounds. A constant of SWIVEL_MAX_LOOK_JOINTS floats, and no other, is a look's
-// and has one float for each of its joints. swivel_constant_info has this count, too, so bindings tell such a constant
-// by it: a constant that is something else needs another count.
+// One float, or several with the same bounds. Exactly the constants of SWIVEL_MAX_LOOK_JOINTS floats have one float for
+// each joint of a look. Bindings rely on this count in swivel_constant_info, so other constants must have another one.
 struct ConstantRow {
-    std::uint32_t place, offset;  // of its structure in a GroupDef, and of it there; in bytes
+    std::uint32_t place, offset;  // bytes: of the structure in a GroupDef, and of the member in it
     std::uint32_t count;          // of floats
     const char* structure;        // the member of GroupDef
-    const char* name;             // the member of that
+    const char* name;             // the structure's member
     float min, max;               // of each
-    const char* unit;             // empty: it has none
+    const char* unit;             // empty: none
     const char* text;
 
     // Whether a look has one float for each of its joints.

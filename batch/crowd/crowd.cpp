@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <span>
 
 #include "batch/crowd/body_joints.h"
 #include "batch/crowd/body_plan.h"
@@ -30,7 +31,7 @@ std::uint64_t group_row_bytes(const GroupDef& group)
     return aligned(std::uint64_t{blocks_in(group)} * block_bytes(group.features));
 }
 
-// Blocks of bodies that are worked in at once: about as many as fit a level 2 cache of 256 KiB with their poses.
+// Blocks of bodies in a workspace: about as many as fit a level 2 cache of 256 KiB with their poses.
 std::uint32_t body_run_blocks(std::uint32_t row_count)
 {
     constexpr std::size_t kRunBytes = 128 * 1024;
@@ -38,7 +39,7 @@ std::uint32_t body_run_blocks(std::uint32_t row_count)
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(blocks, 1, kStripBlocks));
 }
 
-// Gives places in an arena, one behind the other, each aligned. Without memory it only counts their bytes.
+// Gives out aligned places in an arena, one after the other. Without memory it only counts bytes.
 class Arena {
 public:
     explicit Arena(void* memory) : memory_(static_cast<char*>(memory)) {}
@@ -64,13 +65,13 @@ struct Layout {
     swivel_crowd* crowd;
     Group* groups;
     swivel_region* regions;
-    SkeletonJoint* skeleton_joints;  // for the plan alone
     BodyJoint* joints;
     MovedJoint* moved;
     FollowingJoint* following;
     float* urgency;
     std::uint8_t* done;
     float* workspaces;
+    SkeletonJoint* skeleton_joints;  // for the plan alone, where the workspaces will be
     char* rows;
 
     Layout(const swivel_crowd_def& def, void* memory)
@@ -92,19 +93,26 @@ struct Layout {
         crowd = arena.take<swivel_crowd>(1);
         groups = arena.take<Group>(def.group_count);
         regions = arena.take<swivel_region>(region_count);
-        skeleton_joints = arena.take<SkeletonJoint>(bodies.skeleton_joint_count);
         joints = arena.take<BodyJoint>(bodies.joint_count);
         moved = arena.take<MovedJoint>(bodies.skeleton_joint_count);
         following = arena.take<FollowingJoint>(bodies.following_count);
         urgency = arena.take<float>(block_count);
         done = arena.take<std::uint8_t>(block_count);
-        workspaces = arena.take<float>(def.workspace_count * workspace_floats(strip_blocks, bodies.row_count));
+        const std::uint64_t workspace_bytes =
+            std::uint64_t{def.workspace_count} * workspace_floats(strip_blocks, bodies.row_count) * sizeof(float);
+        char* const shared = arena.take<char>(std::max(workspace_bytes, skeleton_joint_bytes()));
+        workspaces = reinterpret_cast<float*>(shared);
+        skeleton_joints = reinterpret_cast<SkeletonJoint*>(shared);
         rows = arena.take<char>(row_bytes);
         bytes = arena.bytes();
     }
+    std::uint64_t skeleton_joint_bytes() const
+    {
+        return std::uint64_t{bodies.skeleton_joint_count} * sizeof(SkeletonJoint);
+    }
 };
 
-// Fills every lane, also of the padding, with an ordinary arm and with inputs that change nothing.
+// Fills every lane, padding included, with an ordinary arm and neutral inputs.
 void fill_inputs(const Group& group)
 {
     for (std::uint32_t block = 0; block < group.block_count; ++block) {
@@ -115,32 +123,32 @@ void fill_inputs(const Group& group)
     }
 }
 
-// Gives a group's limbs NaN for inputs without a sensible default. So they are bad input until the caller gives them.
+// Gives a group's limbs NaN for inputs without a sensible default. Until the caller gives them, a body's pose does, or
+// they are bad input.
 void unknown_inputs(const Group& group)
 {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
     float unknown[kMaxComponents];
     std::fill_n(unknown, kMaxComponents, kUnknown);
     for (const FieldRow& row : kFields) {
-        const bool is_unknown = row.starts == Start::unknown ||
-                                (row.field == SWIVEL_POLE && (group.features & kBody)) ||
-                                (row.field == SWIVEL_HAND && (group.features & kLibraryGoal));
+        const bool is_unknown =
+            may_be_missing(row, group.features) || (row.field == SWIVEL_POLE && (group.features & kBody));
         if (!is_unknown || field_row_count(group.features, row.field) == 0) continue;
         const bool is_bound = row.field == SWIVEL_LENGTHS && (group.features & SWIVEL_JOINTS);
         copy_in(rows_of(group, row.field), 0, group.limb_count, {is_bound ? group.binding.lengths : unknown, 0});
     }
 }
 
-// Makes a group whose rows begin at `rows`, but for its part in a body.
-void place_group(const swivel_crowd_def& crowd_def, const GroupDef& def, const swivel_crowd& crowd,
-                 std::uint32_t first_block, char* rows, Group& group)
+}  // namespace
+
+void place_group(const GroupDef& def, std::uint32_t first_block, char* rows, Group& group)
 {
     group.first_block = first_block;
     group.block_count = blocks_in(def);
     group.limb_count = def.limb_count;
     group.asked = def.asked;
     group.features = def.features;
-    group.keeps = def.on_bad_input == SWIVEL_KEEP_POSE;
+    group.keeps_pose = def.on_bad_input == SWIVEL_KEEP_POSE;
     for (std::size_t pass = 0; pass < kPassCount; ++pass)
         group.stages[pass] = StageList(def.features, static_cast<Pass>(pass));
     group.shoulder_order = def.shoulder_order;
@@ -151,17 +159,10 @@ void place_group(const swivel_crowd_def& crowd_def, const GroupDef& def, const s
         group.first_row[f] = static_cast<std::uint16_t>(field_first_row(def.features, kFields[f].field));
     group.input = reinterpret_cast<float*>(rows);
     group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
-    if (crowd_def.skeleton) {
-        if (def.joints) group.binding = body_binding(crowd_def, def);
-        group.body_block_floats = std::size_t{crowd.body_row_count} * kLanes;
-    } else {
-        group.binding = element(&def.binding, 0, swivel_default_binding());
-    }
+    if (!(def.features & kBody)) group.binding = element(&def.binding, 0, swivel_default_binding());
     fill_inputs(group);
     unknown_inputs(group);
 }
-
-}  // namespace
 
 std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def, nullptr).bytes; }
 
@@ -173,6 +174,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     swivel_crowd* const crowd = new (layout.crowd) swivel_crowd{};
     crowd->alive = swivel_crowd::kAlive;
     crowd->doubted_time = kNoDoubt;
+    crowd->pose_notes = 0;
     crowd->group_count = def.group_count;
     crowd->block_count = layout.block_count;
     crowd->block_bytes = static_cast<std::size_t>(layout.row_bytes / layout.block_count);
@@ -188,28 +190,34 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     crowd->body_row_count = layout.bodies.row_count;
     JointPlan plan{};
     if (def.skeleton) {
-        plan = plan_joints(def, layout.skeleton_joints, layout.joints);
+        plan = plan_joints(def, layout.bodies, layout.skeleton_joints, layout.joints);
         crowd->joints = layout.joints;
     }
+    std::span<MovedJoint> moved(layout.moved, layout.bodies.skeleton_joint_count);
+    std::span<FollowingJoint> following(layout.following, static_cast<std::size_t>(layout.bodies.following_count));
     std::uint32_t first_block = 0, own_rows = layout.bodies.first_own_row;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const GroupDef group_def = group_at(def, g);
         Group& group = *new (crowd->groups + g) Group{};
         if (group_def.features & SWIVEL_WITH_REGION)
             group.region = new (layout.regions++) swivel_region(*group_def.region);
-        place_group(def, group_def, *crowd, first_block, layout.rows, group);
+        place_group(group_def, first_block, layout.rows, group);
         if (def.skeleton) {
-            group.limb = plan_limb(plan, group_def, group.binding);
-            plan_moved(plan, g, group_def, group.limb, layout.moved, layout.following);
-            plan_group(def, group_def, group.limb);
+            if (group_def.joints) group.binding = body_binding(def, group_def);
+            group.body_block_floats = std::size_t{crowd->body_row_count} * kLanes;
+            group.plan.limb = plan_limb(plan, group_def, group.binding);
+            group.plan.joints = plan_moved(plan, g, group_def, moved, following);
+            plan_group(def, group_def, group.plan);
         }
-        layout.moved += group.limb.moved_count;
-        layout.following += group.limb.following_count;
-        own_rows = plan_own_rows(group_def.features, own_rows, group.limb);
+        moved = moved.subspan(group.plan.joints.moved_count);
+        following = following.subspan(group.plan.joints.following_count);
+        own_rows = plan_own_rows(group_def.features, own_rows, group.plan);
         if (!def.skeleton) first_block += blocks_in(group_def);
         layout.rows += group_row_bytes(group_def);
     }
     if (def.skeleton) plan_links(def, plan, *crowd);
+    // The plan is over, and workspaces start with zeros.
+    std::memset(layout.workspaces, 0, static_cast<std::size_t>(layout.skeleton_joint_bytes()));
     return crowd;
 }
 

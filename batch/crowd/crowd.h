@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd in memory. It has one arena, laid out when the crowd is created: the crowd itself, its groups, and the rows
-// of each.
+// A crowd in memory: one arena, laid out at creation, with the crowd itself, its groups and their rows.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 
+#include "batch/crowd/group_def.h"
 #include "include/swivel/swivel_bodies.h"
 #include "simd/body_rows.h"
 #include "simd/kernels.h"
@@ -19,8 +19,8 @@ namespace swivel {
 struct Group {
     std::uint32_t first_block, block_count, limb_count;
     swivel_features asked;     // by the caller
-    swivel_features features;  // the same, with what these bring and the library's own bits
-    bool keeps;                // SWIVEL_KEEP_POSE
+    swivel_features features;  // these, those that they bring, and the library's own bits
+    bool keeps_pose;           // SWIVEL_KEEP_POSE
     swivel_euler_order shoulder_order, wrist_order;
     std::uint32_t input_row_count, result_row_count;
     std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows
@@ -28,14 +28,15 @@ struct Group {
     swivel_binding binding;
     const swivel_region* region;    // with SWIVEL_WITH_REGION: in the arena
     StageList stages[kPassCount];   // of each pass
-    BodyLimb limb;                  // if it is of bodies
-    std::size_t body_block_floats;  // the same: of a block of bodies in a workspace
+    GroupPlan plan;                 // in a crowd of bodies
+    std::size_t body_block_floats;  // floats of a block of bodies in a workspace
 };
 
-// Whether a group counts a position from an origin. A prop on a joint has its place in the joint's frame.
+// Whether an origin is subtracted from a group's position. It is not for a prop on a joint, which lies in the joint's
+// frame.
 inline bool has_origin(const Group& group, swivel_field field)
 {
-    return has_origin(group.features, field) && !(field == SWIVEL_PROP_POSITION && group.limb.prop.joint != 0);
+    return has_origin(group.features, field) && !(field == SWIVEL_PROP_POSITION && group.plan.prop.joint != 0);
 }
 
 }  // namespace swivel
@@ -51,33 +52,42 @@ struct swivel_crowd {
     std::size_t arena_bytes;
     void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory
     void* user;
-    alignas(16) unsigned char schedule[64];  // what threads remember from one solve to the next (schedule.cpp)
+    alignas(16) unsigned char schedule[64];  // the scheduler's state between solves (schedule.cpp)
     float* urgency;                          // of each block, where the caller keeps none (budget.cpp)
     std::uint8_t* done;                      // a byte for each block, of a solve on threads (schedule.cpp)
     std::uint32_t strip_blocks;              // of a workspace; 0: it has no whole limbs
     std::uint32_t workspace_count;
     float* workspaces;
-    const swivel::BodyJoint* joints;  // of bodies: those that some group needs
+    const swivel::BodyJoint* joints;  // the joints that some group needs
     std::uint32_t joint_count;        // 0: free limbs
     std::uint32_t body_row_count;     // of a block of bodies in a workspace
     std::atomic<std::uint64_t> busy;  // a bit for each workspace that a call is using
-    // Below 0, or what swivel_explain() warns of: the time in s of the first body of the last solve, if that is above
-    // 1, or if it is 0 and the solve wrote its results over the pose.
+    // The suspicious time step that swivel_explain() warns of, in s; below 0: none. It is that of the last solve's
+    // first body, if above 1, or if 0 while the results went over the pose.
     std::atomic<float> doubted_time;
-    // The limbs that were reset since the last solve of poses, and how many solves in a row began with all bodies
-    // reset.
+    // The number of limbs reset since the last solve of poses, and of consecutive solves with all bodies reset.
     std::atomic<std::uint32_t> reset_limbs, solves_anew;
+    std::atomic<std::uint32_t> pose_notes;  // of the last solve's pose: see PoseNote
 };
 
 namespace swivel {
 
 inline constexpr float kNoDoubt = -1;  // swivel_crowd::doubted_time
+// What swivel_explain() knows of a pose where it looks for what is bad in it. A time that bodies do not share has
+// neither of the first two.
+enum PoseNote : std::uint32_t {
+    kTimeIsGood = 1,
+    kTimeIsBad = 2,
+    kHasSupport = 4,
+    kHasWeight = 8,
+    kHasDoubleRoot = 16,
+};
 
-// With any of these features, a group's limbs are whole limbs.
+// A group with any of these features has whole limbs.
 inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);
 
 inline constexpr std::uint32_t kMaxWorkspaces = 64;  // of a crowd
-// A workspace: a strip of so many blocks, and the same blocks of bodies, if joints are needed.
+// The size of a workspace: a strip of this many blocks, and as many blocks of bodies if joints are needed.
 inline std::size_t workspace_floats(std::uint32_t strip_blocks, std::uint32_t body_row_count)
 {
     return strip_blocks * (kStripBlockFloats + std::size_t{body_row_count} * kLanes);
@@ -88,20 +98,24 @@ inline StripMemory strip_memory(float* workspace, std::uint32_t strip_blocks, st
             body_row_count > 0 && workspace ? workspace + strip_blocks * kStripBlockFloats : nullptr};
 }
 
-// The groups that have lanes of their own: in a crowd of bodies the first one's are those of all.
+// How many groups have lanes of their own. In a crowd of bodies all groups share the first one's.
 inline std::uint32_t lane_group_count(const swivel_crowd& crowd)
 {
     return crowd.joint_count > 0 ? 1 : crowd.group_count;
 }
 
-// Words of one bit for each lane; and of one for each group.
+// Words of a mask with a bit for each lane.
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }
+// Words of a mask with a bit for each group.
 inline std::uint32_t group_word_count(std::uint32_t group_count) { return (group_count + 31) / 32; }
 
 // Bytes of the arena. The def must be valid, and full_def() must have filled it.
 std::uint64_t crowd_bytes(const swivel_crowd_def& def);
-// Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long: inputs as swivel_crowd_create() says.
+// Lays a crowd out in an arena of crowd_bytes(def), aligned to 64, with swivel_crowd_create()'s inputs.
 // Results are zeros until rest() gives them a pose.
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena);
+// Makes a group whose rows begin at `rows`, block_bytes() for each block. It gets neither its region nor its part in a
+// body, and its results stay as they are.
+void place_group(const GroupDef& def, std::uint32_t first_block, char* rows, Group& group);
 
 }  // namespace swivel

@@ -2,6 +2,7 @@
 #include "batch/crowd/crowd_check.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -50,6 +51,47 @@ swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, 
     return SWIVEL_OK;
 }
 
+// These features, those that they need, and those that these need in turn.
+constexpr swivel_features with_needs(swivel_features features)
+{
+    for (std::size_t n = std::size(kFeatures); n-- > 0;)
+        if (features & kFeatures[n].feature) features |= kFeatures[n].needs;
+    return features;
+}
+static_assert(
+    [] {
+        swivel_features before = 0;
+        for (const FeatureRow& row : kFeatures) {
+            if (row.needs & ~before) return false;
+            before |= row.feature;
+        }
+        return true;
+    }(),
+    "what a feature needs stands before it, so one pass from the end finds all");
+
+// Names all that the features of a group lack at once.
+swivel_status check_needs(std::uint32_t group, swivel_features asked, swivel_features features)
+{
+    const swivel_features missing = with_needs(asked) & ~features;
+    if (missing == 0) return SWIVEL_OK;
+    const char* first = nullptr;
+    std::uint32_t lacking_count = 0;
+    for (const FeatureRow& row : kFeatures)
+        if (asked & row.feature && with_needs(row.feature) & missing && lacking_count++ == 0) first = row.name;
+    char names[256];
+    std::size_t used = 0;
+    swivel_features left = missing;
+    for (const FeatureRow& row : kFeatures) {
+        if (!(left & row.feature)) continue;
+        left &= ~row.feature;
+        const char* const separator = used == 0 ? "" : left == 0 ? " and " : ", ";
+        const int length = std::snprintf(names + used, sizeof names - used, "%sSWIVEL_%s", separator, row.name);
+        used = std::min(used + static_cast<std::size_t>(length), sizeof names - 1);
+    }
+    return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s %s %s; add %s", group, first,
+                lacking_count > 1 ? "and others need" : "needs", names, std::has_single_bit(missing) ? "it" : "them");
+}
+
 // Features that the kind of group may have and that go together. features: those asked for, and what the
 // library adds.
 swivel_status check_features(std::uint32_t group, swivel_features asked, swivel_features features)
@@ -62,13 +104,11 @@ swivel_status check_features(std::uint32_t group, swivel_features asked, swivel_
         if (const swivel_kind kind = kind_of(features); !(row.kinds >> kind & 1))
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s is not for %s; leave it out", group, row.name,
                         text_of(kind));
-        if (const swivel_features missing = row.needs & ~features)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s needs SWIVEL_%s; add it", group, row.name,
-                        feature_name(missing));
         if (const swivel_features excluded = row.excludes & features)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s excludes SWIVEL_%s; leave one out", group,
                         row.name, feature_name(excluded));
     }
+    if (const swivel_status status = check_needs(group, asked, features); status != SWIVEL_OK) return status;
     if (twist_bone_count(features) > 0 && !(features & SWIVEL_WITH_HAND))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u: twist bones need SWIVEL_WITH_HAND; add it", group);
     return SWIVEL_OK;

@@ -7,9 +7,9 @@
 
 namespace swivel {
 
-// A definition that a crowd can be made of, or a refusal.
+// Refuses a definition that no crowd can be made of.
 swivel_status check_def(const swivel_crowd_def* def);
-// All of its members, also where an older header's structure is shorter.
+// The definition with all members: those that an older, shorter structure lacks get defaults.
 swivel_crowd_def full_def(const swivel_crowd_def* def);
 
 }  // namespace swivel

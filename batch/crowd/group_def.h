@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A group of a def as the library plans it: whichever definition the caller gave, with what it brings besides.
+// A group of a def in one form for all kinds, with the features that the caller's imply.
 #pragma once
 
 #include "include/swivel/swivel_bodies.h"
@@ -11,13 +11,13 @@ namespace swivel {
 // Members of other kinds have their defaults.
 struct GroupDef {
     swivel_features asked;     // by the caller
-    swivel_features features;  // the same, with what these bring and the library's own bits
+    swivel_features features;  // these, those that they bring, and the library's own bits
     std::uint32_t limb_count;
     swivel_on_bad_input on_bad_input;
     swivel_euler_order shoulder_order, wrist_order;
     const swivel_region* region;
     swivel_binding binding;            // of free limbs, as given
-    const swivel_limb_joints* joints;  // of a body's limb; null: it is no limb of a body
+    const swivel_limb_joints* joints;  // null: no limb of a body
     std::uint32_t link;
     swivel_plant plant;
     swivel_ground ground;
@@ -28,11 +28,11 @@ struct GroupDef {
 
 // A group whose members have their defaults.
 GroupDef default_group();
-// Group g of a crowd def that check_group_defs() found right. unlinked_group() leaves out SWIVEL_WITH_HAND_TRANSFORM,
-// which another group's link adds. It asks no other group, so it costs less.
+// Group g of a crowd def that check_group_defs() found right. unlinked_group() is cheaper: it does not add
+// SWIVEL_WITH_HAND_TRANSFORM where another group links to this one.
 GroupDef group_at(const swivel_crowd_def& def, std::uint32_t g);
 GroupDef unlinked_group(const swivel_crowd_def& def, std::uint32_t g);
-// Whether each group is one definition, of a size that a header may have given it.
+// Refuses a def unless each group has exactly one definition, of a size that some header has.
 swivel_status check_group_defs(const swivel_crowd_def& def);
 
 }  // namespace swivel

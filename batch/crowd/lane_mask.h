@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Masks of a crowd's lanes have one bit for each lane. A word has 32, so it covers two blocks.
+// Masks of a crowd's lanes, one bit for each lane. A word of 32 bits covers two blocks.
 #pragma once
 
 #include "batch/crowd/crowd.h"
@@ -20,17 +20,18 @@ inline void add_lanes(std::uint32_t* words, std::uint32_t block, LaneMask lanes)
     words[block / 2] |= lanes << block % 2 * SWIVEL_LANES;
 }
 
-// How many lanes of a group's block, counted within the group, are limbs, the others padding; which; and those of them
-// that a mask chooses.
+// The number of limbs in a block of a group; the block's other lanes are padding. block: counted within the group.
 inline std::uint32_t limb_count_of(const Group& group, std::uint32_t block)
 {
     const std::uint32_t left = group.limb_count - block * SWIVEL_LANES;
     return left < SWIVEL_LANES ? left : std::uint32_t{SWIVEL_LANES};
 }
+// The lanes of those limbs.
 inline LaneMask lanes_of_limbs(const Group& group, std::uint32_t block)
 {
     return kAllLanes >> (SWIVEL_LANES - limb_count_of(group, block));
 }
+// The lanes of those limbs that a mask of the crowd chooses.
 inline LaneMask chosen_limbs(const Group& group, std::uint32_t block, const std::uint32_t* mask)
 {
     return lanes_of(mask, group.first_block + block) & lanes_of_limbs(group, block);

@@ -28,7 +28,7 @@ void store_unit(const Rotor<double>& q, float (&to)[4])
     to[3] = static_cast<float>(unit.at<kScalar>());
 }
 
-// cos 10 degrees. A rest pose that is bent by less shows noise, and not where the limb bends to.
+// cos 10 degrees. A rest pose with less bend shows noise instead of the bend's direction.
 constexpr double kBent = 0.984807753;
 
 // The rotor from the arm frame to a joint's own frame: e3 to the joint's bone, e1 to the hinge's part orthogonal to it.
@@ -43,7 +43,7 @@ bool is_along(const Vector<double>& a, const Vector<double>& b)
     return !(len2(cross(a, b)) > 1e-6 * len2(a) * len2(b));  // sin 1e-3, as for poles
 }
 
-// The rotor that carries the arm frame into a joint's parent, from that which carries it into the joint above.
+// The rotor from the arm frame to a joint's parent, given the one to the joint above.
 Rotor<double> parent_from(const RestJoint& joint, const Rotor<double>& above_from_arm)
 {
     return joint.between ? ~*joint.between * above_from_arm : above_from_arm;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From a limb at rest to its binding: bone lengths, bone axes, bend, and the constant rotors between arm frame and
+// Makes a limb's binding from its rest pose: bone lengths and axes, bend, and the constant rotors between arm frame and
 // joints.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace swivel {
 
-// A joint at rest, below another of its skeleton. The joints between them rest rigid.
+// A joint at rest, below another one. The joints between them are rigid.
 struct RestJoint {
     Rotor<double> rotation;                // relative to its parent, of any usable length
     std::optional<Rotor<double>> between;  // its parent's, unit, relative to the joint above; none if they are the same
@@ -32,7 +32,7 @@ swivel_status bind(const RestLimb& limb, swivel_binding& binding);
 // Does what swivel_arm_axis() promises; arguments are already checked for null.
 swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],
                        double (&axis)[3]);
-// Whether its quaternions are of unit length, and its twist bones not too many.
+// Whether a binding has unit quaternions, and not too many twist bones.
 bool is_binding(const swivel_binding& binding);
 
 }  // namespace swivel

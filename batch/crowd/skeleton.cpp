@@ -12,7 +12,7 @@ namespace swivel {
 
 namespace {
 
-// A joint of the limb, and what lines call it.
+// A joint of the limb, and its name in messages.
 struct Part {
     char name[24];
     std::uint32_t joint;
@@ -149,7 +149,7 @@ swivel_status read_joint(const swivel_skeleton& skeleton, std::uint32_t joint, R
 
 namespace {
 
-// A part below another, and what rests rigid between them: none of those that turn.
+// Reads a part below another one, with the rigid joints between them, none of which may be a part.
 swivel_status rest_below(const swivel_skeleton& skeleton, const Part& part, const Part& above,
                          std::span<const Part> turning, RestJoint& rest)
 {
@@ -174,7 +174,7 @@ swivel_status rest_below(const swivel_skeleton& skeleton, const Part& part, cons
     }
 }
 
-// Bone i takes a larger share than the one before it, so it must not lie nearer to the elbow, but for a thousandth.
+// Twist bone i takes a larger share than the one before, so it may not lie nearer to the elbow, within a thousandth.
 swivel_status check_order(const Parts& parts, const RestLimb& limb)
 {
     const Vector<double>& fore = limb.wrist.place;

@@ -40,8 +40,8 @@ void copy_lanes(float* lanes, std::size_t limb_count, Byte* values, std::size_t 
     for (; limb_count > 0; --limb_count, ++lanes, values += stride) Copy::one(values, lanes);
 }
 
-// Block by block, since the lanes of one block lie side by side. Whole blocks take the short loop, which stays a loop.
-// Loads that are unrolled lie too far apart for the CPU to foresee the next ones.
+// Goes block by block, because a block's lanes lie side by side. Whole blocks take the short loop, which must not be
+// unrolled: unrolled loads are too far apart for the CPU's prefetcher.
 template <class Copy>
 void copy_blocks(const Stream& stream, std::size_t first, std::size_t limb_count)
 {
@@ -88,7 +88,7 @@ void copy_doubles(const Stream& stream, std::size_t first, std::size_t limb_coun
     }
 }
 
-// The field with the most components has so many.
+// The max number of a field's streams.
 constexpr std::uint32_t kMaxFieldStreams = stream_count(field_row_count(kEveryFeature, SWIVEL_TWIST_BONES));
 
 // Streams in only read the caller's values.

@@ -15,14 +15,14 @@ struct FieldRows {
 };
 FieldRows rows_of(const Group& group, swivel_field field);
 
-// At most four components of a field on their way between rows and values. It knows its loop, which is chosen once.
+// Copies up to four components of a field between rows and values. `run` is its loop, chosen once.
 struct Stream {
     void (*run)(const Stream& stream, std::size_t first, std::size_t limb_count);
     float* rows;               // lane 0 of the first component's row in the group's first block
     std::size_t block_floats;  // from block to block
-    char* values;              // only streams of streams_out() write them
+    char* values;              // written by streams_out() only
     std::size_t stride;
-    std::size_t values_first;  // the limb whose value that is, counted within the group
+    std::size_t values_first;  // the limb of the first value, counted within the group
     const char* origin;        // of the same limb, for doubles
     std::size_t origin_stride;
 
@@ -30,8 +30,8 @@ struct Stream {
     void copy(std::size_t first, std::size_t limb_count) const { run(*this, first, limb_count); }
 };
 
-// Stores the streams of all components of a field from `to` on, and returns their end. values and origins are those of
-// limb first.
+// Stores the streams of all components of a field at `to`, and returns their end. values, origins: from limb `first`
+// on.
 // - streams_in: from floats.
 // - streams_of_doubles: from 3 doubles. The limb's origin is subtracted, unless the data of origins is null. They are
 //   rounded in the floating-point environment that the caller of copy() has set (FloatEnv).
@@ -44,7 +44,7 @@ constexpr std::uint32_t stream_count(std::uint32_t component_count) { return (co
 // Copies by each of some streams.
 void copy(const Stream* streams, const Stream* end, std::size_t first, std::size_t limb_count);
 
-// The same at once, for limbs first ... first + limb_count - 1 of the group.
+// Copy a field of limbs first ... first + limb_count - 1 of the group at once.
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values);
 void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values,
                      swivel_in origins);

@@ -48,7 +48,7 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     const bool is_body = group == SWIVEL_EVERY_GROUP;
-    if (const swivel_status status = use.of(is_body ? 0 : group, limb, 1); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(is_body ? 0 : group, limb, 1); status != SWIVEL_OK) return status;
     if (is_body && crowd->joint_count == 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: this crowd has no bodies; name one of its %u groups",
                     crowd->group_count);
@@ -71,7 +71,7 @@ swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.of(group, body, 1); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(group, body, 1); status != SWIVEL_OK) return status;
     if (crowd->joint_count == 0)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_compare: this crowd has no bodies, so it has no pose; create it "

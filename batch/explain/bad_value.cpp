@@ -11,30 +11,24 @@ namespace swivel {
 
 namespace {
 
-// count: how many numbers of the value the group has, the last ones: a body's clavicle is its share alone.
-bool is_bad(const LimbValue& value, std::uint32_t count, const FieldRow& row)
+// count: of numbers that the group has.
+bool is_bad(const LimbValue& value, std::uint32_t count, const FieldRow& row, swivel_features features)
 {
-    std::uint32_t c = 0, left_out = row.component_count - count;
-    for (const ValuePart part : row.value.parts) {
+    bool is_found = false;
+    for_each_part(row, count, [&](ValuePart part, std::uint32_t first) {
         const PartRow& bounds = row_of(part);
-        if (part == ValuePart::none) break;
-        if (left_out > 0) {
-            left_out -= bounds.count;
-            continue;
-        }
-        const double size = bounds.count > 1 ? value.length(c, bounds.count) : value[c];
-        if (size < bounds.min || size > bounds.max || (std::isnan(size) && !may_be_missing(row))) return true;
-        c += bounds.count;
-    }
-    return false;
+        const double size = bounds.count > 1 ? value.length(first, bounds.count) : value[first];
+        is_found |= size < bounds.min || size > bounds.max || (std::isnan(size) && !may_be_missing(row, features));
+    });
+    return is_found;
 }
-// Whether only stages of bodies read a field. Ground that is nowhere near is none, so no ground is bad.
+// Whether only stages of bodies read a field. Far ground counts as no ground, so no ground is bad.
 bool is_of_bodies(const Group& group, swivel_field field)
 {
     constexpr swivel_features kReadInBodies = SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_NEXT_TARGET |
                                               kShift | SWIVEL_WITH_GROUND | SWIVEL_WITH_LINK | kProp | kLook;
     if (field == SWIVEL_TARGET || field == SWIVEL_HAND)
-        return group.features & SWIVEL_WITH_PLANT || group.limb.link.is_prop;
+        return group.features & SWIVEL_WITH_PLANT || group.plan.limb.link.is_prop;
     if (field == SWIVEL_CLAVICLE) return group.features & kBody;
     return field != SWIVEL_GROUND && row_of(field).needs & kReadInBodies;
 }
@@ -45,7 +39,7 @@ bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field)
 {
     if (!is_input(field) || !is_of_bodies(group, field)) return false;
     const std::uint32_t count = field_row_count(group.features, field);
-    return count > 0 && is_bad(LimbValue(group, limb, field), count, row_of(field));
+    return count > 0 && is_bad(LimbValue(group, limb, field), count, row_of(field), group.features);
 }
 bool is_bad_in_body(const Group& group, std::uint32_t limb)
 {
@@ -66,7 +60,7 @@ bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text)
             is_number = is_number && !std::isnan(value[c]);
         }
         if (is_number)
-            text.add(") is out of its range, %s", row.value.range);
+            text.add(") is out of its range, %s", row.value.words);
         else
             text.add(") is not a number");
         is_found = true;

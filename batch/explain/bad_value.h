@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Finds the bad inputs that only stages of bodies read, by the bounds that the table of fields has, and names them.
+// Finds and names the bad inputs that only stages of bodies read, by the bounds in the table of fields.
 #pragma once
 
 #include "batch/crowd/crowd.h"
@@ -8,12 +8,11 @@
 
 namespace swivel {
 
-// Whether an input of a group of bodies is bad. A field that the group lacks, or that stages of free limbs read, too,
-// is not.
+// Whether an input that only stages of bodies read is bad. Other fields, and those that the group lacks, count as good.
 bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field);
-// Whether any is.
+// Whether any such input is bad.
 bool is_bad_in_body(const Group& group, std::uint32_t limb);
-// Names all of them, with their values and ranges. Returns whether there are any.
+// Names all bad inputs with their values and ranges. Returns whether there are any.
 bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

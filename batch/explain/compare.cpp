@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The pose is read as a solve reads it, and then with one mistake after the other. The mistake with which the places
-// agree is the cause.
+// Reads the pose as a solve does, then with one mistake after the other. The mistake that makes the places agree is the
+// cause.
 #include "batch/explain/compare.h"
 
 #include "batch/explain/compare_causes.h"
@@ -32,7 +32,7 @@ void guess_axes(Causes& causes)
     }
 }
 
-// Says what is wrong though the places agree. Returns whether nothing is.
+// Names mistakes that exist though the places agree. Returns whether there are none.
 bool confirm(Causes& causes)
 {
     if (guess_turns_in_body(causes) || doubt(causes)) return false;

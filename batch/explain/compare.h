@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which input of a body's pose disagrees with where the caller has the limb, in words, for people.
+// Names the input of a body's pose that disagrees with the caller's places of a limb, for people.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct LimbPlaces {
     Vector<double> at[3];  // shoulder, elbow, wrist
 };
 
-// Compares as swivel_compare() promises, and says whether they agree. The pose must be right, and whole; the group has
-// limbs. text: a byte at least.
+// Compares as swivel_compare() promises. Returns whether pose and places agree. The pose must be valid and of full
+// size, and the group must have limbs. text: a byte or more.
 bool compare(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t body, const swivel_pose& pose,
              const LimbPlaces& places, std::span<char> text);
 

@@ -12,7 +12,8 @@ Text& Causes::add(const LimbPlaces& ours)
 
 Text& Causes::add_unsure()
 {
-    ++count, is_sure = false;
+    if (count++ > 0) text.add(" Or: ");
+    is_sure = false;
     return text;
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The causes that explain why a pose and the caller's places disagree, as they are found one after the other, and what
-// the text says of them. Each kind of mistake has a file of its own.
+// Collects the causes for which a pose and the caller's places disagree, and their text. Each kind of mistake has its
+// own file.
 #pragma once
 
 #include "batch/explain/compared_limb.h"
 
 namespace swivel {
 
-// A mistake in how a pose's numbers are taken, and the sentence that names it.
+// A mistake in reading a pose's numbers, and the sentence that names it.
 struct Mistake {
     void (*make)(Reading& how);
     const char* sentence;
@@ -18,16 +18,16 @@ struct Causes {
     const ComparedLimb& limb;
     Text& text;
     unsigned count = 0;
-    bool is_sure = true;  // that with the cause the places agree
-    double off = 0;       // how far the places are off with the cause, in limb lengths
+    bool is_sure = true;  // the places agree with the cause applied
+    double off = 0;       // distance of the places with the cause applied, in limb lengths
 
-    // The text, for one more cause. ours: where the limb is with it.
+    // Counts one more cause, and returns the text to name it in. ours: the limb with the cause applied.
     Text& add(const LimbPlaces& ours);
-    // The text, for the only cause, with which nobody knows where the limb would be.
+    // The same for a cause with which the limb's place is unknown.
     Text& add_unsure();
-    // Adds a cause if the caller has the limb there. Returns whether so.
+    // Adds a cause if the caller has the limb at `ours`. Returns whether it was added.
     bool guess(const LimbPlaces& ours, const char* sentence);
-    // Adds a mistake that this pose can have, if the caller has the limb where the mistake puts it.
+    // The same for a mistake, if it is possible in this pose.
     bool guess(bool is_possible, const Mistake& mistake);
 };
 
@@ -36,25 +36,25 @@ inline bool has_quaternions(const ComparedLimb& limb) { return limb.pose.form ==
 // compare_rotations.cpp: quaternions in another order or the other way round, rows for columns, and rotations to the
 // root for those to the parent.
 void guess_rotations(Causes& causes);
-// In the body's space places say nothing of rotations. But if bones are as long as at rest, the rotations have to carry
-// the joints there. Returns whether they do not, for a reason that has a name.
+// In the body's space, places do not follow from rotations. But if bones are as long as at rest, rotations must carry
+// the joints to their places. Returns whether they fail to, for a known reason.
 bool guess_turns_in_body(Causes& causes);
-// Whether a quaternion has no length of about 1, as at wrong strides or offsets.
+// Whether a quaternion's length is far from 1, as with wrong strides or offsets.
 bool guess_strides(Causes& causes);
 
-// compare_joints.cpp: places of other joints: those of another limb, or one too high or too low.
+// compare_joints.cpp: places of another limb's joints, or of joints one too high or too low.
 void guess_joints(Causes& causes);
 
 // compare_lengths.cpp: lengths in other units, and translations or scales that do not count.
 void guess_lengths(Causes& causes);
 
-// compare_root.cpp: a root that does not count, or counts twice; one in floats that is read as doubles, or the other
-// way round; and one that was not given.
+// compare_root.cpp: a root that is ignored or counted twice, floats read as doubles or the reverse, and a root not
+// given.
 void guess_root(Causes& causes);
 void guess_root_numbers(Causes& causes);
 void guess_no_root(Causes& causes);
 
-// compare_doubts.cpp: mistakes that no place shows, but that a solve would suffer from. Returns whether there is one.
+// compare_doubts.cpp: mistakes that spoil a solve though the places agree. Returns whether there is one.
 bool doubt(Causes& causes);
 
 }  // namespace swivel

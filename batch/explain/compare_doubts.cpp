@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "batch/explain/compare_causes.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "batch/explain/compare_causes.h"
 #include "batch/explain/explain_doubts.h"
 
 namespace swivel {
@@ -43,7 +44,7 @@ void doubt_bend(Causes& causes)
 {
     constexpr double kStraight = 0.94;  // the cosine of 20 degrees
     const ComparedLimb& limb = causes.limb;
-    const float(&h)[3] = limb.crowd.groups[limb.group].limb.hinge;
+    const float(&h)[3] = limb.crowd.groups[limb.group].plan.limb.hinge;
     const Vector<double> upper = limb.posed.at[1] - limb.posed.at[0], fore = limb.posed.at[2] - limb.posed.at[1],
                          hinge = turned(limb.body.rotation(limb.joints.at[0], limb.as_given),
                                         vector<double>(h[0], h[1], h[2])),

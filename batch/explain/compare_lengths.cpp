@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
 #include "batch/explain/compare_causes.h"
+
+#include <cmath>
 
 namespace swivel {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
 #include "batch/explain/compare_causes.h"
+
+#include <cmath>
 
 namespace swivel {
 
@@ -19,7 +19,7 @@ constexpr Mistake kNoTurn{
     "turned. Give it once."};
 constexpr Mistake kTurnTwice{[](Reading& how) { how.root_turn = 2; },
                              "Your places have root_rotation twice: in the joints and at the root. Give it once."};
-constexpr Mistake kNothing{
+constexpr Mistake kInRootFrame{
     [](Reading& how) { how.root_place = how.root_turn = how.root_scale = 0; },
     "Your places are in the root's frame, not in the world. Give them in the world, or leave the root out of the "
     "pose."};
@@ -53,7 +53,7 @@ void guess_root(Causes& causes)
         is_found |= causes.guess(true, kNoTurn);
         is_found |= causes.guess(true, kTurnTwice);
     }
-    causes.guess(!is_found && has_place + has_turn + has_scale > 1, kNothing);
+    causes.guess(!is_found && has_place + has_turn + has_scale > 1, kInRootFrame);
 }
 
 void guess_root_numbers(Causes& causes)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
 #include "batch/explain/compare_causes.h"
+
+#include <cmath>
 
 namespace swivel {
 
@@ -45,7 +45,7 @@ void guess_quaternions(Causes& causes, const Mistake& joints, const Mistake& roo
     causes.guess(has_joints && has_root && !is_found, all);
 }
 
-// A form of 12 floats says nothing of 4 more, unless no matrix of the chain can be of that form.
+// Whether matrices of 12 floats are likely 16 by columns: no matrix of the chain fits the form.
 bool may_be_columns(const ComparedLimb& limb)
 {
     for (const std::uint32_t joint : limb.joints.at)

@@ -12,7 +12,7 @@ double length(const LimbPlaces& limb) { return distance(limb.at[0], limb.at[1]) 
 
 LimbJoints ComparedLimb::joints_of(std::uint32_t other_group) const
 {
-    const BodyLimb& limb = crowd.groups[other_group].limb;
+    const BodyLimb& limb = crowd.groups[other_group].plan.limb;
     return {{body.joint_at(limb.shoulder), body.joint_at(limb.elbow), body.joint_at(limb.wrist)}};
 }
 LimbPlaces ComparedLimb::places(const LimbJoints& chosen, const Reading& how) const

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A limb of a body as its pose has it, beside where the caller has it. Knows when they agree, and no causes.
+// A limb of a body's pose beside the caller's places of it. Knows whether they agree, but no causes.
 #pragma once
 
 #include "batch/explain/compare.h"
@@ -34,7 +34,7 @@ struct ComparedLimb {
     const swivel_pose& pose;
     const LimbPlaces& theirs;  // the caller's
     const PosedBody body;
-    const Reading as_given{pose};  // as a solve reads it, and where it has the limb
+    const Reading as_given{pose};  // as a solve reads it
     const LimbJoints joints = joints_of(group);
     const LimbPlaces posed = places(joints, as_given);
 
@@ -43,22 +43,22 @@ struct ComparedLimb {
     // The joint's number in the skeleton; part: 0 to 2.
     std::uint32_t named(int part) const { return body.skeleton_joint(joints.at[part]); }
 
-    // How far the worst of three places is from the caller's; NaN if one is.
+    // The largest distance of the three places from the caller's; NaN if one is NaN.
     double worst(const LimbPlaces& ours) const;
-    // How far one may be off. Floats in the world are rounded, by engines too.
+    // The distance that still agrees. Floats in the world are rounded, by engines, too.
     double allowed(const LimbPlaces& ours) const;
-    double rounding() const;  // of floats as far from the origin
+    double rounding() const;  // of floats this far from the origin
     // A distance in lengths of the caller's limb.
     double in_lengths(double off) const;
     bool agrees(const LimbPlaces& ours) const { return worst(ours) <= allowed(ours); }
-    // How much further the caller's places are from a centre than the pose's, by least squares.
+    // The factor from the pose's places to the caller's about a centre, by least squares.
     double factor_about(const Vector<double>& centre) const;
 };
 
-// Whether the three places lie to each other as the pose has them.
+// Whether the caller's three places form the same triangle as the pose's.
 bool has_same_shape(const ComparedLimb& limb);
 
-// Where a difference begins that no mistake explains, and what to look at.
+// Says where an unexplained difference begins, and what to check.
 void describe_difference(const ComparedLimb& limb, Text& text);
 
 }  // namespace swivel

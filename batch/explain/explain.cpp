@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "batch/explain/bad_pose.h"
 #include "batch/explain/bad_value.h"
 #include "batch/explain/explain_doubts.h"
 #include "batch/explain/explain_ground.h"
@@ -13,6 +14,7 @@
 #include "batch/explain/explain_look.h"
 #include "batch/explain/explain_plant.h"
 #include "batch/explain/explain_probe.h"
+#include "batch/explain/explain_shift.h"
 #include "batch/explain/limb_value.h"
 #include "core/limb_goal.h"
 
@@ -20,7 +22,7 @@ namespace swivel {
 
 namespace {
 
-// The lengths of a field's axis and pairs that must be 1 and are not.
+// Names the lengths of a field's axis and pairs that are not 1.
 void explain_lengths(const Probe& probe, swivel_field field, Text& text)
 {
     const auto length2 = [&](std::uint32_t first, std::uint32_t count) {
@@ -57,18 +59,18 @@ void explain_bad_value(const Probe& probe, swivel_field field, Text& text)
         is_given = is_given || !std::isnan(x);
     }
     if (is_number) {
-        text.add(") is out of its range, %s", row_of(field).value.range);
+        text.add(") is out of its range, %s", row_of(field).value.words);
         explain_lengths(probe, field, text);
     } else {
         text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
     }
 }
 
-// Inputs that are bad whatever the others are.
+// Names the inputs that are bad on their own.
 void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
     text.add("Bad input: ");
-    bool is_found = false, is_pose_bad = false;
+    bool is_found = false, is_place_bad = false, is_pose_bad = false;
     const auto found = [&](swivel_field field) {
         text.add("%s", is_found ? "; " : "");
         explain_bad_value(probe, field, text);
@@ -78,50 +80,59 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
         const swivel_field field = row.field;
         if (row.kind != SWIVEL_FIELD_INPUT) continue;
         if (is_bad_in_body(group, limb, field)) found(field);
-        // The goal that the library makes for a limb is no input.
+        // A goal that the library computes is no input.
         const bool is_goal = field == SWIVEL_TARGET || field == SWIVEL_HAND;
         if (probe.component_count(field) == 0 || (is_goal && group.features & kLibraryGoal)) continue;
         probe.take();
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
-        is_pose_bad = is_pose_bad || probe.is_posed(field);
-        if (!probe.is_posed(field)) found(field);
+        if (!probe.is_posed(field))
+            found(field);
+        else if (field == SWIVEL_SHOULDER_POSITION)
+            is_place_bad = true;
+        else
+            is_pose_bad = true;
     }
     if (holds_bad(crowd, group, limb)) {
-        text.add("%sgroup %u, which it holds, has bad input", is_found ? "; " : "", group.limb.link.group);
+        text.add("%sgroup %u, which it holds, has bad input", is_found ? "; " : "", group.plan.limb.link.group);
         is_found = true;
     }
-    const bool is_planted = group.features & SWIVEL_WITH_PLANT;
-    if (is_pose_bad || (!is_found && probe.is_of_body() && !is_planted))
+    const std::uint32_t notes = crowd.pose_notes.load(std::memory_order_relaxed);
+    if (is_place_bad || is_pose_bad) text.add("%sin the pose, ", is_found ? "; " : "");
+    // Joints' places are from the root's. So what is bad in joints is not in the shoulder's place alone.
+    if (is_pose_bad)
         text.add(
-            "%sin the pose, a rotation, place or scale of the limb's joints, of those above or of the root is not a "
-            "number or out of its range",
-            is_found ? "; " : "");
-    else if (!is_found && is_planted)
-        text.add(
-            "in the pose, the root, its time or support was not a number or out of its range, unless an input has been "
-            "written "
-            "since");
+            "a rotation, place or scale of the limb's joints, of those above or of the root is not a number or out of "
+            "its range");
+    else if (is_place_bad)
+        text.add("the root's place is not a number or further than 1e15");
+    else if (!is_found && group.features & SWIVEL_WITH_PLANT)
+        explain_bad_pose(crowd,
+                         kTimeOfPose | kSupportOfPose | kWeightOfPose | (notes & kHasDoubleRoot ? kRootOfPose : 0u), "",
+                         text);
+    else if (!is_found && probe.is_of_body())
+        explain_bad_pose(crowd, notes & kHasWeight ? kWeightOfPose : kJointsOfPose,
+                         "a rotation, place or scale of the limb's joints, of those above or of the root", text);
     else if (!is_found)
         text.add("each input is in its range, but not as the parent's rotation and scale have it");
-    text.add(". The limb %s.", !group.keeps         ? "has its rest pose"
+    text.add(". The limb %s.", !group.keeps_pose    ? "has its rest pose"
                                : probe.is_of_body() ? "keeps its incoming pose"
                                                     : "keeps the pose it had");
 }
 
-// The end of the limb that goes to the target.
-const char* end_of(const Probe& solved)
+bool has_effector(const Probe& solved)
 {
-    const bool has_effector = solved.component_count(SWIVEL_EFFECTOR) > 0 && !solved.is(SWIVEL_EFFECTOR, {0, 0, 0});
-    return has_effector ? "effector" : "wrist";
+    return solved.component_count(SWIVEL_EFFECTOR) > 0 && !solved.is(SWIVEL_EFFECTOR, {0, 0, 0});
 }
+// The end of the limb that goes to the target.
+const char* end_of(const Probe& solved) { return has_effector(solved) ? "effector" : "wrist"; }
 
 const char* zone_of(const Probe& solved)
 {
     return solved.component_count(SWIVEL_CAP) > 0 ? "The eased zone of its cap" : "A soft zone of reach";
 }
 
-// reached: how far the wrist is from the shoulder; by: what keeps it there. missed() is from the target itself.
+// reached: the distance from shoulder to wrist; by: its bound. missed() is the distance from the target itself.
 void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reached, const char* by, Text& text)
 {
     if (flags & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) {
@@ -137,7 +148,7 @@ void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reac
              double{solved.value(SWIVEL_WEIGHTS, 0)}, end_of(solved), solved.missed());
 }
 
-// Names what keeps the wrist so far from the shoulder, or so near.
+// The bound that the wrist's distance from the shoulder has met.
 const char* bound_of(const Probe& solved, std::uint32_t flags, double reached)
 {
     if (solved.is(SWIVEL_LENGTHS, {0, 0})) return "bones of no length";
@@ -155,6 +166,7 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     const bool aims = solved.component_count(SWIVEL_AIM) > 0;
     const bool blends = solved.component_count(SWIVEL_WEIGHTS) > 0 && solved.value(SWIVEL_WEIGHTS, 0) < 1;
     const char* const by = bound_of(solved, flags, reached);
+    const char* const target = has_effector(solved) ? "The effector's target" : "The target";
     if (blends)
         explain_blended_reach(solved, flags, reached, by, text);
     else if (aims && flags & SWIVEL_CLAMPED_NEAR)
@@ -162,21 +174,22 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     else if (aims)
         text.add("The hand aims at the target, to within %.2g of the limb's length.", solved.missed_share());
     else if (flags & SWIVEL_CLAMPED_FAR)
-        text.add("The target is %.4g out of reach: the wrist is %.4g from the shoulder, as far as %s let it.", missed,
+        text.add("%s is %.4g out of reach: the wrist is %.4g from the shoulder, as far as %s let it.", target, missed,
                  reached, by);
     else if (flags & SWIVEL_CLAMPED_NEAR)
-        text.add("The target is %.4g too near: the wrist is %.4g from the shoulder, as near as %s let it.", missed,
+        text.add("%s is %.4g too near: the wrist is %.4g from the shoulder, as near as %s let it.", target, missed,
                  reached, by);
     else if (flags & SWIVEL_SOFTENED)
         text.add("%s keeps the %s %.4g from its target.", zone_of(solved), end_of(solved), missed);
     else
-        text.add("The target is reached, to within %.2g of the limb's length.", solved.missed_share());
+        text.add("%s is reached, to within %.2g of the limb's length.", target, solved.missed_share());
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
     if (flags & SWIVEL_SWIVEL_UNDEFINED)
         text.add(solved.has(SWIVEL_POLE_HAND)
                      ? " The hand does not say where the elbow goes: it points along the target's line, or that has no "
                        "length."
                      : " The pole does not say where the elbow goes: it is of no length or on the target's line.");
+    if (solved.is_of_body()) return;
     for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND})
         if (solved.is(field, {0, 0, 0, 1})) text.add(" Its %s is the identity, as limbs start.", name_of(field));
 }
@@ -193,7 +206,7 @@ bool is_near(const LimbPose& a, const LimbPose& b)
            len2(a.wrist - b.wrist) <= kShare * kShare * size2 && 1 - cos_half * cos_half <= kShare * kShare;
 }
 
-// It is a function of its own so that explain_prop, which has a limb on the stack too, has that room.
+// Not inlined, because explain_prop, which also has a limb on the stack, needs the room.
 [[gnu::noinline]] void explain_limb(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
     Probe probe(group, limb);
@@ -201,13 +214,13 @@ bool is_near(const LimbPose& a, const LimbPose& b)
     if (probe.is_of_body() && flags_were == 0) return text.add("It was never solved, so no pose of it is known.");
     const LimbPose explained = probe.pose();
     const std::uint32_t flags_now = probe.solve();
-    // The goal of a limb that is sent is that of its last good solve.
+    // A goal that the library computed is that of the last good solve.
     const bool was_bad = group.features & kLibraryGoal && flags_were & SWIVEL_BAD_INPUT;
-    const bool is_kept = was_bad || (group.keeps && flags_now & SWIVEL_BAD_INPUT);
+    const bool is_kept = was_bad || (group.keeps_pose && flags_now & SWIVEL_BAD_INPUT);
     const bool is_same = probe.is_of_body() ? is_near(explained, probe.pose()) : probe.has_bits_of_limb();
     // At the borders of reach the solver's own flags count: rounding of a record may have others.
     const std::uint32_t flags = is_same && !(flags_now & SWIVEL_BAD_INPUT) ? flags_were : flags_now;
-    // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
+    // Steps change the results from solve to solve, and kept results belong to earlier inputs.
     if (!(group.features & kCarryingFeatures) && !is_kept && !is_same)
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT || was_bad || is_bad_in_body(group, limb))
@@ -217,6 +230,7 @@ bool is_near(const LimbPose& a, const LimbPose& b)
     if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
     if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
     explain_reach(probe, flags, text);
+    if (group.features & SWIVEL_WITH_PELVIS_FIT && flags & SWIVEL_CLAMPED_FAR) explain_coming_shift(crowd, limb, text);
     explain_limits(probe, flags_were, flags, text);
 }
 
@@ -226,7 +240,7 @@ void explain(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, Tex
 {
     const Group& group = crowd.groups[g];
     if (group.features & kShift)
-        explain_shift(group, limb, text);
+        explain_shift(crowd, group, limb, text);
     else if (group.features & kProp)
         explain_prop(crowd, group, limb, text);
     else if (group.features & kLook)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Why one limb's result is as it is, in words and numbers, for people.
+// Explains one limb's result, in words and numbers, for people.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Warnings of what no solve refuses, and hardly anybody means: another unit, another origin, a pose that is solved
-// twice. They stand before the explanation of what they are about.
+// Warnings of valid input that hardly anybody intends: another unit, another origin, a pose solved twice. A warning
+// comes before the explanation of the limb.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace swivel {
 
-// A length that is so many times another one, or less than its inverse, is doubted to be in its unit: nearly twice.
+// Lengths that differ by more than this factor, nearly 2, are suspected to be in different units.
 inline constexpr double kOtherUnit = 1.9;
 
 // Adds a warning of the crowd's last solve. Returns whether there is one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// To find what a rule did, it stands the foot again without that rule. Slopes are as if the root stood upright, because
+// To find a rule's effect, it places the foot again without that rule. Slopes are as if the root stood upright, because
 // no result says how it is turned. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
 #include "batch/explain/explain_ground.h"
 
@@ -27,23 +27,13 @@ double degrees_between(const Rotor<double>& a, const Rotor<double>& b)
 struct GroundedFoot {
     const Group& group;
     std::uint32_t limb;
-    const GroundRules& rules = group.limb.ground;
-    Vector<double> up = vector<double>(group.limb.up[0], group.limb.up[1], group.limb.up[2]);
+    const GroundRules& rules = group.plan.limb.ground;
+    Vector<double> up = vector<double>(group.plan.up[0], group.plan.up[1], group.plan.up[2]);
     GroundPlane<double> ground =
         ground_plane(vector_of(value(SWIVEL_GROUND)), vector_of(value(SWIVEL_GROUND_NORMAL)), up);
-    Rotor<double> sent = animated();
+    Rotor<double> sent = normalise(wanted_hand(group, limb));
 
     LimbValue value(swivel_field field) const { return {group, limb, field}; }
-    // The rotation that the hand was given, or else has in the pose.
-    Rotor<double> animated() const
-    {
-        const Rotor<double> given = rotor_of(value(SWIVEL_HAND));
-        if (const double length2 = len2(given); length2 == length2) return normalise(given);
-        const LimbValue record = value(SWIVEL_RECORD);
-        const Rotor<double> in_arm = rotor_of(record, kRecordIncoming) * rotor_of(record, kRecordIncoming + 4) *
-                                     rotor_of(record, kRecordIncoming + 8);
-        return normalise(rotor_of(record, kRecordArm) * in_arm * hand_from_arm(group));
-    }
     Rotor<double> stood(const GroundRules& by) const
     {
         const double scale = value(SWIVEL_RECORD)[kRecordScale];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Says what the ground does to a planted foot, in words and numbers. It reads what a solve left in rows, and solves
+// Explains how the ground moves a planted foot, in words and numbers. Reads the rows of the last solve, and solves
 // nothing.
 #pragma once
 

@@ -8,22 +8,17 @@
 #include "batch/explain/limb_value.h"
 #include "batch/query/forward.h"
 #include "batch/query/one_limb.h"
-#include "core/bit_cast.h"
 #include "core/prop.h"
 
 namespace swivel {
 
 namespace {
 
-std::uint32_t flags_of(const Group& group, std::uint32_t limb)
-{
-    return bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
-}
 Rotor<double> unit_rotor_of(const LimbValue& value, std::uint32_t first = 0)
 {
     return normalise(rotor_of(value, first));
 }
-// Whether a value is given that NaN leaves out.
+// Whether a value is given: NaN means that it is not.
 bool is_given(const LimbValue& value, std::uint32_t count) { return !std::isnan(value.length(0, count)); }
 
 // A hand that holds a prop, of one body.
@@ -58,21 +53,19 @@ struct Holder {
 private:
     HeldFrame<double> animated() const
     {
-        const LimbValue record(group, limb, SWIVEL_RECORD), target(group, limb, SWIVEL_TARGET),
-            hand(group, limb, SWIVEL_HAND);
+        const LimbValue record(group, limb, SWIVEL_RECORD), target(group, limb, SWIVEL_TARGET);
         const double scale = record[kRecordScale];
         const auto bone = [&](const Rotor<double>& frame, std::uint32_t n) {
             return sandwich(frame, vector(0.0, 0.0, scale * record[kRecordLengths + n]));
         };
         const Rotor<double> upper = unit_rotor_of(record, kRecordArm) * unit_rotor_of(record, kRecordIncoming),
                             fore = upper * unit_rotor_of(record, kRecordIncoming + 4);
-        Rotor<double> rotation = fore * unit_rotor_of(record, kRecordIncoming + 8) * hand_from_arm(group);
         Vector<double> point = vector_of(record, kRecordShoulder) + bone(upper, 0) + bone(fore, 1);
         if (group.features & SWIVEL_WITH_EFFECTOR)
-            point = point + scale * sandwich(rotation, vector_of(LimbValue(group, limb, SWIVEL_EFFECTOR)));
+            point = point +
+                    scale * sandwich(incoming_hand(group, limb), vector_of(LimbValue(group, limb, SWIVEL_EFFECTOR)));
         if (is_given(target, 3)) point = vector_of(target);
-        if (is_given(hand, 4)) rotation = unit_rotor_of(hand);
-        return {rotation, point};
+        return {normalise(wanted_hand(group, limb)), point};
     }
 };
 
@@ -82,23 +75,25 @@ struct HeldProp {
     const Group& group;
     std::uint32_t limb;
     LimbValue place{group, limb, SWIVEL_PROP_POSITION}, turn{group, limb, SWIVEL_PROP_ROTATION};
+    const PropPlan& plan = group.plan.prop;
 
-    bool has_joint() const { return group.limb.prop.joint != 0; }
-    bool is_pair() const { return group.limb.prop.holder_count > 1; }
+    bool has_joint() const { return plan.joint != 0; }
+    bool is_pair() const { return plan.holder_count > 1; }
     double share() const { return is_pair() ? LimbValue(group, limb, SWIVEL_HAND_BLEND)[0] : 0; }
     double weight() const { return LimbValue(group, limb, SWIVEL_PROP_WEIGHT)[0]; }
     Holder holder(std::uint32_t n) const
     {
+        const auto is_holder = [&](const LinkPlan& link) {
+            return link.is_prop && &crowd.groups[link.group] == &group && link.number == n;
+        };
         std::uint32_t g = 0;
-        while (!(crowd.groups[g].limb.link.is_prop && &crowd.groups[crowd.groups[g].limb.link.group] == &group &&
-                 crowd.groups[g].limb.link.number == n))
-            ++g;
+        while (!is_holder(crowd.groups[g].plan.limb.link)) ++g;
         return {crowd.groups[g], g, limb};
     }
     template <class Take>
     void for_each_holder(const Take& take) const
     {
-        for (std::uint32_t n = 0; n < group.limb.prop.holder_count; ++n) take(holder(n));
+        for (std::uint32_t n = 0; n < plan.holder_count; ++n) take(holder(n));
     }
     // Whether it is known where it would lie if it never moved.
     bool is_known() const
@@ -110,7 +105,7 @@ struct HeldProp {
     {
         const double given = is_given(place, 3) ? weight() : 0;
         if (given == 1) return vector_of(place);
-        const auto hands = between(holder(0).held(), holder(group.limb.prop.holder_count - 1).held(), share()).place;
+        const auto hands = between(holder(0).held(), holder(plan.holder_count - 1).held(), share()).place;
         return given == 0 ? hands : (1 - given) * hands + given * vector_of(place);
     }
     double moved() const
@@ -127,14 +122,16 @@ struct HeldProp {
             text.add("%sthe hand of group %u has some", is_found ? "; " : "", hand.number);
             is_found = true;
         });
-        if (!is_found) text.add("in the pose, the root or the prop's joint was not a number or out of its range");
+        if (!is_found)
+            text.add("in the pose, the root%s was not a number or out of its range",
+                     has_joint() ? " or the prop's joint" : "");
         text.add(". So its place is not known, and hands on it have bad input, too.");
     }
     // As the hands have it.
     void explain_hands(const char* what, Text& text) const
     {
         const double at = share();
-        const Holder first = holder(0), last = holder(group.limb.prop.holder_count - 1);
+        const Holder first = holder(0), last = holder(plan.holder_count - 1);
         if (at == 0 || at == 1)
             text.add("%s as the hand of group %u has it", what, at == 0 ? first.number : last.number);
         else
@@ -169,8 +166,8 @@ struct HeldProp {
     {
         constexpr double kNone = 1e-5;  // what rounding leaves, in shares of the first arm
         const Holder first = holder(0);
-        const double arm = first.has_record() ? first.length() : double{group.limb.rest_length};
-        const double way = is_known() ? moved() : 0, max = double{group.limb.prop.max_move};
+        const double arm = first.has_record() ? first.length() : double{group.plan.rest_length};
+        const double way = is_known() ? moved() : 0, max = double{plan.max_move};
         const bool moves = way > kNone * arm;
         if (moves) text.add("It moved by %.4g. ", way);
         if (flags & SWIVEL_REACHED)
@@ -198,7 +195,7 @@ private:
     std::uint32_t skeleton_joint() const
     {
         std::uint32_t n = 0;
-        while (crowd.joints[n].row != group.limb.prop.joint) ++n;
+        while (crowd.joints[n].row != plan.joint) ++n;
         return crowd.joints[n].skeleton_joint;
     }
 };
@@ -207,15 +204,16 @@ private:
 
 bool holds_bad(const swivel_crowd& crowd, const Group& group, std::uint32_t limb)
 {
-    return group.features & SWIVEL_WITH_LINK && flags_of(crowd.groups[group.limb.link.group], limb) & SWIVEL_BAD_INPUT;
+    const LinkPlan& link = group.plan.limb.link;
+    return group.features & SWIVEL_WITH_LINK && flags_of(crowd.groups[link.group], limb) & SWIVEL_BAD_INPUT;
 }
 
 void explain_link(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
-    const std::uint32_t g = group.limb.link.group;
+    const std::uint32_t g = group.plan.limb.link.group;
     const Group& held = crowd.groups[g];
     const std::uint32_t flags = flags_of(held, limb);
-    if (group.limb.link.is_prop) {
+    if (group.plan.limb.link.is_prop) {
         text.add("It holds the prop of group %u%s. ", g,
                  flags & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR) ? ", which not all hands reach" : "");
         return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Says what a hand holds, and why a prop lies where it does, in words and numbers. It reads what a solve left in rows,
-// and solves nothing but single limbs.
+// Explains a hand's link and a prop's place, in words and numbers. Reads the rows of the last solve, and solves single
+// limbs only.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace swivel {
 
-// Whether a limb is linked to what has bad input.
+// Whether the limb or prop that a limb is linked to has bad input.
 bool holds_bad(const swivel_crowd& crowd, const Group& group, std::uint32_t limb);
 
-// Says what a linked limb holds.
+// Explains a linked limb's hold.
 void explain_link(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
-// A prop.
+// Explains a prop's place.
 void explain_prop(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -42,7 +42,7 @@ void explain_pole(Probe& probe, Text& text)
         degrees);
 }
 
-// By how many degrees the elbow of one pose is turned from that of another, about the line to the wrist.
+// The elbow's turn from one pose to another about the line to the wrist, in degrees.
 double swivel_between(const LimbPose& a, const LimbPose& b)
 {
     const Vector<double> n = cross(a.wrist - a.shoulder, a.elbow - a.shoulder),
@@ -50,8 +50,11 @@ double swivel_between(const LimbPose& a, const LimbPose& b)
     return in_degrees(std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)));
 }
 
-// How far the probe's pose is outside of each limit. says_none: also where it is outside of none.
-void explain_violations(const Probe& probe, Text& text, bool says_none = true)
+// For a pose whose limits no place keeps, but which is outside of them by less than can be read.
+constexpr char kAtEdge[] = " Its pose violates them by less than 0.01 degrees: it is at the edge of what they allow.";
+
+// How far the probe's pose is outside of each limit. if_none: said where no angle is large enough to be read.
+void explain_violations(const Probe& probe, Text& text, const char* if_none)
 {
     bool is_first = true;
     for_each_limit([&](const FlagRow& row) {
@@ -60,10 +63,7 @@ void explain_violations(const Probe& probe, Text& text, bool says_none = true)
         text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", limit_name(row), degrees);
         is_first = false;
     });
-    if (!is_first)
-        text.add(".");
-    else if (says_none)
-        text.add(" Its pose violates none of them by 0.01 degrees.");
+    text.add("%s", is_first ? if_none : ".");
 }
 
 // The limits that the flags name, and of those the ones that alone leave the elbow no place.
@@ -85,7 +85,7 @@ struct Broken {
     const char* impossible() const { return alone.is_empty() ? room[0] : room[1]; }
 };
 
-// Says where an elbow goes whose step is smaller than its way, and what it violates meanwhile.
+// Says where an elbow is going that needs several steps, and the limits it violates meanwhile.
 void explain_way(Probe& probe, std::uint32_t flags, const Broken& broken, Text& text)
 {
     if (broken.all.is_empty())
@@ -98,7 +98,10 @@ void explain_way(Probe& probe, std::uint32_t flags, const Broken& broken, Text& 
             " Where the elbow was wished it breaks %s: it is on its way to the nearest place that keeps all limits.",
             broken.room[0]);
     probe.take();
-    explain_violations(probe, text, !broken.all.is_empty());
+    explain_violations(probe, text,
+                       broken.all.is_empty()       ? ""
+                       : flags & SWIVEL_INFEASIBLE ? kAtEdge
+                                                   : " Its pose violates none of them by 0.01 degrees.");
     text.add(" The next solve goes one step further.");
 }
 
@@ -116,7 +119,7 @@ void explain_place(Probe& probe, std::uint32_t flags, const Broken& broken, Text
                  : is_step                ? "all limits at once, as the step's end breaks "
                                           : "all limits at once, as the wish breaks ",
                  broken.impossible());
-        return explain_violations(probe, text);
+        return explain_violations(probe, text, kAtEdge);
     }
     const LimbPose solved = probe.pose();
     probe.take();

@@ -8,7 +8,7 @@
 
 namespace swivel {
 
-// flags_were: of the pose that the limb has. flags: of the next solve, whose pose the probe has.
+// flags_were: of the limb's present pose. flags: of the probe's pose, the next solve's.
 void explain_limits(Probe& probe, std::uint32_t flags_were, std::uint32_t flags, Text& text);
 
 }  // namespace swivel

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// No row says how far a joint turned, or how the root stands. So a cause is named where flags leave no other, and else
-// all that there may be. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
+// No row tells how far a joint turned, or how the root is turned. If flags leave several causes, the solved line of
+// sight decides. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
 #include "batch/explain/explain_look.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "batch/explain/bad_pose.h"
 #include "batch/explain/bad_value.h"
 #include "batch/explain/limb_value.h"
-#include "core/bit_cast.h"
 #include "core/conformal.h"
 
 namespace swivel {
@@ -22,18 +22,19 @@ struct LookOfBody {
     std::uint32_t limb;
     LimbValue sight{group, limb, SWIVEL_SIGHT}, turns{group, limb, SWIVEL_LOOK_TURNS},
         target{group, limb, SWIVEL_LOOK_TARGET};
-    const LookRules& rules = group.limb.look;
+    const LookRules& rules = group.plan.look;
+    const GroupJoints& joints = group.plan.joints;
     double weight = LimbValue(group, limb, SWIVEL_LOOK_WEIGHT)[0];
-    std::uint32_t flags = bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
+    std::uint32_t flags = flags_of(group, limb);
     Vector<double> axis = vector(sight[3], sight[4], sight[5]),
                    to = vector(target[0] - sight[0], target[1] - sight[1], target[2] - sight[2]);
 
     bool has_target() const { return !std::isnan(target.length(0, 3)); }
     bool is_anew() const { return turns[0] == 0; }
     double distance() const { return std::sqrt(len2(to)); }
-    // By how many radians the line of sight is off its target.
+    // The angle from the line of sight to its target, radians.
     double missed() const { return std::atan2(std::sqrt(len2(cross(axis, to))), scalar_product(axis, to)); }
-    // The same that rounding of places and directions may make.
+    // The angle that rounding of places and directions may cause.
     double rounding() const
     {
         return 1e-5 + 1e-6 * (sight.length(0, 3) + target.length(0, 3)) / std::max(distance(), 1e-30);
@@ -45,7 +46,7 @@ struct LookOfBody {
         return has_target() && missed() < 1e-4 - rounding();
     }
 
-    // A target in centimetres, or from another origin, is seen as one that is very far away.
+    // Suspects a very far target to be in centimetres or from another origin.
     void doubt_distance(Text& text) const
     {
         double chain = 0;
@@ -63,9 +64,8 @@ struct LookOfBody {
     {
         text.add("Bad input: ");
         if (!explain_bad_in_body(group, limb, text))
-            text.add(
-                "in the pose, its time, or a rotation, place or scale of the chain or the root was not a number or out "
-                "of its range, unless an input has been written since");
+            explain_bad_pose(crowd, (rules.rate > 0 ? kTimeOfPose : 0u) | kWeightOfPose | kJointsOfPose,
+                             "a rotation, place or scale of the chain or the root", text);
         text.add(". The chain keeps its incoming pose.");
     }
     void explain_nothing(Text& text) const
@@ -91,12 +91,11 @@ struct LookOfBody {
         if (flags & SWIVEL_FADED) explain_fade(text);
         if (flags & SWIVEL_LIMITED_STEP) explain_rate(is_whole && !(flags & SWIVEL_LIMITED_LOOK), text);
         if (flags & SWIVEL_LIMITED_LOOK) explain_cone(is_whole, text);
-        if (is_whole && !(flags & (SWIVEL_LIMITED_STEP | SWIVEL_LIMITED_LOOK)))
-            text.add(
-                " The target is nearer to joint %u than the line of sight comes: it is %.4g from the eye. Or the pose "
-                "has a "
-                "weight below 1.",
-                last_joint(), distance());
+        if (!is_whole || flags & (SWIVEL_LIMITED_STEP | SWIVEL_LIMITED_LOOK)) return;
+        if (is_too_near() || !(crowd.pose_notes.load(std::memory_order_relaxed) & kHasWeight))
+            explain_nearness(text);
+        else
+            text.add(" The pose has a weight below 1.");
     }
 
 private:
@@ -107,26 +106,50 @@ private:
         return n;
     }
     std::uint32_t parent_of(std::uint32_t number) const { return number_of(crowd.joints[number].parent); }
-    std::uint32_t last_joint_number() const { return number_of(group.limb.turned[group.limb.turned_count - 1].row); }
+    std::uint32_t last_joint_number() const { return number_of(joints.turned[joints.turned_count - 1].row); }
     std::uint32_t last_joint() const { return crowd.joints[last_joint_number()].skeleton_joint; }
-    // A chain turns its line towards the target. So where the line is still behind, it came so.
+    // The scale of the body, as a limb with a record has it; else 1.
+    double scale() const
+    {
+        for (std::uint32_t g = 0; g < crowd.group_count; ++g)
+            if (crowd.groups[g].features & SWIVEL_WITH_RECORD)
+                return LimbValue(crowd.groups[g], limb, SWIVEL_RECORD)[kRecordScale];
+        return 1;
+    }
+    // Whether the target is nearer to the last joint than the line of sight comes. Then that joint has turned the
+    // line's nearest point to the target, which so lies between the two.
+    bool is_too_near() const
+    {
+        const Vector<double> eye = vector<double>(rules.eye[0], rules.eye[1], rules.eye[2]),
+                             ahead = vector<double>(rules.axis[0], rules.axis[1], rules.axis[2]);
+        const double along = scale() * scalar_product(eye, ahead),
+                     across = scale() * std::sqrt(len2(cross(eye, ahead))),
+                     seen = 1e-3 * across + rounding() * distance();
+        const Vector<double> from_nearest = to + along * axis;
+        return std::fabs(scalar_product(from_nearest, axis)) <= seen && std::sqrt(len2(from_nearest)) <= across + seen;
+    }
+    void explain_nearness(Text& text) const
+    {
+        text.add(" The target is nearer to joint %u than the line of sight comes: it is %.4g from the eye.",
+                 last_joint(), distance());
+    }
+    // An eye that turns towards a target comes nearer to it, so a target that is far from it by now was so before.
     void explain_fade(Text& text) const
     {
         const double cos_full = double{rules.fade.cos_none} + 1 / double{rules.fade.per_cos},
                      full = in_degrees(std::acos(std::clamp(cos_full, -1.0, 1.0))),
                      none = in_degrees(std::acos(std::clamp(double{rules.fade.cos_none}, -1.0, 1.0)));
         const bool is_followed = !(flags & SWIVEL_LIMITED_STEP);
-        const double angle = in_degrees(missed());
-        if (is_followed && angle >= none + 0.01)
+        if (distance() < scale() * double{rules.fade.distance})
+            text.add(
+                " The look fades, because its target is nearer to the eye than %.3g of the last joint's unit: it is "
+                "%.4g away.",
+                double{rules.fade.distance}, distance());
+        else if (is_followed && in_degrees(missed()) >= none + 0.01)
             text.add(" The target is behind, more than %.4g degrees from the incoming line, so the look has faded out.",
                      none);
-        else if (is_followed && angle >= full + 0.01)
-            text.add(" The target is behind, more than %.4g degrees from the incoming line, so the look fades.", full);
         else
-            text.add(
-                " The look fades, because its target is more than %.4g degrees from the incoming line, or nearer to "
-                "the eye than %.3g of the last joint's unit: it is %.4g away.",
-                full, double{rules.fade.distance}, distance());
+            text.add(" The target is behind, more than %.4g degrees from the incoming line, so the look fades.", full);
     }
     void explain_rate(bool is_alone, Text& text) const
     {
@@ -137,17 +160,15 @@ private:
     // is_whole: the last joint was to take all that was left.
     void explain_cone(bool is_whole, Text& text) const
     {
-        const std::uint32_t count = group.limb.turned_count;
+        const std::uint32_t count = joints.turned_count;
         const LookJoint& last = rules.joint[count - 1];
         const double max = in_degrees(2 * std::atan2(double{last.sin_half_max}, double{last.cos_half_max}));
-        const bool is_last = count == 1 || (is_whole && !(flags & SWIVEL_LIMITED_STEP));
-        if (!is_last) return text.add(" A cone holds a joint of the chain back.");
-        text.add(" The cone of joint %u, %.4g degrees, holds it back", last_joint(), max);
-        const Vector<double> eye = vector<double>(rules.eye[0], rules.eye[1], rules.eye[2]),
-                             ahead = vector<double>(rules.axis[0], rules.axis[1], rules.axis[2]);
-        if (count > 1 && len2(cross(eye, ahead)) > 0)
-            text.add(", unless the target is nearer to that joint than the line of sight comes");
-        text.add(".");
+        const bool is_last = count == 1 || (is_whole && !(flags & SWIVEL_LIMITED_STEP)),
+                   is_near = count > 1 && is_last && is_too_near();
+        if (is_last && !is_near)
+            return text.add(" The cone of joint %u, %.4g degrees, holds it back.", last_joint(), max);
+        text.add(" A cone holds a joint of the chain back.");
+        if (is_near) explain_nearness(text);
     }
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Why a look does or does not meet its target, in words and numbers. It reads what a solve left in rows, and solves
-// nothing.
+// Explains whether a look meets its target, in words and numbers. Reads the rows of the last solve, and solves nothing.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace swivel {
 
-// A look.
+// Explains a look.
 void explain_look(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/explain/explain_plant.h"
 
-#include "batch/explain/bad_value.h"
 #include "batch/explain/limb_value.h"
-#include "core/bit_cast.h"
 #include "core/plant_rules.h"
 
 namespace swivel {
@@ -36,7 +34,7 @@ double in_ms(double seconds) { return seconds * 1000; }
 struct PlantedLimb {
     const Group& group;
     std::uint32_t limb;
-    const PlantRules& rules = group.limb.rules;
+    const PlantRules& rules = group.plan.limb.plant;
     CarriedPlant state{group, limb};
 
     bool is_by_motion() const { return group.features & SWIVEL_PLANT_BY_MOTION; }
@@ -48,7 +46,7 @@ struct PlantedLimb {
     // As the limb's parent is scaled.
     double share(double distance) const
     {
-        return distance / (double{group.limb.rest_length} * LimbValue(group, limb, SWIVEL_RECORD)[kRecordScale]);
+        return distance / (double{group.plan.rest_length} * LimbValue(group, limb, SWIVEL_RECORD)[kRecordScale]);
     }
 
     void explain_locked(Text& text) const
@@ -130,30 +128,6 @@ void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, 
     }
     if (flags & SWIVEL_CUT) text.add(" Its speed was too high to be eased away and was cut, so its target jumps.");
     text.add(" ");
-}
-
-void explain_shift(const Group& group, std::uint32_t limb, Text& text)
-{
-    const auto flags = bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
-    const LimbValue shift(group, limb, SWIVEL_SHIFT), wish(group, limb, SWIVEL_SHIFT_WISH);
-    if (is_bad_in_body(group, limb)) {
-        text.add("Bad input: ");
-        explain_bad_in_body(group, limb, text);
-        return text.add(". The shift stays as it was.");
-    }
-    if (flags == 0) return text.add("It was never solved, so it has no shift.");
-    if (flags & SWIVEL_BAD_INPUT)
-        return text.add(
-            "Bad input: in the pose, its time, or the root's rotation or scale, was not a number or out of its range. "
-            "The shift stays as it was.");
-    if (shift[2] == 0) return text.add("It was reset: the next solve shifts the body at once.");
-    text.add("The body is shifted by %.4g along up, at %.4g a second.", shift[0], shift[1]);
-    if (flags & SWIVEL_REACHED)
-        text.add(" All limbs that count reach from where it goes.");
-    else
-        text.add(" No shift from %.3g limb lengths down to %.3g up lets all limbs that count reach.",
-                 double{group.limb.shift.drop}, double{group.limb.shift.rise});
-    if (wish[0] != 0) text.add(" The wish is %.4g.", wish[0]);
 }
 
 }  // namespace swivel

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Why a planted point stands or slides, and what a body's shift is, in words and numbers. It reads what a solve left in
-// rows, and solves nothing.
+// Explains why a planted point stands or slides, in words and numbers. Reads the rows of the last solve, and solves
+// nothing.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,7 @@
 
 namespace swivel {
 
-// Where the target of a planted limb comes from. flags: as the last solve left them.
+// Explains a planted limb's target. flags: of the last solve.
 void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text);
-
-// A body's shift.
-void explain_shift(const Group& group, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

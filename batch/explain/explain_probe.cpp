@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "batch/explain/explain_text.h"
+#include "batch/explain/limb_value.h"
 #include "batch/explain/outside_limit.h"
 #include "batch/query/joint_angles.h"
 #include "batch/solve/solve.h"
@@ -80,6 +81,7 @@ bool Probe::is(swivel_field field, std::initializer_list<float> wanted) const
 bool Probe::is_posed(swivel_field field) const
 {
     if (!is_of_body()) return false;
+    if (field == SWIVEL_HAND && !has(SWIVEL_WITH_AIM)) return std::isnan(LimbValue(source_, limb_, field).length(0, 4));
     return row_of(field).excludes & kBody || (field == SWIVEL_LENGTHS && std::isnan(given(field, 0)));
 }
 

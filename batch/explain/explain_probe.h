@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A limb that is solved alone, to find out why it is as it is. To find a bad input, or what a limit did, the probe
-// replaces the input by a value that asks for nothing. If that input is the cause, the limb is then good, or goes where
-// it was wished to. Degrees are for people.
+// Solves one limb alone to find causes. To test a bad input or a limit, the probe replaces it by a neutral value. If it
+// was the cause, the limb is then good, or reaches its wish. Degrees are for people.
 #pragma once
 
 #include <initializer_list>
@@ -13,7 +12,7 @@
 
 namespace swivel {
 
-// It takes nearly half of the stack that a call may take. So there is one, which takes the limb again for each
+// A probe takes nearly half of the stack that a call may use. So there is only one, which takes the limb anew for each
 // question.
 class Probe {
 public:
@@ -27,13 +26,13 @@ public:
     std::uint32_t flags() const;
     double missed() const { return distance_missed(group(), 0); }
     double missed_share() const { return residual(group(), 0); }
-    // The length of both bones, as they count.
+    // The length of both bones, scaled and stretched.
     double length() const { return length_of(group(), 0); }
     // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
     double violation(const FlagRow& limit) const;
     // The angles of shoulder_box, in radians.
     double middle_angle() const;
-    // Whether these are the results that the limb has.
+    // Whether the probe's results are the limb's, to the bit.
     bool has_bits_of_limb() const;
 
     bool has(swivel_features feature) const { return source_.features & feature; }
@@ -44,17 +43,17 @@ public:
         return group().input[row_offset(0, 0, field_first_row(group().features, field) + component)];
     }
     bool is(swivel_field field, std::initializer_list<float> wanted) const;
-    // The same as the caller gave it: a body's limb is seen otherwise.
+    // The same in the group's own rows, from which a body's limb differs.
     std::uint32_t given_count(swivel_field field) const { return field_row_count(source_.features, field); }
     float given(swivel_field field, std::uint32_t component) const
     {
         return source_
             .input[row_offset(limb_, source_.input_row_count, field_first_row(source_.features, field) + component)];
     }
-    // Whether a body's pose gave the field, and not the caller.
+    // Whether a body's pose gave the field instead of the caller.
     bool is_posed(swivel_field field) const;
 
-    // Makes the field, or what a limit is given by, ask for nothing.
+    // Replaces the field, or a limit's input, by a neutral value.
     void give_up(swivel_field field);
     void give_up(const FlagRow& limit);
     void give_up_all_but(swivel_field kept);

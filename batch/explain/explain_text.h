@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Text as far as there is room, always with a 0 at its end. A text that was cut ends in three dots.
+// Text in a buffer, always with a 0 at its end. A text that does not fit ends in three dots.
 #pragma once
 
 #include <algorithm>

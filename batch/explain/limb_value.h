@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A value of one limb, an input or a result, as the rows of its group have it.
+// An input or a result of one limb, in the rows of its group.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 
 #include "batch/crowd/crowd.h"
+#include "core/bit_cast.h"
 #include "core/conformal.h"
 #include "simd/rows.h"
 
@@ -32,11 +33,15 @@ struct LimbValue {
     }
 };
 
+inline std::uint32_t flags_of(const Group& group, std::uint32_t limb)
+{
+    return bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
+}
 inline Vector<double> vector_of(const LimbValue& value, std::uint32_t first = 0)
 {
     return vector(value[first], value[first + 1], value[first + 2]);
 }
-// The quaternion as it stands there, of any length.
+// The stored quaternion, of any length.
 inline Rotor<double> rotor_of(const LimbValue& value, std::uint32_t first = 0)
 {
     return rotor(value[first], value[first + 1], value[first + 2], value[first + 3]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One body of a pose in double: where its joints are, as a solve reads the pose, or as it would be with a mistake that
-// people make. Knows no limbs and no goals.
+// One body of a pose in double: where a solve has its joints, or where a common mistake in reading the pose would put
+// them. Knows no limbs and no goals.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace swivel {
 
-// How a pose's numbers are taken.
+// How a pose's numbers are read.
 struct Reading {
     swivel_pose_form form;
     swivel_pose_space space;
@@ -20,21 +20,21 @@ struct Reading {
     bool at_rest = false;                               // translations are the skeleton's
     bool unscaled = false;                              // joints have no scales of their own
     bool root_in_other_numbers = false;                 // floats for doubles, or doubles for floats
-    int root_place = 1, root_turn = 1, root_scale = 1;  // how often each counts: 0, 1 or 2 times
+    int root_place = 1, root_turn = 1, root_scale = 1;  // how many times each counts: 0, 1 or 2
 
-    // As a solve takes them.
+    // As a solve reads them.
     explicit Reading(const swivel_pose& pose) : form(pose.form), space(pose.space) {}
 };
 
-// Joints are numbered as the crowd lists those that some group needs. 0 is the root, and parents come before joints.
+// Joint numbers are places in the crowd's list of needed joints. 0 is the root, and parents come before joints.
 class PosedBody {
 public:
-    // The pose must be right, and whole. Both must live as long as this.
+    // The pose must be valid and of full size. Crowd and pose must outlive this.
     PosedBody(const swivel_crowd& crowd, const swivel_pose& pose, std::uint32_t body)
         : crowd_(crowd), pose_(pose), body_(body)
     {
     }
-    // In the world; NaN where a number that it depends on is bad.
+    // In the world; NaN if it depends on a bad number.
     Vector<double> place(std::uint32_t joint, const Reading& how) const;
     // In the world, of unit length.
     Rotor<double> rotation(std::uint32_t joint, const Reading& how) const;
@@ -42,7 +42,7 @@ public:
     double rotation_length(std::uint32_t joint) const;
     // Whether joints have translations of their own, and not the skeleton's.
     bool has_translations(const Reading& how) const;
-    // Whether the root's place has room for doubles: floats of the last body may end before these.
+    // Whether the root's place may be read as doubles: an array of floats may end earlier at the last body.
     bool may_have_double_root() const;
     Vector<double> root_place(const Reading& how) const;
     Vector<double> root_place() const { return root_place(Reading(pose_)); }
@@ -52,10 +52,10 @@ public:
     std::uint32_t joint_at(std::uint32_t row) const;
     std::uint32_t parent(std::uint32_t joint) const { return joint_at(crowd_.joints[joint].parent); }
     std::uint32_t skeleton_joint(std::uint32_t joint) const { return crowd_.joints[joint].skeleton_joint; }
-    // How many joints the first is below the second; 0 for the same and where it is not below.
+    // The number of steps from a joint up to one above it; 0 if that is not above.
     std::uint32_t steps_up(std::uint32_t joint, std::uint32_t above) const;
-    // Whether a joint's 16 floats may be read and can be a matrix of columns, though the form has 12. These are then no
-    // matrix of the form, or one without a translation.
+    // Whether a joint of a form of 12 floats may have 16 that are a matrix by columns. Then the 12 are no matrix of the
+    // form, or one without a translation.
     bool may_be_columns(std::uint32_t joint) const;
 
 private:

@@ -24,7 +24,7 @@ void store_turn(double angle, float* turn)
     turn[0] = static_cast<float>(std::cos(angle));
     turn[1] = static_cast<float>(std::sin(angle));
 }
-// An angle of 0 to pi: neither end may round to a sine below 0.
+// An angle of 0 to pi, with a sine >= 0 also after rounding.
 void store_half_turn(double angle, float* turn)
 {
     store_turn(std::fmin(std::fmax(angle, 0), kPi), turn);
@@ -42,8 +42,8 @@ swivel_status store_unit(const char* function, const double axis[3], float* unit
     return SWIVEL_OK;
 }
 
-// A limit of the swivel as a mirror sees it: the middles of its ranges turned the other way, also about an axis, which
-// is mirrored itself; but not those of a box's turns about the hinge.
+// Mirrors a limit: its axis, and the middles of its ranges, which turn the other way. Only a box's range about the
+// hinge stays.
 void mirror_limit(const FieldRow& row, const EulerOrder& order, float* value)
 {
     const bool is_box = row.needs & kBoxFeatures;
@@ -117,8 +117,8 @@ void swivel_cos_sin(double angle, float turn[2])
     store_turn(angle, turn);
 }
 
-// The arm frame of the other side is the mirror image with its hinge turned over. So coordinates of vectors change sign
-// along the hinge, and turns about the two other axes change their sense.
+// The other side's arm frame is the mirror image with its hinge reversed. So vectors change sign along the hinge, and
+// turns about the other two axes change direction.
 swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to)
 {
     const FloatEnv env;

@@ -32,7 +32,7 @@ Support support_at(const swivel_supports& supports, std::size_t n)
     return {vector(p[0], p[1], p[2]), normalise(rotor<double>(q[0], q[1], q[2], q[3]))};
 }
 
-// Numbers of a carried value of one limb, from one of them on.
+// Three numbers of a value that a limb carries, from `first` on.
 class Carried {
 public:
     Carried(const Group& group, std::uint32_t limb, swivel_field field, std::uint32_t first)
@@ -45,7 +45,7 @@ public:
         const Vector<double> changed = change(vector<double>(at_[0], at_[kLanes], at_[2 * kLanes]));
         set({changed.at<kE1>(), changed.at<kE2>(), changed.at<kE3>()});
     }
-    // A rotation's.
+    // The same for a rotation's four numbers.
     void turn(const Rotor<double>& by) const
     {
         const Rotor<double> turned = by * rotor<double>(at_[0], at_[kLanes], at_[2 * kLanes], at_[3 * kLanes]);
@@ -62,7 +62,7 @@ private:
     }
 };
 
-// Whether a limb carries anything.
+// Whether a limb has been solved, so that it carries a state.
 bool has_begun(const Group& group, std::uint32_t limb)
 {
     const std::uint32_t state = field_first_row(group.features, SWIVEL_PLANT) + 10;
@@ -99,7 +99,7 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::alone);
-    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
     const Group& planted = crowd->groups[group];
     if (!(planted.features & SWIVEL_WITH_PLANT))
         return fail(SWIVEL_INVALID_ARGUMENT,

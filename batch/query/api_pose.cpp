@@ -9,11 +9,11 @@
 #include "batch/api/check.h"
 #include "batch/api/use.h"
 #include "batch/crowd/streams.h"
+#include "batch/query/allowed_arcs.h"
 #include "batch/query/forward.h"
 #include "batch/query/joint_angles.h"
 #include "batch/query/one_limb.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/solve.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -31,7 +31,7 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
 }
 
-// Calls take(group, limb, n) for the nth limb from `first` on; a body's as a free limb.
+// Calls take(group, limb, n) for the nth limb from `first` on. A body's limb comes as a free one.
 template <class Take>
 void for_each_free_limb(const Group& group, std::uint32_t first, std::uint32_t limb_count, const Take& take)
 {
@@ -51,7 +51,7 @@ void for_each_free_limb(const Group& group, std::uint32_t first, std::uint32_t l
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
 {
     const Use use(crowd, Sharing::alone);
-    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
     const Group& limbs = crowd->groups[group];
     constexpr float zeros[kMaxComponents] = {};
     for (const FieldRow& row : kFields)
@@ -66,7 +66,7 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(group, limb, 1); status != SWIVEL_OK) return status;
     if (const swivel_status status = check_kept(*crowd, group, "swivel_allowed_arcs"); status != SWIVEL_OK)
         return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
@@ -82,7 +82,7 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
     if (const swivel_status status = check_kept(*crowd, group, "swivel_forward"); status != SWIVEL_OK) return status;
     if (hand.data && !(crowd->groups[group].features & SWIVEL_WITH_HAND))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND",
@@ -110,7 +110,7 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
     if (const swivel_status status = check_kept(*crowd, group, "swivel_residuals"); status != SWIVEL_OK) return status;
     if (const swivel_status status =
             check_stride(group, "distance", limb_count, distance.data, distance.stride, sizeof(double), false);
@@ -130,7 +130,7 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
     if (const swivel_status status = check_limbs(*crowd, group, "swivel_joint_angles"); status != SWIVEL_OK)
         return status;
     for (const auto& [order, name] :

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The C entry points that describe features, fields and flags, rows of the table in simd/fields.h, and constants, rows
-// of that in batch/crowd/constants.cpp.
+// The C entry points that describe features, fields and flags (the table in simd/fields.h) and constants (the table in
+// batch/crowd/constants.cpp).
 #include <algorithm>
 #include <iterator>
 
@@ -26,7 +26,7 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
     *info = {.field = row.field,
              .kind = row.kind,
              .name = row.name,
-             .range = row.value.range,
+             .range = row.value.words,
              .needs = row.needs & kPublicFeatures,
              .excludes = row.excludes & kPublicFeatures,
              .kinds = kinds_of(row),

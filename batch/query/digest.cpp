@@ -11,12 +11,12 @@ namespace {
 
 using namespace swivel;
 
-// Any odd number with bits in both halves, so that no flip of one bit leaves the upper half as it was. This one is
-// 2^64 divided by the golden ratio.
+// An odd number with bits in both halves, so that flipping any bit changes the upper half: 2^64 divided by the golden
+// ratio.
 constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15u;
 
-// The product carries a change to the bits above it, the shift carries those back down. Both steps are one to one, so
-// no change is lost on the way.
+// The product spreads a change to the bits above it, and the shift brings these back down. Both steps are invertible,
+// so no change is lost.
 void add(std::uint64_t& hash, std::uint64_t word)
 {
     hash = (hash ^ word) * kFactor;
@@ -30,7 +30,7 @@ std::uint32_t bits_of(float number)
     return bits;
 }
 
-// A hash for each lane, so that sixteen products are under way at once.
+// One hash for each lane, so that sixteen products run at once.
 using Hashes = std::array<std::uint64_t, kLanes>;
 
 void add(Hashes& hashes, const Group& group)

@@ -40,7 +40,7 @@ Bones bones_of(const Group& group, std::size_t limb)
     return {size * read(SWIVEL_LENGTHS, 0), size * read(SWIVEL_LENGTHS, 1)};
 }
 
-// The line of the hand that is aimed with, in the space of the targets.
+// The hand's ray of an aim, in the space of the targets.
 Vector<double> aim_axis(const Group& group, std::size_t limb, const Rotor<double>& hand)
 {
     // A hand that is not solved stays at rest.
@@ -69,7 +69,7 @@ LimbPose forward(const Group& group, std::size_t limb)
     // Without SWIVEL_WORLD, targets are in the arm frame itself.
     const Rotor<double> arm_w = joints && world ? parent * rotor_of(group.binding.parent_from_arm) : parent;
 
-    // Its axes, as upper arm and forearm carry them. Joints in between go along with the bone that they are in.
+    // The arm frame's axes, turned with upper arm and forearm. Joints in between move with their bone.
     const ArmRotors arm = arm_rotors(group, limb);
     const Rotor<double> upper_w = arm_w * arm.shoulder, fore_w = upper_w * arm.elbow;
     const Rotor<double> wrist_parent_w = joints ? fore_w * ~rotor_of(group.binding.wrist_parent_from_arm) : fore_w;

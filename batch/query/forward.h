@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Forward kinematics of one solved limb, counted within its group, and how far it is from its target. It is in double
-// and needs no lanes.
+// Forward kinematics of one solved limb, counted within its group, and its distance from the target. In double, without
+// lanes.
 #pragma once
 
 #include "batch/crowd/crowd.h"
@@ -15,24 +15,24 @@ inline Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<doub
 
 struct LimbPose {
     Vector<double> shoulder, elbow, wrist;  // in the space of the targets
-    Rotor<double> hand;                     // without SWIVEL_WITH_HAND that of the wrist's parent joint
+    Rotor<double> hand;                     // without SWIVEL_WITH_HAND the rotation of the wrist's parent
 };
 
 LimbPose forward(const Group& group, std::size_t limb);
 
-// The rotations that the joints add to the rest pose, in the arm frame: of unit length, the elbow and the wrist with w
-// >= 0.
+// The rotations that the joints add to the rest pose, in the arm frame: unit; elbow and wrist with w >= 0.
 struct ArmRotors {
     Rotor<double> shoulder, elbow, wrist;
 };
 ArmRotors arm_rotors(const Group& group, std::size_t limb);
 
-// Both bones' length in the space of the targets, scaled and stretched.
+// The length of both bones in the space of the targets, scaled and stretched.
 double length_of(const Group& group, std::size_t limb);
 
-// How far the wrist, or the effector, is from the target, or with an aim the target from the hand's ray. residual() is
-// that over both bones' length, scaled and stretched: 0 for a limb of no length. NaN for a limb with bad input.
+// The distance of the wrist, or the effector, from the target; with an aim, of the target from the hand's ray. NaN for
+// a limb with bad input.
 double distance_missed(const Group& group, std::size_t limb);
+// That distance over length_of(); 0 for a limb of no length.
 double residual(const Group& group, std::size_t limb);
 
 }  // namespace swivel

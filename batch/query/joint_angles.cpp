@@ -32,7 +32,7 @@ void euler_angles(const Rotor<double>& q, const EulerOrder& order, int family, d
     if (cos_middle > 1e-7) {
         angles[0] = std::atan2(y, x);
         angles[2] = std::atan2(-sign * entry(order.first, order.middle), entry(order.first, order.first));
-    } else {  // first and last turn about one line: the first takes it all
+    } else {  // first and last turn about one line, so the first takes the whole turn
         angles[0] = std::atan2(sign * entry(order.last, order.middle), entry(order.middle, order.middle));
         angles[2] = 0;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A pose as joint angles, and their limits, for people and files.
+// A pose as joint angles, for people and files.
 #pragma once
 
 #include "batch/query/forward.h"

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "batch/query/one_limb.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "batch/query/forward.h"
 #include "batch/solve/rest.h"
-#include "include/swivel/swivel_regions.h"
 #include "simd/rows.h"
 
 namespace swivel {
 
 namespace {
 
+constexpr swivel_features kBodyFeatures = [] {
+    swivel_features found = kBody | kLibraryGoal;
+    for (const FeatureRow& row : kFeatures)
+        if (row.kinds == kBodyLimbs) found |= row.feature;
+    return found;
+}();
 constexpr swivel_features free_features(swivel_features features)
 {
     if (!(features & kBody)) return features;
     // An aim sees the hand that the record has.
     const swivel_features hand = features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0;
-    constexpr swivel_features of_bodies = [] {
-        swivel_features found = kBody | kLibraryGoal;
-        for (const FeatureRow& row : kFeatures)
-            if (row.kinds == kBodyLimbs) found |= row.feature;
-        return found;
-    }();
-    return (features & ~(of_bodies | SWIVEL_WITH_CLAVICLE | kTwistBones)) | hand;
+    return (features & ~(kBodyFeatures | SWIVEL_WITH_CLAVICLE | kTwistBones)) | hand;
 }
 
 // A value of a limb, among the input or the result rows.
@@ -32,6 +31,11 @@ float* value_of(const Group& group, std::uint32_t limb, swivel_field field)
     float* const rows = is_input(field) ? group.input : group.results;
     const std::uint32_t row_count = is_input(field) ? group.input_row_count : group.result_row_count;
     return rows + row_offset(limb, row_count, field_first_row(group.features, field));
+}
+// A rotor of a limb, from the first of its numbers on.
+Rotor<double> rotor_from(const float* first)
+{
+    return rotor<double>(first[0], first[kLanes], first[2 * kLanes], first[3 * kLanes]);
 }
 
 }  // namespace
@@ -42,25 +46,40 @@ Rotor<double> hand_from_arm(const Group& group)
     return normalise(~rotor_of(group.binding.wrist_parent_from_arm) * rotor_of(group.binding.wrist_rest));
 }
 
-OneLimb::OneLimb(const Group& group) : source_(group), crowd_(nullptr)
+Rotor<double> incoming_hand(const Group& group, std::uint32_t limb)
 {
-    static_assert(block_bytes(free_features(kEveryFeature | kBody)) + 4096 <= kArenaBytes, "with what stands before");
-    static_assert(sizeof(swivel_crowd) + sizeof(Group) + sizeof(swivel_region) + 4 * 64 <= 4096);
-    swivel_limb_def alone = swivel_default_limb_def(1);
-    alone.features = free_features(group.features) & kPublicFeatures;
-    alone.twist_bone_count = twist_bone_count(free_features(group.features));
+    const float* const record = value_of(group, limb, SWIVEL_RECORD);
+    const auto rotor_at = [&](int n) { return rotor_from(record + static_cast<std::size_t>(n) * kLanes); };
+    Rotor<double> arm = rotor_at(kRecordArm);
+    if (group.features & SWIVEL_WITH_CLAVICLE) {  // the record has the arm as the clavicle turned it
+        const Rotor<double> parent_from_arm = rotor_of(group.binding.parent_from_arm);
+        const Rotor<double> turn = rotor_from(value_of(group, limb, SWIVEL_CLAVICLE_ROTATION));
+        arm = arm * ~parent_from_arm * ~turn * parent_from_arm;
+    }
+    const Rotor<double> hand =
+        rotor_at(kRecordIncoming) * rotor_at(kRecordIncoming + 4) * rotor_at(kRecordIncoming + 8);
+    return normalise(arm * hand * hand_from_arm(group));
+}
+
+Rotor<double> wanted_hand(const Group& group, std::uint32_t limb)
+{
+    const Rotor<double> hand = rotor_from(value_of(group, limb, SWIVEL_HAND));
+    return std::isnan(len2(hand)) ? incoming_hand(group, limb) : hand;
+}
+
+OneLimb::OneLimb(const Group& group) : source_(group)
+{
+    static_assert(block_bytes(kEveryFeature & ~kBodyFeatures) <= sizeof rows_);
+    GroupDef alone = default_group();
+    alone.features = free_features(group.features);
+    alone.limb_count = 1;
+    alone.on_bad_input = SWIVEL_REST_POSE;
     alone.shoulder_order = group.shoulder_order;
     alone.wrist_order = group.wrist_order;
     alone.binding = group.binding;
-    alone.region = group.region;
-    swivel_group_def alone_in_crowd = swivel_default_group_def();
-    alone_in_crowd.limb = &alone;
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.groups = &alone_in_crowd;
-    def.group_count = 1;
-    def.workspace_count = 0;
-    crowd_ = place_crowd(def, arena_);
-    rest(*crowd_);
+    place_group(alone, 0, rows_, group_);
+    group_.region = group.region;
+    rest(group_);
 }
 
 void OneLimb::take(std::uint32_t limb)
@@ -77,7 +96,7 @@ void OneLimb::take_record(std::uint32_t limb)
 {
     const float* const record = value_of(source_, limb, SWIVEL_RECORD);
     const auto number = [&](int n) { return static_cast<double>(record[static_cast<std::size_t>(n) * kLanes]); };
-    const auto rotor_at = [&](int n) { return rotor(number(n), number(n + 1), number(n + 2), number(n + 3)); };
+    const auto rotor_at = [&](int n) { return rotor_from(record + static_cast<std::size_t>(n) * kLanes); };
     const auto vector_of = [&](swivel_field field) {
         const float* const v = value_of(source_, limb, field);
         return vector<double>(v[0], v[kLanes], v[2 * kLanes]);
@@ -98,9 +117,10 @@ void OneLimb::take_record(std::uint32_t limb)
         if (!(features & SWIVEL_WITH_HAND)) set(SWIVEL_WRIST, rotor_at(kRecordIncoming + 8));
         set(SWIVEL_AIM, sandwich(hand, vector_of(SWIVEL_AIM)));
     } else if (features & SWIVEL_WITH_HAND) {
-        const float* const q = features & kLibraryGoal ? value_of(source_, limb, SWIVEL_SOLVED_GOAL) + 3 * kLanes
-                                                       : value_of(source_, limb, SWIVEL_HAND);
-        set(SWIVEL_HAND, rotor<double>(q[0], q[kLanes], q[2 * kLanes], q[3 * kLanes]) * ~hand);
+        const Rotor<double> wanted = features & kLibraryGoal
+                                         ? rotor_from(value_of(source_, limb, SWIVEL_SOLVED_GOAL) + 3 * kLanes)
+                                         : wanted_hand(source_, limb);
+        set(SWIVEL_HAND, wanted * ~hand);
     }
     if (features & kLibraryGoal) set(SWIVEL_TARGET, vector_of(SWIVEL_SOLVED_GOAL));
     if (features & SWIVEL_WITH_EFFECTOR) set(SWIVEL_EFFECTOR, sandwich(hand, vector_of(SWIVEL_EFFECTOR)));

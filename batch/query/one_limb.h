@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd of one free limb, on the stack, which takes limbs of a group. A body's limb it takes from its record, so what
-// works on free limbs works on bodies.
+// A group of one free limb, on the stack, which takes limbs of another group. It takes a body's limb from its record,
+// so functions of free limbs work for bodies, too.
 #pragma once
 
 #include "batch/crowd/crowd.h"
@@ -9,17 +9,21 @@
 
 namespace swivel {
 
-// For bodies the hand joint's own frame when the arm lies in the arm frame at rest; for free limbs no rotation.
+// The hand joint's own frame while the arm lies at rest in the arm frame; the identity for free limbs.
 Rotor<double> hand_from_arm(const Group& group);
+// How the hand of a body's limb came, in the world, by its record. The limb has no aim.
+Rotor<double> incoming_hand(const Group& group, std::uint32_t limb);
+// The hand that was written for it, of any length, or else the incoming one.
+Rotor<double> wanted_hand(const Group& group, std::uint32_t limb);
 
 class OneLimb {
 public:
     explicit OneLimb(const Group& group);
-    // Takes a limb, its results too. A body's limb must have SWIVEL_WITH_RECORD.
+    // Takes a limb with its results. A body's limb must have SWIVEL_WITH_RECORD.
     void take(std::uint32_t limb);
-    const Group& group() const { return crowd_->groups[0]; }
-    // From now on, where the upper arm may point.
-    void set_region(const swivel_region* region) { crowd_->groups[0].region = region; }
+    const Group& group() const { return group_; }
+    // Replaces the region of the upper arm.
+    void set_region(const swivel_region* region) { group_.region = region; }
 
 private:
     void take_record(std::uint32_t limb);
@@ -27,10 +31,9 @@ private:
     void set(swivel_field field, const Vector<double>& v);
     void set(swivel_field field, const Rotor<double>& q);
 
-    static constexpr std::size_t kArenaBytes = 14 * 1024;
-    alignas(64) unsigned char arena_[kArenaBytes];
+    alignas(64) char rows_[10 * 1024] = {};
     const Group& source_;
-    swivel_crowd* crowd_;
+    Group group_{};
 };
 
 }  // namespace swivel

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The C entry points that pack results into words of 16 bits and make floats of words again. simd/pack.h packs a block,
-// core/pack.h a value.
+// The C entry points that pack results into 16-bit words and unpack them. simd/pack.h packs a block, core/pack.h a
+// value.
 #include "core/pack.h"
 
 #include <utility>
@@ -65,7 +65,7 @@ swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_bloc
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    swivel_status status = use.of(group, 0, 0);
+    swivel_status status = use.for_limbs(group, 0, 0);
     if (status != SWIVEL_OK) return status;
     const Group& whole_group = crowd->groups[group];
     if (blocks.count > whole_group.block_count || blocks.first > whole_group.block_count - blocks.count)
@@ -95,8 +95,8 @@ void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyz
     for (std::size_t n = 0; n < 4; ++n) xyzw[n] = static_cast<float>(unpacked[n]);
 }
 
-// Needs no FloatEnv. Integers move a normal half. A denormal half is a normal float, and its product with 2^-24 is
-// exact, whatever the caller's rounding and flushing.
+// Needs no FloatEnv: integer operations convert a normal half. A denormal half is a normal float, and its product with
+// 2^-24 is exact under any rounding and flushing.
 float swivel_unpack_half(uint16_t word)
 {
     const std::uint32_t sign = std::uint32_t{word} >> 15 << 31, exponent = word >> 10 & 31u, digits = word & 1023u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Structures that have their own size. So a library can read those of an older header, which are shorter.
+// Structures that begin with their size, so that the library can read the shorter ones of older headers.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ swivel_status check_size(const char* name, std::size_t size)
     return SWIVEL_OK;
 }
 
-// Members that are kept for later releases must be 0 until then.
+// Members reserved for later releases must be 0.
 template <class Struct>
 swivel_status check_reserved(const char* name, const Struct& given)
 {
@@ -51,7 +51,7 @@ swivel_status check_element(const char* name, const Struct* array, std::size_t n
                 size, step);
 }
 
-// Element n of an array, whose step is the size of its first element. Members that it is too short for are taken from
+// Element n of an array, whose step is the size of its first element. Members that a short element lacks come from
 // `otherwise`.
 template <class Struct>
 Struct element(const Struct* array, std::size_t n, Struct otherwise)

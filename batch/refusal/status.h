@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A C entry point that fails returns a status for the program, and leaves one line for people.
+// A failing C entry point returns a status for the program and leaves one line for people.
 #pragma once
 
 #include "include/swivel/swivel_bodies.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Picks the most urgent blocks. Urgencies are positive floats, whose bits are in the same order as the numbers. The
-// code counts how many blocks have which leading digits. The counts give the least urgency that is picked, without
-// sorting and without allocating memory.
+// Picks the most urgent blocks. Floats above 0 have bits in the same order as the numbers. The code counts how many
+// blocks have which leading digits. The counts give the least urgency that is picked, without sorting and without
+// allocating memory.
 #include "batch/solve/budget.h"
 
 #include <algorithm>
@@ -31,17 +31,22 @@ float largest(const char* priority, std::size_t stride, std::uint32_t limb_count
     return max < kMaxPriority ? max : kMaxPriority;
 }
 
-// Adds priorities to the urgency of a group's blocks. The urgency of blocks that are not wanted now becomes negative,
-// or 0. Returns how many are wanted.
+// What a block has gathered; 0 where the caller's number is infinite or NaN.
+float gathered(float urgency)
+{
+    const float size = urgency < 0 ? -urgency : urgency;
+    return size <= std::numeric_limits<float>::max() ? size : 0;
+}
+
+// Adds priorities to the urgency of a group's blocks, and sets its sign: a block is wanted if its priority is above 0.
+// Returns how many are wanted.
 std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& priorities)
 {
     const char* at = static_cast<const char*>(priorities.data);
     std::uint32_t wanted = 0;
     for (std::uint32_t block = 0; block < group.block_count; ++block, ++urgency) {
         const float priority = largest(at, priorities.stride, limb_count_of(group, block));
-        const float size = *urgency < 0 ? -*urgency : *urgency,
-                    waited = size <= std::numeric_limits<float>::max() ? size : 0;
-        *urgency = priority > 0 ? waited + priority : -waited;
+        *urgency = priority > 0 ? gathered(*urgency) + priority : -gathered(*urgency);
         wanted += priority > 0;
         at += SWIVEL_LANES * priorities.stride;
     }
@@ -59,17 +64,20 @@ struct Threshold {
 // Finds the max_blocks largest keys, digit by digit, the leading one first. More keys than that are above 0.
 Threshold find_threshold(const float* urgency, std::uint32_t block_count, std::uint32_t max_blocks)
 {
-    constexpr std::uint32_t kMaxBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart
-    std::uint32_t prefix = 0, left = max_blocks, known = 31;  // bits not yet known; floats above 0 have no sign
+    constexpr std::uint32_t kMaxDigits = 1u << 11;  // 2,048 counts: exponent and three bits tell most blocks apart
+    std::uint32_t prefix = 0, left = max_blocks;    // the threshold's digits so far, and blocks not yet above it
+    std::uint32_t unknown_bits = 31;                // of the threshold; floats above 0 have no sign
     for (const std::uint32_t shift : {20u, 10u, 0u}) {
-        std::uint32_t counts[1u << kMaxBits] = {}, digit = (1u << (known - shift)) - 1;
+        const std::uint32_t max_digit = (1u << (unknown_bits - shift)) - 1;
+        std::uint32_t counts[kMaxDigits] = {};
         for (std::uint32_t block = 0; block < block_count; ++block) {
             const std::uint32_t key = key_of(urgency[block]);
-            if (key >> known == prefix) ++counts[key >> shift & digit];
+            if (key >> unknown_bits == prefix) ++counts[key >> shift & max_digit];
         }
+        std::uint32_t digit = max_digit;
         for (; counts[digit] < left; --digit) left -= counts[digit];
-        prefix = prefix << (known - shift) | digit;
-        known = shift;
+        prefix = prefix << (unknown_bits - shift) | digit;
+        unknown_bits = shift;
     }
     return {prefix, left};
 }
@@ -80,7 +88,10 @@ std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, flo
                      std::uint32_t* words)
 {
     const FloatEnv env;
-    if (!urgency) std::fill_n(urgency = crowd.urgency, crowd.block_count, 0.0f);
+    if (!urgency) {
+        urgency = crowd.urgency;
+        std::fill_n(urgency, crowd.block_count, 0.0f);
+    }
     std::uint32_t wanted = 0, limb_count = 0;
     for (std::uint32_t g = 0; g < lane_group_count(crowd); ++g)
         wanted += add_urgency(urgency + crowd.groups[g].first_block, crowd.groups[g], priorities[g]);

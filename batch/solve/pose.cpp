@@ -90,23 +90,25 @@ private:
 
 }  // namespace
 
-void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block)
+void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const Group& group, const BodyBlock& block)
 {
+    const GroupJoints& joints = group.plan.joints;
     const swivel_pose& pose = *plan.pose;
     const PoseWriter writer{pose, block};
     const bool in_body = pose.space == SWIVEL_IN_BODY;
     if (!in_body)
-        for (std::uint32_t n = 0; n < limb.turned_count; ++n) writer.write_local(limb.turned[n]);
-    if (!limb.is_look && (in_body || gives_joints(pose))) kernels.move(block, limb);
-    if (in_body) carry_out(kernels, plan, limb, block);
+        for (std::uint32_t n = 0; n < joints.turned_count; ++n) writer.write_local(joints.turned[n]);
+    if (!(group.features & kLook) && (in_body || gives_joints(pose))) kernels.move(block, joints);
+    if (in_body) carry_out(kernels, plan, group, block);
 }
 
-void carry_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block)
+void carry_out(const BodyKernels& kernels, const BodyPlan& plan, const Group& group, const BodyBlock& block)
 {
+    const GroupJoints& joints = group.plan.joints;
     const PoseWriter writer{*plan.pose, block};
-    for (std::uint32_t n = 0; n < limb.moved_count; ++n) {
-        kernels.carry(plan, block, limb.moved[n]);
-        writer.write_carried(limb.moved[n].skeleton_joint);
+    for (std::uint32_t n = 0; n < joints.moved_count; ++n) {
+        kernels.carry(plan, block, joints.moved[n]);
+        writer.write_carried(joints.moved[n].skeleton_joint);
     }
 }
 
@@ -115,20 +117,21 @@ void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBloc
     const swivel_pose& pose = *plan.pose;
     const PoseWriter writer{pose, block};
     for (std::uint32_t n = 1; n < plan.joint_count; ++n) {
-        kernels.place(block, plan.joints[n]);
+        kernels.locate(block, plan.joints[n]);
         const std::uint32_t joint = plan.joints[n].skeleton_joint;
         if (pose.joint_rotations.data) writer.write<4>(pose.joint_rotations, joint, kOutTurnRow);
         if (pose.joint_positions.data) writer.write<3>(pose.joint_positions, joint, kOutPlaceRow);
     }
 }
 
-void stay(const BodyLimb& limb, const BodyBlock& block)
+void stay(const Group& group, const BodyBlock& block)
 {
+    const GroupJoints& joints = group.plan.joints;
     constexpr std::size_t kNumbers = 7;  // a rotor and a vector
-    for (std::uint32_t n = 0; n < limb.turned_count; ++n) {
-        float* const motion = block.rows + (limb.turned[n].row + kMotionRow) * kLanes;
-        if (limb.is_look && limb.above != 0)
-            std::copy_n(block.rows + (limb.above + kMotionRow) * kLanes, kNumbers * kLanes, motion);
+    for (std::uint32_t n = 0; n < joints.turned_count; ++n) {
+        float* const motion = block.rows + (joints.turned[n].row + kMotionRow) * kLanes;
+        if (group.features & kLook && joints.above != 0)
+            std::copy_n(block.rows + (joints.above + kMotionRow) * kLanes, kNumbers * kLanes, motion);
         else
             for (std::size_t c = 0; c < kNumbers; ++c)
                 std::fill_n(motion + c * kLanes, std::size_t{kLanes}, c == 3 ? 1.0f : 0.0f);

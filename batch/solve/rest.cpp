@@ -29,21 +29,6 @@ void spread(float* rows, std::uint32_t row_count, std::uint32_t block_count)
     solve_group(kernels, group, {0, 1}, {strip, 1});
 }
 
-// Puts a group's limbs into their rest pose. The kernel does so, because their inputs are bad. Limbs that were never
-// solved have no flag.
-void rest(Group& group)
-{
-    const bool keeps = std::exchange(group.keeps, false);
-    const Kernels& kernels = single_limb_kernels();
-    if (group.features & kLimbFeatures)
-        solve_block(kernels, group);
-    else
-        solve_group(kernels, group, {0, 1}, {});
-    group.keeps = keeps;
-    group.results[std::size_t{group.first_row[index_of(SWIVEL_FLAGS)]} * SWIVEL_LANES] = 0;
-    spread(group.results, group.result_row_count, group.block_count);
-}
-
 // Puts all limbs of a group of bodies into the arm frame's rest pose, without flags.
 void rest_in_arm_frame(const Group& group)
 {
@@ -56,9 +41,23 @@ void rest_in_arm_frame(const Group& group)
 
 }  // namespace
 
-void rest(const swivel_crowd& crowd)
+// The kernel does so, because the limbs' inputs are bad. Limbs that were never solved have no flag.
+void rest(Group& group)
 {
     const FloatEnv env;
+    const bool keeps = std::exchange(group.keeps_pose, false);
+    const Kernels& kernels = single_limb_kernels();
+    if (group.features & kLimbFeatures)
+        solve_block(kernels, group);
+    else
+        solve_group(kernels, group, {0, 1}, {});
+    group.keeps_pose = keeps;
+    group.results[std::size_t{group.first_row[index_of(SWIVEL_FLAGS)]} * SWIVEL_LANES] = 0;
+    spread(group.results, group.result_row_count, group.block_count);
+}
+
+void rest(const swivel_crowd& crowd)
+{
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         if (crowd.joint_count > 0)
             rest_in_arm_frame(crowd.groups[g]);

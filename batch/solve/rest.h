@@ -7,7 +7,8 @@
 
 namespace swivel {
 
-// Puts all limbs of a new crowd into their rest pose, without flags.
+// Puts all limbs of a new crowd, or of a new group of free limbs, into their rest pose, without flags.
 void rest(const swivel_crowd& crowd);
+void rest(Group& group);
 
 }  // namespace swivel

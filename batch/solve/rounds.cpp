@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A job with streams, round after round. A round has a run of blocks of each of a few groups. A run is copied in,
-// solved and copied out, while its rows are in a near cache. If limbs are chosen, only these are.
-#include "batch/solve/streams_of.h"
+// A round has a run of blocks of each of a few groups. A run is copied in, solved and copied out, while its rows are in
+// a near cache. If limbs are chosen, only these are.
+#include "batch/solve/rounds.h"
 
 #include <algorithm>
 
-#include "batch/solve/share.h"
+#include "batch/solve/group_copies.h"
+#include "batch/solve/solve.h"
+#include "batch/solve/streams_of.h"
 #include "simd/float_env.h"
 
 namespace swivel {
@@ -20,7 +22,7 @@ constexpr std::uint32_t kGroupsTogether = 4;
 // cache. 16 and 64 blocks took 1.02 to 1.04 times as long.
 constexpr std::uint32_t kRoundBlocks = 32;
 // Blocks of each group in a round.
-std::uint32_t run_blocks(std::uint32_t group_count) { return kRoundBlocks / group_count; }
+std::uint32_t blocks_each(std::uint32_t group_count) { return kRoundBlocks / group_count; }
 
 // Calls take(of_groups, group_count, round_count) for the groups that a job touches, a few at a time.
 template <class Take>
@@ -30,8 +32,8 @@ void for_each_bundle(const Work& work, const Take& take)
     std::uint32_t count = 0, max = 0, streams = 0;
     const auto flush = [&] {
         if (count == 0) return;
-        const std::uint32_t run = run_blocks(count);
-        take(of_groups, count, (max + run - 1) / run);
+        const std::uint32_t run_blocks = blocks_each(count);
+        take(of_groups, count, (max + run_blocks - 1) / run_blocks);
         count = max = streams = 0;
     };
     for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks blocks, std::uint32_t n) {
@@ -48,35 +50,35 @@ void for_each_bundle(const Work& work, const Take& take)
 // Groups whose runs make the same rounds.
 struct Bundle {
     const Work& work;
-    std::uint32_t count, run;  // how many groups, and how many blocks of each in a round
-    Share shares[kGroupsTogether];
-    Stream streams[kMaxStreams];  // of all shares
+    std::uint32_t count, run_blocks;  // how many groups, and how many blocks of each in a round
+    GroupCopies groups[kGroupsTogether];
+    Stream streams[kMaxStreams];  // of all groups
 
     explicit Bundle(const Work& todo) : work(todo) {}
 
     void set(const GroupStreams* of_groups, std::uint32_t group_count)
     {
         count = group_count;
-        run = run_blocks(count);
-        Stream* to = streams;
-        for (std::uint32_t n = 0; n < count; ++n) to = shares[n].set(of_groups[n], run, to);
+        run_blocks = blocks_each(count);
+        Stream* next = streams;
+        for (std::uint32_t n = 0; n < count; ++n) next = groups[n].set(of_groups[n], run_blocks, next);
     }
     void solve(std::uint32_t round) const
     {
-        for (const Share* share = shares; share != shares + count; ++share)
-            if (const std::uint32_t first = round * run; first < share->blocks.count)
-                solve_run(*share, {share->blocks.first + first, std::min(run, share->blocks.count - first)});
+        for (const GroupCopies* group = groups; group != groups + count; ++group)
+            if (const std::uint32_t first = round * run_blocks; first < group->blocks.count)
+                solve_run(*group, {group->blocks.first + first, std::min(run_blocks, group->blocks.count - first)});
     }
 
 private:
-    void solve_run(const Share& share, GroupBlocks blocks) const
+    void solve_run(const GroupCopies& copies, GroupBlocks blocks) const
     {
-        share.copy_in(work.mask, blocks);
+        copies.copy_in(work.mask, blocks);
         if (work.mask)
-            solve_chosen_group(work.kernels, *share.group, work.mask, blocks, work.strip);
+            solve_chosen_group(work.kernels, *copies.group, work.mask, blocks, work.strip);
         else
-            solve_group(work.kernels, *share.group, blocks, work.strip);
-        share.copy_out(work.mask, blocks);
+            solve_group(work.kernels, *copies.group, blocks, work.strip);
+        copies.copy_out(work.mask, blocks);
     }
 };
 
@@ -95,9 +97,9 @@ void solve_rounds(const Work& work, std::uint32_t first, std::uint32_t end)
     Bundle bundle(work);
     std::uint32_t before = 0;  // rounds of earlier bundles
     for_each_bundle(work, [&](const GroupStreams* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
-        const std::uint32_t from = std::max(first, before), to = std::min(end, before + rounds);
-        if (from < to) bundle.set(of_groups, group_count);
-        for (std::uint32_t round = from; round < to; ++round) bundle.solve(round - before);
+        const std::uint32_t begin = std::max(first, before), stop = std::min(end, before + rounds);
+        if (begin < stop) bundle.set(of_groups, group_count);
+        for (std::uint32_t round = begin; round < stop; ++round) bundle.solve(round - before);
         before += rounds;
     });
 }

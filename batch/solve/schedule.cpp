@@ -5,12 +5,12 @@
 //
 // oneTBB throws where it finds no memory or cannot start a thread. So this file is compiled with exceptions, unlike the
 // rest of the library, and lets none out. The calling thread then solves what oneTBB left.
-#include "batch/solve/solve.h"
+#include "batch/solve/schedule.h"
 
 #include <algorithm>
 
+#include "batch/solve/solve.h"
 #include "simd/float_env.h"
-#include "simd/rows.h"
 
 #ifdef SWIVEL_WITH_TBB
 #include <oneapi/tbb/blocked_range.h>
@@ -54,23 +54,17 @@ std::uint32_t busy_block_count(const Work& work)
     return busy;
 }
 
-// Threads take parts of the rounds of a job with streams, or else of its blocks. In rounds, one thread has the same
-// characters of all groups. A part must be solved once, because a solve may read what it wrote: the last normal, or a
-// pose that is read and written in place. So each part's byte in the crowd says whether it is done.
-struct Parts {
+// A job whose parts threads take. A part must be solved once, because a solve may read what it wrote: the last normal,
+// or a pose that is read and written in place. So each part's byte in the crowd says whether it is done.
+struct SharedJob {
     const Work& work;
-    const std::uint32_t count;
+    const JobParts parts;
     std::uint8_t* const done;
     const std::thread::id caller = std::this_thread::get_id();
 
-    explicit Parts(const Work& todo)
-        : work(todo),
-          count(todo.pose      ? run_count(todo)
-                : todo.streams ? round_count(todo)
-                               : todo.blocks.count),
-          done(todo.crowd.done)
+    explicit SharedJob(const Work& todo) : work(todo), parts(parts_of(todo)), done(todo.crowd.done)
     {
-        std::fill_n(done, count, std::uint8_t{0});
+        std::fill_n(done, parts.count, std::uint8_t{0});
     }
     // The workspace is the calling thread's. Other threads have a smaller one on their stack.
     void solve(std::uint32_t first, std::uint32_t end) const
@@ -96,22 +90,20 @@ struct Parts {
     }
     void solve_in(StripMemory strip, std::uint32_t first, std::uint32_t end) const
     {
-        Work part = work;
-        part.strip = strip;
-        if (work.pose) return solve_runs(part, first, end);
-        if (work.streams) return solve_rounds(part, first, end);
-        part.blocks = {work.blocks.first + first, end - first};
-        solve_here(part);
+        Work with_strip = work;
+        with_strip.strip = strip;
+        parts.solve(with_strip, first, end);
     }
     [[gnu::noinline]] void solve_on_stack(std::uint32_t first, std::uint32_t end) const
     {
         alignas(64) float rows[kStackBlocks * kStripBlockFloats];
         solve_in({rows, kStackBlocks}, first, end);
     }
-    void solve_rest() const
+    // Solves the parts that threads have left.
+    void solve_left() const
     {
-        for (std::uint32_t first = 0; first < count;) {
-            const auto* const end = std::find(done + first, done + count, done[first] ? 0 : 1);
+        for (std::uint32_t first = 0; first < parts.count;) {
+            const auto* const end = std::find(done + first, done + parts.count, done[first] ? 0 : 1);
             const auto next = static_cast<std::uint32_t>(end - done);
             if (!done[first]) solve(first, next);
             first = next;
@@ -157,36 +149,34 @@ bool has_threads()
     return true;
 }
 
-void solve_on_threads(const Parts& parts, std::uint32_t grain)
+void solve_by_tasks(const SharedJob& job, std::uint32_t grain)
 {
     using Range = oneapi::tbb::blocked_range<std::uint32_t>;
     // This context is isolated, because a cancelled context of the caller must not leave blocks out.
     oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
-    const auto on_range = [&](const Range& range) { parts.solve(range.begin(), range.end()); };
+    const auto on_range = [&](const Range& range) { job.solve(range.begin(), range.end()); };
     // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
     oneapi::tbb::this_task_arena::isolate([&] {
-        oneapi::tbb::parallel_for(Range(0, parts.count, grain), on_range, partitioner_of(parts.work.crowd), context);
+        oneapi::tbb::parallel_for(Range(0, job.parts.count, grain), on_range, partitioner_of(job.work.crowd), context);
     });
 }
 
-// Whether all parts are solved.
-bool try_on_threads(const Parts& parts, std::uint32_t grain)
+// Lets oneTBB solve as many parts as it can.
+void try_tasks(const SharedJob& job, std::uint32_t grain)
 {
-    if (has_failed) return false;
+    if (has_failed) return;
     try {
-        if (!has_threads()) return false;
-        solve_on_threads(parts, grain);
-        return true;
+        if (!has_threads()) return;
+        solve_by_tasks(job, grain);
     } catch (...) {
         has_failed = true;
-        return false;
     }
 }
 #endif
 
 }  // namespace
 
-void solve_in_chunks(const Work& work)
+bool solve_on_threads([[maybe_unused]] const Work& work)
 {
 #ifdef SWIVEL_WITH_TBB
     // The rows of a chunk fill a quarter of a level 2 cache of 512 KiB, which is some microseconds of work. A crowd of
@@ -195,14 +185,14 @@ void solve_in_chunks(const Work& work)
     const auto chunk = static_cast<std::uint32_t>(kChunkBytes / work.crowd.block_bytes);
     if (busy_block_count(work) > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
-        const Parts parts(work);
-        const auto grain = static_cast<std::uint32_t>(std::uint64_t{chunk} * parts.count / work.blocks.count);
-        try_on_threads(parts, std::max(1u, grain));
-        parts.solve_rest();
-        return;
+        const SharedJob job(work);
+        const auto grain = static_cast<std::uint32_t>(std::uint64_t{chunk} * job.parts.count / work.blocks.count);
+        try_tasks(job, std::max(1u, grain));
+        job.solve_left();
+        return true;
     }
 #endif
-    solve_here(work);
+    return false;
 }
 
 void begin_schedule([[maybe_unused]] swivel_crowd& crowd)

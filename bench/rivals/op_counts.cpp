@@ -9,7 +9,6 @@
 #include "bench/rivals/character.h"
 #include "bench/rivals/counted.h"
 #include "bench/rivals/rifle.h"
-#include "core/choose_swivel.h"
 #include "core/fit.h"
 #include "core/ground.h"
 #include "core/limb_bones.h"
@@ -99,10 +98,10 @@ SolvedLimb solve_limb(const swivel::LimbUse& use, const swivel::LimbGoal<Counted
     if (region) {
         const swivel::SwivellingArm<Counted, decltype(bones.lift)> arm{to.line, normal, bones.lift, elbow, wrist.hand};
         const auto allowed = swivel::region_limit(arm, region);
-        swivel::room(allowed, swivel::Turned<Counted>{Counted(1.0), Counted(0.0)});
-        const auto chosen = swivel::choose_swivel(
-            swivel::LimitsInRegion<Counted, swivel::kMaxBoxes>{swivel::Limits<Counted>{}, allowed}, valid);
-        normal = swivel::swivelled(normal, to.line, chosen.swivel);
+        const swivel::Turned<Counted> wished{Counted(1.0), Counted(0.0)};
+        if (swivel::room(allowed, wished).value < swivel::kNoRoom)
+            throw std::logic_error("the region that is counted forbids the swivel that is wished for");
+        normal = swivel::swivelled(normal, to.line, wished);
     }
     const Rotor<Counted> shoulder = swivel::lifted(to.line, normal, bones.lift);
     return {{shoulder, bones.cos_half, bones.sin_half, bones.flags | wish.flags, valid},

@@ -167,7 +167,6 @@ TEST_CASE("docs: bodies in the body's space")
     rests.rotations.fill({0, 0, 0, 1});
     std::vector<Model> models(10, rests);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 1.3f, 0.3f});
-    crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0, 0, 1});
     // [whole]
     std::vector<Model> solved = models;  // draw these
     swivel_pose pose = swivel_default_pose();

@@ -120,15 +120,9 @@ TEST_CASE("docs: a hand that holds the other one")
     crowd.write_all(SWIVEL_GRIP, 1, grip);
     // [end]
     std::vector<Float3> targets;
-    std::vector<Float4> hands;
-    for (const Character& each : scene.characters) {
-        const Frame hand = frame_of(each, kRightHand);
-        const Eigen::Vector4f turn = hand.turn.coeffs().cast<float>();
+    for (const Character& each : scene.characters)
         targets.push_back({each.place[0] - 0.05f, 1.3f, 0.4f});
-        hands.push_back({turn[0], turn[1], turn[2], turn[3]});
-    }
     crowd.write(SWIVEL_TARGET, 0, targets);
-    crowd.write(SWIVEL_HAND, 0, hands);
     crowd.solve({.pose = &scene.pose});
     CHECK(scene.worst({0.05f, 0, 0.1f}) < 2e-6);
 }

@@ -19,7 +19,7 @@
 // shorter structures of older headers.
 //
 // Debug builds, and builds with SWIVEL_CHECK_USE, also refuse crowds that are destroyed or used by two threads at once,
-// and results that overlap other limbs' inputs.
+// and results that overlap each other or other limbs' inputs, if one stride is a multiple of the other.
 #pragma once
 
 #include <stddef.h>
@@ -55,19 +55,20 @@ typedef enum swivel_status {
 SWIVEL_API uint32_t swivel_version(void);
 // What a status means, in a few words.
 SWIVEL_API const char* swivel_status_text(swivel_status status);
-// One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
+// One line on the calling thread's last failed call: what, where, what to do. Later calls that succeed keep it. Empty
+// before any failure.
 SWIVEL_API const char* swivel_last_error(void);
 
 // The flag word of a limb. A hard pose is a result with flags, not an error.
 typedef enum swivel_flag {
-    SWIVEL_REACHED = 1u << 0,                // the wrist, effector, prop or line of sight is where its goal wants it
+    SWIVEL_REACHED = 1u << 0,                // the wrist, effector, prop or line of sight is at its goal
     SWIVEL_SOFTENED = 1u << 1,               // in a soft zone of the reach, so the wrist is not quite at the target
     SWIVEL_STRETCHED = 1u << 2,              // SWIVEL_STRETCH is above 1
     SWIVEL_CLAMPED_FAR = 1u << 3,            // the target is too far
     SWIVEL_CLAMPED_NEAR = 1u << 4,           // the target is too near
-    SWIVEL_SWIVEL_UNDEFINED = 1u << 5,       // nothing in the goal says where the elbow goes, so the pose before does
+    SWIVEL_SWIVEL_UNDEFINED = 1u << 5,       // the pole is undefined, so the previous, incoming or rest swivel serves
     SWIVEL_LIMITED_FLEXION = 1u << 6,        // the flexion limit keeps the wrist from the target
-    SWIVEL_LIMITED_SHOULDER_CONE = 1u << 7,  // this limit forbids the swivel that was wished for, as do those below
+    SWIVEL_LIMITED_SHOULDER_CONE = 1u << 7,  // this limit forbids the swivel that was wished for; so do those below
     SWIVEL_LIMITED_HUMERAL_TWIST = 1u << 8,
     SWIVEL_LIMITED_SHOULDER_BOX = 1u << 9,
     SWIVEL_LIMITED_HAND_CONE = 1u << 10,
@@ -111,7 +112,7 @@ typedef uint64_t swivel_features;
 #define SWIVEL_POLE_NORMAL (UINT64_C(1) << 8)     // poles are normals of the swivel plane
 #define SWIVEL_POLE_INCOMING (UINT64_C(1) << 9)   // no poles: the incoming pose says where elbows go
 #define SWIVEL_POLE_HAND (UINT64_C(1) << 10)      // no poles: elbows lie as if the wanted hands were not bent
-#define SWIVEL_WITH_ANGLE (UINT64_C(1) << 11)     // turns the elbow on from the pole's side
+#define SWIVEL_WITH_ANGLE (UINT64_C(1) << 11)     // adds an angle to the pole's swivel
 #define SWIVEL_WITH_REACH (UINT64_C(1) << 12)
 #define SWIVEL_WITH_CAP (UINT64_C(1) << 13)
 #define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 14)  // the shoulder's parent joint shares the reach
@@ -153,7 +154,7 @@ typedef enum swivel_field {
     SWIVEL_SHOULDER_POSITION,  // 3, WORLD
     SWIVEL_PARENT_ROTATION,    // 4, WORLD: the shoulder's parent joint's
     SWIVEL_PARENT_SCALE,       // 1, WORLD
-    SWIVEL_HAND,               // 4: the wanted rotation of the hand, or with JOINTS of the wrist joint
+    SWIVEL_HAND,               // 4: the hand's rotation, or with JOINTS the wrist joint's. Bodies: NaN is the incoming
     SWIVEL_EFFECTOR,           // 3: a point in the frame of that, in the bones' unit
     SWIVEL_ANGLE,              // 2: cosine and sine of a turn about the line from shoulder to wrist
     SWIVEL_INCOMING_SHOULDER,  // 4, WITH_INCOMING: the pose so far, as the results are; so the next two
@@ -173,11 +174,11 @@ typedef enum swivel_field {
     SWIVEL_AIM,                // 5: unit axis in the effector's frame; cosine and sine of half the flexion
     SWIVEL_CLAVICLE,           // 4: the shoulder in its parent's frame; a share. Bodies: 1, the share
     SWIVEL_CONTACT,            // 1, WITH_PLANT: a share; above 0.5 the point touches
-    SWIVEL_CAP,                // 3: margin, least, zone, in arm lengths: no straighter than animated
+    SWIVEL_CAP,                // 3, in arm lengths: reach beyond the animation's, reach always allowed, soft zone
     SWIVEL_PELVIS_FIT_WEIGHT,  // 1, WITH_PELVIS_FIT: how much the limb counts, a share
     SWIVEL_NEXT_TARGET,        // 3: where the wrist or effector goes next
     SWIVEL_NEXT_TIME,          // 1, WITH_NEXT_TARGET: seconds until then; 1e15 at the start
-    SWIVEL_SHIFT_WISH,         // 1, a shift: the one wished for, in the world's unit
+    SWIVEL_SHIFT_WISH,         // 1, a shift: the wished shift, in the world's unit
     SWIVEL_GROUND,             // 3: a point of the ground at SWIVEL_PROBE; NaN: none
     SWIVEL_GROUND_NORMAL,      // 3, WITH_GROUND
     SWIVEL_GROUND_WEIGHT,      // 1, WITH_GROUND: how far the foot turns with the ground, a share
@@ -186,7 +187,7 @@ typedef enum swivel_field {
     SWIVEL_PROP_ROTATION,  // 4, a prop: likewise
     SWIVEL_HAND_BLEND,     // 1, a prop: which hand says where it is, a share: 0 the first, 1 the second
     SWIVEL_PROP_WEIGHT,    // 1, a prop: how much that counts against the hands, a share
-    SWIVEL_LOOK_TARGET,    // 3, a look: NaN, as at the start: nothing
+    SWIVEL_LOOK_TARGET,    // 3, a look: NaN, the default, is no target
     SWIVEL_LOOK_WEIGHT,    // 1, a look: how much of the turn is taken, a share
     SWIVEL_INPUT_END,      // one past the last input
 
@@ -197,10 +198,10 @@ typedef enum swivel_field {
     SWIVEL_STRETCH,            // 1, WITH_REACH: the factor for both bone lengths
     SWIVEL_NORMAL,             // 3, WITH_MAX_SWIVEL: of the swivel plane, from which the next solve steps
     SWIVEL_TWIST_BONES,        // 4 a bone: bone i of 1..n turns by i / (n + 1) of the hand's twist
-    SWIVEL_CLAVICLE_ROTATION,  // 4, WITH_CLAVICLE: its rotation becomes the old one times this
+    SWIVEL_CLAVICLE_ROTATION,  // 4, WITH_CLAVICLE: new rotation = old * this
     SWIVEL_RECORD,             // 22: shoulder, arm frame, scale, lengths and incoming rotations
     SWIVEL_PLANT,              // 11: the anchor, the offset that fades, its state
-    SWIVEL_PLANT_ROTATION,     // 10: the same of the rotation
+    SWIVEL_PLANT_ROTATION,     // 10: the same for the rotation
     SWIVEL_CONTACT_STATE,      // 4, PLANT_BY_MOTION: the last animated position; 1 if in contact
     SWIVEL_SOLVED_GOAL,        // 7, WITH_RECORD and WITH_PLANT or WITH_LINK
     SWIVEL_SHIFT,              // 3, a shift: along `up`, in the world's unit; its rate a second; 1 once begun
@@ -223,7 +224,7 @@ typedef enum swivel_field_kind {
 typedef struct swivel_feature_info {
     swivel_features feature;
     const char* name;          // such as "WITH_HAND"; a constant
-    swivel_features needs;     // a limb with it must have all of these
+    swivel_features needs;     // a limb with it must have all of these; a body's has WORLD and WITH_INCOMING
     swivel_features excludes;  // and none of these
     uint32_t kinds;            // of groups that may have it: bit k is swivel_kind k
     uint32_t reserved;         // 0
@@ -309,8 +310,9 @@ typedef struct swivel_limb_joints {
     // Joints that share the hand's twist, from elbow to wrist: each below the elbow, none above or below another.
     uint32_t twist_bone_count;  // 0 to 7
     const uint32_t* twist_bones;
-    // Where flexion carries the forearm, in the shoulder joint's frame: for a direction f in the world, forwards for an
-    // arm and backwards for a leg, conjugate(q) * f * q. Zero: the rest pose says it, if bent by more than 10 degrees.
+    // Where flexion carries the forearm or shin, away from the pole, in the shoulder joint's frame: for a direction f
+    // in the world, forwards for an arm and backwards for a leg, conjugate(q) * f * q. Zero: the rest pose says it, if
+    // bent by more than 10 degrees.
     float bend[3];
     float reserved;  // 0
 } swivel_limb_joints;
@@ -414,9 +416,9 @@ typedef struct swivel_crowd swivel_crowd;
 
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
-// Makes a crowd; *crowd is null on failure. It allocates once; later calls allocate nothing, but oneTBB may. Targets,
-// shoulder positions, bodies' poles and unbound bone lengths must be given: they start as NaN, which is bad input.
-// Other poles start as (0, -1, 0), all else neutral. Results start as the rest pose, without flags.
+// Makes a crowd; *crowd is null on failure. It allocates once; later calls allocate nothing, but oneTBB may. Inputs
+// start neutral, or as NaN: not given, which is bad input where nothing else gives them. docs/fields.md has a table.
+// Results start as the rest pose, without flags.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
 // Frees what create allocated. Null is allowed.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
@@ -552,7 +554,7 @@ SWIVEL_API size_t swivel_workspace_bytes(const swivel_crowd* crowd);
 // With streams, one pass replaces swivel_write() of every input given, the solve, and swivel_read() of every result
 // given, with the same bits. A limb's results may overlap its own inputs, and nothing else.
 //
-// A block of which some limbs are chosen takes about its usual time: keep limbs that are solved together side by side.
+// A solve costs by blocks: keep limbs that are solved together side by side.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
 
 // Chooses whole blocks by urgency, at most max_blocks of them. Each call adds the largest priority among a block's

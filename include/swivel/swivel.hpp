@@ -169,16 +169,25 @@ inline swivel_field_info describe(swivel_field field)
     return info;
 }
 
-// Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
-// are stepped over by their size.
+// A field in messages.
+inline std::string named(swivel_field field)
+{
+    const swivel_field_info info = describe(field);
+    return info.field == field ? info.name : "field " + std::to_string(field);
+}
+
+// Refuses flags in floats, and an array of more than four floats for a field of at most four: a matrix is no rotation.
+// Other larger values are stepped over by their size.
 template <class Value>
 void check_value(swivel_field field)
 {
     constexpr bool is_list = std::is_array_v<Value> || requires { typename Value::value_type; };
+    if constexpr (!MadeOf<Value, std::uint32_t>)
+        if (field == SWIVEL_FLAGS) fail(SWIVEL_INVALID_ARGUMENT, "flags are bits; give a uint32_t for each limb");
     if constexpr (is_list && sizeof(Value) > 4 * sizeof(float) && FieldValue<Value>)
         if (describe(field).max_components <= 4)
             fail(SWIVEL_INVALID_ARGUMENT, "an array of " + std::to_string(sizeof(Value) / sizeof(float)) +
-                                              " floats is no value of field " + std::to_string(field));
+                                              " floats is no value of " + named(field));
 }
 
 // A member of the caller's structures, for streams, for swivel_in, or for swivel_out unless it is const.
@@ -208,26 +217,26 @@ auto stream(Range&& values, Member member = {})
 // while the arrays stay where they are.
 class Streams {
 public:
-    Streams& in(swivel_field field, const swivel_in& values)
+    Streams& in(swivel_field field, const swivel_in& values) &
     {
         if (field >= SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "streams take in no result; give it by out()");
         return add({field, const_cast<void*>(values.data), values.stride});  // inputs are only read
     }
-    Streams& out(swivel_field field, const swivel_out& values)
+    Streams& out(swivel_field field, const swivel_out& values) &
     {
         if (field < SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "streams put out no input; give it by in()");
         return add({field, values.data, values.stride});
     }
     template <class Value>
-    Streams& in(swivel_field, const Stream<Value>&) = delete;  // neither floats nor doubles
+    Streams& in(swivel_field, const Stream<Value>&)& = delete;  // neither floats nor doubles
     template <class Value>
-    requires(FieldValue<Value> || DoubleValue<Value>) Streams& in(swivel_field field, const Stream<Value>& values)
+    requires(FieldValue<Value> || DoubleValue<Value>) Streams& in(swivel_field field, const Stream<Value>& values) &
     {
         check_value<std::remove_cv_t<Value>>(field);
         const bool may_be_floats = FieldValue<Value>, may_be_doubles = DoubleValue<Value>;
         const bool is_position = describe(field).is_position;
         if (!may_be_floats && !is_position)
-            fail(SWIVEL_INVALID_ARGUMENT, "field " + std::to_string(field) + " is no position; give it floats");
+            fail(SWIVEL_INVALID_ARGUMENT, named(field) + " is no position; give it floats");
         if (is_position && may_be_floats != may_be_doubles) {
             const swivel_numbers numbers = may_be_floats ? SWIVEL_FLOATS : SWIVEL_DOUBLES;
             if (positions_ != SWIVEL_NUMBERS_UNSPECIFIED && positions_ != numbers)
@@ -237,19 +246,33 @@ public:
         return in(field, swivel_in(values));
     }
     template <class Value>
-    Streams& out(swivel_field, const Stream<Value>&) = delete;  // no floats to write to
+    Streams& out(swivel_field, const Stream<Value>&) & = delete;  // no floats to write to
     template <FieldValue Value>
-    requires(!std::is_const_v<Value>) Streams& out(swivel_field field, const Stream<Value>& values)
+    requires(!std::is_const_v<Value>) Streams& out(swivel_field field, const Stream<Value>& values) &
     {
         check_value<Value>(field);
         return out(field, swivel_out(values));
     }
     // Positions are doubles, and this is subtracted.
-    Streams& origin(const swivel_in& values)
+    Streams& origin(const swivel_in& values) &
     {
         origin_ = values;
         return *this;
     }
+    // A temporary stays one, so that no Job views it after its line: const Streams arms = Streams().in(...).out(...).
+    Streams&& in(swivel_field field, const swivel_in& values) && { return std::move(in(field, values)); }
+    Streams&& out(swivel_field field, const swivel_out& values) && { return std::move(out(field, values)); }
+    template <class Value>
+    Streams&& in(swivel_field field, const Stream<Value>& values) &&
+    {
+        return std::move(in(field, values));
+    }
+    template <class Value>
+    Streams&& out(swivel_field field, const Stream<Value>& values) &&
+    {
+        return std::move(out(field, values));
+    }
+    Streams&& origin(const swivel_in& values) && { return std::move(origin(values)); }
     operator swivel_streams() const&
     {
         swivel_streams view = swivel_default_streams();
@@ -353,13 +376,18 @@ public:
         check_value<std::ranges::range_value_t<decltype(values)>>(field);
         check(swivel_write(crowd_, field, group, first.value_or(0), checked(group, values, first), stream(values)));
     }
-    // The same value for every limb of the group.
+    // The same value for every limb of the group; numbers may be in braces.
     template <FieldValue Value>
     void write_all(swivel_field field, std::uint32_t group, const Value& value)
     {
         check_value<Value>(field);
         check(swivel_write(crowd_, field, group, 0, 0, {&value, sizeof value}));  // group, field and size are right
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
+    }
+    template <std::size_t size>
+    void write_all(swivel_field field, std::uint32_t group, const float (&value)[size])
+    {
+        write_all<float[size]>(field, group, value);
     }
     // Positions in double, from origins as in swivel.h: {&origin, 0} is one for all.
     void write_doubles(swivel_field field, std::uint32_t group, const DoubleRange auto& values, swivel_in origins = {},
@@ -484,14 +512,16 @@ private:
     std::uint32_t checked(std::uint32_t group, const auto& values, First first) const
     {
         const std::uint32_t has = swivel_group_limb_count(crowd_, group);  // 0: the call says that there is no group
-        if (!first && has > 0) check_count(count(values), "values", has, "limbs; or say from which limb on");
+        if (!first && has > 0)
+            check_count(count(values), "values", has, "limbs", ", or pass the number of the first limb, too");
         return count(values);
     }
-    static void check_count(std::size_t given, const char* what, std::size_t wanted, const char* of_what)
+    static void check_count(std::size_t given, const char* what, std::size_t wanted, const char* of_what,
+                            const char* or_else = "")
     {
         if (given != wanted)
             fail(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " " + what + " for " + std::to_string(wanted) + " " +
-                                              of_what + "; give one for each");
+                                              of_what + "; give one for each" + or_else);
     }
     static std::uint32_t count(const auto& values) { return static_cast<std::uint32_t>(std::ranges::size(values)); }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Bodies: crowds whose limbs hang on poses of one skeleton. Feet stand, hands hold, heads look, pelvises shift.
-// docs/howto/bodies.md explains them.
+// docs/howto/bodies.md explains them, with a whole program; pages beside it have pictures.
 #pragma once
 
 #include "swivel.h"
@@ -12,11 +12,11 @@ extern "C" {
 
 // How limbs WITH_PLANT stand. While its point, the effector or else the wrist, is in contact, it is locked to the
 // support. Without contact, or further than unlock_radius from the animation, it is released and goes back, without a
-// jump. Lengths are in limb lengths: both bones at rest times the root's scale. docs/howto/feet.md has pictures.
+// jump. Lengths are in limb lengths: both bones at rest times the root's scale.
 // Source: our own, after D. Holden, Inverse Kinematics and Foot Locking (2026).
 typedef struct swivel_plant {
-    float lock_radius;    // it locks only within this of the animated point
-    float unlock_radius;  // it is released further than this from it; no less than lock_radius
+    float lock_radius;    // it locks only within this distance of the animation
+    float unlock_radius;  // beyond this distance it is released; no less than lock_radius
     float stop_time;      // s: a point that locks is at rest after this
     float release_time;   // s: a released point is with the animation again after this
     float relock_speed;   // limb lengths a second: after a release by distance a slower point locks again
@@ -33,12 +33,12 @@ static inline swivel_plant swivel_default_plant(void)
 }
 
 // How feet WITH_GROUND stand on ground that is not flat. The effector is the toe or the ball of the foot, which rises,
-// falls and turns with the ground, eased by springs. docs/howto/hills.md has pictures. Source: our own.
+// falls and turns with the ground, eased by springs.
 typedef struct swivel_ground {
     float heel[3];  // a point of the sole in the wrist joint's frame, in the bones' unit; 0: the wrist itself
-    float toe_clearance, heel_clearance;  // heights over the plane where they stand, in the bones' unit
-    float cos_max;                        // cosine of the angle that the foot turns at most, 0..1
-    float half_life;                      // s: in which about half of a lift or a slope is made up
+    float toe_clearance, heel_clearance;  // distances from the plane where they stand, in the bones' unit
+    float cos_max;                        // cosine of the foot's max turn, 0..1; 0.8: 37 degrees
+    float half_life;                      // s: the time for about half of a lift or slope
 } swivel_ground;
 
 static inline swivel_ground swivel_default_ground(void)
@@ -76,14 +76,15 @@ static inline swivel_body_limb_def swivel_default_body_limb_def(const swivel_lim
     return limb;
 }
 
-// The shift of each body along the crowd's `up`, so that its limbs WITH_PELVIS_FIT reach: the one nearest to the wish
-// from which all do, or else the middle of those that conflict. A spring eases it. Add SWIVEL_SHIFT to the root's
-// position. Flags: REACHED, or CLAMPED_FAR where no shift lets all limbs reach.
+// The shift of each body along the crowd's `up`, so that its limbs WITH_PELVIS_FIT reach: the shift nearest to
+// SWIVEL_SHIFT_WISH from which all reach, else the middle of the conflict. A spring delays it: limbs at the edge of
+// their reach miss for a while, and a wish below 0 gives them room. Add SWIVEL_SHIFT to the root's position. Flags:
+// REACHED if some shift within drop and rise lets all limbs reach, else CLAMPED_FAR.
 typedef struct swivel_shift_def {
     size_t size;
-    float drop, rise;  // the most down and up, in limb lengths of the first group WITH_PELVIS_FIT
-    float half_life;   // s: in which about half of a distance is made up
-    float lookahead;   // s: from when on SWIVEL_NEXT_TARGET counts
+    float drop, rise;  // max shift down and up, in limb lengths of the first group WITH_PELVIS_FIT
+    float half_life;   // s: the time for about half of a distance
+    float lookahead;   // s: how early SWIVEL_NEXT_TARGET counts
 } swivel_shift_def;
 
 static inline swivel_shift_def swivel_default_shift_def(void)
@@ -92,10 +93,10 @@ static inline swivel_shift_def swivel_default_shift_def(void)
     return shift;
 }
 
-// A thing of each body that one hand or two hold: limbs WITH_LINK. It is where SWIVEL_PROP_POSITION and
-// SWIVEL_PROP_ROTATION say; or else where its joint is; or else as the hands have it in the incoming pose, by
-// SWIVEL_HAND_BLEND. Then it moves, as little as it must, so that all hands reach their grips. Flags: REACHED;
-// CLAMPED_FAR or CLAMPED_NEAR where a hand cannot. Source: our own.
+// A thing that one or two hands of each body hold: limbs WITH_LINK. Its place comes from SWIVEL_PROP_POSITION and
+// SWIVEL_PROP_ROTATION, else from its joint, else from the hands in the incoming pose, by SWIVEL_HAND_BLEND. Then it
+// makes the least move that lets all hands reach their grips. Flags: REACHED; CLAMPED_FAR or CLAMPED_NEAR where a hand
+// cannot.
 typedef struct swivel_prop_def {
     size_t size;
     int32_t joint;   // of the skeleton, which no limb may turn; -1: none
@@ -111,15 +112,15 @@ static inline swivel_prop_def swivel_default_prop_def(void)
 enum { SWIVEL_MAX_LOOK_JOINTS = 8 };  // of a look
 
 // A chain of joints of each body, such as spine, neck and head, that turns so that a line of sight in the last one
-// meets SWIVEL_LOOK_TARGET. Each joint turns by its share of what is left. The turn fades out as the target goes behind
+// meets SWIVEL_LOOK_TARGET. Each joint takes its share of the turn left. The turn fades out as the target goes behind
 // or comes too near. Looks come after a body's shift and before its props and limbs, in the order of their groups.
-// Flags: REACHED, LIMITED_LOOK, LIMITED_STEP and FADED. docs/howto/look.md has pictures. Source: our own.
+// Flags: REACHED, LIMITED_LOOK, LIMITED_STEP and FADED.
 typedef struct swivel_look_def {
     size_t size;
     uint32_t joint_count;                     // 1 to 8
     uint32_t joints[SWIVEL_MAX_LOOK_JOINTS];  // of the skeleton, each below the one before
     float share[SWIVEL_MAX_LOOK_JOINTS];      // of the turn, of any sum: 0 or more, the last more than 0
-    float cos_max[SWIVEL_MAX_LOOK_JOINTS];    // cosine of the angle that each joint turns at most, -1..1
+    float cos_max[SWIVEL_MAX_LOOK_JOINTS];    // cosine of each joint's max turn; 0.7: 46 degrees
     float eye[3];                             // where the line of sight starts, in the last joint's frame
     float axis[3];                            // where it points, likewise, of any length but 0
     float cos_full, cos_none;                 // it fades between these cosines of the target's angle
@@ -148,7 +149,7 @@ typedef struct swivel_constant_info {
     const char* structure;  // "plant", "ground", "shift", "prop" or "look"
     const char* name;       // such as "lock_radius"
     const char* unit;       // such as "s"; empty: none
-    const char* text;       // what it is, in a few words
+    const char* text;       // its meaning, in a few words
     uint32_t offset;        // bytes from the structure's start
     uint32_t count;         // of floats
     float defaults[SWIVEL_MAX_LOOK_JOINTS];
@@ -173,7 +174,8 @@ typedef enum swivel_pose_space {
 } swivel_pose_space;
 
 // Values of joints in the caller's own array, joint j of body i at data + i * body_stride + offsets[j], or j *
-// joint_stride where offsets is null. Strides and offsets are in bytes.
+// joint_stride where offsets is null. Strides and offsets are in bytes. Without offsets a job is refused whose results
+// of two bodies overlap.
 typedef struct swivel_joint_values {
     void* data;                        // null: none
     size_t body_stride, joint_stride;  // 0 of inputs: one value for all
@@ -200,7 +202,7 @@ typedef struct swivel_pose {
     uint32_t reserved;  // 0
     // SWIVEL_IN_BODY with translations and results: where those of moved joints go; none: back to translations.
     swivel_joint_values translation_results;
-    // If given, where joints are after the solve, from the root.
+    // If given, where the joints that limbs and looks need are after the solve, from the shifted root.
     swivel_joint_values joint_rotations, joint_positions;
     // Seconds since each body's last solve, 1 float. Groups WITH_PLANT, shifts, and looks with a rate need it.
     swivel_in time;
@@ -220,8 +222,7 @@ static inline swivel_pose swivel_default_pose(void)
     return pose;
 }
 
-// Feet of one group that want to know the ground: what a job's sample function gets. Arrays have an entry for each
-// foot.
+// Feet of one group, for a job's sample function. Arrays have an entry for each foot.
 typedef struct swivel_probes {
     uint32_t group, count;
     const uint32_t* bodies;

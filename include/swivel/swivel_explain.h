@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text
+enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // enough for every text
 #define SWIVEL_EVERY_GROUP UINT32_MAX      // for swivel_explain(): all groups of a body
 
 // Explains a limb's state in a sentence or two, from its present inputs: the input that is bad, how far out of reach

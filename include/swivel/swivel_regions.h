@@ -39,7 +39,7 @@ static inline swivel_region swivel_default_region(void)
 
 typedef struct swivel_region_cone {
     float axis[3];  // of any length but zero
-    float angle;    // to the axis, at most: 0.01 to pi - 0.01
+    float angle;    // max angle to the axis, 0.01 to pi - 0.01
 } swivel_region_cone;
 
 // Adds cones in order, with a bridge between neighbours, which may not be opposite. closed: not 0 to bridge the last
@@ -53,11 +53,11 @@ SWIVEL_API swivel_status swivel_region_add_polygon(swivel_region* region, const 
 // 1 to 6. Takes about 0.05 ms a direction.
 SWIVEL_API swivel_status swivel_region_add_directions(swivel_region* region, const float* directions, uint32_t count,
                                                       float margin, uint32_t max_cones);
-// Cuts a cone out of all that is there and will be added.
+// Cuts a cone out of all parts, also of later ones.
 SWIVEL_API swivel_status swivel_region_forbid(swivel_region* region, const swivel_region_cone* cone);
 // The region of the same limb on the body's other side, as swivel_mirror() has it. from and to may be the same.
 SWIVEL_API swivel_status swivel_region_mirror(const swivel_region* from, swivel_region* to);
-// How much room a direction of any length but zero has, as a difference of cosines: 0 or more where it is allowed.
+// The margin of a direction of any length but zero, as a difference of cosines: 0 or more where it is allowed.
 SWIVEL_API swivel_status swivel_region_room(const swivel_region* region, const float direction[3], float* room);
 
 #ifdef __cplusplus

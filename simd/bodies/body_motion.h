@@ -56,14 +56,14 @@ struct IntoBody {
     }
 };
 
-SWIVEL_FLATTEN void move(const BodyBlock& block, const BodyLimb& limb)
+SWIVEL_FLATTEN void move(const BodyBlock& block, const GroupJoints& joints)
 {
     const Motion none = Motion::at(block, 0, 0);
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const IntoBody body(block, lane);
         const Mask<T> kept = rows_of(block, 0, lane).get(kKeptRow) > T(0.5);
-        for (std::uint32_t n = 0; n < limb.turned_count; ++n) {
-            const TurnedJoint& joint = limb.turned[n];
+        for (std::uint32_t n = 0; n < joints.turned_count; ++n) {
+            const TurnedJoint& joint = joints.turned[n];
             const Motion above = Motion::at(block, joint.above, lane);
             const RowView<T> at = rows_of(block, joint.row, lane);
             const Rotor<T> parent = body.rotation(rows_of(block, joint.parent, lane)), incoming = body.rotation(at);
@@ -138,7 +138,7 @@ void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint
     }
 }
 
-SWIVEL_FLATTEN void place(const BodyBlock& block, const BodyJoint& joint)
+SWIVEL_FLATTEN void locate(const BodyBlock& block, const BodyJoint& joint)
 {
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const IntoBody body(block, lane);

@@ -23,7 +23,7 @@ struct StageBody<Stage::posed> {
         using T = typename S::T;
         constexpr BendNormal which = S::template is<SWIVEL_POLE_INCOMING>() ? BendNormal::own : BendNormal::chosen;
         const bool weighs = s.has(SWIVEL_WITH_WEIGHTS);
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         const Rotor<T> wrist = s.body.rotor(limb.wrist + kTurnRow);
         const PosedLimb<T> posed{s.body.rotor(limb.parent + kTurnRow), s.body.rotor(limb.shoulder + kTurnRow),
                                  s.body.vector(limb.shoulder + kPlaceRow), s.body.vector(limb.elbow + kPlaceRow),
@@ -89,7 +89,7 @@ private:
     {
         using T = typename S::T;
         const bool is_sent = s.has(kLibraryGoal);
-        const std::uint32_t goal = s.strip.run.limb->goal;
+        const std::uint32_t goal = s.strip.run.plan->limb.goal;
         // A planted point stays where it is while the root is shifted. A held thing goes with the shifted body.
         const Vector<T> root = s.has(SWIVEL_WITH_LINK) ? vector(T(0), T(0), T(0))
                                                        : s.body.vector(is_sent ? kShiftedRow : kRootRow),
@@ -97,7 +97,7 @@ private:
         s.require(len2(target) <= T(kHuge2));
         // A goal that the library makes does not depend on the root's place, which is bad input even so.
         if (is_sent) s.require(len2(s.body.vector(kRootRow)) <= T(kHuge2));
-        s.rows.set(kWristRow, per_scale * seen.back(target - root - shoulder));
+        s.rows.set(kTargetRow, per_scale * seen.back(target - root - shoulder));
         if (has_pole(s)) {
             const Vector<T> pole = s.io.load_vector(SWIVEL_POLE);
             s.require(len2(pole) <= T(kHuge2));
@@ -105,9 +105,12 @@ private:
                        per_scale * seen.back(pole_is_point(s) ? pole - s.body.vector(kRootRow) - shoulder : pole));
         }
         if (s.has(SWIVEL_WITH_HAND)) {
-            const Rotor<T> hand = is_sent ? s.body.rotor(goal + kGoalHandRow) : s.io.load_rotor(SWIVEL_HAND);
+            const bool aims = s.has(SWIVEL_WITH_AIM);
+            const Rotor<T> hand = aims      ? s.io.load_rotor(SWIVEL_HAND)
+                                  : is_sent ? s.body.rotor(goal + kGoalHandRow)
+                                            : wanted_hand(s).rotation;
             s.require(is_orientation(hand));
-            s.rows.set(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~seen.arm * hand);
+            s.rows.set(kTargetHandRow, aims ? hand : ~seen.arm * hand);
         }
     }
 };
@@ -119,7 +122,7 @@ struct StageBody<Stage::record> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         const ArmFrame<T> arm = arm_frame(s);
         const T scale = s.body.get(limb.parent + kScaleRow);
         Rotor<T> hand = s.rows.rotor(kIncomingRow + 8);
@@ -144,12 +147,13 @@ template <class S>
 SWIVEL_INLINE Rotor<typename S::T> turned_twist_bone(const S& s, std::uint32_t n)
 {
     using T = typename S::T;
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
+    const TwistBone& bone = limb.twist_bones[n];
     const Rotor<T> fore = s.body.rotor(limb.elbow + kTurnRow) * s.body.rotor(kForeFromArmRow);
-    const Rotor<T> from_arm = ~s.body.rotor(limb.twist_parents[n] + kTurnRow) * fore;
+    const Rotor<T> from_arm = ~s.body.rotor(bone.parent + kTurnRow) * fore;
     const Rotor<T> turn = rotor(T(0), T(0), s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 2)),
                                 s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 3)));
-    return unit_rotation(from_arm * turn * ~from_arm * s.body.rotor(limb.twist_bones[n] + kLocalRow));
+    return unit_rotation(from_arm * turn * ~from_arm * s.body.rotor(bone.row + kLocalRow));
 }
 
 // The rotations of the joints, in place of the incoming ones.
@@ -161,7 +165,7 @@ struct StageBody<Stage::correct> {
         using T = typename S::T;
         const Binding& bind = s.strip.bind;
         const swivel_binding& b = *s.strip.run.binding;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         const T weight = body_weight(s);
         const bool fades = s.strip.run.strip.pose->weight.data != nullptr;
         const Mask<T> valid = lanes_where<T>(s.good()), kept = kept_lanes(s, valid) | (valid & (weight == T(0)));
@@ -172,7 +176,7 @@ struct StageBody<Stage::correct> {
             set_local(s, joint, faded, broadcast<T>(rest), valid, kept);
         };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
-        const Rotor<T> shoulder = load_result_rotor(s, SWIVEL_SHOULDER);
+        const Rotor<T> shoulder = s.io.load_result_rotor(SWIVEL_SHOULDER, 0);
         store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body.rotor(kUpperFromArmRow),
               b.shoulder_rest);
         store(limb.elbow, s.body.rotor(limb.elbow_parent_row()) * elbow * ~s.body.rotor(kForeFromArmRow), b.elbow_rest);
@@ -182,26 +186,21 @@ struct StageBody<Stage::correct> {
                   b.wrist_rest);
         if (s.has(SWIVEL_WITH_CLAVICLE))
             store(limb.parent,
-                  unit_rotation(s.body.rotor(limb.parent + kLocalRow) * load_result_rotor(s, SWIVEL_CLAVICLE_ROTATION)),
+                  unit_rotation(s.body.rotor(limb.parent + kLocalRow) *
+                                s.io.load_result_rotor(SWIVEL_CLAVICLE_ROTATION, 0)),
                   limb.clavicle_rest);
         for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
-            store(limb.twist_bones[n], turned_twist_bone(s, n), limb.twist_rest[n]);
+            store(limb.twist_bones[n].row, turned_twist_bone(s, n), limb.twist_bones[n].rest);
     }
 
 private:
-    template <class S>
-    SWIVEL_INLINE static Rotor<typename S::T> load_result_rotor(const S& s, swivel_field field)
-    {
-        return rotor(s.io.load_result(field, 0), s.io.load_result(field, 1), s.io.load_result(field, 2),
-                     s.io.load_result(field, 3));
-    }
     // The lanes whose joints stay as they come. Those are of bad input, in groups that keep it and in the body's space,
     // where no rest pose is known. And they are those where no weight asks for more.
     template <class S>
     SWIVEL_INLINE static Mask<typename S::T> kept_lanes(const S& s, const Mask<typename S::T>& valid)
     {
         using T = typename S::T;
-        const bool keeps = s.strip.run.keeps || s.strip.run.strip.pose->space == SWIVEL_IN_BODY;
+        const bool keeps = s.strip.run.keeps_pose || s.strip.run.strip.pose->space == SWIVEL_IN_BODY;
         Mask<T> kept = keeps ? !valid : no_lanes<T>();
         if (s.has(SWIVEL_WITH_WEIGHTS) && !(s.strip.run.features & kBoundingFeatures)) {
             const T none = T(0);
@@ -210,7 +209,7 @@ private:
         }
         if (s.has(SWIVEL_WITH_LINK) && s.has(SWIVEL_POLE_INCOMING) &&
             !(s.strip.run.features & (kBoundingFeatures | SWIVEL_WITH_ANGLE)))
-            kept = kept | (valid & (s.body.get(s.strip.run.limb->goal + kGoalOwnRow) > T(0.5)));
+            kept = kept | (valid & (s.body.get(s.strip.run.plan->limb.goal + kGoalOwnRow) > T(0.5)));
         return kept;
     }
 };

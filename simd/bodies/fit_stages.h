@@ -34,7 +34,7 @@ struct StageBody<Stage::span> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         const FitWish<S> wish(s);
         const T scale = s.body.get(limb.parent + kScaleRow);
         const Vector<T> up = up_of(s);
@@ -45,7 +45,7 @@ struct StageBody<Stage::span> {
         Vector<T> from_wrist = vector(T(0), T(0), T(0));
         if (s.has(SWIVEL_WITH_EFFECTOR)) {
             const Rotor<T> hand =
-                is_planted ? s.body.rotor(limb.goal + kGoalHandRow) : normalise(s.io.load_rotor(SWIVEL_HAND));
+                is_planted ? s.body.rotor(limb.goal + kGoalHandRow) : normalise(wanted_hand(s).rotation);
             from_wrist = scale * turned(hand, s.io.load_vector(SWIVEL_EFFECTOR));
         }
         const T reach = limb_reach(s).far;
@@ -74,22 +74,21 @@ struct StageBody<Stage::fit> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const ShiftPlan& shift = s.strip.run.plan->shift;
         const T wish = s.io.load(SWIVEL_SHIFT_WISH, 0), time = s.body.get(kTimeRow);
         const Rotor<T> root = s.body.rotor(kRootJoint + kTurnRow);
-        const T length = T(limb.rest_length) * s.body.get(kRootJoint + kScaleRow);
+        const T length = T(s.strip.run.plan->rest_length) * s.body.get(kRootJoint + kScaleRow);
         s.require(is_within(wish, -kHuge, kHuge) & is_within(time, 0, kHuge) & is_almost_unit(root) &
                   (len2(s.body.vector(kRootRow)) <= T(kHuge2)) & is_within(length, kTiny, kHuge));
         const ShiftSpan<T> span{s.body.get(kSpanRow), s.body.get(kSpanRow + 1), s.body.get(kSpanRow + 2) > T(0.5)};
-        const FittedShift<T> fitted =
-            fitted_shift(span, wish, T(limb.shift.drop) * length, T(limb.shift.rise) * length);
-        const EasedHeight<T> eased_shift = eased(s, SWIVEL_SHIFT, fitted.shift, no_lanes<T>(), limb.shift.spring);
+        const FittedShift<T> fitted = fitted_shift(span, wish, T(shift.drop) * length, T(shift.rise) * length);
+        const EasedHeight<T> eased_shift = eased(s, SWIVEL_SHIFT, fitted.shift, no_lanes<T>(), shift.spring);
         s.good_rows().store_vector(SWIVEL_SHIFT, vector(eased_shift.at, eased_shift.rate, T(1)));
         s.store_flags(word_where(fitted.all_reach, SWIVEL_REACHED) | word_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR));
         const Mask<T> valid = lanes_where<T>(s.good());
-        const Vector<T> shift = select(valid, eased_shift.at, eased_shift.before) * up_of(s);
-        s.body.set(kShiftedRow, shift);
-        s.body.set(kRootRow, s.body.vector(kRootRow) + shift);
+        const Vector<T> shifted = select(valid, eased_shift.at, eased_shift.before) * up_of(s);
+        s.body.set(kShiftedRow, shifted);
+        s.body.set(kRootRow, s.body.vector(kRootRow) + shifted);
     }
 };
 

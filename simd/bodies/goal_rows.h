@@ -31,7 +31,7 @@ static_assert(waiting_row(SWIVEL_RESULT_END) == kGoalRows);
 template <class S, class Value>
 SWIVEL_INLINE void hold_back(const S& s, swivel_field field, std::uint32_t component, const Value& value)
 {
-    s.body.set(s.strip.run.limb->goal + waiting_row(field) + component, value);
+    s.body.set(s.strip.run.plan->limb.goal + waiting_row(field) + component, value);
 }
 
 // A body's axis of heights and shifts, in the world.
@@ -39,7 +39,7 @@ template <class S>
 SWIVEL_INLINE Vector<typename S::T> up_of(const S& s)
 {
     using T = typename S::T;
-    const float(&up)[3] = s.strip.run.limb->up;
+    const float(&up)[3] = s.strip.run.plan->up;
     return turned(s.body.rotor(kRootJoint + kTurnRow), vector(T(up[0]), T(up[1]), T(up[2])));
 }
 
@@ -77,6 +77,23 @@ struct SupportFrame {
     }
 };
 
+// The rotation in the world that the caller wants a limb's hand to have, of any length. Where it is NaN, as it starts,
+// the hand keeps the incoming one.
+template <class T>
+struct WantedHand {
+    Rotor<T> rotation;
+    Mask<T> is_written;
+};
+template <class S>
+SWIVEL_INLINE WantedHand<typename S::T> wanted_hand(const S& s)
+{
+    using T = typename S::T;
+    const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+    const T length2 = len2(hand);
+    const Mask<T> is_written = length2 == length2;
+    return {select(is_written, hand, s.body.rotor(s.strip.run.plan->limb.wrist + kTurnRow)), is_written};
+}
+
 // Where a limb's point is as animated, from the root's place, and the hand's rotation. Values that the caller has
 // written replace the pose's.
 template <class T>
@@ -89,7 +106,7 @@ template <class S>
 SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
 {
     using T = typename S::T;
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
     AnimatedHand<T> animated{s.body.vector(limb.wrist + kPlaceRow), s.body.rotor(limb.wrist + kTurnRow),
                              all_lanes<T>()};
     if (s.has(SWIVEL_WITH_EFFECTOR))
@@ -102,12 +119,11 @@ SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
         animated.is_posed = !is_given;
     }
     if (s.has(SWIVEL_WITH_HAND)) {
-        const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
-        const T length2 = len2(hand);
-        if (const Mask<T> is_given = length2 == length2; any(is_given)) {
-            s.require(is_orientation(hand) | !is_given);
-            animated.rotation = select(is_given, normalise(hand), animated.rotation);
-            animated.is_posed = animated.is_posed & !is_given;
+        const WantedHand<T> hand = wanted_hand(s);
+        if (any(hand.is_written)) {
+            s.require(is_orientation(hand.rotation) | !hand.is_written);
+            animated.rotation = select(hand.is_written, normalise(hand.rotation), animated.rotation);
+            animated.is_posed = animated.is_posed & !hand.is_written;
         }
     }
     return animated;
@@ -118,7 +134,7 @@ template <class S>
 SWIVEL_INLINE void set_goal(const S& s, const Vector<typename S::T>& place, const Rotor<typename S::T>& hand)
 {
     using T = typename S::T;
-    const std::uint32_t goal = s.strip.run.limb->goal;
+    const std::uint32_t goal = s.strip.run.plan->limb.goal;
     s.body.set(goal + kGoalPlaceRow, or_nan(lanes_where<T>(s.good()), place));
     s.body.set(goal + kGoalHandRow, hand);
     if (!s.has(SWIVEL_WITH_RECORD)) return;
@@ -180,7 +196,7 @@ template <class S>
 SWIVEL_INLINE LimbReach<typename S::T> limb_reach(const S& s)
 {
     using T = typename S::T;
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
     const T scale = s.body.get(limb.parent + kScaleRow);
     const Vector<T> shoulder = s.body.vector(limb.shoulder + kPlaceRow), elbow = s.body.vector(limb.elbow + kPlaceRow),
                     wrist = s.body.vector(limb.wrist + kPlaceRow);

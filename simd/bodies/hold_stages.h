@@ -41,7 +41,7 @@ struct StageBody<Stage::grasp> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         if (!limb.link.is_prop) return;
         const AnimatedHand<T> animated = animated_hand(s);
         const HeldFrame<T> grip = grip_of(s);
@@ -65,9 +65,7 @@ struct StageBody<Stage::grasp> {
         s.body.set(limb.link.holder + kHolderReachRow, far);
         s.body.set(limb.link.holder + kHolderNearRow, near);
         // A hand that is written goes on as it is, of any length, as it would if the limb held nothing.
-        const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
-        const T length2 = len2(hand);
-        set_goal(s, animated.point, select(length2 == length2, hand, animated.rotation));
+        set_goal(s, animated.point, wanted_hand(s).rotation);
         const T lengths = s.io.load(SWIVEL_LENGTHS, 0) + s.io.load(SWIVEL_LENGTHS, 1);  // NaN: the pose's
         s.body.set(limb.goal + kGoalOwnRow, select(animated.is_posed & !(lengths == lengths), T(1), T(0)));
     }
@@ -78,7 +76,7 @@ template <class S>
 struct PropAtHand {
     using T = typename S::T;
     const S& s;
-    const BodyLimb& limb = *s.strip.run.limb;
+    const PropPlan& prop = s.strip.run.plan->prop;
     HeldFrame<T> frame;
     Mask<T> is_of_hands;  // the caller says nothing of it
     T share;
@@ -92,30 +90,29 @@ struct PropAtHand {
         frame = between(hands, told, select(is_of_hands, T(0), weight));
     }
     SWIVEL_INLINE explicit PropAtHand(const S& slice)
-        : s(slice), is_of_hands(T(limb.prop.joint) == T(0)), share(s.io.load(SWIVEL_HAND_BLEND, 0))
+        : s(slice), is_of_hands(T(prop.joint) == T(0)), share(s.io.load(SWIVEL_HAND_BLEND, 0))
     {
         s.require(is_share(share));
-        if (limb.prop.holder_count == 1) share = T(0);
-        const HeldFrame<T> hands =
-            between(get_held(s, holder(0)), get_held(s, holder(limb.prop.holder_count - 1)), share);
+        if (prop.holder_count == 1) share = T(0);
+        const HeldFrame<T> hands = between(get_held(s, holder(0)), get_held(s, holder(prop.holder_count - 1)), share);
         const Rotor<T> turn = s.io.load_rotor(SWIVEL_PROP_ROTATION);
         const Vector<T> at = s.io.load_vector(SWIVEL_PROP_POSITION);
         const T turn2 = len2(turn), at2 = len2(at);
         const Mask<T> has_turn = turn2 == turn2, has_place = at2 == at2;
         s.require((is_orientation(turn) | !has_turn) & ((at2 <= T(kHuge2)) | !has_place));
         const Rotor<T> unit = normalise(select(has_turn, turn, one<T>()));
-        if (limb.prop.joint != 0) {
-            const Rotor<T> rotation = s.body.rotor(limb.prop.joint + kTurnRow);
+        if (prop.joint != 0) {
+            const Rotor<T> rotation = s.body.rotor(prop.joint + kTurnRow);
             const Vector<T> given = select(has_place, at, vector(T(0), T(0), T(0)));
-            weigh(hands, {unit_rotation(rotation * unit),
-                          s.body.vector(limb.prop.joint + kPlaceRow) + turned(rotation, given)});
+            weigh(hands,
+                  {unit_rotation(rotation * unit), s.body.vector(prop.joint + kPlaceRow) + turned(rotation, given)});
             return;
         }
         is_of_hands = !(has_turn | has_place);
         weigh(hands,
               {select(has_turn, unit, hands.rotation), select(has_place, at - s.body.vector(kRootRow), hands.place)});
     }
-    SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return limb.frame + kHoldersRow + n * kHolderRows; }
+    SWIVEL_INLINE std::uint32_t holder(std::uint32_t n) const { return prop.frame + kHoldersRow + n * kHolderRows; }
     // The moves by which a holder's arm reaches; all of them where that is bad input.
     SWIVEL_INLINE ReachingMoves<T> reaching(std::uint32_t n) const
     {
@@ -143,15 +140,15 @@ struct StageBody<Stage::prop> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const PropPlan& prop = s.strip.run.plan->prop;
         PropAtHand<S> held(s);
-        const ReachingMoves<T> a = held.reaching(0), b = held.reaching(limb.prop.holder_count - 1);
+        const ReachingMoves<T> a = held.reaching(0), b = held.reaching(prop.holder_count - 1);
         // So much less that what rounds still reaches, of a far move and of the shorter arm, too.
         const T size = lo(a.reach, b.reach) + sqrt(len2(a.middle)) + sqrt(len2(b.middle));
         const auto within = [&](const ReachingMoves<T>& moves) SWIVEL_INLINE_LAMBDA {
             return ReachingMoves<T>{moves.middle, hi(moves.reach - T(2 * kReachSlack) * size, T(0))};
         };
-        const T max = T(limb.prop.max_move) * T(limb.rest_length) * s.body.get(kRootJoint + kScaleRow);
+        const T max = T(prop.max_move) * T(s.strip.run.plan->rest_length) * s.body.get(kRootJoint + kScaleRow);
         Mask<T> is_longer = no_lanes<T>();
         const Vector<T> none = vector(T(0), T(0), T(0));
         const Mask<T> rests = a.has(none) & b.has(none);
@@ -159,14 +156,14 @@ struct StageBody<Stage::prop> {
             all(rests) ? none : select(rests, none, at_most(min_move(within(a), within(b)), max, !rests, is_longer));
         held.frame.place = held.frame.place + move;
         const Mask<T> is_far = !(rests | (a.has(move) & b.has(move))),
-                      is_near = (!is_far) & (held.is_too_near(0) | held.is_too_near(limb.prop.holder_count - 1)),
+                      is_near = (!is_far) & (held.is_too_near(0) | held.is_too_near(prop.holder_count - 1)),
                       stays = !(len2(move) > T(0));
         s.require((len2(held.frame.place) <= T(kHuge2)) & is_almost_unit(held.frame.rotation) &
                   (len2(s.body.vector(kRootRow)) <= T(kHuge2)));
-        set_held(s, limb.frame, {held.frame.rotation, or_nan(lanes_where<T>(s.good()), held.frame.place)});
-        s.body.set(limb.frame + kHeldScaleRow, T(1));
+        set_held(s, prop.frame, {held.frame.rotation, or_nan(lanes_where<T>(s.good()), held.frame.place)});
+        s.body.set(prop.frame + kHeldScaleRow, T(1));
         const Mask<T> says = held.is_of_hands & stays;
-        s.body.set(limb.frame + kLeadHandRow,
+        s.body.set(prop.frame + kLeadHandRow,
                    select(says & (held.share == T(0)), T(0), select(says & (held.share == T(1)), T(1), T(-1))));
 
         const Rows<T, kRuntimeFeatures> out = s.good_rows();
@@ -183,7 +180,7 @@ struct StageBody<Stage::link> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         HeldFrame<T> goal = gripped(get_held(s, limb.link.row), grip_of(s), s.body.get(limb.link.row + kHeldScaleRow));
         T own = T(0);
         if (limb.link.is_prop) {
@@ -205,7 +202,7 @@ struct StageBody<Stage::hand_transform> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         const ArmFrame<T> arm = arm_frame(s);
         const T scale = s.body.get(limb.parent + kScaleRow),
                 stretch = s.has(SWIVEL_WITH_REACH) ? s.io.load_result(SWIVEL_STRETCH, 0) : T(1);
@@ -225,8 +222,8 @@ struct StageBody<Stage::hand_transform> {
         const Mask<T> is_known =
             valid & (len2(place) <= T(kHuge2)) & is_almost_unit(turn) & (len2(s.body.vector(kRootRow)) <= T(kHuge2));
         const HeldFrame<T> hand{select(is_known, turn, rotor(nan, nan, nan, nan)), or_nan(is_known, place)};
-        set_held(s, limb.frame, hand);
-        s.body.set(limb.frame + kHeldScaleRow, scale);
+        set_held(s, limb.hand_frame, hand);
+        s.body.set(limb.hand_frame + kHeldScaleRow, scale);
         const Rows<T, kRuntimeFeatures> out = s.chosen_rows();
         out.store_vector(SWIVEL_HAND_TRANSFORM, with_one_nan(hand.place + s.body.vector(kRootRow)));
         out.store_rotor(SWIVEL_HAND_TRANSFORM, with_one_nan(hemisphere(hand.rotation)), 3);

@@ -19,10 +19,10 @@ struct LookGoal {
     T weight, body_weight;
     Mask<T> is_given, is_faded;
 
-    SWIVEL_INLINE explicit LookGoal(const S& s) : rules(s.strip.run.limb->look), body_weight(swivel::body_weight(s))
+    SWIVEL_INLINE explicit LookGoal(const S& s) : rules(s.strip.run.plan->look), body_weight(swivel::body_weight(s))
     {
-        const BodyLimb& look = *s.strip.run.limb;
-        const std::uint32_t last = look.turned[look.turned_count - 1].row;
+        const GroupJoints& joints = s.strip.run.plan->joints;
+        const std::uint32_t last = joints.turned[joints.turned_count - 1].row;
         const Rotor<T> turn = s.body.rotor(last + kTurnRow);
         const T scale = s.body.get(last + kScaleRow), own_weight = s.io.load(SWIVEL_LOOK_WEIGHT, 0);
         const Vector<T> given = s.io.load_vector(SWIVEL_LOOK_TARGET), root_place = s.body.vector(kRootRow);
@@ -30,9 +30,9 @@ struct LookGoal {
         is_given = given2 == given2;
         s.require(is_share(own_weight) & is_share(body_weight) & ((given2 <= T(kHuge2)) | !is_given) &
                   (len2(root_place) <= T(kHuge2)) & is_within(scale, kTiny, kHuge));
-        for (std::uint32_t n = 0; n < look.turned_count; ++n)
-            s.require(is_almost_unit(s.body.rotor(look.turned[n].row + kTurnRow)) &
-                      (len2(s.body.vector(look.turned[n].row + kPlaceRow)) <= T(kHuge2)));
+        for (std::uint32_t n = 0; n < joints.turned_count; ++n)
+            s.require(is_almost_unit(s.body.rotor(joints.turned[n].row + kTurnRow)) &
+                      (len2(s.body.vector(joints.turned[n].row + kPlaceRow)) <= T(kHuge2)));
         const auto constant = [](const float(&v)[3]) SWIVEL_INLINE_LAMBDA { return vector(T(v[0]), T(v[1]), T(v[2])); };
         sight = {s.body.vector(last + kPlaceRow) + turned(turn, scale * constant(rules.eye)),
                  turned(turn, constant(rules.axis))};
@@ -50,28 +50,28 @@ struct StageBody<Stage::look> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& look = *s.strip.run.limb;
+        const GroupJoints& joints = s.strip.run.plan->joints;
         const LookGoal<S> goal(s);
         Chain<T> chain;
         turn_chain(s, goal, chain, [&](std::uint32_t n, const Vector<T>& place, const Rotor<T>&) SWIVEL_INLINE_LAMBDA {
             const LookJoint& joint = goal.rules.joint[n];
-            return n + 1 < look.turned_count ? share_of_look(chain.sight, goal.target, goal.weight, joint)
-                                             : rest_of_look(chain.sight, place, goal.target, goal.weight, joint);
+            return n + 1 < joints.turned_count ? share_of_look(chain.sight, goal.target, goal.weight, joint)
+                                               : rest_of_look(chain.sight, place, goal.target, goal.weight, joint);
         });
         ease(s, goal, chain);
         const Mask<T> valid = lanes_where<T>(s.good()), turns = (goal.weight > T(0)) | chain.is_behind,
                       kept = !(turns & valid & (goal.body_weight > T(0)));
         set_locals(s, valid, kept, chain);
         if (s.strip.run.strip.pose->space == SWIVEL_IN_BODY) set_motions(s, kept, chain);
-        for (std::uint32_t n = 0; n < look.following_count; ++n) {
-            const FollowingJoint& joint = look.following[n];
+        for (std::uint32_t n = 0; n < joints.following_count; ++n) {
+            const FollowingJoint& joint = joints.following[n];
             const LookedJoint<T>& with = chain.joint[joint.number];
             const Rotor<T> rotation = s.body.rotor(joint.row + kTurnRow);
             const Vector<T> came = s.body.vector(joint.row + kPlaceRow);
             set_frame(s, joint.row, kept, with.sum * rotation, with.place + turned(with.sum, came - with.came));
         }
-        for (std::uint32_t n = 0; n < look.turned_count; ++n)
-            set_frame(s, look.turned[n].row, kept, chain.joint[n].rotation, chain.joint[n].place);
+        for (std::uint32_t n = 0; n < joints.turned_count; ++n)
+            set_frame(s, joints.turned[n].row, kept, chain.joint[n].rotation, chain.joint[n].place);
         store(s, goal, chain);
     }
 
@@ -100,13 +100,13 @@ private:
                                          const TurnOf& turn_of)
     {
         using T = typename S::T;
-        const BodyLimb& look = *s.strip.run.limb;
+        const GroupJoints& joints = s.strip.run.plan->joints;
         Rotor<T> sum = one<T>();
         chain.sight = goal.sight;
         chain.held = no_lanes<T>();
-        for (std::uint32_t n = 0; n < look.turned_count; ++n) {
+        for (std::uint32_t n = 0; n < joints.turned_count; ++n) {
             LookedJoint<T>& joint = chain.joint[n];
-            joint.came = joint.place = s.body.vector(look.turned[n].row + kPlaceRow);
+            joint.came = joint.place = s.body.vector(joints.turned[n].row + kPlaceRow);
             if (n > 0) joint.place = chain.joint[n - 1].place + turned(sum, joint.came - chain.joint[n - 1].came);
             const LookTurn<T> turn = turn_of(n, joint.place, sum);
             joint.turn = turn.turn;
@@ -115,7 +115,7 @@ private:
             chain.held = chain.held | turn.held;
             sum = unit_rotation(turn.turn * sum);
             joint.sum = sum;
-            joint.rotation = sum * s.body.rotor(look.turned[n].row + kTurnRow);
+            joint.rotation = sum * s.body.rotor(joints.turned[n].row + kTurnRow);
         }
     }
     // Holds the turns back where they would change by more than the rate lets them. All go the same part of their ways,
@@ -124,12 +124,12 @@ private:
     SWIVEL_INLINE static void ease(const S& s, const LookGoal<S>& goal, Chain<typename S::T>& chain)
     {
         using T = typename S::T;
-        const std::uint32_t count = s.strip.run.limb->turned_count;
+        const std::uint32_t count = s.strip.run.plan->joints.turned_count;
         chain.is_behind = no_lanes<T>();
         for (std::uint32_t n = 0; n < count; ++n) chain.carried[n] = vector(T(0), T(0), T(0));
         const bool has_rate = goal.rules.rate > 0;
         if (!has_rate && all(goal.body_weight == T(1))) return;
-        const Rotor<T> came = s.body.rotor(s.strip.run.limb->turned[count - 1].row + kTurnRow);
+        const Rotor<T> came = s.body.rotor(s.strip.run.plan->joints.turned[count - 1].row + kTurnRow);
         Rotor<T> goals[kMaxLookJoints];
         for (std::uint32_t n = 0; n < count; ++n)
             goals[n] = seen_by(~(n == 0 ? came : chain.joint[n - 1].sum * came), chain.joint[n].turn);
@@ -160,7 +160,7 @@ private:
                                         Rotor<typename S::T> (&goals)[kMaxLookJoints])
     {
         using T = typename S::T;
-        const std::uint32_t count = s.strip.run.limb->turned_count;
+        const std::uint32_t count = s.strip.run.plan->joints.turned_count;
         const T time = s.body.get(kTimeRow), half = T(0.5f * goal.rules.rate) * time;
         s.require(is_within(time, 0, kHuge));
         Vector<T> carried[kMaxLookJoints];
@@ -189,10 +189,10 @@ private:
                                          const Chain<typename S::T>& chain)
     {
         using T = typename S::T;
-        const BodyLimb& look = *s.strip.run.limb;
-        for (std::uint32_t n = 0; n < look.turned_count; ++n) {
-            const TurnedJoint& joint = look.turned[n];
-            const bool hangs_on_last = n > 0 && joint.parent == look.turned[n - 1].row;
+        const GroupJoints& joints = s.strip.run.plan->joints;
+        for (std::uint32_t n = 0; n < joints.turned_count; ++n) {
+            const TurnedJoint& joint = joints.turned[n];
+            const bool hangs_on_last = n > 0 && joint.parent == joints.turned[n - 1].row;
             const Rotor<T> parent = hangs_on_last ? chain.joint[n - 1].rotation
                                     : n > 0       ? chain.joint[n - 1].sum * s.body.rotor(joint.parent + kTurnRow)
                                                   : s.body.rotor(joint.parent + kTurnRow);
@@ -206,19 +206,19 @@ private:
                                           const Chain<typename S::T>& chain)
     {
         using T = typename S::T;
-        const BodyLimb& look = *s.strip.run.limb;
+        const GroupJoints& joints = s.strip.run.plan->joints;
         const Rotor<T> root = s.body.rotor(kRootJoint + kTurnRow);
         const T shrink = T(1) / s.body.get(kRootJoint + kScaleRow);
-        const bool has_above = look.above != 0;
-        const Rotor<T> above = has_above ? s.body.rotor(look.above + kMotionRow) : one<T>();
-        const Vector<T> above_shift = has_above ? s.body.vector(look.above + kShiftRow) : vector(T(0), T(0), T(0));
-        for (std::uint32_t n = 0; n < look.turned_count; ++n) {
+        const bool has_above = joints.above != 0;
+        const Rotor<T> above = has_above ? s.body.rotor(joints.above + kMotionRow) : one<T>();
+        const Vector<T> above_shift = has_above ? s.body.vector(joints.above + kShiftRow) : vector(T(0), T(0), T(0));
+        for (std::uint32_t n = 0; n < joints.turned_count; ++n) {
             const LookedJoint<T>& joint = chain.joint[n];
             const Rotor<T> turn = hemisphere(unit_rotation(~root * joint.sum * root));
             const auto in_body = [&](const Vector<T>& place)
                                      SWIVEL_INLINE_LAMBDA { return turned(~root, shrink * place); };
             const Vector<T> shift = in_body(joint.place) - turned(turn, in_body(joint.came));
-            const std::uint32_t row = look.turned[n].row;
+            const std::uint32_t row = joints.turned[n].row;
             s.body.set(row + kMotionRow, select(kept, above, has_above ? turn * above : turn));
             s.body.set(row + kShiftRow,
                        select(kept, above_shift, has_above ? turned(turn, above_shift) + shift : shift));
@@ -238,7 +238,7 @@ private:
         const Rows<T, kRuntimeFeatures> out = s.good_rows();
         out.store_vector(SWIVEL_SIGHT, chain.sight.eye + s.body.vector(kRootRow));
         out.store_vector(SWIVEL_SIGHT, chain.sight.axis, 3);
-        const std::uint32_t count = s.strip.run.limb->turned_count;
+        const std::uint32_t count = s.strip.run.plan->joints.turned_count;
         out.store(SWIVEL_LOOK_TURNS, 0, T(1));
         for (std::uint32_t n = 0; n < count; ++n)
             out.store_vector(SWIVEL_LOOK_TURNS, chain.carried[n], 1 + 3 * static_cast<int>(n));

@@ -59,10 +59,10 @@ SWIVEL_INLINE Mask<typename S::T> in_contact(const S& s, const Mask<typename S::
         s.require(is_share(contact));
         return contact > T(0.5);
     }
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
     MotionState<T> motion{s.io.load_result_vector(SWIVEL_CONTACT_STATE, 0),
                           s.io.load_result(SWIVEL_CONTACT_STATE, 3) > T(0.5)};
-    const Mask<T> is_in_contact = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.rules);
+    const Mask<T> is_in_contact = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.plant);
     hold_back(s, SWIVEL_CONTACT_STATE, 0, motion.place);
     hold_back(s, SWIVEL_CONTACT_STATE, 3, select(motion.contact, T(1), T(0)));
     return is_in_contact;
@@ -79,7 +79,7 @@ SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<type
                       s.io.load_result_vector(SWIVEL_PLANT_ROTATION, kTurnOffset),
                       s.io.load_result_vector(SWIVEL_PLANT_ROTATION, kTurnVelocity)};
     const Rotor<T> planted =
-        plant_rotation(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
+        plant_rotation(turn, step, locked, unit_rotation(~support * hand), s.strip.run.plan->limb.plant);
     hold_back(s, SWIVEL_PLANT_ROTATION, kTurnMark, turn.mark);
     hold_back(s, SWIVEL_PLANT_ROTATION, kTurnOffset, turn.offset);
     hold_back(s, SWIVEL_PLANT_ROTATION, kTurnVelocity, turn.velocity);
@@ -91,7 +91,7 @@ template <class S>
 struct PlantedPoint {
     using T = typename S::T;
     const S& s;
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
     SupportFrame<T> support = SupportFrame<T>::of(s);
     AnimatedHand<T> animated = animated_hand(s);
     PlantState<T> state = load_plant(s);
@@ -104,14 +104,14 @@ struct PlantedPoint {
         s.require(is_posed(s) & is_almost_unit(support.rotation));
         PlantInput<T> in;
         in.time = s.body.get(kTimeRow);
-        in.length = T(limb.rest_length) * s.body.get(kRootJoint + kScaleRow);
-        forget_old(state, in.time, limb.rules);
+        in.length = T(s.strip.run.plan->rest_length) * s.body.get(kRootJoint + kScaleRow);
+        forget_old(state, in.time, limb.plant);
         Vector<T> point = animated.point;
         if (s.has(SWIVEL_WITH_GROUND)) point = point + (sees_ground ? lifted_by_ground() : lifted_so_far());
         in.point = support.from_root(point);
         s.require((len2(in.point) <= T(kHuge2)) & is_within(in.time, 0, kHuge));
         in.label = in_contact(s, state.fresh, in, animated.point);
-        planted = plant(state, in, limb.rules);
+        planted = plant(state, in, limb.plant);
     }
     SWIVEL_INLINE Vector<T> place() const { return support.to_root(planted.target); }
     SWIVEL_INLINE void lock_to_ground()
@@ -197,7 +197,7 @@ struct StageBody<Stage::ground> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const BodyLimb& limb = *s.strip.run.limb;
+        const BodyLimb& limb = s.strip.run.plan->limb;
         const GroundRules& rules = limb.ground;
         const Vector<T> up = up_of(s);
         const T scale = s.body.get(limb.parent + kScaleRow), share = s.io.load(SWIVEL_GROUND_WEIGHT, 0);
@@ -220,11 +220,12 @@ struct StageBody<Stage::commit> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const Rows<T, kRuntimeFeatures> out = s.good_rows(), cleared = s.cleared_rows();
+        const Rows<T, kRuntimeFeatures> out = s.good_rows(),
+                                        cleared = s.rows_of(s.strip.run.keeps_pose ? 0 : s.chosen() & ~s.good());
         for (const swivel_field field : kWaitingResults) {
             const FieldRow& row = row_of(field);
             if ((s.strip.run.features & row.needs) != row.needs) continue;
-            const std::uint32_t waiting = s.strip.run.limb->goal + waiting_row(field);
+            const std::uint32_t waiting = s.strip.run.plan->limb.goal + waiting_row(field);
             for (std::uint32_t c = 0; c < row.component_count; ++c) {
                 out.store(field, static_cast<int>(c), s.body.get(waiting + c));
                 if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED)

@@ -35,9 +35,9 @@ private:
         using T = typename S::T;
         const GroundPlane<T> ground = ground_of(s, up_of(s));
         const ArmFrame<T> arm = arm_frame(s);
-        const T scale = s.body.get(s.strip.run.limb->parent + kScaleRow),
+        const T scale = s.body.get(s.strip.run.plan->limb.parent + kScaleRow),
                 height = ground.distance(arm.shoulder + scale * sandwich(arm.rotation, ankle)) / scale,
-                wanted = T(s.strip.run.limb->ground.toe_clearance) - height;
+                wanted = T(s.strip.run.plan->limb.ground.toe_clearance) - height;
         return lifting_turn(ground.exists & misses, sandwich(~arm.rotation, ground.normal), sandwich(foot, effector),
                             wanted) *
                foot;

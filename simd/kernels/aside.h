@@ -24,12 +24,12 @@ inline SolveRun block_of(SolveRun run, std::uint32_t block)
     run.results += row_offset(limb, run.result_row_count, 0);
     run.limb_count = kLanes;
     run.first_lane += limb;
-    run.padding -= limb;
+    run.first_padding -= limb;
     return run;
 }
 
-// The limbs of a run that wait to be solved in a block of their own. A list is full with a block of them, and has room
-// for those of one slice more, which are two blocks at most.
+// The limbs of a run that wait to be solved in a block of their own. A list is full with a block of them, and can hold
+// those of one slice more, which are two blocks at most.
 struct WaitingLimbs {
     std::uint32_t limb[3 * kLanes];  // where each belongs in the run
     std::uint32_t count = 0;
@@ -54,7 +54,7 @@ struct WaitingLimbs {
     }
 };
 
-// Room for a block of limbs that have these features.
+// The rows of a block of limbs that have these features.
 template <swivel_features Features>
 struct BlockAside {
     alignas(64) float input[input_row_count(Features) * kLanes];
@@ -70,7 +70,7 @@ struct BlockAside {
             const std::size_t from = list.limb[lane < count ? lane : 0];
             copy_lane(rows, run.input + row_offset(from, rows, 0), input + lane);
             // Bad input keeps values of the results.
-            if (run.keeps) copy_lane(result_rows, run.results + row_offset(from, result_rows, 0), results + lane);
+            if (run.keeps_pose) copy_lane(result_rows, run.results + row_offset(from, result_rows, 0), results + lane);
         }
         SolveRun aside = run;
         aside.input = input;

@@ -56,11 +56,11 @@ struct PoseReader {
     }
 
 private:
-    SWIVEL_INLINE static GivenJoint read_matrix(LaneValues lane, std::size_t at, bool keeps, const RowView<T>& to)
+    SWIVEL_INLINE static GivenJoint read_matrix(LaneValues lane, std::size_t at, bool is_turned, const RowView<T>& to)
     {
         const MatrixParts m = read_parts<Form>(lane, at);
         const MatrixFrame<T> frame = matrix_frame(axis_of<Form>(m, 0), axis_of<Form>(m, 1), axis_of<Form>(m, 2));
-        if (keeps) {
+        if (is_turned) {
             to.set(kLocalRow, frame.rotation);
             for (std::uint32_t n = 0; n < 9; ++n) to.set(kAxesRow + n, m.part[n / 3][n % 3]);
         }
@@ -212,6 +212,6 @@ void forward(const BodyPlan& plan, const BodyBlock& block)
 }  // namespace
 
 extern const BodyKernels body_kernels;
-const BodyKernels body_kernels{forward, move, carry, place};
+const BodyKernels body_kernels{forward, move, carry, locate};
 
 }  // namespace swivel::inline SWIVEL_ISA

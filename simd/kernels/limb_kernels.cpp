@@ -58,15 +58,15 @@ void add_block(Strip& strip, std::uint32_t block, std::uint32_t lanes)
     ++strip.block_count;
 }
 
-void solve(const SolveRun& run)
+void solve_limbs(const SolveRun& run)
 {
-    constexpr std::uint32_t all_lanes = (1u << kLanes) - 1;
+    constexpr std::uint32_t whole_block = (1u << kLanes) - 1;
     const Binding bind = binding_of<kRuntimeFeatures>(run);
     for (std::size_t limb = 0; limb < run.limb_count;) {
         Strip strip{run, bind, run.strip.rows};
         for (; limb < run.limb_count && strip.block_count < run.strip.block_count; limb += kLanes) {
             const std::size_t left = run.limb_count - limb;
-            const std::uint32_t exist = left < kLanes ? (1u << left) - 1 : all_lanes,
+            const std::uint32_t exist = left < kLanes ? (1u << left) - 1 : whole_block,
                                 lanes = chosen_lanes(run, limb, kLanes) & exist;
             if (lanes != 0) add_block(strip, static_cast<std::uint32_t>(limb / kLanes), lanes);
         }
@@ -110,6 +110,6 @@ constexpr decltype(LimbKernels::allowed_arcs) store_arcs = nullptr;
 }  // namespace
 
 extern const LimbKernels limb_kernels;
-const LimbKernels limb_kernels{solve, store_arcs};
+const LimbKernels limb_kernels{solve_limbs, store_arcs};
 
 }  // namespace swivel::inline SWIVEL_ISA

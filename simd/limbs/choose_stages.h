@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The stages that choose the swivel, as core/choose_swivel.h says. A slice takes as long as its slowest lane, and a
-// search takes much longer than the look at the wish. So lanes that need a long one are gathered from the whole strip
-// into slices of their own, and the swivels that are found go back to their rows.
+// The stages that choose the swivel: the wish, if the limits allow it; else nearest_end(), and where no end is allowed
+// min_violation() (core/choose_swivel.h). A slice takes as long as its slowest lane, and a search takes much longer
+// than the test of the wish. So lanes that need a long search are gathered from the whole strip into slices of their
+// own, and the swivels that are found go back to their rows.
 #pragma once
 
 #include <bit>
@@ -214,13 +215,13 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
 {
     constexpr bool is_long = Boxes > 0 || InRegion;  // the search for an end
     const LimitList list(strip.run.features);
-    LaneList for_end, for_least;
+    LaneList for_end, for_min;
     for_each_slice<T, 0, 0>(strip, [&](const auto& s) SWIVEL_INLINE_LAMBDA {
         const int line_count = Lines > 0 ? Lines : list.line_count;
         const Limits<T, Boxes> limits = load_limits<Boxes>(s, line_count, list);
         const Turned<T> wish{T(1), T(0)};
         Word<T> flags = s.rows.word(kFlagsRow);
-        T min_room = T(2);
+        T min_room = T(kMaxRoom);
         const auto test_limit = [&](const T& room_left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
             flags = flags | word_where(room_left < T(kNoRoom), flag);
             min_room = lo(room_left, min_room);
@@ -239,7 +240,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
             } else {
                 const FoundSwivel<T> end = nearest_end(limits);
                 swivel = select(granted, wish, end.swivel);
-                for_least.add(first, forbidden & lane_bits(!end.allowed));
+                for_min.add(first, forbidden & lane_bits(!end.allowed));
             }
         }
         s.rows.set(kSwivelRow, swivel.cos);
@@ -247,8 +248,8 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         s.rows.set(kFlagsRow, flags);
     });
     if constexpr (is_long)
-        if (for_end.count > 0) search_end<T, Boxes, InRegion>(strip, list, for_end, for_least);
-    if (for_least.count > 0) search_min<T, InRegion>(strip, list, for_least);
+        if (for_end.count > 0) search_end<T, Boxes, InRegion>(strip, list, for_end, for_min);
+    if (for_min.count > 0) search_min<T, InRegion>(strip, list, for_min);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -57,7 +57,7 @@ SWIVEL_INLINE bool is_bound(const S& s)
 template <class S>
 SWIVEL_INLINE ParentFrame<typename S::T> posed_parent(const S& s)
 {
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
     return {s.body.vector(limb.shoulder + kPlaceRow), s.body.rotor(limb.parent + kTurnRow),
             s.body.get(limb.parent + kScaleRow)};
 }
@@ -74,7 +74,7 @@ SWIVEL_INLINE ArmFrame<typename S::T> arm_frame(const S& s)
     const ParentFrame<T> parent = posed_parent(s);
     const Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
     if (!s.has(SWIVEL_WITH_CLAVICLE)) return {arm, parent.position};
-    const Vector<T> clavicle = s.body.vector(s.strip.run.limb->parent + kPlaceRow);
+    const Vector<T> clavicle = s.body.vector(s.strip.run.plan->limb.parent + kPlaceRow);
     const Rotor<T> turned_arm = arm * s.rows.rotor(kClavicleRow);
     return {turned_arm, clavicle + sandwich(turned_arm * ~arm, parent.position - clavicle)};
 }
@@ -83,14 +83,14 @@ template <class S>
 SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
 {
     using T = typename S::T;
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
     const auto is_joint = [&](std::uint32_t joint) SWIVEL_INLINE_LAMBDA {
         return is_almost_unit(s.body.rotor(joint + kTurnRow)) & (len2(s.body.vector(joint + kPlaceRow)) <= T(kHuge2)) &
                is_within(s.body.get(joint + kScaleRow), kTiny, kHuge);
     };
     Mask<T> good = is_joint(limb.wrist);
     for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
-        good = good & is_joint(limb.twist_bones[n]);
+        good = good & is_joint(limb.twist_bones[n].row);
     return good;
 }
 
@@ -123,12 +123,12 @@ struct StageBody<Stage::goal_to_parent> {
         const SeenGoal<T> seen =
             seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
         const T shrink = T(1) / seen.size;
-        s.rows.set(kWristRow, shrink * seen.wrist);
+        s.rows.set(kTargetRow, shrink * seen.wrist);
         s.rows.set(kPoleRow, shrink * seen.pole);
         if constexpr (S::template is<SWIVEL_WITH_HAND>()) {
             const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
             s.require(is_orientation(hand));
-            s.rows.set(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
+            s.rows.set(kTargetHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
         }
     }
 };
@@ -152,7 +152,7 @@ template <class S>
 SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
 {
     using T = typename S::T;
-    const BodyLimb& limb = *s.strip.run.limb;
+    const BodyLimb& limb = s.strip.run.plan->limb;
     const ParentFrame<T> parent = posed_parent(s);
     const Turn<T> back = turn_by(~(parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm)));
     const Vector<T> clavicle = s.body.vector(limb.parent + kPlaceRow);
@@ -163,7 +163,7 @@ SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
     Vector<T> from = seen(s.body.vector(limb.wrist + kPlaceRow));
     if (s.has(SWIVEL_WITH_EFFECTOR)) from = from + back(hand(s.io.load_vector(SWIVEL_EFFECTOR)));
     if (s.has(SWIVEL_WITH_AIM)) {
-        const Vector<T> way = s.rows.vector(kWristRow) + shoulder - from;
+        const Vector<T> way = s.rows.vector(kTargetRow) + shoulder - from;
         from = from + sqrt(len2(way)) * back(hand(s.io.load_vector(SWIVEL_AIM)));
     }
     return {shoulder, from};
@@ -180,17 +180,18 @@ struct StageBody<Stage::clavicle> {
         const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
         const Vector<T>& bone = ends.shoulder;
         const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
-        const Vector<T> target = s.rows.vector(kWristRow) + bone;
+        const Vector<T> target = s.rows.vector(kTargetRow) + bone;
         s.require((len2(bone) <= T(kHuge2)) & is_share(share));
         const Rotor<T> turn = clavicle_rotation(
             ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
         const Turn<T> back = turn_by(~turn);
-        s.rows.set(kWristRow, back(target) - bone);
+        s.rows.set(kTargetRow, back(target) - bone);
         if (has_pole(s)) {
             const Vector<T> pole = s.rows.vector(kPoleRow);
             s.rows.set(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
         }
-        if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM)) s.rows.set(kHandRow, ~turn * s.rows.rotor(kHandRow));
+        if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM))
+            s.rows.set(kTargetHandRow, ~turn * s.rows.rotor(kTargetHandRow));
         s.rows.set(kClavicleRow, turn);
     }
 };
@@ -232,13 +233,13 @@ struct StageBody<Stage::goal> {
         const LimbUse use = use_of(s);
         const bool seen = s.has(SWIVEL_WORLD);
         LimbGoal<T> goal;
-        goal.arm.wrist = s.goal_vector(seen, kWristRow, SWIVEL_TARGET);
+        goal.arm.wrist = s.goal_vector(seen, kTargetRow, SWIVEL_TARGET);
         Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
         if (use.hand) {
-            goal.hand = seen ? s.rows.rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
+            goal.hand = seen ? s.rows.rotor(kTargetHandRow) : s.io.load_rotor(SWIVEL_HAND);
             if (!seen) valid = valid & is_orientation(goal.hand);
             if (is_bound(s)) {
-                const Rotor<T> wrist_parent = s.has(kBody) ? s.body.rotor(s.strip.run.limb->wrist_parent_row())
+                const Rotor<T> wrist_parent = s.has(kBody) ? s.body.rotor(s.strip.run.plan->limb.wrist_parent_row())
                                                            : broadcast<T>(bind.wrist_parent_from_arm);
                 goal.hand = (use.aim ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
             }

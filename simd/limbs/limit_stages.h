@@ -58,12 +58,15 @@ template <swivel_field limit, class S>
 SWIVEL_INLINE auto load_limit(const S& s)
 {
     constexpr const ValueLayout& value = row_of(limit).value;
-    if constexpr (value.parts[0] == ValuePart::range)
+    if constexpr (value.parts[0] == ValuePart::range) {
         return s.io.load_range(limit);
-    else if constexpr (value.parts[1] == ValuePart::cosine)
+    } else if constexpr (value.parts[1] == ValuePart::cosine) {
         return s.io.load_cone(limit);
-    else
+    } else {
+        static_assert(value.parts[0] == ValuePart::axis && value.parts[1] == ValuePart::range &&
+                      value.parts[2] == ValuePart::none);
         return Twist<typename S::T>{s.io.load_vector(limit), s.io.load_range(limit, 3)};
+    }
 }
 // The arm that it limits.
 template <swivel_field limit, class S>

@@ -20,7 +20,7 @@ struct Results {
 
     SWIVEL_INLINE explicit Results(const S& slice)
         : s(slice),
-          out(slice.strip.run.keeps ? slice.good_rows() : slice.chosen_rows()),
+          out(slice.strip.run.keeps_pose ? slice.good_rows() : slice.chosen_rows()),
           valid(lanes_where<T>(slice.good()))
     {
     }
@@ -48,7 +48,7 @@ struct StageBody<Stage::store> {
         const Vector<T> line = s.rows.vector(kLineRow);
         Vector<T> normal = s.rows.vector(kNormalRow);
         Word<T> flags = s.rows.word(kFlagsRow);
-        if (s.has(kLibraryGoal)) flags = flags | s.body.word(s.strip.run.limb->goal + kGoalFlagsRow);
+        if (s.has(kLibraryGoal)) flags = flags | s.body.word(s.strip.run.plan->limb.goal + kGoalFlagsRow);
         Continuity<T> continuity;
         if (s.has(SWIVEL_WITH_MAX_SWIVEL)) load_continuity(s, continuity);
         if (s.strip.run.features & kSwivelLimits) {

@@ -68,11 +68,10 @@ struct StripSlice {
     // Bits of the lanes that are limbs, and no padding.
     SWIVEL_ALWAYS_INLINE std::uint32_t limbs() const
     {
-        const std::size_t first = std::size_t{strip.block[block]} * kLanes + lane, end = strip.run.padding;
+        const std::size_t first = std::size_t{strip.block[block]} * kLanes + lane, end = strip.run.first_padding;
         return first + lane_count<T> <= end ? kEvery : first < end ? (1u << (end - first)) - 1 : 0;
     }
-    // The group's rows of some lanes; of the chosen ones; of those with valid input; and of those with bad input that
-    // go to rest.
+    // The group's rows of some lanes; of the chosen ones; and of those with valid input.
     SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> rows_of(std::uint32_t lanes) const
     {
         Rows<T, kRuntimeFeatures> some = io;
@@ -81,10 +80,6 @@ struct StripSlice {
     }
     SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> chosen_rows() const { return rows_of(chosen()); }
     SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> good_rows() const { return rows_of(good()); }
-    SWIVEL_ALWAYS_INLINE Rows<T, kRuntimeFeatures> cleared_rows() const
-    {
-        return rows_of(strip.run.keeps ? 0 : chosen() & ~good());
-    }
     SWIVEL_ALWAYS_INLINE void store_flags(const Word<T>& flags) const
     {
         chosen_rows().store(SWIVEL_FLAGS, 0, select(lanes_where<T>(good()), flags, word<T>(SWIVEL_BAD_INPUT)));

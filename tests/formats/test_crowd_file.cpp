@@ -58,7 +58,7 @@ TEST_CASE("crowd file: the special table goes before the general one, and says w
     const CrowdFile file = read(
         "[limb.left_arm]\nweights.hand = 0.9\n[limb.all]\nweights.hand = 0.1\ntwist_bones = 1\nhand = true\n"
         "[limb.arms]\nweights.hand = 0.2\ntwist_bones = 2\n[limb.right]\nweights.hand = 0.3\n"
-        "[limb.all.limits]\nflexion_deg = [0, 10]\nforearm_twist_deg = [0, 10]\n"
+        "[limb.all.limits]\nhumeral_twist_deg = [0, 10]\nforearm_twist_deg = [0, 10]\n"
         "[limb.right_arm.limits]\nforearm_twist_deg = [0, 20]\n[limb.right.pole]\nangle_deg = 4\n");
     const auto weight = [&](LimbName limb) { return settings_of(file, limb).weights[1]->value; };
     CHECK(weight(kLeftArm) == 0.9);
@@ -72,8 +72,8 @@ TEST_CASE("crowd file: the special table goes before the general one, and says w
         return *settings_of(file, limb)
                     .limits[static_cast<std::size_t>(std::ranges::find(kLimitKeys, key) - kLimitKeys.begin())];
     };
-    CHECK(limit(kRightArm, "flexion_deg").mirrored);
-    CHECK_FALSE(limit(kLeftArm, "flexion_deg").mirrored);
+    CHECK(limit(kRightArm, "humeral_twist_deg").mirrored);
+    CHECK_FALSE(limit(kLeftArm, "humeral_twist_deg").mirrored);
     CHECK_FALSE(limit(kRightArm, "forearm_twist_deg").mirrored);
     CHECK(std::get<NumberRange>(limit(kRightArm, "forearm_twist_deg").value).max == 20);
     CHECK(limit(kRightLeg, "forearm_twist_deg").mirrored);

@@ -103,6 +103,8 @@ swivel_binding binding_of(Random random)
 
 // Bits of seeds that stand for no feature.
 constexpr std::uint32_t kOtherBits[] = {4, 23, 31, 35, 37, 38, 40, 41, 42};
+static_assert(std::is_sorted(std::begin(kOtherBits), std::end(kOtherBits)),
+              "seed_bit() passes them from the lowest on");
 constexpr std::uint32_t kTwistBonesBit = 40;  // the first of three for the number of twist bones
 
 // The bit that stands for a feature in seeds, by the feature's place in the library's table. Seeds count on the table's

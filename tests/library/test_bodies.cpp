@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: a pose goes in and a pose comes out. An untouched goal gives back the incoming pose, and any goal in
-// reach is met, whatever the skeleton is, joints in between and scales among it, in all forms of poses. A body's weight
-// takes its share of the turn of each joint: at 1 no bit changes, at 0 the pose keeps its bits, while what is carried
-// goes on, and in between bones keep their lengths. All is checked by forward kinematics of Eigen's, in double.
+// reach is met, whatever the skeleton is, joints in between and scales among it, in all forms of poses. A hand that
+// nobody writes keeps its incoming rotation in the world. A body's weight takes its share of the turn of each joint: at
+// 1 no bit changes, at 0 the pose keeps its bits, while what is carried goes on, and in between bones keep their
+// lengths. All is checked by forward kinematics of Eigen's, in double.
 #include <catch2/catch.hpp>
 
 #include <rapidcheck/catch.h>
@@ -61,6 +62,68 @@ void for_each_limb(const PosedBodies& bodies, const Take& take)
         for (std::uint32_t g = 0; g < bodies.groups.size(); ++g) take(body, g);
     }
 }
+
+// Limbs that reach for targets, fit, stand and hold, and whose hands nobody writes.
+struct UnwrittenHands : PosedBodies {
+    enum Group : std::uint32_t { shift, reaches, fits, stands, holds };
+
+    explicit UnwrittenHands(Random& random)
+        : PosedBodies(random, {1 + random.below(8), 4, random.below(3), false}, 20, random_layout(random))
+    {
+        if (random.below(4) == 0) put_in_body_space();
+        constexpr swivel_features kHand = SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING;
+        const auto maybe = [&](swivel_features feature) { return random.below(2) ? feature : 0; };
+        swivel_shift_def def = swivel_default_shift_def();
+        def.drop = def.rise = 0.5f;
+        add(def);
+        add_limb(0, kHand | maybe(SWIVEL_WITH_EFFECTOR) | maybe(SWIVEL_WITH_WEIGHTS));
+        add_limb(1, kHand | maybe(SWIVEL_WITH_EFFECTOR) | SWIVEL_WITH_PELVIS_FIT);
+        add_limb(2, kHand | maybe(SWIVEL_WITH_EFFECTOR) | maybe(SWIVEL_WITH_PLANT_ROTATION) | SWIVEL_WITH_PLANT);
+        add_limb(3, kHand | SWIVEL_WITH_LINK, reaches);
+        for (const std::uint32_t g : {reaches, fits})
+            give(g, SWIVEL_TARGET, [&](std::size_t n) { return goal(random, g, n).target; });
+        for (const std::uint32_t g : {reaches, fits, stands})
+            if (has(g, SWIVEL_WITH_EFFECTOR))
+                give(g, SWIVEL_EFFECTOR, [&](std::size_t) { return floats(random.vector(0, 0.1)); });
+        if (has(reaches, SWIVEL_WITH_WEIGHTS))
+            give(reaches, SWIVEL_WEIGHTS, [&](std::size_t) { return Float3{1, static_cast<float>(random.unit()), 1}; });
+        give(stands, SWIVEL_CONTACT, [](std::size_t n) { return Float1{static_cast<float>(n % 2)}; });
+        give(holds, SWIVEL_GRIP, [&](std::size_t) { return floats(Held{random.rotation(), random.vector(0, 0.1)}); });
+    }
+    // The same with hands that are written: the incoming ones as change(hand) leaves them.
+    template <class Change>
+    PosedBodies with_hands(const Change& change) const
+    {
+        PosedBodies made = *this;
+        for (const std::uint32_t g : {reaches, fits, stands, holds})
+            made.give(g, SWIVEL_HAND, [&](std::size_t n) {
+                Float4 hand = floats(joints_at(skeleton, bodies[n])[skeleton.limbs[limb_of[g]].wrist].rotation);
+                change(hand);
+                return hand;
+            });
+        return made;
+    }
+    void check_hands(const SolvedBodies& solved, std::size_t n) const
+    {
+        const SolvedBody body(solved, n);
+        const Vector3d up = quat(bodies[n].root_rotation).normalized() * Vector3d::UnitY(),
+                       shifted = double{solved.result<Float3>(SWIVEL_SHIFT, shift, n)[0]} * up;
+        for (const std::uint32_t g : {reaches, fits, stands}) {
+            const JointAt& came = body.was[body.joints(g).wrist];
+            const std::uint32_t flags = solved.flags(g, n);
+            RC_ASSERT(!(flags & SWIVEL_BAD_INPUT));
+            RC_ASSERT(body.hand(g).rotation.angularDistance(came.rotation) <= 5e-6);
+            const bool fitted = g == fits && solved.flags(shift, n) == SWIVEL_REACHED && !(flags & SWIVEL_CLAMPED_NEAR);
+            if (!(flags & SWIVEL_REACHED) && !fitted) continue;
+            const Vector3d wanted = g == stands ? body.point(g, {came.rotation, came.place}).place
+                                                : Vector3d(vec(value(g, SWIVEL_TARGET, n, kNoPlace)) - body.root());
+            RC_ASSERT((body.point(g).place + shifted - wanted).norm() <=
+                      1e-5 * (body.length(g) + wanted.norm() + body.root().norm()));
+        }
+        const Quaterniond held = body.was[body.joints(reaches).wrist].rotation * body.grip(holds).rotation;
+        RC_ASSERT(body.hand(holds).rotation.angularDistance(held) <= 1e-5);
+    }
+};
 
 constexpr std::size_t kWeighedBodies = 40;
 
@@ -134,6 +197,24 @@ TEST_CASE("any goal in reach is met")
             RC_ASSERT((is.place - target).norm() <= body.limb(g).wrist_bound() + carried);
             RC_ASSERT(is.rotation.angularDistance(quat(hand).normalized()) <= 5e-6);
         });
+    });
+}
+
+TEST_CASE("a hand that nobody writes keeps its incoming rotation in the world")
+{
+    rc::prop("as one of NaN does to the bit, and one that is written as it came", [](std::uint64_t seed) {
+        Random random{seed};
+        const UnwrittenHands bodies(random);
+        const auto spoil = [&](Float4& hand) { hand[random.below(4)] = kNan; };
+        const auto lengthen = [](Float4& hand) {
+            for (float& x : hand) x *= 3;
+        };
+        const PosedBodies unknown = bodies.with_hands(spoil), given = bodies.with_hands(lengthen);
+        const SolvedBodies solved(bodies), same(unknown), written(given);
+        for (std::size_t n = 0; n < bodies.bodies.size(); ++n) {
+            RC_ASSERT(bits_of_body(solved.crowd, solved.poses, n) == bits_of_body(same.crowd, same.poses, n));
+            for (const SolvedBodies* const each : {&solved, &written}) bodies.check_hands(*each, n);
+        }
     });
 }
 

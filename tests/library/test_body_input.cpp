@@ -212,6 +212,8 @@ TEST_CASE("bad input of hands and props is that of what depends on them, and of 
         {"a rotation of a prop", H::prop, SWIVEL_PROP_ROTATION, 0, 4, {0, kInf}, all},
         {"a target of a hand on a prop", H::left, SWIVEL_TARGET, 0, 3, {2e15f}, all},
         {"a target", H::free, SWIVEL_TARGET, 0, 1, {kNan}, {H::free}},
+        {"a hand", H::free, SWIVEL_HAND, 0, 4, {0, kInf, 1e10f}, {H::free}},
+        {"a hand of NaN, which is the incoming one", H::free, SWIVEL_HAND, 3, 1, {kNan}, none},
     };
     for (const auto& [name, group, field, first, count, values, groups, share] : rows)
         for (const float bad : values) {

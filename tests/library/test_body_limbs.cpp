@@ -65,6 +65,8 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     const bool is_point = !(features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL));
     values[SWIVEL_POLE] = list(is_point ? goal.pole : direction());
     values[SWIVEL_HAND] = list(goal.hand);
+    const bool is_written = features & SWIVEL_WITH_AIM || random.below(4) > 0;
+    if (!is_written) values[SWIVEL_HAND][random.below(4)] = kNan;  // the incoming hand
     values[SWIVEL_EFFECTOR] = list(floats(Vector3d(length * random.vector(0, 0.3))));
     values[SWIVEL_ANGLE] = list(cos_sin(random.between(-3, 3)));
     values[SWIVEL_LENGTHS] = {kNan, kNan};  // as the pose has them
@@ -160,9 +162,10 @@ struct LimbInBody {
         free[SWIVEL_INCOMING_WRIST] =
             list(floats(Quaterniond(fore_frame.conjugate() * wrist.rotation * hand_rest.conjugate())));
         // The hand's axes are the arm frame's at rest.
-        Quaterniond hand = quat(Float4{values.at(SWIVEL_HAND)[0], values.at(SWIVEL_HAND)[1], values.at(SWIVEL_HAND)[2],
-                                       values.at(SWIVEL_HAND)[3]}) *
-                           hand_rest.conjugate();
+        Float4 written;
+        std::ranges::copy(values.at(SWIVEL_HAND), written.begin());
+        const bool is_written = std::ranges::none_of(written, [](float x) { return std::isnan(x); });
+        Quaterniond hand = (is_written ? quat(written) : wrist.rotation) * hand_rest.conjugate();
         if (features & SWIVEL_WITH_AIM) hand = fore_frame.conjugate() * above(limb.wrist).rotation * hand;
         free[SWIVEL_HAND] = features & SWIVEL_WITH_HAND ? list(floats(hand)) : free[SWIVEL_INCOMING_WRIST];
         for (const swivel_field field : {SWIVEL_EFFECTOR, SWIVEL_AIM}) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: swivel_describe_constant() tells every constant of groups, with the default that the header gives it. A
-// number beyond a bound is refused by its name. docs/fields.md has the table as the library has it.
+// number beyond a bound is refused by its name. docs/fields.md has the table as the library has it, and says which
+// inputs start as NaN.
 #include <catch2/catch.hpp>
 
 #include <cctype>
@@ -159,4 +160,22 @@ TEST_CASE("the page of fields has the constants as the library has them")
               << static_cast<char>(std::toupper(static_cast<unsigned char>(*info.text))) << info.text + 1 << ". |\n";
     }
     CHECK_THAT(text_of("docs/fields.md"), Catch::Contains(table.str()));
+}
+
+TEST_CASE("the page of fields says which inputs of bodies start as NaN")
+{
+    const EveryStructure given;
+    const Crowd crowd(given.def);
+    const std::string page = text_of("docs/fields.md");
+    swivel_field_info info;
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
+            if (info.kind != SWIVEL_FIELD_INPUT || !swivel_field_row_count(crowd.get(), group, info.field)) continue;
+            std::string name = info.name;
+            for (char& letter : name) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+            const std::uint32_t row = swivel_field_first_row(crowd.get(), group, info.field);
+            const bool starts_as_nan = std::isnan(swivel_input_rows(crowd.get(), group).base[row * SWIVEL_LANES]);
+            INFO("group " << group << ", " << name);
+            CHECK((page.find("| `" + name + "` | NaN") != std::string::npos) == starts_as_nan);
+        }
 }

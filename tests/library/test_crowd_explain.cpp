@@ -90,6 +90,7 @@ private:
             CHECK(number_after(text, words) == Approx(wanted).epsilon(share).margin(1e-6));
         };
         is_told("The target is ", missed);
+        is_told("The effector's target is ", missed);
         if (!swivel_field_row_count(crowd.get(), 0, SWIVEL_CLAVICLE)) is_told(": the wrist is ", place.norm());
         is_told("zone of reach keeps the wrist ", missed);
         is_told("zone of reach keeps the effector ", missed);
@@ -192,9 +193,14 @@ void tell_of_reach(ApprovedTexts& texts)
 
 void tell_of_limits(ApprovedTexts& texts)
 {
-    Told limited(texts, "limits of the elbow's place", SWIVEL_WITH_SHOULDER_CONE);
+    Told limited(texts, "limits of the elbow's place", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST);
     limited.with("a cone on the other side", SWIVEL_SHOULDER_CONE, cone({0, 1, 0.2}, 0.5));
     limited.with("a cone that no place keeps", SWIVEL_SHOULDER_CONE, cone({0, -1, 0}, 0.5));
+    limited.with("a twist, too", SWIVEL_HUMERAL_TWIST, range(2, 2.1));
+
+    Told edge(texts, "a straight arm at the edge of a cone", SWIVEL_WITH_SHOULDER_CONE);
+    edge.write(SWIVEL_TARGET, Float3{0, 0, 3});
+    edge.with("outside by 0.003 degrees", SWIVEL_SHOULDER_CONE, cone({0, 1, 0}, degrees(89.997)));
 
     Told box(texts, "a box of the shoulder", SWIVEL_WITH_SHOULDER_BOX);
     Float12 ranges;
@@ -309,15 +315,15 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
                                   off_twist(q.wrist, bone, l.forearm),
                                   off_twist(q.wrist, l.twist_axis, l.twist),
                                   off_box(q.shoulder, l.shoulder_box),
-                                  off_box(q.wrist, l.wrist_box)};  // of kSwivelLimits
-            static_assert(std::size(off) == std::size(kSwivelLimits));
+                                  off_box(q.wrist, l.wrist_box)};  // of kLimitFields
+            static_assert(std::size(off) == std::size(kLimitFields));
             const std::size_t violates = text.find("Its pose violates");
             REQUIRE((violates != std::string::npos) == ((flags[n] & SWIVEL_INFEASIBLE) != 0));
             for (std::size_t k = 0; k < std::size(off); ++k) {
-                const swivel_features limit = describe(kSwivelLimits[k]).needs;
-                const std::string name = describe(kSwivelLimits[k]).name;
+                const swivel_features limit = describe(kLimitFields[k]).needs;
+                const std::string name = describe(kLimitFields[k]).name;
                 if (violates == std::string::npos) {
-                    CHECK((text.find(name) != std::string::npos) == ((flags[n] & flag_of(kSwivelLimits[k])) != 0));
+                    CHECK((text.find(name) != std::string::npos) == ((flags[n] & flag_of(kLimitFields[k])) != 0));
                     continue;
                 }
                 const double degrees_off = off[k] / degrees(1);

@@ -3,6 +3,8 @@
 // The promise: limits made of angles are kept as angles, through a skeleton. The other side of the body is the mirror
 // image. How limits hold for arms in their own frame is in test_limits.cpp.
 #include <map>
+#include <set>
+#include <string_view>
 
 #include "tests/test_whole_limb.h"
 
@@ -21,7 +23,15 @@ Quaterniond mirrored(const Quaterniond& q) { return {q.w(), q.x(), -q.y(), -q.z(
 TEST_CASE("the tests' limits of the swivel are all that the library has a flag for")
 {
     for (const swivel_field field : every_field())
-        CHECK((flag_of(field) != 0) == (std::ranges::find(kSwivelLimits, field) != std::end(kSwivelLimits)));
+        CHECK((flag_of(field) != 0) == (std::ranges::find(kLimitFields, field) != std::end(kLimitFields)));
+    std::set<std::string_view> others;  // flags of limits that are no field of the swivel's
+    for (std::uint32_t flag = 1; flag != 0; flag <<= 1) {
+        const char* const name = swivel_flag_name(flag);
+        if (!name || !std::string_view(name).starts_with("LIMITED_")) continue;
+        if (std::ranges::none_of(kLimitFields, [&](swivel_field field) { return flag_of(field) == flag; }))
+            others.insert(name);
+    }
+    CHECK(others == std::set<std::string_view>{"LIMITED_FLEXION", "LIMITED_LOOK", "LIMITED_REGION", "LIMITED_STEP"});
 }
 
 TEST_CASE("limits made of angles are kept through a skeleton")

@@ -69,8 +69,11 @@ Float12 made_value(Random& random, swivel_field field)
     };
     each_limit(limits, take);
     take(SWIVEL_AIM, aim({axis.x(), axis.y(), axis.z()}, any_angle(random, kPi)));
-    const Float2 pair = cos_sin(any_angle(random, 3.14159));  // the other fields are one pair
-    if (value.empty()) value.assign(pair.begin(), pair.end());
+    const Float2 pair = cos_sin(any_angle(random, 3.14159));
+    if (value.empty()) {
+        REQUIRE(describe(field).max_components == 2);
+        value.assign(pair.begin(), pair.end());
+    }
     Float12 numbers = {};
     std::ranges::copy(value, numbers.begin());
     return numbers;

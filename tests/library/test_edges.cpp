@@ -322,6 +322,7 @@ std::vector<Spoilt> every_spoilt(const Crowd& crowd)
     for (const swivel_field field : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) add(field, 3, 1, {-1.1f, 1.1f});
     for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_FLEXION_LIMIT, c, 1, {-0.1f, 1.1f});
     add(SWIVEL_AIM, 3, 1, {-1});
+    add(SWIVEL_MAX_SWIVEL, 1, 1, {-1});
     return ways;
 }
 

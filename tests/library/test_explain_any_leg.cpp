@@ -100,6 +100,49 @@ TEST_CASE("whatever happens, explain says what the flags say, and how far the an
     CHECK(std::min({planted, released, broke, cut, free, far}) > 30);
 }
 
+TEST_CASE("explain says where a shift goes, and how far it still is from there where a leg does not reach")
+{
+    constexpr Float3 toe{0, -0.07f, 0.13f};
+    int late = 0;
+    for (const swivel_features features : {kPlants, kStands, kPlants | SWIVEL_WITH_CAP, kPlants | SWIVEL_WITH_WEIGHTS,
+                                           kPlants | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR,
+                                           swivel_features{SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD}})
+        for (const float rise : {-0.2f, 0.02f, 0.08f, 0.12f, 0.4f}) {
+            GlidingLeg leg(features | SWIVEL_WITH_PELVIS_FIT, plant_with(&swivel_plant::unlock_radius, 5));
+            leg.scale = 1.5f;
+            if (features & SWIVEL_WITH_EFFECTOR) leg.crowd.write_all(SWIVEL_EFFECTOR, 0, toe);
+            if (features & SWIVEL_WITH_WEIGHTS) leg.crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 1, 1});
+            if (!(features & SWIVEL_WITH_PLANT)) leg.crowd.write_all(SWIVEL_TARGET, 0, floats(leg.animated()));
+            leg.glide(1, 0, 3);
+            leg.root[1] += rise;
+            leg.solve();
+            const std::string told = leg.text(1), of_leg = leg.text(0);
+            const std::uint32_t flags = leg.flags();
+            const auto shift = [&] {
+                std::array<float, 3> value;
+                leg.crowd.read(SWIVEL_SHIFT, 1, std::span(&value, 1));
+                return double{value[0]};
+            };
+            const double before = shift();
+            leg.glide(1, 0, 200);
+            const double way = shift() - before;
+            INFO(told << " " << of_leg << " It ends at " << shift());
+            const bool is_late = std::fabs(way) > 2e-4;
+            REQUIRE((told.find("and goes to ") != std::string::npos) == is_late);
+            CHECK((told.find("which is where it goes.") != std::string::npos) == !is_late);
+            const bool speaks = of_leg.find("It counts for the body's shift, which still goes ") != std::string::npos;
+            CHECK(speaks == (is_late && (flags & SWIVEL_CLAMPED_FAR)));
+            if (!is_late) continue;
+            CHECK(number_after(told, "and goes to ") == Approx(shift()).margin(1e-5).epsilon(1e-3));
+            CHECK(number_after(told, "spring is late by ") == Approx(std::fabs(way)).margin(1e-5).epsilon(1e-3));
+            if (speaks)
+                CHECK(number_after(of_leg, way < 0 ? "still goes down by " : "still goes up by ") ==
+                      Approx(std::fabs(way)).margin(1e-5).epsilon(1e-3));
+            ++late;
+        }
+    CHECK(late > 10);
+}
+
 TEST_CASE("a body is explained group after group, in a line each, as far as there is room")
 {
     GlidingLeg leg(kPlants | SWIVEL_WITH_PELVIS_FIT);

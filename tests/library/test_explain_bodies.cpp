@@ -85,10 +85,16 @@ struct ToldLook {
     void aim_at_nothing() { aim_at(kNoPlace); }
     void weigh(float weight) { crowd.write_all(SWIVEL_LOOK_WEIGHT, 0, std::array{weight}); }
     void says(const std::string& when) { texts.line(when, explain(crowd, 0, 0)); }
-    void solved(const std::string& when, int frames = 1)
+    // Solves a pose of this weight.
+    void solve(float pose_weight)
     {
         const auto came = bodies.rotations;
-        for (int n = 0; n < frames; ++n) bodies.solve({target}, 0.02f), bodies.rotations = came;
+        bodies.solve({target}, 0.02f, pose_weight);
+        bodies.rotations = came;
+    }
+    void solved(const std::string& when, int frames = 1)
+    {
+        for (int n = 0; n < frames; ++n) solve(1);
         says(when);
         judge(explain(crowd, 0, 0));
     }
@@ -147,6 +153,8 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     ToldLook near(texts, "an eye further beside its joint", offset);
     near.aim(0, 0.1), near.solved("too near");
     near.aim(0, 0.4), near.solved("not too near");
+    near.solve(0.5f);
+    CHECK_THAT(explain(near.crowd, 0, 0), Catch::EndsWith("degrees. The pose has a weight below 1."));
 
     swivel_look_def eased = ToldLook::look(2, 90);
     eased.rate = 1;
@@ -160,6 +168,9 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     ToldLook fades(texts, "targets behind", ToldLook::look(2, 45));
     fades.aim(170), fades.solved("at 170 degrees");
     fades.aim(140), fades.solved("at 140 degrees");
+    fades.aim(100), fades.solve(1);  // which turns it so far that its present angle does not tell
+    CHECK_THAT(explain(fades.crowd, 0, 0),
+               Catch::Contains(" behind, more than 95.74 degrees from the incoming line, so the look fades."));
     fades.aim(30, 0.03), fades.solved("near the eye");
 }
 
@@ -217,6 +228,34 @@ TEST_CASE("explain says of a prop how far it moved, and how far each hand is fro
             }
         }
     });
+}
+
+TEST_CASE("explain solves a limb again with the hand that it came with, where nobody wrote one")
+{
+    Random random{4};
+    for (const swivel_features more :
+         std::initializer_list<swivel_features>{0, SWIVEL_WITH_EFFECTOR, SWIVEL_POLE_HAND, SWIVEL_WITH_CLAVICLE}) {
+        PosedBodies bodies(random, {3, 1, 1, true}, 20, {}, 2);
+        bodies.add_limbs(SWIVEL_WITH_HAND | SWIVEL_WITH_RECORD | more);
+        bodies.give(0, SWIVEL_TARGET, [&](std::size_t n) { return bodies.goal(random, 0, n).target; });
+        if (more != SWIVEL_POLE_HAND)
+            bodies.give(0, SWIVEL_POLE, [&](std::size_t n) { return bodies.goal(random, 0, n).pole; });
+        if (more & SWIVEL_WITH_EFFECTOR)
+            bodies.give(0, SWIVEL_EFFECTOR, [&](std::size_t) { return floats(random.vector(0, 0.05)); });
+        if (more & SWIVEL_WITH_CLAVICLE) bodies.give(0, SWIVEL_CLAVICLE, [](std::size_t) { return Float1{0.5f}; });
+        SolvedBodies solved(bodies);
+        const auto text_is = [&](std::uint32_t n, const std::string& part, bool wanted) {
+            const std::string text = explain(solved.crowd, 0, n);
+            INFO(text << ", features " << more);
+            CHECK(has(text, part) == wanted);
+        };
+        for (std::uint32_t n = 0; n < 20; ++n) text_is(n, "Bad input", false), text_is(n, "Its inputs changed", false);
+        solved.crowd.write(SWIVEL_HAND, 0, std::vector<Float4>{Float4{}}, 3);
+        bodies.bodies[5].rotations[bodies.skeleton.limbs[0].wrist][1] = kNan;
+        solved.solve_next();
+        text_is(3, "Bad input: hand (0, 0, 0, 0) is out of its range, a quaternion of length 1e-9 to 1e9.", true);
+        text_is(5, "Bad input: in the pose, ", true);
+    }
 }
 
 TEST_CASE("explain says what hands hold, where props lie and why, and what depends on bad input, as approved")

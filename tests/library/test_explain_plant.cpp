@@ -174,6 +174,10 @@ void tell_of_bad_poses(ApprovedTexts& texts)
     leg.solve(), leg.says("its thigh");
     leg.rotations[1] = {0, 0, 0, 1}, leg.rotations[3] = {0, 0, kNan, 0};
     leg.solve(), leg.says("its foot");
+    leg.rotations[3] = {0, 0, 0, 1}, leg.root[1] = kNan;
+    leg.solve(), leg.says("its root");
+    leg.root[1] = 0, leg.time = kNan;
+    leg.solve(), leg.says("its time");
     ToldLeg handless(texts, "a bad pose of a leg without a hand");
     handless.rotations[3] = {0, 0, kNan, 0};
     handless.solve(), handless.says("its foot");
@@ -213,6 +217,12 @@ void tell_of_shifts(ApprovedTexts& texts)
     leg.write(SWIVEL_SHIFT_WISH, std::array{0.03f}, 1);
     leg.solve(), leg.says("rises too far, with a wish", 1);
     leg.says("every group", SWIVEL_EVERY_GROUP);
+
+    GlidingLeg settles(kPlants | SWIVEL_WITH_PELVIS_FIT);
+    for (int n = 0; n < 3; ++n) settles.root[1] = n == 1 ? 0.1f : 0, settles.glide(1, 0, 150);
+    settles.crowd.read(SWIVEL_SHIFT, 1, std::span(&shift, 1));
+    CHECK((shift[0] != 0 && std::fabs(shift[0]) < 1e-12f));
+    CHECK_THAT(settles.text(1), Catch::StartsWith("The body is shifted by 0 along up, at 0 a second, which is"));
     ToldLeg unknown(texts, "a leg without a record", kPlants & ~SWIVEL_WITH_RECORD);
     unknown.says("every group", SWIVEL_EVERY_GROUP);
 }

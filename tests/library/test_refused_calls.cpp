@@ -5,10 +5,13 @@
 // test `interface` has wrong ranges, strides and jobs of most calls in any order; here are their words.
 #include <catch2/catch.hpp>
 
+#include <rapidcheck/catch.h>
+
 #include <cstring>
 
 #include "swivel/swivel_explain.h"
 #include "tests/posed_bodies.h"
+#include "tests/refused_definitions.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_whole_limb.h"
@@ -334,6 +337,44 @@ TEST_CASE("frames that cannot be are refused")
     CHECK(swivel_solve(c.crowd.get(), &job) == SWIVEL_OK);
 }
 
+TEST_CASE("poses are refused exactly where results of two bodies overlap by their strides")
+{
+    rc::prop("rotations of a limb's joints, or positions of all that it needs", [] {
+        ArmDef arm;
+        arm.joints[0].elbow = 3, arm.joints[0].wrist = 6;
+        arm.limbs[0].features = SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING;
+        const auto body_count = *rc::gen::inRange<std::uint32_t>(1, 5);
+        arm.def.body_count = body_count;
+        Crowd crowd(arm.def);
+        const bool has_positions = *rc::gen::arbitrary<bool>();
+        const std::size_t size = has_positions ? 12 : 16;
+        const auto body_stride = *rc::gen::inRange<std::size_t>(4, 40) * 4,
+                   joint_stride = *rc::gen::inRange<std::size_t>(4, 40) * 4;
+        Float4 unturned = {0, 0, 0, 1};
+        std::vector<float> room(500), apart(4 * 7 * 4);
+        const swivel_joint_values values = {room.data(), body_stride, joint_stride, nullptr};
+        swivel_pose pose = swivel_default_pose();
+        pose.rotations = {unturned.data(), 0, 0, nullptr};
+        pose.results = {apart.data(), 7 * sizeof(Float4), sizeof(Float4), nullptr};
+        (has_positions ? pose.joint_positions : pose.results) = values;
+        const std::vector<std::size_t> written =
+            has_positions ? std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6} : std::vector<std::size_t>{1, 3, 6};
+        bool overlaps = false;
+        for (std::size_t n = 1; n < body_count; ++n)
+            for (const std::size_t a : written)
+                for (const std::size_t b : written) {
+                    const std::size_t one = a * joint_stride, other = n * body_stride + b * joint_stride;
+                    overlaps = overlaps || (one < other + size && other < one + size);
+                }
+        const swivel_job job = job_with(&pose);
+        RC_ASSERT((swivel_solve(crowd.get(), &job) != SWIVEL_OK) == overlaps);
+        if (!overlaps) return;
+        RC_ASSERT(is_one_line(swivel_last_error()));
+        RC_ASSERT(std::string(swivel_last_error()).find(has_positions ? "joint_positions" : "results") !=
+                  std::string::npos);
+    });
+}
+
 TEST_CASE("poses that cannot be are refused")
 {
     using Values = swivel_joint_values;
@@ -357,6 +398,10 @@ TEST_CASE("poses that cannot be are refused")
         {"only translations in the body's space change", [](auto& p, auto& o) { p.translation_results = o; }},
         {"but no translation_results",
          [](auto& p, auto& o) { p.space = SWIVEL_IN_BODY, p.translations = p.results = o; }},
+        {"the pose's results: by a body_stride of 16 joint ",
+         [](auto& p, auto& o) {
+             p.results = {o.data, 16, 16, nullptr};
+         }},
         {"joint_positions: body_stride 8",
          [](auto& p, auto& o) {
              p.joint_positions = {o.data, 8, 16, nullptr};

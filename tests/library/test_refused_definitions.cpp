@@ -93,6 +93,16 @@ TEST_CASE("features that no group has, that lack another or that exclude each ot
         refuse(feature, "needs SWIVEL_WITH_HAND; add it");
     for (const swivel_features feature : {SWIVEL_POLE_INCOMING, SWIVEL_WITH_WEIGHTS})
         refuse(feature, "needs SWIVEL_WITH_INCOMING; add it");
+    // All that is missing is named at once: what a feature needs, what that needs in turn, and what others need.
+    refuse(SWIVEL_HAND_YIELDS, "group 1: SWIVEL_HAND_YIELDS needs SWIVEL_WITH_HAND and SWIVEL_WITH_EFFECTOR; add them");
+    refuse(SWIVEL_POLE_DIRECTION | SWIVEL_WITH_WEIGHTS | SWIVEL_STEP_WINS,
+           "group 1: SWIVEL_POLE_DIRECTION and others need SWIVEL_WORLD, SWIVEL_WITH_INCOMING and "
+           "SWIVEL_WITH_MAX_SWIVEL; add them");
+    ArmDef foot;
+    foot.limbs[0].features = SWIVEL_WITH_GROUND;
+    check_refused(&foot.def,
+                  "group 0: SWIVEL_WITH_GROUND needs SWIVEL_WITH_HAND, SWIVEL_WITH_EFFECTOR and SWIVEL_WITH_PLANT; "
+                  "add them");
     constexpr swivel_features kPoles[] = {SWIVEL_POLE_DIRECTION, SWIVEL_POLE_NORMAL, SWIVEL_POLE_INCOMING,
                                           SWIVEL_POLE_HAND};
     for (const swivel_features a : kPoles)

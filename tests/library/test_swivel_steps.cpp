@@ -222,7 +222,7 @@ struct Kind {
 std::vector<Kind> every_kind()
 {
     std::vector<Kind> kinds = {{"region", SWIVEL_WITH_REGION}};
-    for (const swivel_field limit : kSwivelLimits) kinds.push_back({describe(limit).name, describe(limit).needs});
+    for (const swivel_field limit : kLimitFields) kinds.push_back({describe(limit).name, describe(limit).needs});
     return kinds;
 }
 

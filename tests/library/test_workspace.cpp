@@ -4,8 +4,8 @@
 // without one. Plain arms need none. That no bit depends on what it holds before is test_bits.cpp's.
 //
 // Builds with SWIVEL_CHECK_USE also refuse, in one line, crowds that are destroyed, crowds that two threads use, and
-// results that overlap inputs of other limbs; poses read and written in place are not refused. Other builds look for
-// none of it, so those tests are left out there: the preset asan has the option on.
+// results that overlap each other or inputs of other limbs; poses read and written in place are not refused. Other
+// builds look for none of it, so those tests are left out there: the preset asan has the option on.
 #include <atomic>
 #include <chrono>
 #include <cstring>
@@ -13,6 +13,7 @@
 
 #include <rapidcheck/catch.h>
 
+#include "tests/refused_definitions.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"
@@ -184,6 +185,72 @@ TEST_CASE("frames are refused exactly where a result overlaps another limb's inp
         frame.field_count = 2;
         swivel_job job = swivel_default_job();
         job.streams = &frame;
+        RC_ASSERT((swivel_solve(crowd.get(), &job) != SWIVEL_OK) == overlaps);
+        RC_ASSERT(!overlaps || is_one_line(swivel_last_error()));
+    });
+}
+
+TEST_CASE("streams are refused exactly where results overlap, if one stride is a multiple of the other")
+{
+    constexpr std::size_t limb_count = 5, size = 16;
+    Crowd crowd(limbs(limb_count));
+    rc::prop("rotations and flags anywhere in one array", [&] {
+        const auto step = *rc::gen::inRange<std::size_t>(4, 9) * 4, times = *rc::gen::inRange<std::size_t>(1, 4);
+        const auto first = *rc::gen::inRange<std::size_t>(0, 100) * 4,
+                   flags = *rc::gen::inRange<std::size_t>(0, 100) * 4;
+        const bool is_sparse = *rc::gen::arbitrary<bool>();
+        const std::size_t stride = is_sparse ? step * times : step, flags_stride = is_sparse ? step : step * times;
+        std::vector<float> room(400);
+        char* const base = reinterpret_cast<char*>(room.data());
+        bool overlaps = false;
+        for (std::size_t i = 0; i < limb_count; ++i)
+            for (std::size_t j = 0; j < limb_count; ++j) {
+                const std::size_t one = first + i * stride, other = flags + j * flags_stride;
+                overlaps = overlaps || (one < other + 4 && other < one + size);
+            }
+        const swivel_stream fields[] = {{SWIVEL_SHOULDER, base + first, stride},
+                                        {SWIVEL_FLAGS, base + flags, flags_stride}};
+        swivel_streams streams = swivel_default_streams();
+        streams.fields = fields, streams.field_count = 2;
+        swivel_job job = swivel_default_job();
+        job.streams = &streams;
+        RC_ASSERT((swivel_solve(crowd.get(), &job) != SWIVEL_OK) == overlaps);
+        RC_ASSERT(!overlaps || is_one_line(swivel_last_error()));
+    });
+}
+
+TEST_CASE("poses are refused exactly where a result overlaps another one, or what another body is read from")
+{
+    constexpr std::size_t size = 16;
+    rc::prop("rotations and results anywhere in one array", [&] {
+        ArmDef arm;
+        arm.joints[0].elbow = 3, arm.joints[0].wrist = 6;
+        arm.limbs[0].features = SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING;
+        const auto body_count = *rc::gen::inRange<std::uint32_t>(1, 4);
+        arm.def.body_count = body_count;
+        Crowd crowd(arm.def);
+        const auto step = *rc::gen::inRange<std::size_t>(4, 60) * 4, times = *rc::gen::inRange<std::size_t>(0, 3);
+        const auto from = *rc::gen::inRange<std::size_t>(0, 200) * 4;
+        std::array<std::size_t, 7> offsets;
+        for (std::size_t& offset : offsets) offset = *rc::gen::inRange<std::size_t>(0, 200) * 4;
+        std::vector<float> room(1000);
+        char* const base = reinterpret_cast<char*>(room.data());
+        swivel_pose pose = swivel_default_pose();
+        pose.rotations = {base + from, step * times, size, nullptr};
+        pose.results = {base, step, 0, offsets.data()};
+        bool overlaps = false;
+        const auto meets = [&](std::size_t a, std::size_t b) { overlaps = overlaps || (a < b + size && b < a + size); };
+        for (std::size_t i = 0; i < body_count; ++i)
+            for (std::size_t k = 0; k < body_count; ++k)
+                for (const std::size_t a : {1u, 3u, 6u}) {  // those that a limb turns
+                    const std::size_t result = i * step + offsets[a];
+                    for (const std::size_t b : {1u, 3u, 6u})
+                        if (i != k || a != b) meets(result, k * step + offsets[b]);
+                    for (std::size_t b = 0; b < 7; ++b)
+                        if (i != k) meets(result, from + k * step * times + b * size);
+                }
+        swivel_job job = swivel_default_job();
+        job.pose = &pose;
         RC_ASSERT((swivel_solve(crowd.get(), &job) != SWIVEL_OK) == overlaps);
         RC_ASSERT(!overlaps || is_one_line(swivel_last_error()));
     });

@@ -6,7 +6,7 @@ import { choose, clip, file, state, visit, write } from './harness.mjs';
 
 const toml = file('limits.toml', `[limb.arms]
 limits.flexion_deg = [20, 70]
-limits.forearm_twist_deg = [-30, 50]
+limits.humeral_twist_deg = [-30, 50]
 [limb.legs]
 limits.flexion_deg = [0, 120]
 reach = { soft_far = 0.2 }
@@ -21,13 +21,13 @@ test('switches and sliders follow the chosen kind of limb', async () => {
     for (const name of ['left_arm', 'right_arm']) {
       await choose(page, name, 1);
       assert.deepEqual(await bars(page, 'FLEXION_LIMIT'), [20, 70], name);
-      assert.deepEqual(await bars(page, 'FOREARM_TWIST'), [-30, 50], name);
+      assert.deepEqual(await bars(page, 'HUMERAL_TWIST'), [-30, 50], name);
       assert.equal(await box(page, 'REACH').isChecked(), false);
     }
     await choose(page, 'right_leg', 1);
     assert.deepEqual(await bars(page, 'FLEXION_LIMIT'), [0, 120]);
     assert.equal((await bars(page, 'REACH'))[0], 0.2);
-    assert.deepEqual([await box(page, 'REACH').isChecked(), await box(page, 'FOREARM_TWIST').isChecked()], [true, false]);
+    assert.deepEqual([await box(page, 'REACH').isChecked(), await box(page, 'HUMERAL_TWIST').isChecked()], [true, false]);
     await choose(page, null);
     assert.deepEqual(await box(page, 'REACH').evaluate((input) => [input.checked, input.indeterminate]), [true, true]);
     assert.equal(await state(page), 'equal');

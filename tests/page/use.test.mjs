@@ -262,7 +262,7 @@ onPage('a leg has a leg\'s words',
     });
   };
   const arm = await words('right_arm'), leg = await words('left_leg');
-  for (const [ofArm, ofLeg] of [['Wrist', 'Ankle'], ['Elbow', 'Knee'], ['arm lengths', 'leg lengths'], ['Shoulder cone', 'Hip cone'], ['Humeral', 'Thigh'],
+  for (const [ofArm, ofLeg] of [['Wrist', 'Ankle'], ['Elbow', 'Knee'], ['arm lengths', 'leg lengths'], ['Shoulder cone', 'Hip cone'], ['Humeral twist', 'Thigh twist'],
     ['Hand cone', 'Foot cone'], ['Forearm twist', 'Shin twist'], ['Wrist box', 'Ankle box'], ['the upper arm', 'the thigh']])
     assert.deepEqual([arm.includes(ofArm), leg.includes(ofLeg)], [true, true], `${ofArm}: ${arm} | ${leg}`);
   assert.doesNotMatch(leg, /\b(arms?|wrist|elbow|shoulder|forearm|humeral)\b/i);

@@ -17,12 +17,13 @@ struct Shard {
 
 struct FillOptions {
     Shard shard;
-    // Chunks that are done: solve and compare them, and write those again that are damaged; or leave them as they are.
+    // Whether to solve and compare finished chunks, too, and write damaged ones again.
     bool proves = false;
-    // That solve, beside two that wait for the disk; 1: this thread does all, and none is started; 0: as many as the
-    // machine has.
+    // Solving threads, beside two that wait for the disk. 1: this thread does everything. 0: as many as the machine
+    // has.
     unsigned threads = 0;
-    // Called after each chunk, by one thread at a time, with how many are through. What it throws ends the filling.
+    // Called after each chunk, by one thread at a time, with the number of finished chunks. Its exception ends the
+    // filling.
     std::function<void(std::uint64_t)> progress;
 };
 

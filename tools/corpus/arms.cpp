@@ -121,23 +121,14 @@ void shape(ValuePart part, double* v, double length)
     }
 }
 
-// The same of a whole value, part after part. Bodies' clavicles have the last part alone.
+// The same of a whole value, part after part.
 void shape(swivel_field field, std::span<double> value, double length)
 {
-    const FieldRow& row = row_of(field);
-    std::size_t left_out = row.component_count - value.size();
-    double* number = value.data();
-    for (const ValuePart part : row.value.parts) {
-        const std::uint32_t count = row_of(part).count;
-        if (left_out > 0) {
-            left_out -= count;
-            continue;
-        }
-        shape(part, number, length);
+    for_each_part(row_of(field), static_cast<std::uint32_t>(value.size()), [&](ValuePart part, std::uint32_t first) {
+        shape(part, &value[first], length);
         // Margins and zones of the reach, which leave some of it.
-        if (part == ValuePart::share && (field == SWIVEL_REACH || field == SWIVEL_CAP)) *number *= 0.25;
-        number += count;
-    }
+        if (part == ValuePart::share && (field == SWIVEL_REACH || field == SWIVEL_CAP)) value[first] *= 0.25;
+    });
 }
 
 // Some bodies keep their pose, and some their elbow.

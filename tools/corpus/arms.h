@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Plain arms as numbers: ordinary ones, well inside of what the plain formula holds for, in every band of reach.
+// Plain arms as numbers: ordinary ones, well inside the plain formula's range, in every band of reach.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace swivel::corpus {
 
-// Inputs of a plain arm of any crowd; a crowd writes those that it has. In the world where it has parents.
+// All inputs of a plain arm; a crowd writes the ones that it has. In the world if it has parents.
 struct Arm {
     std::array<float, 3> target = {0.5f, 0.75f, 1}, pole = {0.25f, -1, 0.5f};
     std::array<float, 2> lengths = {1, 0.75f};
@@ -33,7 +33,7 @@ inline constexpr swivel_field kArmFields[] = {
 // An arm's target, in one of the bands of its reach, and its pole.
 void set_goals(const Recipe& recipe, Random& targets, Random& poles, Arm& arm);
 
-// limb_count arms of a group. frame: their goals are others in every frame, all else stays.
+// limb_count arms of a group. Their goals change with the frame, all else stays.
 std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count,
                                std::uint32_t frame);
 
@@ -41,7 +41,8 @@ std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::u
 inline constexpr std::uint32_t kRunLimbs = 64;
 inline bool is_spoilt_run(std::uint32_t limb) { return limb / kRunLimbs % 2 == 0; }
 
-// A field's value, of so many floats, for each limb of a group. Bodies that stand keep theirs, and none is spoilt.
+// A field's value for each limb of a group, of as many floats as the field has. Standing bodies keep their values, and
+// none is spoilt.
 std::vector<float> limb_values(const Recipe& recipe, swivel_field field, std::uint32_t components, std::uint32_t group,
                                std::span<const Arm> arms);
 

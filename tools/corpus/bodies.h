@@ -42,8 +42,8 @@ Body in_body_space(const Skeleton& skeleton, const Body& local);
 // Other poses in every frame.
 std::vector<Body> bodies_of(const Recipe& recipe, std::uint32_t body_count, std::uint32_t frame);
 
-// The limbs of a group: their bones as the bodies have them, and goals for them. One in eight is at its goal already,
-// and one in eight has a pole that says nothing.
+// The limbs of a group, with the bodies' bones, and their goals. One in eight is at its goal already, and one in eight
+// has an undefined pole.
 std::vector<Arm> body_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t body_count, std::uint32_t frame);
 
 }  // namespace swivel::corpus

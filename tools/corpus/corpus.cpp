@@ -24,7 +24,8 @@ Run run_of(const Recipe& recipe, std::uint32_t limb)
     if (recipe.part == Part::ordinary || !is_spoilt_run(limb)) return Run::ordinary;
     return limb % 8 == 3 && recipe.part == Part::limbs ? Run::cases : Run::spoilt;
 }
-// A limb's hard case. Groups of the hard part start with a pass of their own; whole limbs have some of the poses.
+// A limb's hard case. Each group of the hard part starts its own pass through the cases; whole limbs have some of the
+// poses.
 Arm case_of(const Recipe& recipe, std::uint32_t group, std::uint32_t limb, std::uint32_t frame)
 {
     if (recipe.part == Part::hard)
@@ -35,7 +36,7 @@ Arm case_of(const Recipe& recipe, std::uint32_t group, std::uint32_t limb, std::
 
 bool changes_with_frames(swivel_field field) { return field == SWIVEL_TARGET || field == SWIVEL_POLE; }
 
-// Numbers of arms replaced, one in sixteen.
+// Replaces one in sixteen numbers of spoilt arms.
 void spoil_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t frame, std::span<Arm> arms)
 {
     for (const swivel_field field : kArmFields) {
@@ -50,7 +51,7 @@ void put_hard_cases(const Recipe& recipe, std::uint32_t group, std::uint32_t fra
         if (run_of(recipe, limb) == Run::cases) arms[limb] = case_of(recipe, group, limb, frame);
 }
 
-// Arms as they are written: hard cases in place of ordinary ones, and numbers spoilt.
+// The arms to write: hard cases replace some ordinary ones, and some numbers are spoilt.
 std::vector<Arm> arms_of(const Recipe& recipe, std::uint32_t group, std::span<const Arm> ordinary, std::uint32_t frame)
 {
     std::vector<Arm> arms(ordinary.begin(), ordinary.end());
@@ -207,6 +208,8 @@ std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t
     const std::span<const std::uint64_t> golden = kGoldenCrowds[static_cast<std::size_t>(part)];
     for (std::size_t n = 0; n < recipes.size(); ++n)
         if (n >= golden.size() || digests.at(n) != golden[n]) names.push_back(full_name(recipes[n]));
+    for (std::size_t n = recipes.size(); n < golden.size(); ++n)
+        names.push_back("golden.h's " + std::string(name_of(part)) + " digest " + std::to_string(n));
     return names;
 }
 

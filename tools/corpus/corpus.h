@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowds that the promise of equal bits is checked on, in five parts, and their digests. A crowd's numbers come
-// from its own name and those of its fields, so that a further feature or field moves no other crowd's. golden.h has
-// what the digests must be.
+// The crowds that the promise of equal bits is checked on, in five parts, and their digests. A crowd draws its numbers
+// by its own name and those of its fields. So a new feature or field adds crowds and changes the digests of parts, but
+// of no other crowd. golden.h has what the digests must be.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,24 @@
 
 namespace swivel::corpus {
 
-// Limbs in the first group of a crowd at its own size, which golden.h is about; of bodies, bodies.
+// The number of limbs in a crowd's first group, or of bodies, at the crowd's own size, the size of golden.h.
 std::uint32_t own_limb_count(Part part);
 // The crowd with every input written: limb_count limbs in the first group, half as many and one in the second, seven
 // in the third; of bodies as many in each. A limb's numbers do not depend on how many there are. Goals of bodies that
 // stand come with their frames.
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count);
 
-// How many times a crowd is solved, with other goals and poses each time. Some crowds carry things on. Bodies that
-// stand do nothing else, and at their own size they do it for longer.
+// The number of solves of a crowd, each with other goals and poses. Some crowds carry state on. Standing bodies always
+// do, and are solved more often at their own size.
 std::uint32_t frame_count(Part part);
 inline constexpr std::uint32_t kStandingFrames = 10000;
-// The first of these frames, for emulators. Every body swings to and fro in them, and every flag is there.
+// The number of first frames for emulators. In these every body swings to and fro, and every flag occurs.
 inline constexpr std::uint32_t kStandingStart = 1000;
-// Crowds on ground as it lies, and those that hold something, take a part of either.
+// Crowds on uneven ground, and those that hold something, take this part of either number.
 inline constexpr std::uint32_t kHoldingShare = 5;
 std::uint32_t share_of(const Recipe& recipe, std::uint32_t frames);
-// Their rows are digested in every frame. Poses, in which nothing is carried, are in one of so many: that takes longer
-// than a solve.
+// Rows are digested in every frame. Poses, which carry nothing, are digested in one frame of this many, because that
+// takes longer than a solve.
 inline constexpr std::uint32_t kStandingPoses = 16;
 // Writes the goals of frame 1, 2...; make_crowd() wrote those of frame 0.
 void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
@@ -42,9 +42,9 @@ Poses poses_of(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
 // FNV-1a (64 bits) of the words of all limbs' results, field by field in the order of enum swivel_field, group by
 // group.
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash = kDigestStart);
-// The same of solved poses, body by body.
+// The same for solved poses, body by body.
 std::uint64_t digest_poses(const Poses& poses, std::uint64_t hash);
-// The same of digests.
+// Folds a digest into a hash.
 std::uint64_t fold(std::uint64_t hash, std::uint64_t digest);
 
 // The digest of bodies that stand, in the first frames.
@@ -63,8 +63,8 @@ std::uint64_t standing_digest(const Recipe& recipe, Solve&& solve, std::uint32_t
     return hash;
 }
 
-// The digest of one crowd, each frame solved by solve(crowd, job), with a job that solves all. limb_count 0: the
-// crowd's own.
+// The digest of one crowd, each frame solved by solve(crowd, job). The job solves all limbs. limb_count 0: the crowd's
+// own.
 template <class Solve>
 std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_count = 0)
 {
@@ -99,7 +99,7 @@ std::uint64_t digest_of(Part part, Solve&& solve, std::uint32_t limb_count = 0)
 {
     return fold(digests_of(part, solve, limb_count));
 }
-// The same of the standing part's start.
+// The digest of the standing part's start.
 template <class Solve>
 std::uint64_t digest_of_start(Solve&& solve)
 {
@@ -111,6 +111,7 @@ std::uint64_t digest_of_start(Solve&& solve)
 }
 
 // The names of a part's crowds whose digests, at their own sizes, are not the golden ones, or are not in golden.h yet.
+// Digests of golden.h that are no crowd's are named by their numbers.
 std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t>& digests);
 
 }  // namespace swivel::corpus

@@ -14,10 +14,10 @@ namespace swivel::corpus {
 
 // Named poses and frames, and each number of a good arm replaced by each of some bad ones.
 std::uint32_t hard_case_count();
-// The first of them, which whole limbs have. All are poses; a number of its own, so that further rows move no whole
+// The number of first cases that whole limbs have; all are poses. It is a constant, so that new rows change no whole
 // limb.
 inline constexpr std::uint32_t kLimbCaseCount = 101;
-// Case n. Each further pass through them has the poses in another size and along other axes, where these are exact.
+// Case n. Each further pass through the cases has the poses in another size and along other axes, exactly.
 Arm hard_case(std::uint32_t n);
 
 // Replaces values, one in `one_in`, by numbers at which formulas break.

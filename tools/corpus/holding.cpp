@@ -42,10 +42,9 @@ std::span<Value> values_of(std::vector<Value>& values, std::size_t body_count, s
 
 }  // namespace
 
-Looking::Looking(const Recipe& recipe, const std::vector<Body>& bodies, Poses& poses)
+Looking::Looking(const Recipe& recipe, const std::vector<Body>& bodies, Poses& poses) : group_(look_group(recipe))
 {
     const std::size_t body_count = bodies.size();
-    poses.has_looks = true;
     for (std::uint32_t k = 0; k < kLookCount; ++k) {
         recipe.pose& kFar ? poses.far_look_targets[k].resize(3 * body_count) : rows_[k].targets.resize(3 * body_count);
         rows_[k].weights.resize(body_count);
@@ -94,10 +93,10 @@ void Looking::spoil_body(std::uint32_t n, Poses& poses)
 
 void Looking::write(Crowd& crowd) const
 {
-    std::uint32_t group = first_of(crowd, SWIVEL_KIND_LOOK);
-    for (const Rows& rows : rows_) {
-        if (!rows.targets.empty()) write_field(crowd, SWIVEL_LOOK_TARGET, group, rows.targets);
-        write_field(crowd, SWIVEL_LOOK_WEIGHT, group++, rows.weights);
+    for (std::uint32_t k = 0; k < kLookCount; ++k) {
+        const Rows& rows = rows_[k];
+        if (!rows.targets.empty()) write_field(crowd, SWIVEL_LOOK_TARGET, group_ + k, rows.targets);
+        write_field(crowd, SWIVEL_LOOK_WEIGHT, group_ + k, rows.weights);
     }
 }
 
@@ -113,8 +112,7 @@ Holding::Holding(const Recipe& recipe, const std::vector<Body>& bodies, Poses& p
         }
         if (features_of(recipe, group) & SWIVEL_WITH_LINK) grips_[group].resize(7 * body_count);
     }
-    poses.has_prop = has_prop(recipe);
-    if (!poses.has_prop) return;
+    if (!has_prop(recipe)) return;
     is_far ? poses.far_props.resize(three) : props_.positions.resize(three);
     props_.rotations.resize(4 * body_count);
     props_.blends.resize(body_count);
@@ -182,7 +180,7 @@ void Holding::move_body(std::uint32_t n, const Vector& root, double swing, Poses
         const std::array<float, 7>& grip = holders_[n].grips[group];
         std::copy(grip.begin(), grip.end(), &grips_[group][7 * n]);
     }
-    if (poses.has_prop) set_prop(n, root, swing, poses);
+    if (has_prop(recipe_)) set_prop(n, root, swing, poses);
     if (holders_[n].random.below(64) == 0) spoil_body(n, poses);
 }
 
@@ -194,7 +192,7 @@ void Holding::write(Crowd& crowd) const
         if (!grips_[group].empty()) write_field(crowd, SWIVEL_GRIP, group, grips_[group]);
     }
     if (!has_prop(recipe_)) return;
-    const std::uint32_t prop = first_of(crowd, SWIVEL_KIND_PROP);
+    const std::uint32_t prop = prop_group(recipe_);
     if (!props_.positions.empty()) write_field(crowd, SWIVEL_PROP_POSITION, prop, props_.positions);
     write_field(crowd, SWIVEL_PROP_ROTATION, prop, props_.rotations);
     write_field(crowd, SWIVEL_HAND_BLEND, prop, props_.blends);

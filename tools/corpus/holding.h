@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Further inputs of bodies that stand on ground as it lies, hold something or look at something: the ground
-// below each foot, grips, props, and what they look at, which goes to and fro on any side. Now and then ground is
-// steep, a prop is far away, one of them is missing, or a number is spoilt.
+// Further inputs of bodies that stand on uneven ground, hold something or look at something: the ground below each
+// foot, grips, props, and targets of looks, which swing to and fro on any side. Now and then ground is steep, a prop is
+// far away, one of them is missing, or a number is spoilt.
 #pragma once
 
 #include <array>
@@ -37,6 +37,7 @@ private:
     struct Rows {
         std::vector<float> targets, weights;  // body by body; targets that are far away are the poses'
     };
+    const std::uint32_t group_;  // the first look's
     std::vector<Looker> lookers_;
     std::array<Rows, kLookCount> rows_;
 };

@@ -41,8 +41,8 @@ std::vector<std::uint32_t> packed_field(const Crowd& crowd, swivel_field field, 
     return words;
 }
 
-// How the arm frame lies in the skeletons of the corpus, a binding for each group: written out, so that no change of
-// how bindings are made moves a bit.
+// The bindings of the corpus's skeletons, one for each group, written out as numbers, so that a change in making
+// bindings changes no bit.
 struct Quaternion {
     float x, y, z, w;
 };
@@ -114,7 +114,7 @@ constexpr swivel_ground kGrounds[kGroupCount] = {
     {{-0.1f, 0.02f, 0}, 0.05f, 0, 0.3f, 0},
 };
 constexpr float kMaxMoves[] = {1, 0.1f};  // of props, and of those at a joint
-constexpr swivel_look_def kLooks[kLookCount] = {
+constexpr swivel_look_def kLookDefs[kLookCount] = {
     {sizeof(swivel_look_def),
      2,
      {},
@@ -130,7 +130,7 @@ constexpr swivel_look_def kLooks[kLookCount] = {
     {sizeof(swivel_look_def), 1, {}, {1}, {0.2f}, {0, 0, 0}, {0, 1, 0}, -0.5f, -1, 0, 0, 0},
 };
 
-// A forbidden cone; two cones; and what lies in three half-spaces. Where upper arms may point, half of the sphere.
+// Regions of upper arms: a forbidden cone, two cones, three half-spaces, and half of the sphere.
 constexpr swivel_region kUpperArms = {sizeof(swivel_region),
                                       1,
                                       3,
@@ -141,10 +141,6 @@ constexpr swivel_region kUpperArms = {sizeof(swivel_region),
                                        {{0, 0.6f, -0.8f}, 0.3f, 1},
                                        {{1, 0, 0}, -0.2f, 1},
                                        {{0, -0.8f, -0.6f}, -0.6f, 1}}};
-
-// The groups after the limbs': the shift, the prop, and the looks.
-std::uint32_t prop_group(bool has_shift) { return kGroupCount + (has_shift ? 1 : 0); }
-std::uint32_t look_group(bool has_shift, bool has_prop) { return prop_group(has_shift) + (has_prop ? 1 : 0); }
 
 using TakeDefinition = std::function<void(const swivel_crowd_def&)>;
 
@@ -200,11 +196,10 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, const TakeDef
         limbs[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
         limbs[g].plant = kPlants[g];
         limbs[g].ground = kGrounds[g];
-        if (is_holding(recipe, g))
-            limbs[g].link = has_prop(recipe) ? prop_group(recipe.features & SWIVEL_WITH_PELVIS_FIT) : 0;
+        if (is_holding(recipe, g)) limbs[g].link = has_prop(recipe) ? prop_group(recipe) : 0;
         groups[g].body_limb = &limbs[g];
     }
-    if (recipe.features & SWIVEL_WITH_PELVIS_FIT) groups[count++].shift = &kShifts;
+    if (has_shift(recipe)) groups[count++].shift = &kShifts;
     // One of the trunk's joints, which come last.
     const bool is_at_joint = recipe.holds == Holds::prop_at_joint;
     const swivel_prop_def prop = {sizeof(swivel_prop_def),
@@ -212,8 +207,8 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, const TakeDef
                                   kMaxMoves[is_at_joint]};
     if (has_prop(recipe)) groups[count++].prop = &prop;
     swivel_look_def looks[kLookCount];
-    for (std::uint32_t n = 0; recipe.pose & corpus::kLooks && n < kLookCount; ++n) {
-        looks[n] = kLooks[n];
+    for (std::uint32_t n = 0; recipe.pose & kLooks && n < kLookCount; ++n) {
+        looks[n] = kLookDefs[n];
         // The trunk comes last, from its root on; the eye first.
         const std::uint32_t spine = own.joint_count() - 2, chest = own.joint_count() - 3;
         looks[n].joints[0] = n == 0 ? spine : 0;
@@ -310,19 +305,13 @@ std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, 
     return words;
 }
 
-std::uint32_t first_of(const Crowd& crowd, swivel_kind kind)
-{
-    std::uint32_t group = 0;
-    while (swivel_group_kind(crowd.get(), group) != kind) ++group;
-    return group;
-}
 void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb)
 {
     check(swivel_reset(crowd.get(), group, limb, 1));
 }
 void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const Support& from, const Support& to)
 {
-    const auto view = [](const Support& of) { return swivel_supports{{&of.position, 0}, {&of.rotation, 0}}; };
+    const auto view = [](const Support& s) { return swivel_supports{{&s.position, 0}, {&s.rotation, 0}}; };
     check(swivel_change_support(crowd.get(), group, body, 1, view(from), view(to)));
 }
 void with_job(Poses& poses, const std::function<void(const Job&)>& take)
@@ -341,11 +330,10 @@ void with_job(Poses& poses, const std::function<void(const Job&)>& take)
         give(g, SWIVEL_NEXT_TARGET, poses.far_next_targets[g]);
         give(g, SWIVEL_GROUND, poses.far_grounds[g]);
     }
-    give(prop_group(poses.has_shift), SWIVEL_PROP_POSITION, poses.far_props);
-    const std::uint32_t look = look_group(poses.has_shift, poses.has_prop);
-    for (std::uint32_t n = 0; n < kLookCount; ++n) give(look + n, SWIVEL_LOOK_TARGET, poses.far_look_targets[n]);
-    const std::uint32_t group_count = look + (poses.has_looks ? kLookCount : 0);
-    if (pose.root_is_double) job.streams.assign(frames.begin(), frames.begin() + group_count);
+    give(poses.prop_group, SWIVEL_PROP_POSITION, poses.far_props);
+    for (std::uint32_t n = 0; n < kLookCount; ++n)
+        give(poses.look_group + n, SWIVEL_LOOK_TARGET, poses.far_look_targets[n]);
+    if (pose.root_is_double) job.streams.assign(frames.begin(), frames.begin() + poses.group_count);
     take(job);
 }
 

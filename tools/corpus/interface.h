@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowds of the corpus as the library has them: made of recipes, written and read.
+// Makes the corpus's crowds in the library from recipes, writes their inputs and reads their results.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
 // An empty crowd of three groups with bindings of its own, or of bodies, of which each group has a limb.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
-// Calls take(definition) with what create_crowd() makes that crowd of.
+// Calls take(definition) with the definition that create_crowd() uses.
 void with_definition(const Recipe& recipe, const LimbCounts& limb_counts,
                      const std::function<void(const swivel_crowd_def& definition)>& take);
 LimbCounts limb_counts(const Crowd& crowd);
@@ -31,15 +31,13 @@ std::vector<swivel_field> results_of(const Crowd& crowd, std::uint32_t group = 0
 
 // values: as many floats for each limb of the group as the field has rows.
 void write_field(Crowd& crowd, swivel_field field, std::uint32_t group, std::span<const float> values);
-// The words of a field, limb by limb: as many as it has rows, or of packed recipes those that results are packed into.
+// The words of a field, limb by limb: one for each row, or for packed recipes the packed words.
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, swivel_field field,
                                       std::uint32_t group);
 
-// The first group of a kind, which there must be. The groups after the limbs' are the shift, the prop and the looks.
-std::uint32_t first_of(const Crowd& crowd, swivel_kind kind);
-// Clears what a limb carries.
+// Clears a limb's carried state.
 void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb);
-// Changes what a body's limb of one group stands on.
+// Changes the support of a body's limb of one group.
 struct Support {
     std::array<double, 3> position;
     std::array<float, 4> rotation;

@@ -87,6 +87,9 @@ Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t f
     poses.body_count = body_count;
     poses.joint_count = static_cast<std::uint32_t>(bodies[0].rotations.size());
     poses.form = recipe.form;
+    poses.prop_group = prop_group(recipe);
+    poses.look_group = look_group(recipe);
+    poses.group_count = poses.look_group + (recipe.pose & kLooks ? kLookCount : 0);
     if (recipe.pose & kOffsets)
         for (std::size_t n = poses.joint_count; n-- > 0;)
             poses.offsets.push_back(n * poses.rotation_floats() * sizeof(float));

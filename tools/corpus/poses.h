@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The poses of a crowd's bodies as a caller keeps them: what a solve of bodies takes and gives beside the crowd's rows.
+// A caller's arrays of a crowd's poses: the inputs and results of a solve of bodies besides the crowd's rows.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace swivel::corpus {
 
-// Values body after body, and within a body joint after joint. What is empty is not given.
+// Values body after body, and within a body joint after joint. Empty arrays are not given.
 struct Poses {
     std::uint32_t body_count = 0, joint_count = 0;  // 0: the crowd is of free limbs
     swivel_pose_form form = SWIVEL_ROTATIONS;
@@ -27,8 +27,7 @@ struct Poses {
         far_grounds;  // of each group, in place of rows
 
     // For bodies that stand:
-    bool has_shift = false, has_prop = false;  // a group more each
-    bool has_looks = false;                    // and two
+    std::uint32_t prop_group = 0, look_group = 0, group_count = 0;  // of the crowd, where it has them
     std::vector<float> times, support_positions, support_rotations;
     std::vector<double> far_supports;  // in place of support_positions
     std::vector<double> far_props;     // in place of rows

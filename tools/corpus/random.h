@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "swivel/swivel.h"
+#include "swivel/swivel.hpp"
 
 namespace swivel::corpus {
 
@@ -25,7 +25,7 @@ struct Random {
     double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  // in [0, 1)
     double between(double a, double b) { return a + (b - a) * unit(); }
     double signed_unit() { return between(-1, 1); }
-    // In 2^least ... 2^most, every power of two as likely as the others.
+    // From 2^min to 2^max, every power of two as likely as the others.
     double spread(int min, int max)
     {
         const int power = min + static_cast<int>(below(static_cast<std::uint32_t>(max - min)));
@@ -49,9 +49,8 @@ constexpr std::uint64_t hash_of(std::string_view text)
 // The purpose that the numbers of a field are drawn for.
 enum class Use : std::uint32_t { value = 0, spoil = 1 };
 
-// Each field of each group draws from a stream of its own, which its name starts. So its numbers stay the same whatever
-// else a crowd is given, and whatever other fields there are. What bodies have besides fields, such as their "skeleton"
-// and their "motion", draws by names of the corpus.
+// Each field of each group draws from its own stream, seeded by its name. So its numbers do not depend on a crowd's
+// other inputs and fields. Other data of bodies, such as "skeleton" and "motion", draws by names of the corpus.
 // frame: 0, except for values that are new in each frame.
 inline Random stream(std::uint64_t seed, std::uint32_t group, std::string_view name, Use use, std::uint32_t frame)
 {
@@ -62,10 +61,7 @@ inline Random stream(std::uint64_t seed, std::uint32_t group, std::string_view n
 }
 inline Random stream(std::uint64_t seed, std::uint32_t group, swivel_field field, Use use, std::uint32_t frame)
 {
-    swivel_field_info info{};
-    for (std::uint32_t n = 0; swivel_describe_field(n, &info) && info.field != field; ++n) {
-    }
-    return stream(seed, group, info.name, use, frame);
+    return stream(seed, group, describe(field).name, use, frame);
 }
 
 }  // namespace swivel::corpus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Describes the crowds of the corpus: their features, the form of their poses, and what limbs hold.
+// Describes the crowds of the corpus: their features, the form of their poses, and the things that limbs hold.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ enum PoseFeature : std::uint32_t {
     kLengths = 1u << 5,       // bones have the lengths that are written
     kOffsets = 1u << 6,       // joints lie in another order than in the skeleton
     kApart = 1u << 7,         // solved joints go elsewhere
-    kRests = 1u << 8,         // limbs with bad input get the rest pose, and looks begin anew
+    kRests = 1u << 8,         // limbs with bad input get the rest pose
     kInBody = 1u << 9,        // joints are relative to the root, and all below a limb's move with it
     kAllJoints = 1u << 10,    // where all needed joints are comes out, too
     kSupports = 1u << 11,     // what they stand on moves and turns, and is changed now and then
@@ -65,7 +65,11 @@ struct Recipe {
     std::uint64_t seed = 0;       // a hash of the full name, so that a further recipe moves no other's numbers
 };
 
+inline bool has_shift(const Recipe& recipe) { return recipe.features & SWIVEL_WITH_PELVIS_FIT; }
 inline bool has_prop(const Recipe& recipe) { return recipe.holds >= Holds::prop; }
+// The groups after the limbs': the shift, the prop, and the looks.
+inline std::uint32_t prop_group(const Recipe& recipe) { return kGroupCount + (has_shift(recipe) ? 1 : 0); }
+inline std::uint32_t look_group(const Recipe& recipe) { return prop_group(recipe) + (has_prop(recipe) ? 1 : 0); }
 // Whether a group's limb holds something.
 inline bool is_holding(const Recipe& recipe, std::uint32_t group)
 {

@@ -86,7 +86,6 @@ Standing::Standing(const Recipe& recipe, std::uint32_t body_count)
             }
         }
     const bool is_far = recipe.pose & kFar;
-    poses_.has_shift = recipe.features & SWIVEL_WITH_PELVIS_FIT;
     poses_.times.resize(body_count);
     if (recipe.pose & kSupports) {
         poses_.support_rotations.resize(std::size_t{4} * body_count);
@@ -123,9 +122,9 @@ void Standing::set_joints(std::uint32_t n, double swing)
     for (std::size_t joint = 0; joint < poses_.joint_count; ++joint, rotation += 4)
         std::copy(body.rotations[joint].begin(), body.rotations[joint].end(), rotation);
     if (poses_.translations.empty()) return;
-    float* place = &poses_.translations[std::size_t{3} * poses_.joint_count * n];
-    for (std::size_t joint = 0; joint < poses_.joint_count; ++joint, place += 3)
-        std::copy(body.translations[joint].begin(), body.translations[joint].end(), place);
+    float* translation = &poses_.translations[std::size_t{3} * poses_.joint_count * n];
+    for (std::size_t joint = 0; joint < poses_.joint_count; ++joint, translation += 3)
+        std::copy(body.translations[joint].begin(), body.translations[joint].end(), translation);
 }
 
 void Standing::set_root(std::uint32_t n, double swing)
@@ -173,8 +172,8 @@ void Standing::set_goals(std::uint32_t n, double swing, bool rests)
 Support Standing::support_of(std::uint32_t n, std::uint32_t k, double swing) const
 {
     const Mover& mover = movers_[n];
-    const Vector place = root_of(recipe_, mover.from) + mover.supports[k] + swing * mover.support_ways[k];
-    Support support{{place.x, place.y, place.z}, {}};
+    const Vector position = root_of(recipe_, mover.from) + mover.supports[k] + swing * mover.support_ways[k];
+    Support support{{position.x, position.y, position.z}, {}};
     if (!(recipe_.pose & kFar))
         for (double& x : support.position) x = as_float(x);
     put_between(mover.support_rotations[k][0], mover.support_rotations[k][1], swing, support.rotation.data());
@@ -223,7 +222,7 @@ void Standing::move_body(std::uint32_t frame, std::uint32_t n)
 void Standing::change_carried(std::uint32_t frame, std::uint32_t n, Crowd& crowd)
 {
     Mover& mover = movers_[n];
-    const std::uint32_t group_count = kGroupCount + (poses_.has_shift ? 1 : 0) + (looking_ ? kLookCount : 0);
+    const std::uint32_t group_count = kGroupCount + (has_shift(recipe_) ? 1 : 0) + (looking_ ? kLookCount : 0);
     const bool resets = mover.random.below(256) == 0, changes = mover.random.below(64) == 0;
     if (resets) {
         carried_.push_back({mover.random.below(group_count), n, {}});
@@ -231,12 +230,12 @@ void Standing::change_carried(std::uint32_t frame, std::uint32_t n, Crowd& crowd
     }
     if (!changes || !(recipe_.pose & kSupports)) return;
     const double swing = swing_of(mover.starts[2] + frame * mover.speeds[2]);
-    const Support was = support_of(n, mover.stands_on, swing), is = support_of(n, 1 - mover.stands_on, swing);
+    const Support before = support_of(n, mover.stands_on, swing), after = support_of(n, 1 - mover.stands_on, swing);
     mover.stands_on = 1 - mover.stands_on;
     for (std::uint32_t group = 0; group < kGroupCount; ++group) {
         if (!(features_of(recipe_, group) & SWIVEL_WITH_PLANT)) continue;
-        carried_.push_back({group, n, {{was, is}}});
-        change_support(crowd, group, n, was, is);
+        carried_.push_back({group, n, {{before, after}}});
+        change_support(crowd, group, n, before, after);
     }
 }
 
@@ -270,7 +269,7 @@ void Standing::go_to(std::uint32_t frame, Crowd& crowd)
         }
     }
     if (!is_far) write_field(crowd, SWIVEL_TARGET, kGroupCount - 1, rows_.targets[kGroupCount - 1]);
-    if (poses_.has_shift) write_field(crowd, SWIVEL_SHIFT_WISH, kGroupCount, rows_.shift_wishes);
+    if (has_shift(recipe_)) write_field(crowd, SWIVEL_SHIFT_WISH, kGroupCount, rows_.shift_wishes);
     if (holding_) holding_->write(crowd);
     if (looking_) looking_->write(crowd);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Bodies that stand: poses that swing to and fro between two, and rest at both, over many frames. Roots move on their
-// own, and so does what the bodies stand on. Times vary, some are 0 or long, and now and then a number is spoilt.
+// Standing bodies: poses that swing to and fro between two, and rest at both, over many frames. Roots and supports move
+// independently. Times vary, some are 0 or long, and now and then a number is spoilt.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Of arms: the box is held with bent elbows, in front of the belly.
+// In arm lengths: the box is held with bent elbows, in front of the belly.
 constexpr double kSize[] = {0.65, 0.5, 0.5}, kPlace[] = {0, -0.5, 0.65};
 // A hand lies along the side: its wrist is beside it, and behind the middle.
 constexpr double kPalm[] = {0.09, 0, -0.15};

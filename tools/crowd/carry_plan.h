@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A box in both hands: where it is on the chest, and where that puts the wrists. Knows clips alone.
+// A box in both hands: its place at the chest, and the wrists' places at the box. Knows clips alone.
 #pragma once
 
 #include <optional>
@@ -16,21 +16,21 @@ struct CarryPlan {
     // The box, of a figure of size 1 in the world's unit. Its sides are to the left, up and ahead, as the figure is at
     // rest; its middle is counted from the middle between the shoulders.
     Eigen::Vector3d size, place;
-    int chest;                // the joint that it goes along with: where both arms meet
+    int chest;                // the joint that the box moves with: where both arms meet
     Eigen::Vector3d middle;   // in the chest's axes and unit
     Eigen::Vector3d palm;     // from the middle of the box's left side to that wrist, in the box's axes
     Eigen::Quaterniond turn;  // from the box's axes to the chest's
     double left;              // where the left arm is along the box's x: 1, or -1 in a mirror
 };
 
-// Why the figure cannot carry a box, and what to do: it takes both arms, and a joint where they meet. Empty: it can.
+// Why the figure cannot carry a box, and what to do; empty if it can. It needs both arms, and a joint where they meet.
 std::string why_not_carry(const formats::Clip& clip, std::span<const Limb> limbs);
 
-// What is asked for.
+// The crowd file's wishes.
 struct AskedBox {
     double share;
-    std::optional<Eigen::Vector3d> size, place;  // where not given, they suit the arms
-    double shortest;                             // of the arms, as a share of the clip's own
+    std::optional<Eigen::Vector3d> size, place;  // not given: they suit the arms
+    double shortest;                             // the shortest arms, as a share of the clip's own
 };
 // up_w, faces_w: of the figure at rest, unit, at right angles. The figure must be able to carry.
 CarryPlan plan_carry(const formats::Clip& clip, std::span<const Limb> limbs, const AskedBox& asked,

@@ -8,7 +8,7 @@ namespace swivel::tools {
 
 namespace {
 
-// Of the first kind that is solved, so that legs beside arms move no one.
+// The span of two limbs of the first solved kind, so that solving legs besides arms moves no character.
 double limb_span(std::span<const Limb> limbs)
 {
     double max = 0;

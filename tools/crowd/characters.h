@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What makes the characters of a crowd differ. Knows a plan; no clip, no file.
+// The differences between a crowd's characters. Knows a plan; no clip, no file.
 #pragma once
 
 #include <random>
@@ -15,11 +15,11 @@ namespace swivel::tools {
 // Uniform from 0 to below 1; std::uniform_real_distribution may differ between libraries.
 inline double drawn_share(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-// The characters of a crowd, one after the other. Character 0 is the first clip's own. By the seed the others have a
-// size within the plan's and perform one of its clips. If the plan staggers them, they start anywhere in that. By the
-// seed, too, some carry a box; character 0 does where all do. Their feet, which the plan says, stand on a square grid
-// in X and Z: character n in column n % w and row n / w, w = ceil(sqrt(characters)). Neighbours are the plan's spacing
-// apart, in arm spans, or in leg spans where no arm is solved.
+// The characters of a crowd, one after the other. Character 0 is the first clip's own. The seed gives the others a size
+// within the plan's range, one of its clips, a start anywhere in it if the plan staggers them, and for some a box;
+// character 0 has a box only if all have. Their feet, at the plan's foot, stand on a square grid in X and Z: character
+// n in column n % w and row n / w, w = ceil(sqrt(characters)). Neighbours are the plan's spacing apart, in arm spans,
+// or in leg spans where no arm is solved.
 class CharacterStream {
 public:
     CharacterStream(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count);

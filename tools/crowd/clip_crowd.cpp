@@ -52,7 +52,7 @@ bool ClipCrowd::carries(std::size_t limb, std::uint32_t character) const
     return swivel_goal_carries(&motion_.sources(limb)[clip_frame(character)], &characters()[character]);
 }
 
-// Whether elbow and upper arm should be the clip's.
+// Whether elbow and upper arm should be as in the clip.
 bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
     const LimbPlan& plan = plans_[limb];
@@ -65,7 +65,7 @@ const formats::Target* ClipCrowd::given(std::size_t limb, std::uint32_t characte
     return at < 0 ? nullptr : &given_[static_cast<std::size_t>(at)];
 }
 
-// What a given target leaves out stays as the plan has it.
+// Parts that a given target lacks stay as planned.
 void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
 {
     const LimbPlan& plan = plans_[limb];
@@ -80,7 +80,7 @@ void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
     if (target.has_orientation && !plan.has(SWIVEL_WITH_AIM)) put(target.orientation.coeffs(), input.hand);
 }
 
-// As it was given or made, before the plan's offset.
+// The target as given or made, without the plan's offset.
 formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) const
 {
     const goal_input& input = crowd_.input(limb, character);
@@ -221,11 +221,11 @@ std::span<const formats::Target> ClipCrowd::targets()
 {
     targets_.resize(rows_.size());
     rows_of(targets_, [&](std::size_t limb, std::uint32_t character) { return target(limb, character); });
-    std::erase_if(targets_, [&](const formats::Target& of) {  // their targets do not count
-        const std::size_t limb = limb_index(of.limb);
+    std::erase_if(targets_, [&](const formats::Target& each) {  // targets that no limb follows
+        const std::size_t limb = limb_index(each.limb);
         if (plans_[limb].holds) return true;
-        return crowd_.has_ground() && setups_[limb].goals.goes_along && !given(limb, of.character) &&
-               !carries(limb, of.character);
+        return crowd_.has_ground() && setups_[limb].goals.goes_along && !given(limb, each.character) &&
+               !carries(limb, each.character);
     });
     return targets_;
 }

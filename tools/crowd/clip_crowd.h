@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd that performs a clip. Every character has the clip's skeleton, and a size, place and start of its own. Its
-// limbs have goals in each frame, which the clip has or the user gives. Knows clips and the public interface; no file
-// format.
+// A crowd that performs a clip. Every character has the clip's skeleton, and a size, place and start of its own. In
+// each frame its limbs have goals from the clip or from the user. Knows clips and the public interface; no file format.
 #pragma once
 
 #include <span>
@@ -30,15 +29,15 @@ public:
     // orientation hands and feet keep the clip's. Every character and limb in given must exist.
     void set_frame(std::size_t frame, std::span<const formats::Target> given);
 
-    // What the frame asks of all limbs, in order of character, then limb: given to set_frame() it asks for the same.
-    // Limbs that go along with a body on ground, or hold another's hand, are left out.
+    // The frame's goals of all limbs, in order of character, then limb. Given to set_frame() they give the same frame.
+    // Limbs that move with a body on ground, or hold another hand, are left out.
     std::span<const formats::Target> targets();
 
     // Solves the frame; adds the time it took.
     void solve(Statistics& statistics);
 
-    // Adds what the errors, differences from the clip and flags of the limbs solved in this frame are, by forward
-    // kinematics in double.
+    // Adds the errors, differences from the clip and flags of the limbs solved in this frame, by forward kinematics in
+    // double.
     void measure(Statistics& statistics) const;
 
     // One limb's local rotations as the skeleton stores them: shoulder, elbow, wrist, or hip, knee, ankle. A wrist that
@@ -53,7 +52,7 @@ public:
     std::span<const formats::PoseExtra> extras();
     formats::PoseColumns columns() const;
 
-    // What is solved, for a page or a cache that solves it again.
+    // The crowd's setup, for a page or a cache that solves it again.
     const GoalCrowd& goal_crowd() const { return crowd_; }
     const ClipMotion& motion() const { return motion_; }
     // The limbs that this frame's given targets are for.
@@ -69,7 +68,7 @@ private:
     std::size_t limb_index(formats::LimbName name) const;  // of one that is solved
     bool carries(std::size_t limb, std::uint32_t character) const;
     bool follows_clip(std::size_t limb, std::uint32_t character) const;
-    // The same rotations between the two bones that the solver knows.
+    // The rotations of the solver's two bones.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
     formats::Target target(std::size_t limb, std::uint32_t character) const;
     const formats::Target* given(std::size_t limb, std::uint32_t character) const;  // in this frame; null: none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a solved crowd's errors are, and how far it is from its clip, by forward kinematics of its poses in double.
+// Measures a solved crowd's errors, and its differences from its clip, by forward kinematics of its poses in double.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr swivel_features kSent = SWIVEL_WITH_PLANT | SWIVEL_WITH_LINK;  // the library makes their goals
 constexpr double kBentSine = 0.08715574274765817;                        // sin 5 degrees
 
-// Of a rotation: its whole angle, and its parts about an axis and across it.
+// The angles of a rotation: the whole, and its parts about an axis and across it.
 double angle(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
 double twist(const Quaterniond& q, const Vector3d& axis)
 {
@@ -70,7 +70,7 @@ ClipCrowd::Reached ClipCrowd::reached(std::size_t limb, const formats::PoseRow& 
     return {elbow, elbow + bone * (fore * place(3)), upper, fore, fore * as_solved(row.wrist)};
 }
 
-// Where the limb was sent: a foot that stands, or a hand that holds, is not sent where the clip has it.
+// The limb's solved goal: that of a standing foot or a holding hand differs from the clip's.
 Vector3d ClipCrowd::target_point(std::size_t limb, std::uint32_t character) const
 {
     if (!plans_[limb].has(kSent)) return Vector3d(crowd_.input(limb, character).target);

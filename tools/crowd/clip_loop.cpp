@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using formats::Clip;
 using formats::JointPose;
 
-// A turn about y, then a way along x and z.
+// A turn about y, then a move along x and z.
 struct GroundMotion {
     Quaterniond turn = Quaterniond::Identity();
     Vector3d way = Vector3d::Zero();
@@ -50,7 +50,7 @@ using Eigen::MatrixXf;
 
 constexpr double kNoGap = 1e-3;  // radians: nobody sees them
 
-// A frame's column says how its joints are turned, and below that how far they turn in kStep. The distance of two such
+// A frame's column has its joints' rotations, and below these their turns in kStep. The distance of two such
 // columns is that of the poses: the root of the sum of squared angles, in radians, where they are small. Joints that
 // lie in the world are turned with the body.
 MatrixXf looks_of(const Clip& clip, int body)
@@ -80,7 +80,7 @@ MatrixXf looks_of(const Clip& clip, int body)
     return looks;
 }
 
-// How many joints ever turn from where they are in the first frame; at least 1. The others would only dilute a mean.
+// The number of joints that ever turn away from the first frame, at least 1. Others would only dilute a mean.
 double turning_count(const MatrixXf& looks)
 {
     Index count = 0;
@@ -96,7 +96,7 @@ float gap2_of(const MatrixXf& looks, const ClipLoop& loop)
     return (looks.col(static_cast<Index>(loop.last)) - looks.col(static_cast<Index>(loop.first))).squaredNorm();
 }
 
-// How fast the joints of a clip turn, all of them together.
+// The speed at which a clip's joints turn, all together.
 class Pace {
 public:
     Pace(const MatrixXf& looks, std::size_t frames_a_second)
@@ -111,9 +111,9 @@ public:
     bool is_kept(const ClipLoop& loop) const { return mean(loop) >= min_pace_; }
 
 private:
-    double mean(const ClipLoop& of) const
+    double mean(const ClipLoop& loop) const
     {
-        return (sums_[of.last] - sums_[of.first]) / static_cast<double>(of.length());
+        return (sums_[loop.last] - sums_[loop.first]) / static_cast<double>(loop.length());
     }
 
     std::vector<double> sums_ = {0};  // of the speeds of all frames before each one
@@ -123,8 +123,8 @@ private:
 constexpr Index kDirections = 8;
 using Coarse = Eigen::Matrix<float, kDirections, Eigen::Dynamic>;
 
-// Each frame along the directions in which poses differ most, nearly. Two frames are no nearer to each other than they
-// are here.
+// Projects each frame onto the directions in which poses differ most, nearly. Projections are no farther apart than the
+// frames themselves.
 Coarse coarse_of(const MatrixXf& looks)
 {
     constexpr Index kSampled = 400, kRounds = 4;
@@ -140,11 +140,10 @@ Coarse coarse_of(const MatrixXf& looks)
     return axes.transpose() * looks;
 }
 
-// The best loop of so many frames or more, nearly. Frames are sorted along the first of the coarse directions, and by
-// time where they are equal there. Each is compared with those behind it, until they are farther away there than the
-// best two frames are from each other; in full only where all the coarse directions allow it. A budget bounds the time
-// where all frames are alike, or all as far apart: kBudget looks at other frames, of which a full one costs kInFull.
-// (Real clips need 40 full ones.)
+// Nearly the best loop of this length or longer. Frames are sorted along the first coarse direction, then by time. Each
+// is compared with the following ones until their distance there exceeds the best pair's; a full comparison is made
+// only if all coarse directions allow it. A budget bounds the time where all frames are alike or equally far apart:
+// kBudget comparisons, of which a full one costs kInFull. (Real clips need 40 full ones.)
 FoundLoop nearest(const MatrixXf& looks, const Pace& pace, std::size_t apart, float no_gap2)
 {
     constexpr Index kBudget = 4000, kInFull = 20;
@@ -192,7 +191,7 @@ Clip looped(const Clip& clip, int body, const ClipLoop& loop, std::size_t frame_
     to.rotation.reserve(frame_count * joints);
     to.translation.assign(frame_count * to.track_count, Vector3d::Zero());
 
-    // What the last frame has and the first one has not, where the first one stands.
+    // The last frame's difference from the first one, brought to the first one's place.
     const GroundMotion round = stand_of(clip, loop.last, body) * stand_of(clip, loop.first, body).inverse(),
                        back = round.inverse();
     std::vector<Quaterniond> turns;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A clip that is played over and over, and where it can go on so. Knows clips alone.
+// Looped clips, and the search for a clip's loop. Knows clips alone.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace swivel::tools {
 
-// Frames of a clip. After the one before `last`, `first` follows.
+// Frames first to last - 1 of a clip, after which `first` follows again.
 struct ClipLoop {
     std::size_t first = 0, last = 0;
 
@@ -17,13 +17,13 @@ struct ClipLoop {
 };
 
 inline constexpr std::size_t kFewestLooped = 2;  // frames of a loop, however long each takes
-inline constexpr double kSeam = 0.15;            // seconds in which what differs at the seam fades
+inline constexpr double kSeam = 0.15;            // seconds in which the seam's difference fades
 
-// Which way a body is turned about y in a frame. body: a joint that all others move with, such as the hips.
+// A body's turn about y in a frame. body: a joint that all others move with, such as the hips.
 Eigen::Quaterniond heading_of(const formats::Clip& clip, std::size_t frame, int body);
 
-// The clip as it goes on for so many frames from `first` on. Every time round, what lies in the world goes on from
-// where it was, moved along x and z and turned about y. What still differs at the seam fades in kSeam.
+// The looped clip for this many frames from `first` on. Each round goes on from where the last one ended, moved along x
+// and z and turned about y. The remaining difference at the seam fades in kSeam.
 formats::Clip looped(const formats::Clip& clip, int body, const ClipLoop& loop, std::size_t frame_count);
 
 inline constexpr std::size_t kMaxSearched = 100'000;  // frames
@@ -39,9 +39,9 @@ struct FoundLoop {
     double gap;
 };
 
-// Among all pairs of frames that are far enough apart, and between which the clip moves, the two whose pose and motion
-// nearly differ least: a frame is compared with some thousands of those that are most like it. Pose is how joints are
-// turned, motion how they go on turning in 1/30 s. Which way the body is turned about y does not count.
+// The pair of frames whose pose and motion differ least, nearly, among all pairs that are far enough apart and between
+// which the clip moves. Each frame is compared with some thousands of the most similar ones. The pose is the joints'
+// rotations, the motion their change in the next 1/30 s. The body's turn about y does not count.
 // - Far enough is half the clip, but at least kShortestLoop and kFewestLooped, and at most kLongEnough.
 // - The clip moves if joints turn at kMinPace of its own pace or faster, in the mean. Its pace is the root of the
 //   mean square of all seconds' mean speeds, so that a long rest counts little.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a clip has its limbs in each of its frames. Knows clips alone.
+// The poses of a clip's limbs in all frames. Knows clips alone.
 #pragma once
 
 #include <span>
@@ -39,8 +39,8 @@ public:
     {
         return Eigen::Vector3d(sources_[limb][frame].origin);
     }
-    // What the goals of one limb are made of, frame after frame; the look comes after the limbs. Lengths are the limb's
-    // own at rest, unless the clip stretches its bones by more than 1e-7 of their length.
+    // The sources of one limb's goals, frame by frame; the look comes after the limbs. Lengths are the limb's own at
+    // rest, unless the clip stretches its bones by more than 1e-7 of their length.
     std::span<const goal_source> sources(std::size_t limb) const { return sources_[limb]; }
 
 private:

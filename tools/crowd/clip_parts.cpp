@@ -22,9 +22,9 @@ constexpr double kSame = 1e-3;  // of the longest bone, of a scale, and of a rot
 
 Vector3d local_scale(const Clip& clip, std::size_t frame, std::size_t joint)
 {
-    const Joint& of = clip.joints[joint];
-    return of.scale_track < 0 ? of.rest_scale
-                              : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(of.scale_track)];
+    const Joint& own = clip.joints[joint];
+    return own.scale_track < 0 ? own.rest_scale
+                               : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(own.scale_track)];
 }
 
 // Frames beside each other are so alike that a normalised blend turns as evenly as a slerp.

@@ -15,11 +15,11 @@ namespace swivel::tools {
 // Frames of a clip that are played round and round.
 struct ClipPart {
     std::size_t first = 0, count = 0;
-    std::size_t starts = 0;  // characters start in as many of them; of a loop: frames of one round
-    double pace = 1;         // how many frames of what it is made of pass in one of these
+    std::size_t starts = 0;  // the number of frames that characters may start in; of a loop: one round's
+    double pace = 1;         // source frames for each of these
 };
 
-// How the skeleton of another clip differs, for people: "joint 7 is Hand, not Wrist". Empty: it does not.
+// The first difference between two clips' skeletons, for people: "joint 7 is Hand, not Wrist". Empty: none.
 std::string difference_of(const formats::Clip& clip, const formats::Clip& other);
 
 // All frames, clip after clip. Skeletons do not differ, frame times neither. Each clip but the first is moved, so that
@@ -36,8 +36,8 @@ formats::Clip paced(const formats::Clip& clip, std::vector<ClipPart>& parts, std
 formats::Clip frames_of(const formats::Clip& clip, std::size_t frame_count);
 formats::Clip frames_of(const formats::Clip& clip, const ClipPart& part);
 
-// The floor of a clip's first frames, along y: the lowest joint is lower in a quarter of them. A toe that is low now
-// and then does not count.
+// The floor of a clip's first frames, along y: the lower quartile of the lowest joint's height, so that a toe that is
+// low now and then does not count.
 double floor_of(const formats::Clip& clip, std::size_t frame_count);
 
 }  // namespace swivel::tools

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether a crowd file makes sense: for the limbs that are solved, for their skeleton, for the file that is written.
-// All throw InputError naming file, line and key.
+// Checks a crowd file against the solved limbs, their skeleton and the output file. All functions throw InputError
+// naming file, line and key.
 #pragma once
 
 #include <span>
@@ -16,39 +16,38 @@ namespace swivel::tools {
 // opened as a text, or is a pipe, which is not tried.
 std::string checked_targets(const formats::CrowdFile& file);
 
-// Every table speaks of a limb that is solved.
+// Requires that every table selects a solved limb.
 void require_solved(const formats::CrowdFile& file, std::span<const Limb> limbs);
 
-// No key of a limb does nothing because of another.
+// Refuses keys of a limb that another key disables.
 void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& settings);
 
-// What the solver says of a limit. limit: its place in formats::kLimitKeys.
+// The solver's field of a limit, and whether it limits the hand. limit: its place in formats::kLimitKeys.
 struct LimitInfo {
     swivel_field field;
     bool is_of_hand;
 };
 LimitInfo limit_info(std::size_t limit);
 
-// Nothing is asked of a leg that keeps it from standing on ground.
+// Refuses settings that keep a leg from standing on ground.
 void require_can_stand(const formats::CrowdFile& file, const formats::LimbSettings& settings);
 
-// Nothing is asked of an arm's hand, which goes along with the forearm where characters carry boxes.
+// Refuses settings of an arm's hand where characters carry boxes: it then moves with the forearm.
 void require_can_carry(const formats::CrowdFile& file, const formats::LimbSettings& settings);
 
-// A limb that holds names another one that is solved, that has a hand, and that holds nothing. Boxes leave no hand
+// Requires that a holding limb names another solved limb, which has a hand and holds nothing. With boxes no hand is
 // free.
 void require_can_hold(const formats::CrowdFile& file, std::span<const Limb> limbs);
 
-// With a clavicle: the joint above the limb is there, some way from it, and carries nothing else that it would turn
-// along.
+// With a clavicle: requires a joint above the limb, at some distance, that would turn nothing else.
 void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,
                           const formats::Clip& clip, const Limb& limb);
 
-// Nothing is asked for per second of a clip whose frames are uneven.
+// Refuses settings per second for a clip of uneven frames.
 void require_even_frames(const formats::CrowdFile& file, const formats::LimbSettings& settings,
                          const formats::Clip& clip);
 
-// Nothing is asked for that a written clip, BVH or glTF, has no room for: stretched bones and twist bones.
+// Refuses stretched bones and twist bones for an output clip, BVH or glTF, which cannot store them.
 void require_fits_motion(const formats::CrowdFile& file, std::span<const Limb> limbs);
 
 }  // namespace swivel::tools

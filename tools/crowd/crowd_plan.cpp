@@ -30,7 +30,7 @@ swivel_region_cone cone_of(const formats::ConeLimit& cone)
     return {{x, y, z}, static_cast<float>(kPerDegree * cone.opening_deg)};
 }
 
-// Where the upper bone points in each frame, in the arm frame.
+// The upper bone's direction in each frame, in the arm frame.
 std::vector<std::array<float, 3>> directions_in(const formats::Clip& clip, const Limb& limb)
 {
     const float(&q)[4] = limb.bound.parent_from_arm;
@@ -44,8 +44,8 @@ std::vector<std::array<float, 3>> directions_in(const formats::Clip& clip, const
     return directions;
 }
 
-// Where a limb's upper bone may point, as a crowd file has it: cones, polygons, and about where the clip's own bone
-// points. Throws InputError that names line and key for what can be no region.
+// The region of a limb's upper bone from a crowd file: cones, polygons, and directions around the clip's own. Throws
+// InputError that names line and key if it is no valid region.
 swivel_region region_of(const formats::CrowdFile& file, const formats::Given<formats::RegionLimit>& from,
                         const formats::Clip& clip, const Limb& limb)
 {
@@ -156,7 +156,7 @@ struct Planner {
     const Limb& limb;
     LimbPlan plan{};
 
-    // What is in the end joint's axes, in those that it is solved in.
+    // Converts from the end joint's axes to those that it is solved in.
     Eigen::Vector3d in_hand(const Eigen::Vector3d& v) const
     {
         return parent_at_rest(clip, limb.end()).mirrored ? formats::mirrored(v) : v;
@@ -244,7 +244,7 @@ struct Planner {
         if (from.step_wins && from.step_wins->value) plan.features |= SWIVEL_STEP_WINS;
     }
 
-    // The step of a 60th of a second that SWIVEL_MAX_SWIVEL is, of the step of a frame: its half-tangent goes with
+    // Converts a frame's step to SWIVEL_MAX_SWIVEL, a step for a 60th of a second: its half-tangent is proportional to
     // time.
     double in_a_60th(double in_a_frame) const
     {

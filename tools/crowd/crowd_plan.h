@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a crowd is and what is asked of each of its limbs, in the solver's terms: the command line and the crowd file
-// made into features and values of fields. Knows limbs and the public interface; reads no file.
+// Plans a crowd and its limbs' goals in the solver's terms: turns the command line and the crowd file into features and
+// values of fields. Knows limbs and the public interface; reads no file.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ struct LimbPlan {
     std::vector<FixedField> fields;
     std::optional<swivel_region> region;
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
-    std::vector<bool> contact;                       // then: in which frames of the clip the foot is on the ground
+    std::vector<bool> contact;                       // then: the frames of the clip with the foot on the ground
 
     std::optional<std::size_t> holds;                         // a limb before this one: with SWIVEL_WITH_LINK
     std::optional<Eigen::Vector3d> target_point;              // in the clip
@@ -39,7 +39,7 @@ struct LimbPlan {
     bool holds_pole = false;                                  // the pole counts though it is the clip's own
     bool follows_pole = true;                                 // elbows go where the clip's go, unless limits forbid
 
-    // Nothing is asked of it that the clip does not do.
+    // Whether the limb only does what the clip does.
     bool follows_clip() const { return !holds && !target_point && target_offset.isZero(0) && follows_pole; }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
 };
@@ -61,16 +61,16 @@ struct CrowdPlan {
     std::optional<CarryPlan> carry;                  // a box in both hands
 };
 
-// Adds to the choice what the crowd file names of limbs. Joints are for sides that the choice's options do not name.
+// Adds the crowd file's limbs to the choice. Its joints count for sides that no option names.
 // The file's bends always count, its limbs unless the choice has kinds already. Throws InputError naming line and key
 // for joints of a kind that is left out.
 void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 
-// Below the first joint's first place, as low as any joint ever is in the first frames.
+// The point below the first joint's first place, at the height of the lowest joint of the first frames.
 Eigen::Vector3d foot_of(const formats::Clip& clip, std::size_t frame_count);
 
-// Puts limbs that hold another's hand behind all others, which are then solved before them. Throws InputError naming
-// line and key for one that cannot hold what it names.
+// Moves limbs that hold another hand behind all others, which are then solved first. Throws InputError naming line and
+// key for a limb that cannot hold the one it names.
 void put_holding_last(const formats::CrowdFile& file, std::vector<Limb>& limbs);
 
 // The plan for limbs of a clip, holding ones last. file: null without a crowd file; then all is as the clip has it.

@@ -30,10 +30,10 @@ struct Moment {
     double wave(double turns, double phase) const { return std::sin(2 * std::numbers::pi * (turns * loop + phase)); }
     double drop() const { return 0.035 + 0.025 * wave(4, 0); }  // of the hips, by bent knees
 
-    // Hips over feet that stay where they are.
+    // Keeps the feet in place below the hips.
     double knee_deg() const { return 360 / std::numbers::pi * std::acos(1 - drop() / (2 * kLeg)); }
 
-    // Of bones:
+    // Rotations of bones.
     Quaterniond rest() const { return Quaterniond::Identity(); }
     Quaterniond spine() const { return about_z(4 * wave(2, 0.25)) * about_y(7 * wave(1, 0)); }
     Quaterniond chest() const { return about_y(9 * wave(1, 0.05)) * about_x(3 + 3 * wave(4, 0.2)); }

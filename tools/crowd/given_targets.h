@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The targets of a table, handed out frame by frame. Knows what the table must fit: a clip, its limbs, a crowd's size.
+// The targets of a table, frame by frame. Checks the table against a clip, its limbs and a crowd's size.
 #pragma once
 
 #include <span>
@@ -12,13 +12,13 @@
 
 namespace swivel::tools {
 
-// What a limb that has rows does in frames without one. Before its first row `hold` and `linear` keep that one, after
-// its last one that.
+// A limb's goal in frames without a row, if it has other rows. `hold` and `linear` use the first row before it, and the
+// last one after it.
 enum class Between {
-    clip,    // follows the clip
-    hold,    // is as in the row before
-    linear,  // goes straight on to the next row, and turns the shortest way; what one of the two rows leaves out is as
-             // in the row before
+    clip,    // follow the clip
+    hold,    // keep the row before
+    linear,  // go straight to the next row, and turn the shortest way; parts that one of the two rows lacks are as in
+             // the row before
 };
 
 class GivenTargets {
@@ -29,19 +29,19 @@ public:
     GivenTargets(const std::string& source, Between between, std::size_t frame_count, std::span<const Limb> limbs,
                  const CrowdPlan& plan);
 
-    // How many rows were left out.
+    // The number of rows left out.
     std::size_t left_out() const { return left_out_; }
 
-    // How many there are in the first frames together.
+    // The number of targets in the first frames together.
     std::uint64_t count(std::size_t frame_count) const;
 
-    // Those of a frame; frames must be asked for in order. They last until the next call.
+    // The targets of a frame, valid until the next call. Ask for frames in order.
     std::span<const formats::Target> of_frame(std::size_t frame);
 
 private:
     // The rows of one limb of one character.
     struct Track {
-        std::size_t now, end;  // now: the last one that is not after the frame, or the first
+        std::size_t now, end;  // now: the last row up to the frame, or the first row
     };
     void find_tracks();
 

@@ -20,11 +20,11 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
     skeleton.rotations = {of.rotations.data(), sizeof of.rotations[0]};
     std::vector<swivel_limb_joints> joints;
     for (const LimbSkeleton::OfLimb& limb : of.limbs) {
-        swivel_limb_joints& to =
+        swivel_limb_joints& limb_joints =
             joints.emplace_back(swivel_default_limb_joints(limb.shoulder, limb.shoulder + 1, limb.shoulder + 2));
-        to.twist_bone_count = static_cast<std::uint32_t>(limb.twist_bones.size());
-        to.twist_bones = limb.twist_bones.data();
-        std::ranges::copy(limb.bend, to.bend);
+        limb_joints.twist_bone_count = static_cast<std::uint32_t>(limb.twist_bones.size());
+        limb_joints.twist_bones = limb.twist_bones.data();
+        std::ranges::copy(limb.bend, limb_joints.bend);
     }
     std::vector<Definition> groups;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
@@ -40,8 +40,8 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         limb.wrist_order = limbs[n].wrist_order;
         if (limbs[n].region) limb.region = &*limbs[n].region;
         limb.ground = limbs[n].ground;
-        limb.ground.half_life = GOAL_GROUND_HALF;
-        limb.plant.anchor_lead = GOAL_PLANT_RUN;
+        limb.ground.half_life = GOAL_GROUND_HALF_LIFE;
+        limb.plant.anchor_lead = GOAL_ANCHOR_LEAD;
         if (limbs[n].goals.holds) limb.link = limbs[n].goals.holds - 1;
         groups.emplace_back(limb);
     }
@@ -75,11 +75,11 @@ LimbSkeleton skeleton_of(std::span<const LimbSetup> limbs)
         const std::int32_t elbow =
             add(shoulder, std::to_array(limb.rest.elbow_offset), std::to_array(limb.rest.elbow_rotation));
         add(elbow, std::to_array(limb.rest.wrist_offset), std::to_array(limb.rest.wrist_rotation));
-        LimbSkeleton::OfLimb& of = skeleton.limbs.emplace_back();
-        of.shoulder = static_cast<std::uint32_t>(shoulder);
-        of.bend = std::to_array(limb.rest.bend);
+        LimbSkeleton::OfLimb& joints = skeleton.limbs.emplace_back();
+        joints.shoulder = static_cast<std::uint32_t>(shoulder);
+        joints.bend = std::to_array(limb.rest.bend);
         for (std::uint32_t n = 0; n < limb.twist_bone_count; ++n)
-            of.twist_bones.push_back(static_cast<std::uint32_t>(add(elbow, {0, 0, 0}, still)));
+            joints.twist_bones.push_back(static_cast<std::uint32_t>(add(elbow, {0, 0, 0}, still)));
     }
     return skeleton;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd of bodies whose limbs are asked for what the formula of goals gives, frame by frame. Knows the solver's
-// terms; no clip, no file format.
+// A crowd of bodies whose limbs get the goals of the formula (goals.h), frame by frame. Knows the solver's terms; no
+// clip, no file format.
 #pragma once
 
 #include <span>
@@ -37,16 +37,16 @@ public:
         return swivel_goal_frame(&characters_[character], frame_);
     }
 
-    // Fills the inputs of a frame by the formula. A limb's swivel is forgotten where the clip starts again: from its
-    // end to its start is no motion.
+    // Fills the inputs of a frame by the formula. Resets a limb's swivel where the clip starts again, because there is
+    // no motion from its end to its start.
     void set_frame(std::uint32_t frame);
-    // Where all places of a character are counted from.
+    // The origin of all places of a character.
     const goal_root& root(std::uint32_t character) const { return roots_[character]; }
-    // Whether legs stand on ground: then bodies are raised and shifted.
+    // Whether legs stand on ground, so that bodies are raised and shifted.
     bool has_ground() const { return ground_ != nullptr; }
-    // How much higher a character's joints hang than its place and the clip say: by the ground, and by its shift.
+    // How far ground and shift raise a character's joints above its place and the clip.
     float rise(std::uint32_t character) const;
-    // What a limb is asked for in this frame: it may be changed until solve().
+    // A limb's goal in this frame, which may be changed until solve().
     goal_input& input(std::size_t limb, std::uint32_t character) { return inputs_[character * limbs_.size() + limb]; }
     const goal_input& input(std::size_t limb, std::uint32_t character) const
     {
@@ -67,11 +67,11 @@ public:
     // shift is each limb's.
     bool has(std::size_t limb, swivel_field field) const;
     void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
-    // As swivel_residuals() has them.
+    // The residuals of some characters, by swivel_residuals().
     void residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const;
-    // Puts a field that is carried back, as bits: what the next solve starts from.
+    // Restores a carried field, as bits, from which the next solve starts.
     void restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers);
-    // Of all results; see swivel_goals_digest().
+    // The digest of all results: see swivel_goals_digest().
     std::uint64_t digest() const { return swivel_goals_digest(crowd_.get(), poses_.data()); }
 
 private:

@@ -112,7 +112,7 @@ void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, cons
     input.contact = from.contact;
 }
 
-// Where a foot goes in this frame of its stride.
+// The foot's place in this frame of its stride.
 void put_foot(const Stride& stride, goal_input& input)
 {
     input.target[0] = stride.plane[0], input.target[2] = stride.plane[2];
@@ -126,7 +126,7 @@ double length_of(const float (&v)[3])
     return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]);
 }
 
-// What a solve's feet stand on. Positions of probes are from the roots.
+// The ground of a solve's feet. Positions of probes are relative to the roots.
 struct Standing {
     const goal_ground* ground;
     const float* heights;
@@ -134,8 +134,8 @@ struct Standing {
     const goal_input* inputs;
     uint32_t limb_count;
 };
-// The plane that a foot has below a probe at x and z in the world: that of its stride, or the ground as it lies where
-// somebody has given it another target.
+// The plane below a foot's probe at x and z in the world: its stride's, or the ground itself if the foot has a given
+// target.
 GroundPoint plane_below(const Standing& on, const goal_root& root, const goal_input& foot, double x, double z)
 {
     constexpr double kMaxRaised = 0.01;  // leg lengths: a man's centimetre, which nobody sees as a jump
@@ -162,7 +162,7 @@ void sample(const swivel_probes* probes, void* user)
     }
 }
 
-// What a group's limb reads.
+// The input streams of a group's limb.
 struct GroupInputs {
     swivel_stream fields[7];
     swivel_streams frame;

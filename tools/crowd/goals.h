@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The goals of a crowd that performs a clip: what each character's pose is, and what its limbs are asked for in a
-// frame. One source for the command and the page: only + - * /, floor, sqrt and plain structures, so both get the same
-// bits. No Eigen, whose vector code adds in another order. The structures have one layout on all little-endian
-// machines, so a page holds them as bytes.
+// The goals of a crowd that performs a clip: each character's pose and its limbs' goals in a frame. One source for the
+// command and the page: only + - * /, floor, sqrt and plain structures, so both get the same bits. No Eigen, whose
+// vector code adds in another order. The structures have one layout on all little-endian machines, so a page holds them
+// as bytes.
 #pragma once
 
 #include <stdint.h>
@@ -53,10 +53,10 @@ typedef struct goal_character {
     uint32_t reserved;
 } goal_character;
 
-// What a goal's pole is.
+// The kind of a goal's pole.
 enum goal_pole { GOAL_POLE_POINT = 0, GOAL_POLE_DIRECTION = 1, GOAL_POLE_NORMAL = 2 };  // of the swivel plane
 
-// What a limb is asked for beside the clip's motion.
+// A limb's goals besides the clip's motion.
 typedef struct goal_plan {
     double target_point[3], target_offset[3];
     double effector[3];        // in the end joint's frame, of a character of size 1
@@ -74,12 +74,12 @@ typedef struct goal_plan {
     float clearance;      // of a leg that stands: swivel_ground's toe_clearance
 } goal_plan;
 
-// What a limb is asked for, in the world. Pole and hand are as the plan says.
+// A limb's goal, in the world. Pole and hand are of the plan's kinds.
 typedef struct goal {
     double target[3], pole[3], hand[4];
 } goal;
 
-// A goal of one's own for a limb, which takes the formula's place in a frame of the page.
+// A given goal for a limb, which replaces the formula's in a frame of the page.
 typedef struct goal_given {
     uint32_t frame, character, limb;
     float pole_weight;
@@ -95,15 +95,15 @@ typedef struct goal_ground {
     uint32_t columns, rows;  // 2 or more; 0: all is level, as high as the place
 } goal_ground;
 
-// Where a character's pose hangs: all places in the solver's rows are from here.
+// The root of a character's pose, the origin of all places in the solver's rows.
 typedef struct goal_root {
     double place[3];  // in the world, as the clip and the ground have it
     float size;
     float shift;  // by the last solve: the body hangs so much higher
 } goal_root;
 
-// What the solver takes of a limb: fields of these names, and the incoming pose of its joints as GOAL_JOINTS has them.
-// Places are in the parent's frame, of a character of size 1.
+// The solver's inputs of a limb: fields of these names, and the incoming pose of its joints in the order of
+// GOAL_JOINTS. Places are in the parent's frame, of a character of size 1.
 typedef struct goal_input {
     double target[3], pole[3];  // in the world
     float hand[4], weights[3];
@@ -121,9 +121,9 @@ typedef struct goal_input {
 enum { GOAL_JOINTS = 4 };
 enum { GOAL_MAX_LIMBS = 8 };  // of a character, with its look
 
-// Of groups that stand on ground: swivel_plant's run and swivel_ground's half, where they are not as usual. Nothing is
-// eased twice: planes rise and turn as strides go.
-static const float GOAL_PLANT_RUN = 1, GOAL_GROUND_HALF = 0;
+// swivel_plant's anchor_lead and swivel_ground's half_life of groups that stand on ground, which differ from their
+// defaults: planes already rise and turn smoothly with strides, and nothing is eased twice.
+static const float GOAL_ANCHOR_LEAD = 1, GOAL_GROUND_HALF_LIFE = 0;
 
 // The frame of the sources that a character shows in a frame of the crowd. Any thread; no allocation.
 inline uint32_t swivel_goal_frame(const goal_character* character, uint32_t frame)
@@ -140,7 +140,7 @@ inline bool swivel_goal_carries(const goal_source* source, const goal_character*
 // The goal of a limb of a character. Any thread; no allocation.
 goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_character* character);
 
-// Fills what count characters are asked for.
+// Fills the inputs of `count` characters.
 // plans: of each limb, at most GOAL_MAX_LIMBS. sources: of each limb, one for each frame of all clips.
 // ground, heights: null, or feet that stand do so on it, and each character is raised to its lower foot's ground.
 // roots: count of them. inputs: [character][limb].
@@ -149,7 +149,7 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
                   const goal_ground* ground, const float* heights, const goal_character* characters, uint32_t count,
                   goal_root* roots, goal_input* inputs);
 
-// How high the ground is in the world. Any thread; no allocation.
+// The ground's height in the world. Any thread; no allocation.
 double swivel_ground_height(const goal_ground* ground, const float* heights, double x, double z);
 
 // Solves a crowd of bodies that has a group for each limb and the look, and joints as GOAL_JOINTS says. After them it
@@ -166,7 +166,7 @@ swivel_status swivel_goals_solve(swivel_crowd* crowd, const goal_ground* ground,
                                  float* poses, swivel_job* job);
 uint32_t swivel_goal_pose_size(const swivel_crowd* crowd);
 
-// Of all results: starts as swivel_digest(), then takes the poses of all bodies, as that takes a lane's numbers.
+// The digest of all results: swivel_digest(), continued with the poses of all bodies.
 uint64_t swivel_goals_digest(const swivel_crowd* crowd, const float* poses);
 
 }  // extern "C"

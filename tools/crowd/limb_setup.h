@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One limb of every character of a crowd, in the solver's terms alone: what a clip and a crowd file come to, and what a
-// cache stores. Knows the public interface and the formula of goals; no clip, no Eigen.
+// One limb of every character of a crowd, in the solver's terms alone: made from a clip and a crowd file, and stored in
+// a cache. Knows the public interface and the formula of goals; no clip, no Eigen.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct LimbSetup {
     std::optional<swivel_region> region;             // with SWIVEL_WITH_REGION
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
     bool mirrored = false;                           // the joints' axes, as solved, have x turned over
-    // Of neck and head: how they look. Joints are counted from the limb's first, its shoulder. Then it is no limb.
+    // Given for neck and head, which are no limb: the look. Joints are counted from the limb's first, its shoulder.
     std::optional<swivel_look_def> look;
 
     // A rotation as solved in the joints' own axes.
@@ -58,7 +58,7 @@ struct LimbSkeleton {
 };
 LimbSkeleton skeleton_of(std::span<const LimbSetup> limbs);
 
-// The bytes behind a region's size. They are the same on every platform, which the width of the size is not.
+// The bytes after a region's size. They are the same on every platform, unlike the size's width.
 inline std::span<char> bytes_behind_size(swivel_region& region)
 {
     return {reinterpret_cast<char*>(&region.cut_count),

@@ -18,7 +18,7 @@ using formats::JointPose;
 
 constexpr std::size_t kMax = 3;  // joints; a goal_source has as many
 
-// Of the looking joints, and of the one above them first.
+// A pose of the looking joints. local: the joint above them comes first.
 struct LookPose {
     Quaterniond local[1 + kMax];
     Vector3d bones[kMax - 1];  // from each joint to the next, in its own axes, of a figure of size 1
@@ -53,8 +53,9 @@ std::vector<int> look_joints(const Clip& clip, const std::vector<BodyPart>& body
     if (heads.empty()) return {};
     const std::vector<JointPose> at_rest = rest_pose(clip);
     const auto turns_freely = [&](int joint) {  // a mirror's half turn is no turn of the joint
-        const formats::Joint& of = joint_at(clip, joint);
-        return !at_rest[static_cast<std::size_t>(joint)].mirrored && of.rest_scale.minCoeff() > 0 && of.scale_track < 0;
+        const formats::Joint& own = joint_at(clip, joint);
+        return !at_rest[static_cast<std::size_t>(joint)].mirrored && own.rest_scale.minCoeff() > 0 &&
+               own.scale_track < 0;
     };
     std::vector<int> joints;
     for (int joint = heads.back(); joint >= 0 && joints.size() < kMax; joint = joint_at(clip, joint).parent) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Heads that look at a point: which joints turn, and what the solver takes of them. A look is one more limb of a crowd:
-// see goal_source. Knows clips and the solver's terms; no file format.
+// Heads that look at a point: the joints that turn, and the solver's constants of them. A look is one more limb of a
+// crowd: see goal_source. Knows clips and the solver's terms; no file format.
 #pragma once
 
 #include <span>
@@ -21,15 +21,15 @@ struct LookPlan {
 // The joints of neck and head, from the head inwards as far as no limb hangs below them and none is mirrored or changes
 // its size. Empty: no such head is known.
 std::vector<int> look_joints(const formats::Clip& clip, const std::vector<BodyPart>& body, std::span<const Limb> limbs);
-// Where the face is, in the axes of the head's joint. faces_w: where the figure looks at rest.
+// The direction of the face, in the axes of the head's joint. faces_w: the figure's forwards at rest.
 Eigen::Vector3d face_of(const formats::Clip& clip, int head, const Eigen::Vector3d& faces_w);
 
-// joints: as look_joints() has them, at least one. target_w: what all heads look at. most: radians that each joint
-// turns at most.
+// joints: of look_joints(), at least one. target_w: the point that all heads look at. max: each joint's max turn,
+// radians.
 LookPlan plan_look(const formats::Clip& clip, std::vector<int> joints, const Eigen::Vector3d& faces_w,
                    const Eigen::Vector3d& target_w, double max);
 
-// Of one frame. pose_w: of the clip. root: as of the limbs.
+// The source of one frame. pose_w: of the clip. root: the limbs' root.
 goal_source look_source(const formats::Clip& clip, std::span<const int> joints,
                         std::span<const formats::JointPose> pose_w, const Eigen::Vector3d& root);
 

@@ -8,7 +8,7 @@
 
 namespace swivel::tools {
 
-// With a limit of one, this and all that ask it call no function of oneTBB, whose start takes memory and threads.
+// With a limit of one, neither this nor its callers call oneTBB, whose start takes memory and threads.
 unsigned thread_count();
 
 inline bool is_one_thread() { return thread_count() == 1; }
@@ -18,8 +18,8 @@ class RangeWork {
 public:
     template <class Work>
     RangeWork(const Work& work)
-        : work_(&work), call_([](const void* of, std::uint32_t begin, std::uint32_t end) {
-              (*static_cast<const Work*>(of))(begin, end);
+        : work_(&work), call_([](const void* closure, std::uint32_t begin, std::uint32_t end) {
+              (*static_cast<const Work*>(closure))(begin, end);
           })
     {
     }
@@ -35,7 +35,7 @@ void for_ranges(std::uint32_t count, RangeWork work);
 
 struct ThreadControl;  // oneTBB's
 
-// At most this many threads solve while it lives; 0: as many as before.
+// While it lives, at most this many threads solve; 0: as many as before.
 class ThreadLimit {
 public:
     explicit ThreadLimit(unsigned max);

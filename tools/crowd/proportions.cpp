@@ -26,7 +26,7 @@ void scale_bones(const Clip& clip, int top, int joint, double factor, std::vecto
     } while (joint != top);
 }
 
-// Of each joint, for its place in the frame of the one above.
+// The factor of each joint's place in the frame of the joint above.
 std::vector<double> factors_of(const Clip& clip, const std::vector<BodyPart>& body, const Proportions& to)
 {
     std::vector<double> factors(clip.joints.size(), 1.0);
@@ -55,7 +55,7 @@ struct LegsWay {
     std::vector<Vector3d> middle;
     std::vector<JointPose> above;  // the hips
 
-    Vector3d of(int joint, std::size_t frame) const
+    Vector3d way_of(int joint, std::size_t frame) const
     {
         Vector3d way = Vector3d::Zero();
         if (joint == root) way += Vector3d(middle[frame].x(), 0, middle[frame].z());
@@ -116,7 +116,7 @@ Clip proportioned(const Clip& clip, const std::vector<BodyPart>& body, std::span
     for (std::size_t n = 0; n < joints; ++n) {
         const bool carries = static_cast<int>(n) == legs.root || static_cast<int>(n) == legs.hips;
         const bool moves = clip.joints[n].track >= 0 || carries ||
-                           std::ranges::any_of(factors, [&](const auto& of) { return of[n] != 1; });
+                           std::ranges::any_of(factors, [&](const auto& factor) { return factor[n] != 1; });
         all.joints[n].track = moves ? static_cast<int>(all.track_count++) : -1;
     }
     for (std::size_t build = 0; build < builds.size(); ++build)
@@ -124,7 +124,8 @@ Clip proportioned(const Clip& clip, const std::vector<BodyPart>& body, std::span
             for (std::size_t n = 0; n < joints; ++n) {
                 if (all.joints[n].track < 0) continue;
                 Vector3d place = factors[build][n] * formats::local_translation(clip, frame, n);
-                if (builds[build].legs != 1) place += (builds[build].legs - 1) * legs.of(static_cast<int>(n), frame);
+                if (builds[build].legs != 1)
+                    place += (builds[build].legs - 1) * legs.way_of(static_cast<int>(n), frame);
                 all.translation.push_back(place);
             }
     for (std::size_t build = 0; build < builds.size(); ++build) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A clip's figure with longer or shorter legs, arms and spine, and how it then goes. Knows clips alone.
+// Gives a clip's figure longer or shorter legs, arms and spine, and adapts its motion. Knows clips alone.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@
 namespace swivel::tools {
 
 // Factors of the bones' lengths. Legs are thighs and shins, arms upper arms and forearms; the spine leads from the hips
-// to all joints that hang on the chest. What else hangs on these bones lies along them. Speed is how many frames of its
-// clips the figure performs in one.
+// to all joints that hang on the chest. Other joints on these bones move along them. Speed is the number of the clip's
+// frames that the figure performs in one.
 struct Proportions {
     double legs = 1, arms = 1, spine = 1, speed = 1;
 
     bool operator==(const Proportions&) const = default;
 };
 
-// The parts without which it cannot be told which joints these factors are of, in VRM's words; empty: all are known.
+// The missing parts that these factors need, in VRM's words; empty: none.
 std::string unknown_part(const std::vector<BodyPart>& body, const Proportions& asked);
 
 // All frames of the clip by a figure of each build, one after the other. Joints turn as they did. The root goes as far

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The stands of a leg in a clip: where its foot is on the ground, and the frames between which it is not.
+// The stands of a leg in a clip: the frames in which its foot is on the ground.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a run of the command measured: distances as worst and root mean square, flags as counts, and where the worst and
-// the first of each are. Ties go to the earlier pose, so that threads in any order say the same.
+// The measurements of a run: distances as worst and root mean square, flags as counts, and the poses of the worst and
+// the first of each. Ties go to the earlier pose, so that threads in any order give the same.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace swivel::tools {
 
-// One limb in one frame, as a row of poses.csv names it.
+// One limb in one frame, named as in a row of poses.csv.
 struct PoseName {
     std::uint64_t frame = 0;
     std::uint32_t character = 0;
@@ -70,7 +70,7 @@ struct FlagStat {
 // may be clamped by rounding, and then misses by about 1e-7. A miss of 1e-4 is a tenth of a millimetre of a metre.
 constexpr double kLostDistance = 1e-4;
 
-// Of the limbs of one kind.
+// The statistics of one kind of limbs.
 struct LimbStatistics {
     ErrorStat reached;      // limb lengths, between wrist, ankle or effector and target, of limbs that reach it
     ErrorStat missed;       // the same, of the others
@@ -86,7 +86,7 @@ struct LimbStatistics {
     std::uint64_t unreached = 0, bad = 0;  // of them: out of reach, with bad input
     bool has_effector = false;             // a point of hand or foot goes to the target
 
-    // distance: in limb lengths, between what was to reach the target and the target.
+    // distance: in limb lengths, from the wrist, effector or ray to the target.
     void add_flags(std::uint32_t word, double distance, const PoseName& pose)
     {
         ++limb_count;
@@ -118,7 +118,8 @@ struct LimbStatistics {
     }
 };
 
-// Of heads that look. Each meets its target, has it behind or too near, turns no further, or is on its way there.
+// The statistics of looking heads. Each meets its target, has it behind or too near, can turn no further, or is on its
+// way.
 struct LookStatistics {
     std::uint64_t count = 0, met = 0, faded = 0, limited = 0;
 
@@ -156,7 +157,7 @@ struct Statistics {
     std::uint64_t bad() const { return arms.bad + legs.bad; }
 };
 
-// Whether most limbs are out of reach or have bad input: the run is then hardly what its user meant.
+// Whether most limbs are out of reach or have bad input, which its user hardly intended.
 inline bool went_wrong(const Statistics& statistics)
 {
     return 2 * (statistics.unreached() + statistics.bad()) > statistics.limb_count();

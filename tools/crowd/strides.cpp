@@ -64,8 +64,8 @@ struct Tread {
     double level_at(const Toe& toe) const { return level_at(toe.x, toe.z); }
 };
 
-// Whether no ground is steeper than 45 degrees below the middle of the ball of a foot, and around it; nor on the way
-// from there to the middle, where an edge may be.
+// Whether the ground below and around the ball of a foot is no steeper than 45 degrees, edges between the samples
+// included.
 bool is_tread(const Leg& leg, double x, double z, double ball)
 {
     constexpr double kAround[9][2] = {{0, 0}, {0.5, 0}, {-0.5, 0}, {0, 0.5}, {0, -0.5},
@@ -85,9 +85,8 @@ std::array<double, 2> ahead_of(const Leg& leg, const Toe& toe, std::uint32_t fra
     return length > 0 ? std::array{x / length, z / length} : std::array{1.0, 0.0};
 }
 
-// The foot stands below its toe, or if there is an edge, where none is: at the nearest place ahead or beside, because a
-// leg that is left behind is stretched already. If there is none within a foot's length, it stands below its toe all
-// the same.
+// The foot stands below its toe. At an edge it stands at the nearest place ahead or beside without one, because a leg
+// left behind is stretched already. Without such a place within a foot's length, it stands below its toe all the same.
 Tread tread_at(const Leg& leg, std::uint32_t frame)
 {
     constexpr int kRings = 16;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The ground of a foot whose clip walks on a level floor: one plane while it stands, and on its way from one stand to
-// the next a plane that rises and turns from that of the one to that of the other. So steps, curbs and gaps jerk
-// nothing. Only + - * /, floor and sqrt, so all CPUs agree.
+// The ground of a foot whose clip walks on a level floor: one plane while it stands, and in a swing a plane that goes
+// smoothly from one stand's to the next one's. So steps, curbs and gaps cause no jerks. Only + - * /, floor and sqrt,
+// so all CPUs agree.
 #pragma once
 
 #include <span>
@@ -25,8 +25,8 @@ struct Stride {
 Stride stride_at(const goal_plan& plan, const goal_source* sources, uint32_t frame, const goal_character& character,
                  const goal_ground& ground, const float* heights);
 
-// How high the ground is that a body hangs over: its lower foot's. A foot that has gone a share of its way counts as at
-// its next stand by that share, and else as at its last one; all cases count by the product of their shares. So a body
+// The height of the ground below a body: its lower foot's. A foot that has gone a share of its way counts by that share
+// at its next stand and else at its last one; each combination of feet counts by the product of their shares. So a body
 // rises while a foot swings, and not before the foot behind has left its step. strides: one or more.
 double body_level(std::span<const Stride> strides);
 

@@ -22,7 +22,7 @@ std::size_t frames_within(const LegMotion& motion, double seconds)
     return static_cast<std::size_t>(std::clamp(std::round(seconds / motion.frame_time), 1.0, max));
 }
 
-// Of each leg: the height that a fiftieth of its toe's frames are not above.
+// Each leg's floor: the 2nd percentile of its toe's heights.
 std::vector<double> floors_of(const LegMotion& motion)
 {
     std::vector<double> floors;
@@ -34,7 +34,7 @@ std::vector<double> floors_of(const LegMotion& motion)
     return floors;
 }
 
-// Of each leg: the frames in which its toe is low. One that is always held up is low in none.
+// The frames in which each leg's toe is low. A leg that is always held up has none.
 std::vector<std::vector<bool>> low_frames(const LegMotion& motion, const ContactBars& bars)
 {
     const std::vector<double> floors = floors_of(motion);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a clip has its legs in each of its frames. Knows clips and limbs.
+// The places of a clip's legs in all frames. Knows clips and limbs.
 #pragma once
 
 #include <span>
@@ -35,14 +35,14 @@ struct LegMotion {
     Eigen::Vector3d level(const Eigen::Vector3d& v) const { return v - v.dot(up_w) * up_w; }
 };
 
-// The largest second difference of places from frame to frame: how much a velocity jumps, times the frame's time.
+// The largest second difference of places from frame to frame: the jump of velocity times the frame's time.
 double largest_jump(std::span<const Eigen::Vector3d> places_w);
 
 // The joint that a foot stands on: the first of toes_of(). Without one it is the ankle.
 int toe_of(const formats::Clip& clip, const Limb& leg);
 
-// The lowest joint above all limbs that are known, with all that lies between. Where no keys say its place, it is
-// the lowest above it that has keys of its place, if there is one.
+// The lowest joint above all known limbs. If it has no keys of translation, the lowest joint above it that has some, if
+// there is one.
 int carrier_of(const formats::Clip& clip, const FigureJoints& figure);
 
 // legs: bound limbs of the clip. up_w: of the figure; the world's axis nearest to it counts.

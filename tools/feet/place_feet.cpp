@@ -26,7 +26,7 @@ constexpr double kJumpShare = 0.995;    // of the clip's largest jump: a weight 
 constexpr int kMaxRounds = 30;
 constexpr double kSettled = 1e-5;  // leg lengths
 
-// A place or a difference of places: a sum of unknowns, three numbers each, and of what is known.
+// A place or a difference of places: a sum of unknowns, three numbers each, and a known part.
 struct Sum {
     std::array<int, 3> unknown{};
     std::array<double, 3> factor{};
@@ -56,14 +56,14 @@ Sum second_difference(const std::vector<Sum>& sums, std::size_t frame)
     return Sum().add(sums[frame - 1], 1).add(sums[frame], -2).add(sums[frame + 1], 1);
 }
 
-// A sum of squares: its matrix, of which the lower half counts, and its right side.
+// A sum of squares: its matrix, whose lower half counts, and its right side.
 struct Squares {
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd right;
 
     explicit Squares(int unknown_count) : right(VectorXd::Zero(3 * unknown_count)) {}
 
-    // Along a direction the sum shall be that.
+    // Asks for this value of the sum along a direction.
     void want(const Sum& sum, const Vector3d& direction, double value, double weight)
     {
         const double rest = value - direction.dot(sum.known);
@@ -92,11 +92,11 @@ struct Squares {
     }
 };
 
-// A contact's toe: its unknown, how far over the ground it stands, and where it goes if an edge is below its sole.
+// A contact's toe: its unknown, its height over the ground, and its new place if an edge is below its sole.
 struct Stand {
     Sum toe;
     double height;
-    std::optional<Vector3d> tread_w;  // none: nowhere near can it stand
+    std::optional<Vector3d> tread_w;  // none: it can stand nowhere near
     bool is_at_edge;                  // so it goes to this tread
     Contact frames;
 };

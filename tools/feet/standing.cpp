@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// How much lower the body hangs than in the clip, in leg lengths: so that a leg that the clip has almost straight
-// reaches down a slope. And how straight legs may get: swivel.h, SWIVEL_CAP.
+// How much lower the body hangs than in the clip, in leg lengths, so that an almost straight leg of the clip reaches
+// down a slope; and how straight legs may get: swivel.h, SWIVEL_CAP.
 constexpr double kLower = 0.03;
 constexpr FixedField kCap{SWIVEL_CAP, {0.01f, 0.99f, 0}};
 
@@ -48,7 +48,7 @@ std::size_t frame_of(const ClipPart& part, std::size_t frame)
     return static_cast<std::size_t>(std::lround(static_cast<double>(frame % part.starts) * part.pace));
 }
 
-// What the file's own table says of one clip.
+// The contacts of one clip from the file's own table.
 Contacts read_contacts(const formats::CrowdFile& file, std::span<const LegPath> legs, const ClipPart& part,
                        const FramesInFile& frames)
 {
@@ -92,73 +92,99 @@ Vector3d toe_in_ankle(const formats::Clip& clip, const Limb& leg, const LegPath&
     return pose_w[static_cast<std::size_t>(leg.end())].rotation.conjugate() * (path.toe_w[0] - path.ankle_w[0]);
 }
 
+[[noreturn]] void refuse(const formats::CrowdFile& file, std::string_view cause)
+{
+    throw formats::InputError(file.path, file.ground->line, fmt::format("ground: {}", cause));
+}
+
+// The solved legs. Refuses a crowd that cannot stand.
+std::vector<Limb> legs_that_stand(const formats::CrowdFile& file, const formats::Clip& clip,
+                                  std::span<const Limb> limbs, const FigureAxes& figure, const CrowdPlan& plan)
+{
+    std::vector<Limb> legs;
+    for (const Limb& limb : limbs)
+        if (limb.name.kind == formats::LimbKind::leg) legs.push_back(limb);
+    if (legs.empty()) refuse(file, "no leg is solved; write crowd.limbs = \"all\", or give --limbs all");
+    if (plan.budget_blocks > 0) refuse(file, "feet that stand are solved in every frame; take this or [budget] out");
+    if (clip.frame_time == 0) refuse(file, "the clip's keys lie at uneven times; give --fps");
+    if (nearest_axis(figure.up_w) != Vector3d::UnitY())
+        refuse(file, "the figure does not stand along Y; turn the clip, or take this out");
+    return legs;
+}
+
+// The legs in the first clip, and their contacts in all clips.
+struct LegsInClips {
+    LegMotion motion;
+    Contacts contacts;
+};
+// Clips are treated one by one, because there is no motion from one's end to another's start.
+LegsInClips legs_in_clips(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> legs,
+                          std::span<const ClipPart> parts, const FigureAxes& figure, const FramesInFile& frames)
+{
+    const auto& own = file.ground->contacts;
+    if (own && !file.clips.empty())
+        throw formats::InputError(file.path, own->line,
+                                  fmt::format("{}: is of one clip; take this or crowd.clips out", own->key));
+    LegsInClips in_clips{{}, Contacts(legs.size())};
+    for (const ClipPart& part : parts) {
+        std::optional<formats::Clip> alone;
+        if (parts.size() > 1) alone = frames_of(clip, part);
+        LegMotion motion = leg_motion(alone ? *alone : clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
+        const ContactBars bars;
+        if (const auto slide = slide_of(motion, bars); slide && !slide->with_body)
+            refuse(file, fmt::format("the clip{} walks in place, so its feet slide; move its root first",
+                                     part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
+        const Contacts found = own ? read_contacts(file, motion.legs, part, frames) : find_contacts(motion, bars);
+        for (std::size_t n = 0; n < legs.size(); ++n)
+            in_clips.contacts[n].insert(in_clips.contacts[n].end(), found[n].begin(), found[n].end());
+        if (part.first == 0) in_clips.motion = std::move(motion);
+    }
+    const auto is_ever = [](const std::vector<bool>& down) { return std::ranges::find(down, true) != down.end(); };
+    if (std::ranges::none_of(in_clips.contacts, is_ever))
+        refuse(file, fmt::format("the clip never has a foot on the ground, by {}; take another clip, or take this out",
+                                 own ? own->key : "the rule of swivel feet"));
+    return in_clips;
+}
+
+// Makes a leg stand on its toe, unless the file gives it an effector, at the heights that the clip has over its floor.
+void plan_leg(const formats::Clip& clip, const Limb& leg, const LegPath& path, const std::vector<bool>& contact,
+              double floor, LimbPlan& plan)
+{
+    if (!plan.has(SWIVEL_WITH_EFFECTOR)) {
+        plan.effector = toe_in_ankle(clip, leg, path);
+        FixedField effector{SWIVEL_EFFECTOR, {}};
+        std::ranges::copy(plan.effector.cast<float>(), effector.value.begin());
+        plan.fields.push_back(effector);
+    }
+    plan.features |= SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP |
+                     SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS;
+    plan.fields.push_back(kCap);
+    plan.contact = contact;
+    const auto clearance = [&](const Vector3d& point, double share) {
+        const std::optional<double> height = height_down(clip, leg.end(), point, contact, share);
+        return height ? static_cast<float>(std::max(0.0, *height - floor)) : 0;
+    };
+    plan.ground.toe_clearance = clearance(plan.effector, 0.5);
+    plan.ground.heel_clearance = clearance(Vector3d::Zero(), 0.02);
+}
+
 }  // namespace
 
 void stand_on_ground(const formats::CrowdFile& file, const formats::Clip& clip, std::span<const Limb> limbs,
                      const FigureAxes& figure, const FramesInFile& frames, CrowdPlan& plan)
 {
-    const auto refuse = [&](std::string_view cause) {
-        throw formats::InputError(file.path, file.ground->line, fmt::format("ground: {}", cause));
-    };
-    std::vector<Limb> legs;
-    for (const Limb& limb : limbs)
-        if (limb.name.kind == formats::LimbKind::leg) legs.push_back(limb);
-    if (legs.empty()) refuse("no leg is solved; write crowd.limbs = \"all\", or give --limbs all");
-    if (plan.budget_blocks > 0) refuse("feet that stand are solved in every frame; take this or [budget] out");
-    if (clip.frame_time == 0) refuse("the clip's keys lie at uneven times; give --fps");
-    if (nearest_axis(figure.up_w) != Vector3d::UnitY())
-        refuse("the figure does not stand along Y; turn the clip, or take this out");
-    // Of clips one by one: from the end of one to the start of another is no motion.
+    const std::vector<Limb> legs = legs_that_stand(file, clip, limbs, figure, plan);
     std::vector<ClipPart> parts = plan.clips;
     if (parts.empty()) parts = {{0, clip.frame_count, clip.frame_count}};
     plan.foot.y() = floor_of(clip, parts[0].count);  // all others are put on the same floor
-    const auto& own = file.ground->contacts;
-    if (own && !file.clips.empty())
-        throw formats::InputError(file.path, own->line,
-                                  fmt::format("{}: is of one clip; take this or crowd.clips out", own->key));
-    LegMotion motion;  // of the first clip
-    Contacts contacts(legs.size());
-    for (const ClipPart& part : parts) {
-        std::optional<formats::Clip> alone;
-        if (parts.size() > 1) alone = frames_of(clip, part);
-        LegMotion of_part = leg_motion(alone ? *alone : clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
-        const ContactBars bars;
-        if (const auto slide = slide_of(of_part, bars); slide && !slide->with_body)
-            refuse(fmt::format("the clip{} walks in place, so its feet slide; move its root first",
-                               part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
-        const Contacts found = own ? read_contacts(file, of_part.legs, part, frames) : find_contacts(of_part, bars);
-        for (std::size_t n = 0; n < legs.size(); ++n)
-            contacts[n].insert(contacts[n].end(), found[n].begin(), found[n].end());
-        if (part.first == 0) motion = std::move(of_part);
-    }
-    const auto is_ever = [](const std::vector<bool>& down) { return std::ranges::find(down, true) != down.end(); };
-    if (std::ranges::none_of(contacts, is_ever))
-        refuse(fmt::format("the clip never has a foot on the ground, by {}; take another clip, or take this out",
-                           own ? own->key : "the rule of swivel feet"));
+    const LegsInClips in_clips = legs_in_clips(file, clip, legs, parts, figure, frames);
     std::size_t leg = 0;
     for (std::size_t n = 0; n < limbs.size(); ++n) {
         if (limbs[n].name.kind != formats::LimbKind::leg) continue;
-        const LegPath& path = motion.legs[leg];
-        const std::vector<bool>& contact = contacts[leg++];
-        LimbPlan& to = plan.limbs[n];
-        if (!to.has(SWIVEL_WITH_EFFECTOR)) {
-            to.effector = toe_in_ankle(clip, limbs[n], path);
-            FixedField effector{SWIVEL_EFFECTOR, {}};
-            std::ranges::copy(to.effector.cast<float>(), effector.value.begin());
-            to.fields.push_back(effector);
-        }
-        to.features |= SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT | SWIVEL_WITH_GROUND | SWIVEL_WITH_CAP |
-                       SWIVEL_WITH_PELVIS_FIT | SWIVEL_HAND_YIELDS;
-        to.fields.push_back(kCap);
-        to.contact = contact;
-        const auto clearance = [&](const Vector3d& point, double share) {
-            const std::optional<double> height = height_down(clip, limbs[n].end(), point, contact, share);
-            return height ? static_cast<float>(std::max(0.0, *height - plan.foot.y())) : 0;
-        };
-        to.ground.toe_clearance = clearance(to.effector, 0.5);
-        to.ground.heel_clearance = clearance(Vector3d::Zero(), 0.02);
+        plan_leg(clip, limbs[n], in_clips.motion.legs[leg], in_clips.contacts[leg], plan.foot.y(), plan.limbs[n]);
+        ++leg;
     }
-    plan.shift_wish = -kLower * motion.leg_length();
+    plan.shift_wish = -kLower * in_clips.motion.leg_length();
     plan.ground = read_ground(file, plan.foot.y());
 }
 

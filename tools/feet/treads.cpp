@@ -53,10 +53,10 @@ Anchor anchor_at(const LegMotion& motion, const LegPath& path, const Contact& fr
     return {frames.first, frames.end, tread_w - toe_w + floor.hill(tread_w) * floor.up_w, floor.normal_w(tread_w)};
 }
 
-// In the air between two anchors: evenly from one to the other. And over what lies between, by an arc that is as high
-// as the toe needs so as not to be deeper in the ground than in the clip. Where the arc is lower than kLowArc of its
-// height, in the first and last sevenths of the swing, it does not rise for that: the whole foot would fly up for a
-// ridge that it just leaves. What it lacks there is left to place_feet().
+// In the air the toe goes evenly from one anchor to the other, and over the ground between by an arc, just high enough
+// that it is no deeper in the ground than in the clip. Where the arc is lower than kLowArc of its height, in the first
+// and last sevenths of the swing, it does not rise for that: the whole foot would fly up for a ridge that it just
+// leaves. What it lacks there is left to place_feet().
 void add_swing(const LegMotion& motion, const LegPath& path, const Anchor& from, const Anchor& next, const Floor& floor,
                LegLift& lift)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How hills lift the feet and the body of a clip of level ground. A foot rises and turns from where it leaves the
-// ground to where it lands, over what lies between, and the body rises with the mean of its feet. So edges between jerk
-// nothing.
+// Lifts the feet and the body of a clip of level ground onto hills. A foot rises and turns evenly from where it leaves
+// the ground to where it lands, over any edge between, and the body rises with the mean of its feet. So edges cause no
+// jerks.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace swivel::tools {
 
-// A leg's toe in each frame: where it is moved, and which way is across the ground that it stands on or goes to.
+// A leg's toe in each frame: its move, and the normal of the ground that it stands on or goes to.
 struct LegLift {
     std::vector<Eigen::Vector3d> move_w;  // up with the ground, and aside from edges
     std::vector<Eigen::Vector3d> normal_w;

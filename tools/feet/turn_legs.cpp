@@ -67,7 +67,7 @@ struct Skeleton {
     }
 };
 
-// All frames of a clip, each a pose from its own origin: where this root is. So floats are fine wherever the clip goes.
+// All frames of a clip as poses, each relative to its own root's place, so that floats suffice wherever the clip goes.
 struct Poses {
     std::size_t joint_count;
     std::vector<std::array<float, 4>> rotations;  // [frame * joints + joint]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A clip's body moved and its legs turned so that its feet are where they were placed. The library solves the legs, as
-// bodies: each frame is one. Knows clips, limbs and the public interface.
+// Moves a clip's body and turns its legs to bring its feet to their places. The library solves the legs as bodies, one
+// for each frame. Knows clips, limbs and the public interface.
 #pragma once
 
 #include "tools/feet/place_feet.h"
@@ -20,7 +20,7 @@ struct TurnedJoint {
 std::vector<TurnedJoint> turn_legs(const formats::Clip& clip, std::span<const Limb> legs, const LegMotion& motion,
                                    const PlacedFeet& placed, const std::filesystem::path& file);
 
-// The clip with these.
+// The clip with these values.
 formats::Clip with_joints(formats::Clip clip, std::span<const TurnedJoint> joints);
 
 // Turns toes up where their tips would be in the ground: a foot that pushes off then stands on its toes, also in a clip

@@ -20,7 +20,7 @@ namespace {
 constexpr double kMaxDegrees = 1e9;                      // of which a double's last digit is 1e-7 degrees
 constexpr std::size_t kMaxPoses = std::size_t{1} << 28;  // frames times joints: 8 GiB of quaternions
 
-// Returns how many frames are announced.
+// Returns the announced number of frames.
 std::size_t read_motion_header(Scanner& scan, BvhFile& file)
 {
     if (file.channel_count == 0) fail(scan, "no joint has CHANNELS, so there is no motion to read");
@@ -43,7 +43,7 @@ std::size_t read_motion_header(Scanner& scan, BvhFile& file)
     return static_cast<std::size_t>(*count);
 }
 
-// Makes room for as many frames as the rest of the text can hold, whatever the file announces: a value takes two bytes.
+// Makes room for the frames that the rest of the text can hold, at two bytes a value, whatever the file announces.
 void reserve_frames(const Scanner& scan, BvhFile& file, std::size_t announced)
 {
     Clip& clip = file.clip;
@@ -58,7 +58,7 @@ void reserve_frames(const Scanner& scan, BvhFile& file, std::size_t announced)
     clip.translation.reserve(frame_count * clip.track_count);
 }
 
-// What a channel of a frame's line is.
+// A channel of a frame's line.
 struct NamedChannel {
     std::string name;
     bool is_position;
@@ -76,8 +76,7 @@ NamedChannel named_channel(const BvhFile& file, std::size_t channel)
         is_position(kind)};
 }
 
-// A number that is too large to say where a limb is: an angle that a double does not resolve, a place that the engine
-// does not hold.
+// Refuses a number that is too large: an angle that a double does not resolve, or a place beyond the engine's range.
 void require_held(const Scanner& scan, const BvhFile& file, std::size_t channel, double number)
 {
     if (std::abs(number) <= kMaxDegrees) return;

@@ -7,8 +7,8 @@
 //   assimp read it. An old note on the format adds the two at the root. In files in use, the offset there is zero, or
 //   it repeats the first frame's position.
 // - One frame is one line, as the format says. A line with another number of values is refused, because wrapped lines
-//   look like lost values. Blank lines are skipped. Lines beyond those that "Frames:" announces are checked and left
-//   out, as other readers do. Some exporters count the steps between frames.
+//   look like lost values. Blank lines are skipped. Lines beyond the count after "Frames:" are checked and left out, as
+//   other readers do, because some exporters count the steps between frames.
 // - Keywords may be in any case, and lines may end in LF or CRLF. Names may repeat and hold anything but braces. There
 //   may be several ROOTs, and joints without CHANNELS.
 
@@ -57,26 +57,25 @@ struct BvhFile {
 
 // Reads and checks a whole file. Throws InputError with the line for anything malformed, a number that is not finite, a
 // wrong count of values or frames, more than 1,000 joints inside each other, or poses beyond 8 GiB.
-// Holds the text once, and 32 bytes a frame and joint; the count a file announces allocates nothing by itself.
+// Holds the text once, and 32 bytes a frame and joint. The announced count of frames allocates nothing.
 BvhFile read_bvh(const std::filesystem::path& path);
 
-// The same of a text that is in memory already. path: what messages call it.
+// The same for a text in memory. path: its name in messages.
 BvhFile bvh_of(const std::filesystem::path& path, std::string text);
 
-// Whether a text starts as BVH files do.
+// Whether a text starts like a BVH file.
 bool is_bvh_text(std::string_view text);
 
 // Throws InputError, as write_bvh() does, for a joint that cannot take new rotations.
 void require_can_key(const BvhFile& file, int joint);
 
 // Writes `file` with the channels of these keys replaced; all other text is copied byte for byte, so without keys the
-// copy is identical. With new frames the hierarchy alone is copied, and all other channels rest: angles are 0,
-// positions the OFFSET. Numbers have nine decimals, which give a rotation back to better than 1e-9 rad. Keys are
-// continuous: each angle triple is the one nearest to the frame before, the first to the file's own, or to 0 in new
-// frames. path: may be the file that was read. It appears whole or not at all (see OutputFile). Throws InputError when
-// a joint with new rotations lacks three rotation channels about three different axes, one with new translations a
-// position channel of each axis, or on writing. Throws std::invalid_argument as require_keys() does. Allocates a few
-// bytes a channel.
+// copy is identical. With new frames only the hierarchy is copied, and all other channels rest: angles are 0, positions
+// the OFFSET. Numbers have nine decimals, which keep rotations within 1e-9 rad. Angles are continuous: each triple is
+// the one nearest to the frame before, the first to the file's own, or to 0 in new frames. path: may be the file that
+// was read. It appears whole or not at all (see OutputFile). Throws InputError when a joint with new rotations lacks
+// three rotation channels about three different axes, one with new translations a position channel of each axis, or on
+// writing. Throws std::invalid_argument as require_keys() does. Allocates a few bytes a channel.
 void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
                const std::optional<NewFrames>& frames = {});
 

@@ -94,7 +94,7 @@ void open_joint(Scanner& scan, BvhFile& file, std::vector<OpenJoint>& open)
     expect(scan, "{");
 }
 
-// An end site is a point to draw to; no joint comes of it.
+// An end site is a point to draw to, and no joint.
 Eigen::Vector3d read_end_site(Scanner& scan)
 {
     rest_of_line(scan);

@@ -1,7 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A walk through a BVH file's text, word by word, that knows the line it is in, and its first half. Private to the
-// reader.
+// Reads a BVH file's text word by word and counts lines; reads the HIERARCHY. Private to the reader.
 
 #include <cstddef>
 #include <filesystem>
@@ -21,7 +20,7 @@ struct Scanner {
 // The next word, brace, or label with its colon; empty at the end of the file.
 std::string_view next_token(Scanner& scan);
 
-// What is left of the line, up to a brace, without blanks at the ends.
+// The rest of the line, up to a brace, without blanks at the ends.
 std::string_view rest_of_line(Scanner& scan);
 
 // Goes on to byte `place`, counting lines. The end of the file counts as part of its last line.
@@ -33,7 +32,7 @@ void expect(Scanner& scan, std::string_view word);
 // Throws InputError for the current line.
 [[noreturn]] void fail(const Scanner& scan, std::string_view cause);
 
-// The same, saying that `found` stands where `wanted` should; nothing found means the file has ended.
+// The same, saying that `found` stands in place of `wanted`. Empty `found`: the file has ended.
 [[noreturn]] void fail_expected(const Scanner& scan, std::string_view wanted, std::string_view found);
 
 // Reads from HIERARCHY through the word MOTION into the joints of `file` and of its clip, and counts the channels.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kKept = -1;
 
-// One joint's keys on their way into the text.
+// One joint's keys, to be written into the text.
 struct Track {
     const JointKeys& keys;
     EulerAxes axes{};
@@ -129,7 +129,8 @@ void write_value(OutputFile& out, double value)
     out.write(fmt::format("{:.9f}", shown));
 }
 
-// Writes the text from `done` through the last new value of the frame at `begin`; what lies between is copied.
+// Writes the text from `done` through the last new value of the frame at `begin`, and copies the text between new
+// values.
 std::size_t write_frame(OutputFile& out, std::string_view text, std::size_t begin, std::size_t done, Plan& plan)
 {
     std::string_view rest = text.substr(begin);

@@ -31,7 +31,7 @@ bool has_path(const Clip& clip, int joint, std::string_view path)
     return path.empty();
 }
 
-// Turns what `next` gives for each joint, its pose against its parent, into poses in the world.
+// Chains the poses that `next` gives for each joint, against its parent, to poses in the world.
 template <class Next>
 void chain_up(const Clip& clip, std::span<JointPose> pose_w, const Next& next)
 {

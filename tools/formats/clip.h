@@ -15,7 +15,7 @@
 
 namespace swivel::formats {
 
-// What a file has a joint without keys at.
+// A joint's pose in its file, where it has no keys.
 struct UnkeyedPose {
     Eigen::Vector3d offset;
     Eigen::Quaterniond rotation;
@@ -29,19 +29,19 @@ struct Joint {
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     Eigen::Quaterniond rest_rotation = Eigen::Quaterniond::Identity();  // unit
     Eigen::Vector3d rest_scale = Eigen::Vector3d::Ones();               // may be negative: a mirror
-    std::optional<UnkeyedPose> unkeyed{};  // where the rest pose above is not the file's but was taken from a frame
-    bool is_sheared = false;               // the file's matrix is more than these three say
+    std::optional<UnkeyedPose> unkeyed{};  // set if the rest pose above was taken from a frame instead of the file
+    bool is_sheared = false;               // the file's matrix has shear, which these three lack
     int track = -1;                        // column in Clip::translation; -1: the joint never leaves its offset
     int scale_track = -1;                  // column in Clip::scale; -1: always rest_scale
     std::optional<Eigen::Vector3d> end{};  // BVH's End Site, as an offset: where the joint's bone ends
-    int number = -1;      // what the file calls it besides its name, "#12": its place in the file's own list
-    bool is_bone = true;  // false: the file says which nodes are joints of a skin, and this is none
+    int number = -1;                       // its place in the file's own list, written "#12"
+    bool is_bone = true;                   // false: the file says which nodes are joints of a skin, and this is none
 };
 
 struct Clip {
     std::vector<Joint> joints;
-    std::map<std::string, int> human_bones;  // what the file itself says of joints, by VRM's names: "leftUpperArm";
-                                             // empty: it says nothing
+    std::map<std::string, int> human_bones;  // joints that the file itself names, by VRM's names: "leftUpperArm";
+                                             // empty: none
     double frame_time = 0;                   // seconds between frames; 0: frames lie at uneven times
     std::size_t frame_count = 0;
     std::size_t track_count = 0;               // joints that move against their parent; often the root alone
@@ -51,10 +51,10 @@ struct Clip {
     std::vector<Eigen::Vector3d> scale;        // takes the place of rest_scale; [frame * scale_track_count + track]
 };
 
-// joint: 0 to joints.size()-1, as parents and find_joints() count; the caller answers for it.
+// joint: 0 to joints.size()-1, as parents and find_joints() count; unchecked.
 inline const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
 
-// Where a joint is in the file if it has no keys.
+// A joint's pose in the file if it has no keys.
 inline UnkeyedPose pose_without_keys(const Joint& joint)
 {
     return joint.unkeyed ? *joint.unkeyed : UnkeyedPose{joint.offset, joint.rest_rotation, joint.rest_scale};
@@ -63,8 +63,8 @@ inline UnkeyedPose pose_without_keys(const Joint& joint)
 // A joint's name for a message: one line, not too long.
 std::string printable_name(const Joint& joint);
 
-// Where a joint is in another space, mostly the world: x_w = position + scale * (rotation * x), with x mirrored in its
-// own x before that if `mirrored`. So a rotation stays a rotation below a mirror.
+// A joint's pose in another space, mostly the world: x_w = position + scale * (rotation * x), where x is first mirrored
+// in its own x if `mirrored`. So a rotation stays a rotation below a mirror.
 struct JointPose {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
@@ -75,36 +75,38 @@ struct JointPose {
     double unevenness = 0;
 };
 
-// Where a joint of a pose is. joint: 0 to pose.size()-1; the caller answers for it.
+// The position of a joint in a pose. joint: 0 to pose.size()-1; unchecked.
 inline const Eigen::Vector3d& position_of(std::span<const JointPose> pose, int joint)
 {
     return pose[static_cast<std::size_t>(joint)].position;
 }
 
-// v with its x turned over, and the same turn seen in that mirror.
+// v, or a rotation, mirrored in x.
 Eigen::Vector3d mirrored(const Eigen::Vector3d& v);
 Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q);
 
-// A joint's own pose against its parent, from what files store.
+// A joint's pose against its parent, from translation, rotation and scale.
 JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotation,
                      const Eigen::Vector3d& scale);
 
-// `inner`, given in the space of `outer`, in the space that `outer` is given in.
+// `inner`, a pose in the space of `outer`, in the space around `outer`.
 JointPose operator*(const JointPose& outer, const JointPose& inner);
 
-// A point given in the pose's space, in the space the pose is given in; and back (scale not 0).
+// Brings a point from the pose's space to the space around it.
 Eigen::Vector3d to_outer(const JointPose& pose, const Eigen::Vector3d& point);
+// Brings a point from the space around the pose to its own. The scale must not be 0.
 Eigen::Vector3d to_inner(const JointPose& pose, const Eigen::Vector3d& point);
 
 // A joint's translation against its parent in one frame: its track where it has one, else its offset.
-// joint: 0 to joints.size()-1; frame: 0 to frame_count-1; here and below the caller answers for them.
+// joint: 0 to joints.size()-1; frame: 0 to frame_count-1; unchecked, here and below.
 Eigen::Vector3d local_translation(const Clip& clip, std::size_t frame, std::size_t joint);
 
-// The whole of it: translation, rotation and scale; and the same at rest.
+// A joint's whole pose against its parent: translation, rotation and scale.
 JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint);
+// The same at rest.
 JointPose local_rest_pose(const Joint& joint);
 
-// Keeps the first frames alone; frame_count: at most the clip's.
+// Drops all but the first frames. frame_count: at most the clip's.
 void keep_frames(Clip& clip, std::size_t frame_count);
 
 // Forward kinematics: every joint of one frame in world space, in double.
@@ -118,8 +120,8 @@ std::vector<JointPose> world_pose(const Clip& clip, std::size_t frame);
 // Every joint in world space in the rest pose.
 std::vector<JointPose> rest_pose(const Clip& clip);
 
-// All joints of this name, of this path or, written "#12", of this number, in the clip's order; none, or several where
-// names repeat: the caller decides.
+// All joints with this name, path or number ("#12"), in the clip's order. There may be several, because names may
+// repeat.
 std::vector<int> find_joints(const Clip& clip, std::string_view name_or_path);
 
 // The direct children of a joint, in the clip's order; of -1, the roots. Looks at every joint.

@@ -1,9 +1,9 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The table of contacts: from which frame on a limb stands, and from which on it does not. The first line is
-// frame,limb,contact. Each other one has a frame, counted from 0; left_arm, right_arm, left_leg or right_leg; on or
-// off. Blank lines and lines starting with # are skipped. Whether a frame or a limb exists is the caller's question;
-// `line` lets its answer name the place.
+// The table of contacts: the frames at which a limb begins or ends to stand. The first line is frame,limb,contact. Each
+// other line has a frame, counted from 0; left_arm, right_arm, left_leg or right_leg; on or off. Blank lines and lines
+// starting with # are skipped. The caller checks whether a frame or a limb exists; `line` lets its message name the
+// place.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +21,7 @@ struct ContactRow {
     std::size_t line = 0;  // of the file, for messages
 };
 
-// All rows, sorted by frame. Throws InputError that names the line, for
+// Reads all rows, sorted by frame. Throws InputError that names the line, for
 // - another first line;
 // - a cell that is missing, too many or none of the above;
 // - a second row for a limb and frame.

@@ -23,7 +23,7 @@ bool speaks_of_both_sides(std::string_view selector)
     return selector == "all" || selector == "arms" || selector == "legs";
 }
 
-// A value under another type.
+// A value converted to another type.
 template <class To, class From, class Make>
 Maybe<To> converted(const Maybe<From>& from, Make make)
 {
@@ -41,7 +41,7 @@ Maybe<T> given_by(const TomlTable& table, T value)
 
 Maybe<NumberRange> angles(TomlTable& table, std::string_view key) { return table.range(key, -360, 360, 360); }
 
-// Of a key that its table, all read, cannot do without.
+// The value of a required key. Call it when all keys of the table are read.
 template <class T>
 T needed(const TomlTable& table, std::string_view key, const Maybe<T>& value)
 {
@@ -49,7 +49,7 @@ T needed(const TomlTable& table, std::string_view key, const Maybe<T>& value)
     return value ? value->value : T{};
 }
 
-const Eigen::Vector3d kAlong = {0, 0, 1};  // the resting limb
+const Eigen::Vector3d kAlong = {0, 0, 1};  // along the resting limb
 
 Maybe<ConeLimit> read_cone(TomlTable table, double min = 0, double max = 180)
 {
@@ -90,7 +90,7 @@ Maybe<BoxLimit> read_box(TomlTable table)
     return given_by(table, box);
 }
 
-// Those of a region are neither a point nor all directions.
+// Cones of a region are neither a point nor all directions.
 std::vector<ConeLimit> read_cones(const std::vector<TomlTable>& tables)
 {
     std::vector<ConeLimit> cones;
@@ -125,38 +125,38 @@ Maybe<RegionLimit> read_region(TomlTable table)
     return given_by(table, std::move(region));
 }
 
-void read_pole(TomlTable table, LimbSettings& to)
+void read_pole(TomlTable table, LimbSettings& settings)
 {
-    to.pole_kind =
+    settings.pole_kind =
         converted<PoleKind>(table.word("kind", kPoleKinds), [](std::size_t n) { return static_cast<PoleKind>(n); });
-    to.pole_fixed = table.vector("fixed");
-    to.pole_angle_deg = table.number("angle_deg", -360, 360);
+    settings.pole_fixed = table.vector("fixed");
+    settings.pole_angle_deg = table.number("angle_deg", -360, 360);
     table.finish();
 }
 
-void read_weights(TomlTable table, LimbSettings& to)
+void read_weights(TomlTable table, LimbSettings& settings)
 {
     constexpr std::array keys{"position", "hand", "pole"};
-    for (std::size_t n = 0; n < keys.size(); ++n) to.weights[n] = table.number(keys[n], 0, 1);
+    for (std::size_t n = 0; n < keys.size(); ++n) settings.weights[n] = table.number(keys[n], 0, 1);
     table.finish();
 }
 
-void read_reach(TomlTable table, LimbSettings& to)
+void read_reach(TomlTable table, LimbSettings& settings)
 {
     for (std::size_t n = 0; n < kReachKeys.size(); ++n) {
         const bool is_stretch = kReachKeys[n] == "max_stretch";
-        to.reach[n] = table.number(kReachKeys[n], is_stretch ? 1 : 0, is_stretch ? 1000 : 1);
+        settings.reach[n] = table.number(kReachKeys[n], is_stretch ? 1 : 0, is_stretch ? 1000 : 1);
     }
     table.finish();
 }
 
-void read_swivel(TomlTable table, LimbSettings& to)
+void read_swivel(TomlTable table, LimbSettings& settings)
 {
-    to.step_deg_per_frame = table.number("max_deg_per_frame", 0, 180);
-    to.step_deg_per_second = table.number("max_deg_per_second", 0, 1e6);
-    if (to.step_deg_per_frame && to.step_deg_per_second)
+    settings.step_deg_per_frame = table.number("max_deg_per_frame", 0, 180);
+    settings.step_deg_per_second = table.number("max_deg_per_second", 0, 1e6);
+    if (settings.step_deg_per_frame && settings.step_deg_per_second)
         table.fail("max_deg_per_second", "max_deg_per_frame is given, too; keep one of them");
-    to.step_wins = table.flag("step_wins");
+    settings.step_wins = table.flag("step_wins");
     table.finish();
 }
 
@@ -171,43 +171,43 @@ Maybe<Limit> read_limit(TomlTable& limits, std::string_view key)
     return as_limit(key == "flexion_deg" ? limits.range(key, 0, 180, 180) : angles(limits, key));
 }
 
-void read_limits(TomlTable table, LimbSettings& to)
+void read_limits(TomlTable table, LimbSettings& settings)
 {
-    for (std::size_t n = 0; n < kLimitKeys.size(); ++n) to.limits[n] = read_limit(table, kLimitKeys[n]);
-    to.region = read_region(table.table("region"));
+    for (std::size_t n = 0; n < kLimitKeys.size(); ++n) settings.limits[n] = read_limit(table, kLimitKeys[n]);
+    settings.region = read_region(table.table("region"));
     table.finish();
 }
 
 LimbSettings read_limb(TomlTable table, bool is_one)
 {
-    LimbSettings to;
+    LimbSettings settings;
     if (is_one) {  // others speak of several limbs, which do not share joints, and do not all hold one hand
-        to.joints = table.texts("joints", 3);
-        to.bend = table.axis("bend");
-        to.hold = converted<LimbName>(table.word("hold", std::span(kSelectors).last(kLimbNames.size())),
-                                      [](std::size_t n) { return kLimbNames[n]; });
+        settings.joints = table.texts("joints", 3);
+        settings.bend = table.axis("bend");
+        settings.hold = converted<LimbName>(table.word("hold", std::span(kSelectors).last(kLimbNames.size())),
+                                            [](std::size_t n) { return kLimbNames[n]; });
     }
     for (const char* const key : {"joints", "bend", "hold"})
         if (!is_one && table.has(key))
             table.fail(key, "is of one limb; write it in that one's table, such as [limb.left_arm]");
     TomlTable target = table.table("target");
-    to.target_point = target.vector("point");
-    to.target_offset = target.vector("offset");
+    settings.target_point = target.vector("point");
+    settings.target_offset = target.vector("offset");
     target.finish();
-    to.hand = table.flag("hand");
-    to.effector = table.vector("effector");
-    to.aim = read_aim(table.table("aim"));
+    settings.hand = table.flag("hand");
+    settings.effector = table.vector("effector");
+    settings.aim = read_aim(table.table("aim"));
     TomlTable clavicle = table.table("clavicle");
-    to.clavicle_share = clavicle.number("share", 0, 1);
+    settings.clavicle_share = clavicle.number("share", 0, 1);
     clavicle.finish();
-    read_pole(table.table("pole"), to);
-    read_weights(table.table("weights"), to);
-    read_reach(table.table("reach"), to);
-    read_swivel(table.table("swivel"), to);
-    read_limits(table.table("limits"), to);
-    to.twist_bones = table.whole("twist_bones", 0, kMaxTwistBones);
+    read_pole(table.table("pole"), settings);
+    read_weights(table.table("weights"), settings);
+    read_reach(table.table("reach"), settings);
+    read_swivel(table.table("swivel"), settings);
+    read_limits(table.table("limits"), settings);
+    settings.twist_bones = table.whole("twist_bones", 0, kMaxTwistBones);
     table.finish();
-    return to;
+    return settings;
 }
 
 // "auto", [first, last] or false.
@@ -240,26 +240,26 @@ std::vector<FurtherClip> read_clips(TomlTable& table)
     return clips;
 }
 
-void read_crowd(TomlTable table, CrowdFile& to)
+void read_crowd(TomlTable table, CrowdFile& file)
 {
-    to.characters = table.whole("characters", 1, 10'000'000);
-    to.seed = table.whole("seed", 0, INT64_MAX);
-    to.spacing = table.number("spacing", 0, 1e6);
-    to.size = table.range("size", 0.01, 100, 100);
-    to.legs = table.range("legs", 0.2, 5, 5);
-    to.arms = table.range("arms", 0.2, 5, 5);
-    to.spine = table.range("spine", 0.2, 5, 5);
-    to.speed = table.range("speed", 0.2, 5, 5);
-    to.stagger = table.flag("stagger");
-    to.loop = read_loop(table);
-    to.clips = read_clips(table);
-    to.limbs = converted<std::string>(table.word("limbs", kLimbKinds),
-                                      [](std::size_t n) { return std::string(kLimbKinds[n]); });
-    to.targets = table.text("targets");
+    file.characters = table.whole("characters", 1, 10'000'000);
+    file.seed = table.whole("seed", 0, INT64_MAX);
+    file.spacing = table.number("spacing", 0, 1e6);
+    file.size = table.range("size", 0.01, 100, 100);
+    file.legs = table.range("legs", 0.2, 5, 5);
+    file.arms = table.range("arms", 0.2, 5, 5);
+    file.spine = table.range("spine", 0.2, 5, 5);
+    file.speed = table.range("speed", 0.2, 5, 5);
+    file.stagger = table.flag("stagger");
+    file.loop = read_loop(table);
+    file.clips = read_clips(table);
+    file.limbs = converted<std::string>(table.word("limbs", kLimbKinds),
+                                        [](std::size_t n) { return std::string(kLimbKinds[n]); });
+    file.targets = table.text("targets");
     table.finish();
 }
 
-void read_ground(TomlTable table, CrowdFile& to)
+void read_ground(TomlTable table, CrowdFile& file)
 {
     GroundSettings ground{table.line(), table.text("heights"), table.vector("size"), table.vector("middle"),
                           table.text("contacts")};
@@ -267,10 +267,10 @@ void read_ground(TomlTable table, CrowdFile& to)
     if (ground.heights && !ground.size) table.fail("size", "is missing; write how large the picture is: [x, y, z]");
     if (ground.size && !ground.heights) table.fail("size", "is of a picture; name it by heights, or take this out");
     if (ground.size && !(ground.size->value.array() > 0).all()) table.fail("size", "is not above 0; write [x, y, z]");
-    if (table.is_there()) to.ground = std::move(ground);
+    if (table.is_there()) file.ground = std::move(ground);
 }
 
-void read_look(TomlTable table, CrowdFile& to)
+void read_look(TomlTable table, CrowdFile& file)
 {
     const Maybe<Eigen::Vector3d> target = table.vector("target");
     const Maybe<double> max_deg = table.number("max_deg", 0, 180);
@@ -278,33 +278,33 @@ void read_look(TomlTable table, CrowdFile& to)
     table.finish();
     if (!table.is_there()) return;
     if (!target) table.fail("target", "is missing; write what heads look at: [x, y, z]");
-    to.look = {table.line(), target->value, max_deg ? max_deg->value : LookSettings().max_deg, std::move(head)};
+    file.look = {table.line(), target->value, max_deg ? max_deg->value : LookSettings().max_deg, std::move(head)};
 }
 
-void read_carry(TomlTable table, CrowdFile& to)
+void read_carry(TomlTable table, CrowdFile& file)
 {
     const Maybe<double> share = table.number("share", 0, 1);
     CarrySettings carry{table.line(), share ? share->value : CarrySettings().share, table.vector("size"),
                         table.vector("place")};
     table.finish();
     if (carry.size && !(carry.size->value.array() > 0).all()) table.fail("size", "is not above 0; write [x, y, z]");
-    if (table.is_there()) to.carry = std::move(carry);
+    if (table.is_there()) file.carry = std::move(carry);
 }
 
-void read_root(TomlTable root, CrowdFile& to)
+void read_root(TomlTable root, CrowdFile& file)
 {
-    read_crowd(root.table("crowd"), to);
-    read_ground(root.table("ground"), to);
-    read_look(root.table("look"), to);
-    read_carry(root.table("carry"), to);
+    read_crowd(root.table("crowd"), file);
+    read_ground(root.table("ground"), file);
+    read_look(root.table("look"), file);
+    read_carry(root.table("carry"), file);
     TomlTable budget = root.table("budget");
-    to.budget_blocks = budget.whole("blocks", 1, UINT32_MAX);
+    file.budget_blocks = budget.whole("blocks", 1, UINT32_MAX);
     budget.finish();
     TomlTable limbs = root.table("limb");
     for (const std::string_view selector : kSelectors) {
         const TomlTable limb = limbs.table(selector);
         LimbSettings settings = read_limb(limb, limb_of_word(selector).has_value());
-        if (limb.is_there()) to.sections.push_back({std::string(selector), limb.line(), std::move(settings)});
+        if (limb.is_there()) file.sections.push_back({std::string(selector), limb.line(), std::move(settings)});
     }
     limbs.finish();
     root.finish();
@@ -313,7 +313,7 @@ void read_root(TomlTable root, CrowdFile& to)
 void merge(LimbSettings& to, const LimbSettings& from, bool mirrored)
 {
     using S = LimbSettings;
-    if (from.step_deg_per_frame || from.step_deg_per_second)  // one says what the other does
+    if (from.step_deg_per_frame || from.step_deg_per_second)  // both limit the same step
         to.step_deg_per_frame.reset(), to.step_deg_per_second.reset();
     const auto take = [mirrored](auto& into, const auto& given) {
         if (!given) return;

@@ -1,8 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The crowd file: what a crowd is and what is asked of its limbs, in TOML. docs/crowd_file.md explains every key;
-// examples/crowd.toml shows them all. Angles are degrees. Knows no solver and no skeleton: whether a joint or a limb
-// exists is the caller's question, and every value brings its line and key for the answer.
+// The crowd file: a crowd and the goals of its limbs, in TOML. docs/crowd_file.md explains every key;
+// examples/crowd.toml shows them all. Angles are degrees. Knows no solver and no skeleton: the caller checks whether a
+// joint or a limb exists, and every value has its line and key for the message.
 
 #include <Eigen/Core>
 #include <array>
@@ -46,8 +46,8 @@ struct RegionLimit {
     bool closed = false;           // a bridge from the last cone to the first, too
     std::vector<std::vector<Eigen::Vector3d>> polygons;
     std::vector<ConeLimit> forbidden;
-    double clip_margin_deg = 0;  // about where the clip's own bone points; 0: that does not count
-    int clip_cones = 4;          // at most as many are made of it
+    double clip_margin_deg = 0;  // around the directions of the clip's own bone; 0: these are ignored
+    int clip_cones = 4;          // the max count of cones made from the clip
 };
 
 struct AimGoal {
@@ -55,7 +55,7 @@ struct AimGoal {
     double flexion_deg = 0;         // 0 to 180
 };
 
-// What the file says of a limb; what it does not say is as without a file.
+// The settings of a limb. Missing ones are as without a file.
 struct LimbSettings {
     Maybe<std::vector<std::string>> joints;  // three
     Maybe<Eigen::Vector3d> bend;             // in the upper joint's frame, unit
@@ -89,7 +89,7 @@ struct LimbSection {
     LimbSettings settings;
 };
 
-// Frames between which the clip goes on and on: the first, and the one that is as the first. Nothing: they are found.
+// A loop's first frame, and the frame in which it has come back to it. Nothing: the loop is found.
 using LoopFrames = std::optional<std::array<std::size_t, 2>>;
 
 // The table [ground].
@@ -105,7 +105,7 @@ struct GroundSettings {
 struct LookSettings {
     std::size_t line = 0;
     Eigen::Vector3d target;   // world axes
-    double max_deg = 45;      // that each joint turns at most, 0 to 180
+    double max_deg = 45;      // the max turn of each joint, 0 to 180
     Maybe<std::string> head;  // a joint by name, path or number
 };
 
@@ -140,13 +140,15 @@ struct CrowdFile {
     std::vector<LimbSection> sections;  // those in the file, the general before the special
 };
 
-// Throws InputError that names line and key. It does for what is no TOML, for an unknown key, with the known one that
-// looks like it, and for a wrong type. It also does for a value out of its range, an axis of no length, and two keys
-// that exclude each other.
+// Throws InputError that names line and key, for
+// - a file that is no TOML;
+// - an unknown key, with the known one that looks like it;
+// - a wrong type, a value out of its range, and an axis of no length;
+// - two keys that exclude each other.
 CrowdFile read_crowd_file(const std::filesystem::path& path);
 
-// What the file says of one limb: of each key the most special table's value. Values of tables that speak of both sides
-// are written for the left; those of a right limb are marked mirrored.
+// One limb's settings: each key's value comes from the most special table. Tables for both sides are written for the
+// left limb; a right limb's values from them are marked mirrored.
 LimbSettings settings_of(const CrowdFile& file, LimbName limb);
 
 // A file that the crowd file names: a relative path starts at its folder.
@@ -155,7 +157,7 @@ inline std::filesystem::path beside(const CrowdFile& file, const Given<std::stri
     return file.path.parent_path() / name.value;
 }
 
-// True if [limb.SELECTOR] speaks of this limb.
+// Whether [limb.SELECTOR] selects this limb.
 bool selects(std::string_view selector, LimbName limb);
 
 }  // namespace swivel::formats

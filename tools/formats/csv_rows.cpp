@@ -10,7 +10,7 @@
 namespace swivel::formats {
 namespace {
 
-// The cells of a line, without blanks around them and the quotes that they may stand in.
+// The cells of a line, without surrounding blanks and quotes.
 void split(const std::filesystem::path& path, std::size_t line, std::string_view text,
            std::vector<std::string_view>& cells)
 {

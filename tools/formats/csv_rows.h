@@ -10,9 +10,9 @@
 
 namespace swivel::formats {
 
-// Calls take(line, cells) for each line of the file, but for blank lines and those that begin with #. Lines count from
-// 1. Cells are without blanks around them and without the quotes that they may stand in; they last for the call. Throws
-// InputError for a quote that is not closed, and as read_text() does.
+// Calls take(line, cells) for each line of the file, except blank lines and those that begin with #. Lines count from
+// 1. Cells come without surrounding blanks and quotes, and last for the call. Throws InputError for a quote that is not
+// closed, and as read_text() does.
 void for_each_row(const std::filesystem::path& path,
                   const std::function<void(std::size_t, const std::vector<std::string_view>&)>& take);
 

@@ -29,7 +29,7 @@ using Json = nlohmann::json;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// The numbers of a node's member, `rest` where it has none. Those there are have the count that check_members() asks.
+// The numbers of a node's member, or `rest` if it is missing. check_members() has checked their count.
 template <class Numbers>
 Numbers numbers_of(const Json& node, const char* member, Numbers rest)
 {
@@ -90,7 +90,7 @@ std::vector<int> Nodes::parents() const
     return parent;
 }
 
-// The joint of each node; all but what the file says of bones.
+// Adds a joint for each node, parents first. Returns the joint of each node.
 std::vector<int> add_joints(const Nodes& nodes, Clip& clip)
 {
     const std::vector<int> parent = nodes.parents();
@@ -117,7 +117,7 @@ std::vector<int> add_joints(const Nodes& nodes, Clip& clip)
     return joint_of;
 }
 
-// What a VRM file says: the node of each human bone, by VRM's names ("leftUpperArm"), from VRM 1.0 or else 0.x.
+// The node of each human bone in a VRM file, by VRM's names ("leftUpperArm"), from VRM 1.0 or else 0.x.
 std::map<std::string, int> read_human_bones(const std::filesystem::path& path, const Json& document)
 {
     std::map<std::string, int> bones;

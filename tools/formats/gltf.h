@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0 and GLB. Reading takes the node hierarchy as a skeleton and one animation as its motion. Writing puts new
 // keys into that animation; everything else of the asset stays as it is. Conventions:
-// - Every node is a joint, so that what lies above a skeleton counts, such as an armature with its scale. Nodes that a
+// - Every node is a joint, so that nodes above a skeleton count, such as an armature with its scale. Nodes that a
 //   skin names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is
 //   "#12".
 // - The rest pose is the nodes' own transforms. A matrix becomes translation, rotation and scale.
@@ -30,8 +30,8 @@ namespace swivel::formats {
 
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 
-// Keyframes as glTF 2.0 has them, and their value at any time (specification, appendix C: STEP, LINEAR with the shorter
-// arc for rotations, CUBICSPLINE). Before the first key and after the last their value holds.
+// Keyframes of glTF 2.0 (specification, appendix C: STEP, LINEAR with the shorter arc for rotations, CUBICSPLINE). The
+// first key's value holds before it, the last key's after it.
 struct GltfSampler {
     Interpolation interpolation = Interpolation::linear;
     std::vector<double> time;            // seconds, strictly increasing, at least one
@@ -42,7 +42,7 @@ struct GltfSampler {
 // zero.
 Eigen::Quaterniond sample_rotation(const GltfSampler& sampler, double time);
 
-// Whether its value is not the same at all times: keys differ, or tangents between them lead away and back.
+// Whether the sampler's value changes: keys differ, or tangents between them lead away and back.
 bool is_moving(const GltfSampler& sampler);
 
 enum class GltfPath : std::uint8_t { translation, rotation, scale };
@@ -56,17 +56,17 @@ struct GltfChannel {
 struct GltfChoice {
     std::string animation = {};  // name or, counted from 0, index; empty: the first
     double rate = 0;             // frames a second, 0: see above
-    // Decoded keys and sampled poses may each take so much.
+    // The max memory of decoded keys, and of sampled poses.
     std::size_t max_pose_bytes = std::size_t{8} << 30;
 };
 
 struct GltfFile {
     std::filesystem::path path;  // where it was read
     GltfChoice choice;
-    std::vector<std::filesystem::path> files_beside;           // that it refers to, there or not
+    std::vector<std::filesystem::path> files_beside;           // the files that it refers to, whether they exist or not
     GltfContainer container;                                   // the whole file, but for its chunk of bytes
     std::vector<std::string_view> buffers;                     // contents of the file's buffers, wherever they are kept
-    std::vector<std::shared_ptr<const std::string>> contents;  // what `buffers` lie in
+    std::vector<std::shared_ptr<const std::string>> contents;  // the memory that `buffers` points into
     std::vector<std::string> animation_names;                  // of all animations; may be empty or repeat
     int animation = -1;                                        // the chosen one; -1: there is none
     std::vector<GltfChannel> channels;                         // of that animation, those of nodes' own poses
@@ -89,7 +89,7 @@ inline double gibibytes(std::size_t bytes) { return static_cast<double>(bytes) /
 // 40 bytes, with CUBICSPLINE 104; channels may share keys.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
-// The same of a container that is read already. path: what messages call it, and what its files lie beside.
+// The same for a container in memory. path: its name in messages, beside which its files lie.
 GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, const GltfChoice& choice);
 
 // Makes the clip's frames, for limbs of these joints; see above for their times. A rate that the animation's length
@@ -101,7 +101,7 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
 // A frame takes 32 bytes a joint, and 24 for each translation and scale that has keys.
 void sample(GltfFile& file, std::span<const int> limb_joints);
 
-// Throws InputError for a joint whose matrix is sheared, which no keys can say. joint: of the clip.
+// Throws InputError for a joint whose matrix is sheared, because keys have no shear. joint: of the clip.
 void require_can_key(const GltfFile& file, int joint);
 
 // Writes `file` with these keys in place of the joints' own, at the clip's frames. A joint's keys go by STEP if its own
@@ -117,11 +117,11 @@ void require_can_key(const GltfFile& file, int joint);
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const JointKeys> keys,
                 const std::optional<NewFrames>& frames = {}, std::optional<bool> binary = {});
 
-// A GLB of all that a viewer draws of the file: the file without its animations, with all buffers in it. Images beside
-// the file stay there. Empty where the file has no mesh. Throws InputError for more than a GLB holds.
+// A GLB for a viewer: the file without its animations, with all buffers in it. Images beside the file stay there. Empty
+// if the file has no mesh. Throws InputError for more than a GLB holds.
 std::string figure_glb(const GltfFile& file);
 
-// One of a crowd that a file shows.
+// One character of a crowd in a file.
 struct GltfCharacter {
     std::string name;                  // of its node
     Eigen::Vector3d place;             // of the file's origin
@@ -129,10 +129,9 @@ struct GltfCharacter {
     std::vector<JointKeys> keys = {};  // at the new frames
 };
 
-// Writes so many of the figure that `file` shows, each below a node of its own, and one animation of all of them in
-// place of those that there were: most viewers play the first alone. Nodes rest in the first frame. Each figure has its
-// nodes and skins; meshes, materials and images are there once. Otherwise as write_gltf(). There is one character or
-// more.
+// Writes a copy of the figure for each character, below a node of its own. One animation of all of them replaces the
+// file's, because most viewers play only the first. Nodes rest in the first frame. Each figure has its own nodes and
+// skins; meshes, materials and images are shared. Otherwise as write_gltf(). characters: one or more.
 void write_gltf_crowd(const std::filesystem::path& path, const GltfFile& file,
                       std::span<const GltfCharacter> characters, const NewFrames& frames);
 

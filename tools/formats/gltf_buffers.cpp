@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{8} << 30;  // of all buffers
 
-// A buffer on its way in, and how messages call it.
+// A buffer being read, and its name in messages.
 struct Buffer {
     const fs::path& path;
     std::size_t number;
@@ -53,7 +53,7 @@ const std::string* uri_of(const nlohmann::json& buffer)
     return found == buffer.end() ? nullptr : &found->get_ref<const std::string&>();
 }
 
-// The file at a buffer's address, which has the bytes, as far as can be known without reading it.
+// The file at a buffer's address. Refuses one that is missing, outside of the folder, unreadable or too short.
 fs::path file_of(const Buffer& buffer, const std::string& uri)
 {
     const std::string shown = printable(uri, 100);
@@ -85,7 +85,7 @@ std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
     return bytes;
 }
 
-// How many bytes are needed of each file, by its address; several buffers may share one.
+// The number of bytes to read from each file, by address. Several buffers may share a file.
 std::map<std::string, std::uintmax_t> sizes_of_files(const fs::path& path, const nlohmann::json& list)
 {
     std::map<std::string, std::uintmax_t> sizes;
@@ -115,7 +115,7 @@ using Json = nlohmann::json;
 struct Component {
     int type;
     std::size_t size;
-    double full;  // what a normalised one stands for 1 with
+    double full;  // the integer that a normalised component has for 1
     double (*read)(const char* at);
 };
 

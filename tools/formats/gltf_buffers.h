@@ -1,7 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The bytes of a glTF file's buffers, wherever they are kept: in the GLB's chunk, in the text, or in files beside it
-// and nowhere else.
+// Reads a glTF file's buffers from the GLB's chunk, from the text, or from files beside it, and from nowhere else.
 
 #include <cstddef>
 #include <filesystem>
@@ -21,7 +20,7 @@ struct GltfBuffers {
     std::vector<std::shared_ptr<const std::string>> contents;  // fewer where buffers lie in one file
 };
 
-// Every buffer of a document that check_members() has passed, each as long as it says: what there is beyond is left.
+// Every buffer of a document that check_members() has passed, cut to its stated length.
 // path: of the glTF file. container: its chunk becomes the first buffer and is empty then. Throws InputError for
 // - a buffer without bytes, or with too few;
 // - an address that is not relative;
@@ -31,7 +30,7 @@ struct GltfBuffers {
 GltfBuffers read_gltf_buffers(const std::filesystem::path& path, const nlohmann::json& document,
                               GltfContainer& container);
 
-// What accessors lie in; borrowed. The document is one that check_members() has passed.
+// The context of accessors; borrowed. The document has passed check_members().
 struct GltfData {
     const std::filesystem::path& path;  // of the file, for messages
     const nlohmann::json& document;

@@ -19,13 +19,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What a member must be.
+// The type that a member must have.
 struct Kind {
     const char* wanted;
-    bool (*is)(const Json& value);
+    bool (*accepts)(const Json& value);
 };
 
-// glTF has whole numbers without a fraction, be it .0; a reader that wants them so takes others for missing.
+// glTF's whole numbers have no fraction, not even .0; strict readers take others for missing.
 bool is_whole(const Json& value, std::uint64_t max)
 {
     return value.is_number_integer() && (value.is_number_unsigned() || value.get<std::int64_t>() >= 0) &&
@@ -33,7 +33,7 @@ bool is_whole(const Json& value, std::uint64_t max)
 }
 bool is_index(const Json& value) { return is_whole(value, INT32_MAX); }
 
-// Of the size of floats, which accessors have, too: squares and products of some are still finite.
+// Numbers in the range of floats, like those of accessors: squares and products of some are still finite doubles.
 bool is_float(const Json& value) { return value.is_number() && std::abs(value.get<double>()) <= double{FLT_MAX}; }
 template <std::size_t count>
 bool is_floats(const Json& value)
@@ -125,7 +125,7 @@ void check_object(const std::filesystem::path& path, const std::string& owner, c
         const auto found = object.find(member.name);
         const bool is_there = found != object.end();
         const std::string below = fmt::format("/{}", member.name);
-        if (is_there ? !member.kind.is(*found) : member.is_needed)
+        if (is_there ? !member.kind.accepts(*found) : member.is_needed)
             throw InputError(path,
                              fmt::format("{} is bad: {} is needed, not {}; export the file again", place + below,
                                          member.kind.wanted, is_there ? printable(found->dump(), 60) : "nothing"));

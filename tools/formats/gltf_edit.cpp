@@ -17,20 +17,20 @@ namespace fs = std::filesystem;
 
 constexpr int kFloat = 5126;  // glTF's componentType
 
-// A document on its way into a file: its JSON, and where new bytes go.
+// A document being edited: its JSON, and the buffer for new bytes.
 struct GltfAsset {
     Json document;
     std::string bytes = {};  // of the GLB's chunk, or of a new buffer
     std::size_t buffer = 0;  // whose bytes these are
 
-    // The document's list of this name, made where there is none.
+    // The document's list of this name, which is made if it is missing.
     Json& list(const char* name)
     {
         Json& found = document[name];
         if (!found.is_array()) found = Json::array();
         return found;
     }
-    // Adds bytes; the buffer view of them.
+    // Adds bytes, and returns the index of their buffer view.
     Json add_bytes(std::string_view content)
     {
         bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
@@ -40,7 +40,7 @@ struct GltfAsset {
     }
 };
 
-// Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
+// Buffers of a .gltf: a GLB's chunk moves into the text, and files are used where they are.
 void settle_text(GltfAsset& asset, std::span<const std::string_view> buffers)
 {
     Json& list = asset.list("buffers");
@@ -50,7 +50,7 @@ void settle_text(GltfAsset& asset, std::span<const std::string_view> buffers)
     list.push_back({{"byteLength", 0}});
 }
 
-// What names a part of a buffer, itself or in an extension of its own, names it in the chunk now.
+// Makes a buffer view, and its extensions, refer to the chunk.
 void move_into_chunk(Json& view, std::span<const std::size_t> begins)
 {
     const auto number = [&](const char* member) {
@@ -93,7 +93,7 @@ void take_matrix_apart(Json& node, const GltfChanges::Track& track)
     node["scale"] = {track.scale.x(), track.scale.y(), track.scale.z()};
 }
 
-// Adds an accessor of floats. Its index.
+// Adds an accessor of floats, and returns its index.
 std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::size_t width, const char* type)
 {
     asset.list("bufferViews")
@@ -106,7 +106,7 @@ std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::siz
     return asset.list("accessors").size() - 1;
 }
 
-// A new channel of the node's rotation or translation. Its sampler.
+// Adds a channel of the node's rotation or translation, and returns its sampler.
 Json& add_channel(Json& animation, int node, const char* path)
 {
     Json& samplers = animation["samplers"];
@@ -155,8 +155,8 @@ void rest_at_first_keys(Json& node, const GltfChanges::Track& track)
     rest("translation", track.xyz, 3);
 }
 
-// Adds keys of nodes, counted from the first node of a figure. sampler_of: sampler_for(), or add_channel() where the
-// animation has none of these nodes, which takes no search.
+// Adds keys of nodes, counted from the first node of a figure. sampler_of: sampler_for(), or add_channel() if the
+// animation has none of these nodes, which saves the search.
 void add_tracks(GltfAsset& asset, std::size_t times, std::span<const GltfChanges::Track> tracks, Json& animation,
                 std::size_t first_node, Json& (*sampler_of)(Json&, int, const char*))
 {
@@ -188,7 +188,7 @@ std::vector<std::size_t> root_nodes(const Json& nodes)
     return roots;
 }
 
-// Counts the nodes or skins that an object names from another first one.
+// Moves an object's indices of nodes or skins by an offset.
 void shift(Json& object, const char* name, std::size_t by)
 {
     const auto found = object.find(name);
@@ -199,7 +199,7 @@ void shift(Json& object, const char* name, std::size_t by)
         *found = found->get<std::size_t>() + by;
 }
 
-// Copies the first nodes and skins behind those that there are.
+// Appends copies of the first nodes and skins.
 void copy_nodes(GltfAsset& asset, std::size_t node_count, std::size_t skin_count)
 {
     Json &nodes = asset.list("nodes"), &skins = asset.list("skins");

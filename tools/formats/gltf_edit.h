@@ -1,7 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// New keys put into a glTF file's JSON text and buffers. Owns every rule about where things stand in that text; knows
-// no clip.
+// Puts new keys into a glTF file's JSON text and buffers. Owns every rule about places in that text; knows no clip.
 
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -15,14 +14,14 @@
 
 namespace swivel::formats {
 
-// What a writer puts into a file.
+// The changes that a writer makes to a file.
 struct GltfChanges {
     struct Track {
         int node = -1;
         std::vector<float> xyzw;  // rotations, 4 for each time; empty: no new ones
         std::vector<float> xyz;   // the same of translations, 3 for each time
         bool is_stepped = false;  // STEP; else LINEAR
-        // What the node's matrix, if it has one, is made of.
+        // The parts of the node's matrix, if it has one.
         Eigen::Vector3d translation, scale;
         Eigen::Quaterniond rotation;
     };
@@ -36,12 +35,12 @@ struct GltfChanges {
     std::vector<float> times;
     std::vector<Track> tracks;
     int animation = -1;               // -1: a new one
-    std::optional<std::string> name;  // in place of the animation and all its channels comes one of this name
-    // In place of all scenes, animations and tracks: one scene of so many figures, and one animation of `name` that
-    // moves all of them. Nodes rest as their first keys have them. Nodes and skins are copied; meshes, materials and
-    // all that they are made of are shared.
+    std::optional<std::string> name;  // given: a new animation of this name replaces the animation
+    // Not empty: one scene of these figures, and one animation of `name` that moves them, replace all scenes,
+    // animations and tracks. Nodes rest as their first keys have them. Nodes and skins are copied; meshes, materials
+    // and all that they are made of are shared.
     std::vector<Figure> figures;
-    bool drops_animations = false;  // and adds none
+    bool drops_animations = false;  // removes all animations and adds none
 };
 
 // The file with these changes, in the shape for a file at `to`: `binary` or not. from: where the file was read, for

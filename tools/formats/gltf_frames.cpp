@@ -63,7 +63,7 @@ Eigen::Vector3d sample_vector(const GltfSampler& sampler, double time)
 constexpr double kRestFrameTime = 1.0 / 30;
 constexpr double kSlack = 0.01;  // of a step: times are floats, which late in a long clip are that coarse
 
-// Which joints move the limbs: their own and all above.
+// Marks the joints that move the limbs: their own and all above.
 std::vector<bool> joints_to(const Clip& clip, std::span<const int> limb_joints)
 {
     std::vector<bool> is_needed(clip.joints.size());

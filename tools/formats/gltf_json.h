@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A glTF file's JSON text as a document, and its lists. Knows which documents are refused, not what they say.
+// A glTF file's JSON text as a document, and its lists. Refuses invalid documents, but does not interpret them.
 
 #include <fmt/format.h>
 
@@ -20,8 +20,8 @@ namespace swivel::formats {
 // - a document that says that its buffers are compressed.
 nlohmann::json gltf_document(const std::filesystem::path& path, std::string_view json);
 
-// Checks what a reader of skeletons needs of a document: its version, nodes, skins, animations, accessors, buffer views
-// and buffers.
+// Checks the members of a document that a reader of skeletons needs: version, nodes, skins, animations, accessors,
+// buffer views and buffers.
 // Throws InputError, naming the place, for
 // - a list or an element of a wrong type;
 // - a member that is missing;
@@ -37,8 +37,8 @@ inline const nlohmann::json& list_in(const nlohmann::json& owner, const char* na
     return found == owner.end() ? kNone : *found;
 }
 
-// The list's element of this index. path, name: of the file and what the list holds, for the message. Throws InputError
-// where there is none.
+// The list's element of this index. path: of the file. name: of the list's elements, for the message. Throws InputError
+// if there is none.
 template <class List>
 const auto& element(const std::filesystem::path& path, const List& list, int index, const char* name)
 {

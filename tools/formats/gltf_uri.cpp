@@ -36,7 +36,7 @@ std::string unescaped(const std::string& uri)
     return name;
 }
 
-// Whether it is an address relative to the file that it stands in: of no scheme, and no path from the root.
+// Whether an address is relative to its file: without a scheme and without a path from the root.
 bool is_relative(const std::string& uri) { return !has_scheme(uri) && !fs::path(unescaped(uri)).is_absolute(); }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Addresses in a glTF file: which hold their bytes themselves, which name a file, and what becomes of those when the
-// glTF file moves. Reads nothing.
+// Addresses in a glTF file: data URIs, names of files, and how these names change when the glTF file moves. Reads no
+// files.
 
 #include <filesystem>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace swivel::formats {
 
-// Whether the address holds its bytes itself.
+// Whether the address holds bytes, as a data URI does.
 bool is_data_uri(std::string_view uri);
 
 // The bytes that an address holds itself as base64; nothing for any other address, and for a fault in the base64.
@@ -37,8 +37,8 @@ void for_each_uri(Document& document, const Call& call)
 // a scheme or of an absolute path: no file of a glTF asset lies there.
 std::filesystem::path file_at(const std::string& uri, const std::filesystem::path& beside);
 
-// The address, relative to `to`, of what lies at `uri` relative to `from`; both are glTF files, there or not. What
-// is not relative stays as it is.
+// A relative address in the glTF file `from`, rewritten for the glTF file `to`, whether these exist or not. Other
+// addresses stay as they are.
 std::string moved_uri(const std::string& uri, const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace swivel::formats

@@ -20,7 +20,8 @@ using Eigen::Quaterniond;
 
 const Joint& joint_at(const GltfFile& file, int joint) { return file.clip.joints[static_cast<std::size_t>(joint)]; }
 
-// Keys of one joint, each on the side of the one before: a reader that does not look for the shorter arc gets it too.
+// Keys of one joint, each in the hemisphere of the one before, so that readers that do not look for the shorter arc
+// take it, too.
 GltfChanges::Track track_of(const GltfFile& file, const JointKeys& keys)
 {
     const Joint& joint = joint_at(file, keys.joint);
@@ -46,7 +47,7 @@ std::vector<float> even_times(const NewFrames& frames)
     return times;
 }
 
-// Which of the joints move by keys of rotation, and which of those by steps.
+// The joints that move by keys of rotation, and those of them that move by steps.
 struct Movers {
     std::set<int> all, by_steps;
 };

@@ -40,7 +40,8 @@ void note_problem(png_structp png, png_const_charp text)
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-// What libpng leaves by longjmp, so nothing in it has a destructor. Samples become 16 bits wide. False: it failed.
+// libpng leaves this function by longjmp, so nothing in it has a destructor. Samples become 16 bits wide. False: it
+// failed.
 bool read_picture(png_structp png, png_infop info, Source& source)
 {
     if (setjmp(png_jmpbuf(png))) return false;

@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// What a writer of motion takes: new keys for joints of a clip, at the clip's own frames or at new ones. Knows no file.
+// New keys for joints of a clip, at the clip's own frames or at new ones. Knows no file.
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -18,15 +18,14 @@ struct JointKeys {
     std::span<const Eigen::Vector3d> translation = {};  // local, finite, in place of Joint::offset
 };
 
-// Frames in place of the clip's own. Joints without new keys then rest in all of them, and so does each kind of key
-// that a joint has none of.
+// Frames that replace the clip's own. In all of them a joint rests in each kind of key that it is not given.
 struct NewFrames {
     std::size_t count = 0;  // 1 or more
     double frame_time = 0;  // seconds between them, above 0
     std::string name = {};  // of the animation, where the format names it
 };
 
-// Throws std::invalid_argument for keys that are not as said above. frame_count: of the clip, or of the new frames.
+// Throws std::invalid_argument for keys that break these rules. frame_count: of the clip, or of the new frames.
 void require_keys(const Clip& clip, std::span<const JointKeys> keys, std::size_t frame_count);
 
 }  // namespace swivel::formats

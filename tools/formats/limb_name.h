@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Which of a character's four limbs a row of a table or a section of a file speaks of.
+// Names a character's four limbs in tables and files.
 
 #include <array>
 #include <compare>

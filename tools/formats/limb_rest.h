@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A limb at rest as plain numbers, which a clip comes to and a cache stores. Knows no clip and no solver.
+// A limb at rest as plain numbers, made from a clip and stored in a cache. Knows no clip and no solver.
 #pragma once
 
 namespace swivel::formats {

@@ -1,14 +1,13 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// What the engine asks of numbers in files, so that a file that it would not solve is refused by file and line.
+// The engine's bounds of numbers, so that readers refuse a file that it would not solve, by file and line.
 
 namespace swivel::formats {
 
-// The longest target or axis that the engine solves. None in any file may be longer, and scales lie between 1/kMaxNorm
-// and kMaxNorm.
+// The max length of targets and axes in files. Scales lie between 1/kMaxNorm and kMaxNorm.
 constexpr double kMaxNorm = 1e15;
 
-// The most twist bones of one limb.
+// The max number of a limb's twist bones.
 constexpr unsigned kMaxTwistBones = 7;
 
 }  // namespace swivel::formats

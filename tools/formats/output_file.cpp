@@ -33,7 +33,8 @@ fs::path follow_links(const fs::path& path)
     return target;
 }
 
-// Names of files already open elsewhere. Behind them may be a plain file, and a rename would cut it off from its owner.
+// Whether the name is of a file already open elsewhere. If that is a regular file, a rename would replace it under its
+// owner.
 bool is_open_descriptor(const fs::path& path)
 {
     const std::string name = path.lexically_normal().string();
@@ -56,8 +57,9 @@ std::string_view advice(const std::error_code& reason)
     return "check the folder and its permissions";
 }
 
-// Gives a new file what the one that it replaces has, as far as the process may. A group that it may not give leaves
-// the group no right that all others lack. Some file systems have no permissions: they keep none.
+// Gives a new file the owner, group and permissions of the file that it replaces, as far as the process may. If the
+// group cannot be kept, the group's permissions are reduced to those of others. Some file systems have no permissions
+// at all.
 void keep_rights(int descriptor, const struct stat& before)
 {
     constexpr uid_t same = static_cast<uid_t>(-1);
@@ -68,10 +70,15 @@ void keep_rights(int descriptor, const struct stat& before)
     static_cast<void>(::fchmod(descriptor, mode));
 }
 
-struct CloseAtEnd {
-    int descriptor;
-    ~CloseAtEnd() { ::close(descriptor); }
-};
+// Syncs an open folder and closes it. Below 0: the folder may be written, but not read, and nothing is synced.
+void sync_and_close(int descriptor, const fs::path& path)
+{
+    if (descriptor < 0) return;
+    const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+    const std::error_code reason(errno, std::generic_category());
+    ::close(descriptor);
+    if (!is_synced) throw InputError(path, fmt::format("cannot be written: {}; check the disk", reason.message()));
+}
 
 }  // namespace
 
@@ -102,9 +109,8 @@ OutputFile::OutputFile(int folder, const std::string& name, const fs::path& path
     open_partial(AT_SYMLINK_NOFOLLOW);
 }
 
-// A short name of its own: the target's may be as long as a name can be.
-// follows: 0, or AT_SYMLINK_NOFOLLOW for a target that is what it is, which has rights of its own if it is a plain
-// file.
+// The partial file has a short name of its own, because the target's may be as long as a name can be.
+// follows: 0, or AT_SYMLINK_NOFOLLOW to replace a symbolic link itself. Only a regular file passes on its permissions.
 void OutputFile::open_partial(int follows)
 {
     struct stat before;
@@ -113,7 +119,7 @@ void OutputFile::open_partial(int follows)
     if (is_there && S_ISDIR(before.st_mode)) throw InputError(named_, "is a directory; name a file in it");
     is_there = is_there && S_ISREG(before.st_mode);
     if (is_there && ::faccessat(folder_, target_.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be replaced");
-    // What others may not read in the old file they may not read in the new one at any moment.
+    // Nobody may read in the new file, at any moment, what they may not read in the old one.
     const mode_t mode = is_there ? 0600 : 0666;
     descriptor_ = partial_.make(target_.parent_path(), [this, mode](const char* name) {
         return ::openat(folder_, name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
@@ -177,21 +183,13 @@ void OutputFile::fail(std::string_view action)
 
 void sync_folder(int folder, const fs::path& path)
 {
-    const int descriptor = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;  // it may be written, and not read
-    const CloseAtEnd closes{descriptor};
-    const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
-    const std::error_code reason(errno, std::generic_category());
-    if (!is_synced) throw InputError(path, fmt::format("cannot be written: {}; check the disk", reason.message()));
+    sync_and_close(::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC), path);
 }
 
 void sync_folder(const fs::path& folder)
 {
     const fs::path path = folder.empty() ? fs::path(".") : folder;
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;  // it may be written, and not read
-    const CloseAtEnd closes{descriptor};
-    sync_folder(descriptor, path);
+    sync_and_close(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), path);
 }
 
 }  // namespace swivel::formats

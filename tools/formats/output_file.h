@@ -1,12 +1,12 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A file that appears whole or not at all: bytes go to ".swivel-PID-N" in the same folder, commit() renames it to
-// NAME. An interrupted run leaves the old NAME untouched. What cannot be renamed onto (standard output as "-",
-// /dev/null, pipes) is written straight. Knows nothing of what is written.
+// A file that appears whole or not at all: bytes go to ".swivel-PID-N" in the same folder, commit() renames it to NAME.
+// An interrupted run leaves the old NAME untouched. Standard output ("-"), devices and pipes cannot be renamed onto and
+// are written straight. Knows no contents.
 //
-// The new file has the permissions of the one that it replaces, and its owner and group where the process may give
-// them. A file of a new name has what the umask leaves. A file that may not be written is not replaced either, though
-// its folder would allow it: cp and editors refuse it, too, and its owner has protected it.
+// The new file gets the permissions of the one that it replaces, and its owner and group where the process may set
+// them. A file of a new name gets permissions by the umask. A write-protected file is not replaced, though its folder
+// would allow it: cp and editors refuse that, too.
 
 #include <filesystem>
 #include <string>
@@ -24,8 +24,8 @@ public:
     // One object belongs to one thread. Allocates its buffer of 1 MiB here, nothing later.
     explicit OutputFile(const std::filesystem::path& path);
 
-    // The same for a name in an open folder, which must stay open as long as the object. No link is followed: one of
-    // that name is replaced itself. Throws InputError, naming `path`, if it is a folder, or as above.
+    // The same for a name in an open folder, which must stay open as long as the object. A symbolic link of that name
+    // is replaced itself. Throws InputError, naming `path`, if it is a folder, or as above.
     OutputFile(int folder, const std::string& name, const std::filesystem::path& path);
 
     // Without a commit the partial file is removed.
@@ -55,8 +55,8 @@ private:
     int descriptor_ = -1;
 };
 
-// Waits until the disk has the names in a folder; "" is the working folder. Some file systems cannot do that, and then
-// nothing is waited for. Throws InputError if the disk fails.
+// Waits until the disk has the names in a folder; "" is the working folder. Does nothing on file systems that cannot do
+// it. Throws InputError if the disk fails.
 void sync_folder(const std::filesystem::path& folder);
 // The same for an open folder; `path` is for messages.
 void sync_folder(int folder, const std::filesystem::path& path);

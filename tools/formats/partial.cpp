@@ -18,7 +18,7 @@ std::mutex list_mutex;
 Partial* all_partials = nullptr;
 constexpr int kMaxRounds = 100;
 
-// Nothing takes memory while it is held, and no signal comes between: a handler never waits for its own thread.
+// While the lock is held, nothing allocates and signals are blocked, so a handler never waits for its own thread.
 sigset_t lock_list() noexcept
 {
     sigset_t all, before;
@@ -39,12 +39,13 @@ struct ListLock {
 
 bool remove_at(int folder, const char* name) noexcept;
 
-// Removes what is in a folder, as far as it can be. std::filesystem::remove_all() asks for memory.
+// Removes a folder's contents as far as possible, without std::filesystem::remove_all(), which allocates.
 void empty_folder(int folder) noexcept
 {
     alignas(dirent64) std::array<char, 4096> entries;
     bool is_going_on = true;
-    // Removing may move entries past the place of reading. A listing that lags behind must not keep the process.
+    // Removing may move entries past the place of reading, so the folder is listed again. The number of rounds is
+    // bounded, so that the process ends.
     for (int round = 0; is_going_on && round < kMaxRounds; ++round) {
         is_going_on = false;
         ::lseek(folder, 0, SEEK_SET);
@@ -58,7 +59,7 @@ void empty_folder(int folder) noexcept
     }
 }
 
-// False: it stays.
+// Returns false if it could not be removed.
 bool remove_at(int folder, const char* name) noexcept
 {
     if (::unlinkat(folder, name, 0) == 0 || errno == ENOENT) return true;

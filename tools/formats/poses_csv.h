@@ -1,8 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
 // The table of solved poses, written as it is produced: one line per frame, character and limb. It has the three local
-// rotations as quaternions x, y, z, w, the flag word as a decimal number, and what makes the character differ. Numbers
-// have the fewest digits that give the same number back. Knows no solver: what the flags mean is the caller's affair.
+// rotations as quaternions x, y, z, w, the flag word as a decimal number, and the character's place, size and start.
+// Numbers have the fewest digits that give the same number back. Knows no solver and no meaning of flags.
 
 #include <array>
 #include <cstdint>
@@ -27,16 +27,16 @@ struct PoseRow {
     std::uint64_t start = 0;
 };
 
-// What a limb has beside, where it is asked for.
+// Further results of a limb, for optional columns.
 struct PoseExtra {
     float stretch = 1;  // factor of both bone lengths
     bool has_clavicle = false;
-    std::array<float, 4> clavicle{};  // local rotation of the joint above, x y z w
-    unsigned twist_count = 0;         // bones of those below that there are; the others' cells stay empty
+    std::array<float, 4> clavicle{};                           // local rotation of the joint above, x y z w
+    unsigned twist_count = 0;                                  // the number of bones in `twist`; other cells stay empty
     std::array<std::array<float, 4>, kMaxTwistBones> twist{};  // x y z w
 };
 
-// The columns for it, after those that every table has.
+// The optional columns, after those that every table has.
 struct PoseColumns {
     bool stretch = false;      // "stretch"
     bool clavicle = false;     // "clavicle_x" and so on

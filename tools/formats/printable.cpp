@@ -11,8 +11,8 @@ struct Character {
     std::size_t size;  // in bytes
 };
 
-// The first character of UTF-8; a byte that begins none is one by itself. Longer forms than needed are taken for what
-// they say, as some terminals do.
+// The first character of UTF-8; a byte that begins none is a character by itself. Overlong forms count as the character
+// that they encode, because some terminals accept them.
 Character first_character(std::string_view text)
 {
     const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };

@@ -12,7 +12,7 @@
 namespace swivel::formats {
 namespace {
 
-// How many letters must be put in, taken out or changed, or two neighbours exchanged, to make one word of the other.
+// The number of letters to insert, remove, change or exchange with a neighbour to make one word of the other.
 std::size_t edit_distance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);

@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// What was meant by a word that nobody knows: one rule for keys of files, options, commands and values.
+// Guesses the word meant by an unknown one: one rule for keys of files, options, commands and values.
 
 #include <optional>
 #include <span>
@@ -9,9 +9,8 @@
 
 namespace swivel::formats {
 
-// The word nearest to the wrong one, if it is near enough to be meant. It may have one wrong letter for every three of
-// its own, and a word of 3 n - 1 letters may have n. A letter too many, one missing, one changed and two neighbours
-// exchanged count 1 each.
+// The word nearest to the wrong one, if it is near enough: a word of 3 n - 1 letters or more may have n errors. A
+// letter too many, a missing letter, a changed letter and two exchanged neighbours are one error each.
 std::optional<std::string> nearest_word(std::string_view wrong, std::span<const std::string> words);
 
 // "did you mean WORD?", or, where no word is near enough, "known are WORD, WORD".

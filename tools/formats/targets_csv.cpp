@@ -24,7 +24,7 @@ constexpr unsigned kColumnCount = 14;
 constexpr unsigned kLimb = 2, kSide = 13;  // side: what tables of arms had instead of limb
 constexpr std::array<std::string_view, kColumnCount> kColumns = {
     "frame", "character", "limb", "x", "y", "z", "pole_x", "pole_y", "pole_z", "qx", "qy", "qz", "qw", "side"};
-// Columns that belong together. Of those that are optional a table has all or none, and so has a row.
+// Columns that belong together. A table has all or none of an optional group, and so has a row.
 struct Part {
     unsigned first, count;
     bool is_optional;

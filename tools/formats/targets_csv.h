@@ -5,8 +5,8 @@
 // likes pole_x,pole_y,pole_z and qx,qy,qz,qw. A table has all columns of a pole or none, and a row fills in all of them
 // or none. The same holds for the orientation. limb is left_arm, right_arm, left_leg or right_leg. A table of arms may
 // have side, left or right, instead. Commas stand between cells, which may be quoted. Blank lines and lines starting
-// with # are skipped. This file knows no crowd: whether a frame or a character exists is the caller's question. `line`
-// lets its answer name the place.
+// with # are skipped. Knows no crowd: the caller checks whether a frame or a character exists; `line` lets its message
+// name the place.
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -31,14 +31,16 @@ struct Target {
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // of hand or foot, world space, made unit
 };
 
-// All targets, sorted by frame, then character, then limb. Throws InputError that names line and column: for a missing,
-// unknown or repeated column, and for a value that is missing, too many or not a finite number. It also does for an
-// unknown limb, a quaternion outside 1e-15 to 1e15, a second row for a limb and frame, and a table without rows. Holds
-// 96 bytes a row, and the file while reading.
+// All targets, sorted by frame, then character, then limb. Holds 96 bytes a row, and the file while reading. Throws
+// InputError that names line and column, for
+// - a missing, unknown or repeated column;
+// - a value that is missing, too many or not a finite number;
+// - an unknown limb, and a quaternion outside 1e-15 to 1e15;
+// - a second row for a limb and frame, and a table without rows.
 std::vector<Target> read_targets_csv(const std::filesystem::path& path);
 
-// Writes such a table, with all columns. Numbers have the fewest digits that give the same double back; cells of what a
-// target does not have are empty.
+// Writes such a table, with all columns. Numbers have the fewest digits that give the same double back; a missing pole
+// or orientation leaves its cells empty.
 class TargetsCsv {
 public:
     // Opens the file and writes the line of column names. Throws InputError as OutputFile does.

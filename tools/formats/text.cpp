@@ -43,7 +43,7 @@ std::size_t read_some(const std::filesystem::path& path, std::FILE* file, char* 
     return count;
 }
 
-// How much more than `at` a plain file has; 0: not known.
+// The bytes left in a plain file; 0: unknown.
 std::size_t size_beyond(std::FILE* file)
 {
     struct stat status {};

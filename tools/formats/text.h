@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// What every text format here needs: a file as one string, words of a line, and numbers.
+// Helpers of all text formats: a file as one string, words of a line, and numbers.
 // Numbers are read by std::from_chars, so no locale can change them. Knows no format.
 
 #include <cstddef>
@@ -35,11 +35,11 @@ std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char*
 // 2 GiB: a device may have no end. Holds the file once; reading from a pipe works.
 std::string read_text(const std::filesystem::path& path);
 
-// The same of an open file of which `begin` is read. path: what messages call it.
+// The same for an open file whose first bytes are `begin`. path: its name in messages.
 std::string read_text(const std::filesystem::path& path, std::FILE* file, std::string begin);
 
-// Appends what comes next of any file, text or binary: `most` bytes, or fewer where it ends. Throws InputError on a
-// read error. Allocates as bytes come, not as `most` says.
+// Appends the next bytes of any file, text or binary: `max` of them, or fewer at its end. Throws InputError on a read
+// error. Allocates as bytes come, not `max` at once.
 void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t max, std::string& bytes);
 
 // Appends the rest of any file, with the limit of read_text(). advice: what to do about a longer one.
@@ -61,8 +61,7 @@ std::string_view trimmed(std::string_view text);
 // True if the two are equal when ASCII letters are compared without case.
 bool same_ignoring_case(std::string_view a, std::string_view b);
 
-// What a path's name ends in, from its last dot on, ASCII letters in lower case: ".glb" of "Walk.GLB"; empty: no
-// suffix.
+// The end of a path's name from its last dot on, in lower case: ".glb" of "Walk.GLB". Empty: no suffix.
 std::string lower_suffix(const std::filesystem::path& path);
 
 // The whole of `text` as a finite decimal number, such as -1.5, .5, 5. or +1e-3. Nothing for anything else: NaN,
@@ -72,7 +71,7 @@ std::optional<double> parse_number(std::string_view text);
 // The whole of `text` as a whole decimal number. Nothing for anything else, 1.0 included.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
-// Numbers with commas between, such as 1,2.5; empty if any of them is none.
+// Numbers with commas between, such as 1,2.5; empty if one is no number.
 std::vector<double> numbers_of(const std::string& text);
 
 // Words with `between` between. fmt::join() does the same in seven kilobytes of code a file.

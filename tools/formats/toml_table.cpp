@@ -23,8 +23,8 @@ constexpr std::size_t kMaxBytes = 1'000'000, kMaxDots = 64;  // in a file, in a 
 constexpr std::array kTypeNames = {"nothing",  "a table",       "a list",         "text",           "a whole number",
                                    "a number", "true or false", "a date or time", "a date or time", "a date or time"};
 
-// The parser recurses for each part of a dotted key. What stands in a text or comment counts, too: telling it apart
-// would take the parser. Dots side by side, which no key has, count once, so that dotted rules may be drawn.
+// The parser recurses for each part of a dotted key. Dots in texts and comments count, too, because only the parser can
+// tell them apart. Adjacent dots, which no key has, count once, so that dotted rules may be drawn.
 void require_flat(const std::filesystem::path& path, std::string_view text)
 {
     std::size_t line = 1, dots = 0;

@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A table of a TOML file, read key by key. A value is checked for its type and range where it is asked for. What nobody
-// asks for is an unknown key. Complaints are InputErrors "FILE:LINE: the.whole.key: cause; what to do".
+// A table of a TOML file, read key by key. Each getter checks its value's type and range. A key that no getter asked
+// for is unknown. Errors are InputErrors "FILE:LINE: the.whole.key: cause; what to do".
 // Knows no keys of its own.
 
 #include <toml++/toml.h>
@@ -17,7 +17,7 @@
 
 namespace swivel::formats {
 
-// A value and where it stands.
+// A value, and its line and key in the file.
 template <class T>
 struct Given {
     T value{};
@@ -32,7 +32,7 @@ struct NumberRange {
     double min = 0, max = 0;
 };
 
-// Parses a file. Throws InputError for what is no TOML, is too large or too deep for it, or cannot be read.
+// Parses a file. Throws InputError for a file that is no TOML, too large, nested too deep, or not readable.
 toml::table read_toml(const std::filesystem::path& path);
 
 class TomlTable {
@@ -40,15 +40,15 @@ public:
     // Both must outlive this.
     TomlTable(const std::filesystem::path& path, const toml::table& root);
 
-    // The value of a key, or nothing where it is not there. They throw InputError for another type, and for values out
-    // of the range given, ends included.
+    // Each returns the value of a key, or nothing if it is missing. They throw InputError for another type, and for
+    // values outside of the given range, whose ends are allowed.
     Maybe<bool> flag(std::string_view key);
     Maybe<std::int64_t> whole(std::string_view key, std::int64_t min, std::int64_t max);
     Maybe<double> number(std::string_view key, double min, double max);  // whole numbers will do, too
     Maybe<std::string> text(std::string_view key);
     Maybe<std::vector<std::string>> texts(std::string_view key, std::size_t count);
     Maybe<std::size_t> word(std::string_view key, std::span<const std::string_view> words);  // which of them
-    // [least, most], least <= most and no wider than widest.
+    // [min, max], min <= max and no wider than widest.
     Maybe<NumberRange> range(std::string_view key, double min, double max, double widest);
     Maybe<Eigen::Vector3d> vector(std::string_view key);  // of a length up to 1e15
     Maybe<Eigen::Vector3d> axis(std::string_view key);    // the same, made unit; zero is refused
@@ -60,9 +60,9 @@ public:
     bool is_flag(std::string_view key) const { return table_ && table_->get(key) && table_->get(key)->is_boolean(); }
     bool is_list(std::string_view key) const { return table_ && table_->get(key) && table_->get(key)->is_array(); }
 
-    // A table within; an empty one where it is not there, so that its keys are asked for all the same.
+    // An inner table; empty if it is missing, so that its keys can be asked for all the same.
     TomlTable table(std::string_view key);
-    // The tables of a list, such as [{...}, {...}]; none where it is not there.
+    // The tables of a list, such as [{...}, {...}]; none if it is missing.
     std::vector<TomlTable> tables(std::string_view key);
     bool is_there() const { return line_ > 0; }
     std::size_t line() const { return line_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What results mean in space: positions, distances, angles, arcs. All in double, but for arcs.
+// The answers about results: positions, distances, angles, arcs, texts. All numbers are double, but for arcs.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -26,7 +26,7 @@ void write(HeldCrowd& held, std::int64_t number, const py::object& values, std::
     const swivel_field field = field_of(number);
     const Limbs limbs = limbs_of(held, group, first, count);
     const float none = 0;
-    check(swivel_write(held.crowd.get(), field, limbs.group, 0, 0, {&none, 0}));  // what this group takes
+    check(swivel_write(held.crowd.get(), field, limbs.group, 0, 0, {&none, 0}));  // refuses other groups' fields
     const Input in = input(values_of(held, field, limbs), values, py::dtype::of<float>(), true, held.rows);
     run(held, Way::kAlone,
         [&] { check(swivel_write(held.crowd.get(), field, limbs.group, limbs.first, limbs.count, in.values)); });
@@ -38,7 +38,7 @@ void write_doubles(HeldCrowd& held, std::int64_t number, const py::object& value
     const swivel_field field = field_of(number);
     const Limbs limbs = limbs_of(held, group, first, count);
     const double none[3] = {};
-    check(swivel_write_doubles(held.crowd.get(), field, limbs.group, 0, 0, {none, 0}, {}));  // a position
+    check(swivel_write_doubles(held.crowd.get(), field, limbs.group, 0, 0, {none, 0}, {}));  // must be a position
     const auto type = py::dtype::of<double>();
     const Input in = input(values_of(held, field, limbs), values, type, true);
     Input from{};
@@ -86,7 +86,7 @@ py::array allowed_arcs(HeldCrowd& held, std::int64_t limb, std::int64_t group)
     const auto arcs = run(held, Way::kReading, [&] { return held.crowd.allowed_arcs(g, n); });
     static_assert(sizeof(swivel_arc) == 4 * sizeof(float));
     const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(arcs.size()), 2, 2};
-    return py::array(py::dtype::of<float>(), shape, arcs.data());  // without a base: a copy
+    return py::array(py::dtype::of<float>(), shape, arcs.data());  // no base, so it is copied
 }
 
 std::pair<bool, std::string> compare(HeldCrowd& held, const py::object& pose, std::int64_t body,
@@ -102,36 +102,8 @@ std::pair<bool, std::string> compare(HeldCrowd& held, const py::object& pose, st
     return {said.agrees, said.text};
 }
 
-}  // namespace
-
-void add_copies(CrowdClass& crowd)
-{
-    crowd.def(
-        "write", &write, py::arg("field"), py::arg("values"), py::arg("group") = 0, py::arg("first") = 0,
-        py::arg("count") = py::none(),
-        "Copies an input field in, of `count` limbs of a group from `first` on; None: to the group's end.\n"
-        "Or sets back what read() gave of a field that is carried: NORMAL, PLANT, PLANT_ROTATION, MOTION, SHIFT, "
-        "LIFT.\n\n"
-        "values has shape (count, k), or (count,) for fields of one number, or is one value (k,) for all of\n"
-        "them; k is component_count(field, group). float32 whose k numbers lie side by side is read where it is,\n"
-        "with any stride from limb to limb, read-only or not; everything else that NumPy takes for real\n"
-        "numbers is converted first. ValueError for another shape, for other results, for limbs that the crowd\n"
-        "does not have and fields that the group does not have.");
-    crowd.def("write_doubles", &write_doubles, py::arg("field"), py::arg("values"), py::arg("origins") = py::none(),
-              py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
-              "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.SHOULDER_POSITION, "
-              "Field.NEXT_TARGET, Field.GROUND, Field.PROP_POSITION.\n\n"
-              "values and origins have shape (count, 3), or (3,) for all limbs, float64. origins are subtracted in\n"
-              "double, then the difference is rounded once to float32; None subtracts nothing. All positions of a\n"
-              "limb must come from the same origin.");
-    crowd.def("read", &read, py::arg("field"), py::arg("group") = 0, py::arg("first") = 0,
-              py::arg("count") = py::none(), py::arg("out") = py::none(),
-              "A field's values, input or result, of `count` limbs from `first` on; None: to the group's end.\n\n"
-              "Shape (count, k), or (count,) for fields of one number, float32, or uint32 for Field.FLAGS. out: an\n"
-              "array of that shape and type with any strides, which is filled and returned, instead of a new one.");
-}
-
-void add_answers(CrowdClass& crowd)
+// Positions, rotations, distances and angles of the results.
+void add_kinematics(CrowdClass& crowd)
 {
     using Call = swivel_status (*)(swivel_crowd*, const Limbs&, swivel_out);
     const auto add = [&](const char* name, std::size_t component_count, Call call, const char* text) {
@@ -177,6 +149,11 @@ void add_answers(CrowdClass& crowd)
               "Three of the shoulder in the given order of axes, the flexion, three of the wrist (0 without\n"
               "Feature.WITH_HAND). Of the two triples for a rotation, family 0 has the middle one within\n"
               "-pi/2..pi/2, family 1 the other.");
+}
+
+// Explanations and comparisons in words.
+void add_texts(CrowdClass& crowd)
+{
     crowd.def(
         "explain",
         [](HeldCrowd& held, std::int64_t limb, std::int64_t group) {
@@ -192,6 +169,41 @@ void add_answers(CrowdClass& crowd)
               "Compares a Pose with where your engine has a limb of a body: (agrees, text). The text names the input\n"
               "that disagrees, such as quaternions in another order, and what to do.\n\n"
               "shoulder, elbow and wrist (3,): places of these joints in the world, in the pose as it goes in.");
+}
+
+}  // namespace
+
+void add_copies(CrowdClass& crowd)
+{
+    crowd.def(
+        "write", &write, py::arg("field"), py::arg("values"), py::arg("group") = 0, py::arg("first") = 0,
+        py::arg("count") = py::none(),
+        "Copies an input field in, of `count` limbs of a group from `first` on; None: to the group's end.\n"
+        "Or sets back what read() gave of a field that is carried: NORMAL, PLANT, PLANT_ROTATION, MOTION, SHIFT, "
+        "LIFT.\n\n"
+        "values has shape (count, k), or (count,) for fields of one number, or is one value (k,) for all of\n"
+        "them; k is component_count(field, group). float32 whose k numbers lie side by side is read where it is,\n"
+        "with any stride from limb to limb, read-only or not; everything else that NumPy takes for real\n"
+        "numbers is converted first. ValueError for another shape, for other results, for limbs that the crowd\n"
+        "does not have and fields that the group does not have.");
+    crowd.def("write_doubles", &write_doubles, py::arg("field"), py::arg("values"), py::arg("origins") = py::none(),
+              py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
+              "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.SHOULDER_POSITION, "
+              "Field.NEXT_TARGET, Field.GROUND, Field.PROP_POSITION.\n\n"
+              "values and origins have shape (count, 3), or (3,) for all limbs, float64. origins are subtracted in\n"
+              "double, then the difference is rounded once to float32; None subtracts nothing. All positions of a\n"
+              "limb must come from the same origin.");
+    crowd.def("read", &read, py::arg("field"), py::arg("group") = 0, py::arg("first") = 0,
+              py::arg("count") = py::none(), py::arg("out") = py::none(),
+              "A field's values, input or result, of `count` limbs from `first` on; None: to the group's end.\n\n"
+              "Shape (count, k), or (count,) for fields of one number, float32, or uint32 for Field.FLAGS. out: an\n"
+              "array of that shape and type with any strides, which is filled and returned, instead of a new one.");
+}
+
+void add_answers(CrowdClass& crowd)
+{
+    add_kinematics(crowd);
+    add_texts(crowd);
     crowd.def(
         "digest", [](HeldCrowd& held) { return run(held, Way::kReading, [&] { return held.crowd.digest(); }); },
         "A number for all results, to compare crowds across machines. Equal results give equal digests on every\n"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Skeletons at rest, limbs' joints in them, how limbs stand, how bodies are shifted for them, what they stand on, hold
-// and look with, as Python gives these. Knows no crowd.
+// Converts Python's skeletons at rest, limbs' joints, and constants of plants, shifts, grounds, props and looks. Knows
+// no crowd.
 #pragma once
 
 #include <pybind11/pybind11.h>

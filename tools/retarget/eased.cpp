@@ -7,7 +7,7 @@ namespace swivel::tools {
 
 namespace {
 
-// The lowest course above the values that never falls or rises faster than by max_step.
+// The lowest course above the values that changes by at most max_step a frame.
 std::vector<double> course_above(std::vector<double> values, double max_step)
 {
     for (std::size_t n = 1; n < values.size(); ++n) values[n] = std::max(values[n], values[n - 1] - max_step);

@@ -27,7 +27,7 @@ const std::vector<int>& list_of(const PairedPart& part, BodySide side)
     return side == BodySide::source ? part.source : part.target;
 }
 
-// The part of that name, made where there is none.
+// The part of that name, which is made if it is missing.
 PairedPart& part_called(JointPairs& pairs, const std::string& name)
 {
     const auto found = std::ranges::find(pairs, name, &PairedPart::name);
@@ -44,7 +44,7 @@ std::set<int> joints_in(const JointPairs& pairs, BodySide side, bool paired_alon
 
 using NamedBones = std::map<std::string, int>;
 
-// The bones of a clip by their names. Each is one bone's alone; the empty one is none's.
+// The bones of a clip by name. Ambiguous names and the empty one are left out.
 NamedBones bones_by(const Clip& clip, std::string (*name_of)(std::string_view))
 {
     std::map<std::string, std::vector<int>> bearers;
@@ -58,7 +58,7 @@ NamedBones bones_by(const Clip& clip, std::string (*name_of)(std::string_view))
 
 std::string finger_of(std::string_view joint_name) { return finger_bone(plain(joint_name)); }
 
-// The bones of fingers. A hand's only finger is none of them: it stands for all five, as CMU's LeftHandIndex1 does.
+// The bones of fingers. A hand's only finger is left out, because it stands for all five, like CMU's LeftHandIndex1.
 NamedBones finger_bones(const Clip& clip)
 {
     NamedBones bones = bones_by(clip, finger_of);
@@ -98,7 +98,7 @@ std::vector<int> joint_of(const std::filesystem::path& path, std::size_t line, c
     return found;
 }
 
-// A name that a cell can hold and that is one joint's alone, or its number.
+// A joint's name, if it is unique and a cell can hold it; else its number.
 std::string cell_of(const Clip& clip, int joint)
 {
     const std::string& name = joint_at(clip, joint).name;

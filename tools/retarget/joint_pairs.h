@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which joints of one skeleton stand for which of another, found by what they are or given as a table. Knows clips and
-// the names of rigs.
+// Pairs the joints of two skeletons, by parts and names or by a table. Knows clips and the names of rigs.
 #pragma once
 
 #include <filesystem>
@@ -12,24 +11,24 @@
 
 namespace swivel::tools {
 
-// A part of both bodies, or a pair of joints that are no part. A list is empty where a skeleton has no such part.
+// A part of both bodies, or a pair of other joints. A list is empty if a skeleton lacks the part.
 struct PairedPart {
-    std::string name;  // as body_parts() has it; empty: two joints of equal names, or as a table pairs them
+    std::string name;  // of body_parts(); empty: two joints paired by name or by a table
     std::vector<int> source, target;
 
     bool is_paired() const { return !source.empty() && !target.empty(); }
 };
 using JointPairs = std::vector<PairedPart>;
 
-// A body and its parts, as body_parts() has them.
+// A body and its parts, of body_parts().
 struct PartedBody {
     const formats::Clip& clip;
     std::vector<BodyPart> parts;
 };
 
-// The parts of both, and then joints that are no part of either but are called the same, or are the same bone of a
-// finger, on hands of two fingers or more. Names are compared as plain() has them; bones alone count, and names that
-// one joint alone bears on each side.
+// Pairs the parts of both, and then joints outside of parts with the same name, or of the same bone of a finger, on
+// hands of two fingers or more. Names are compared by plain(); only bones count, and only names that are unique in each
+// skeleton.
 JointPairs pair_joints(const PartedBody& source, const PartedBody& target);
 
 // The same from a table with columns part, source and target. Rows of one part list its joints from the hips outwards;
@@ -47,7 +46,7 @@ void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs,
 enum class BodySide { source, target };
 std::vector<BodyPart> parts_of(const JointPairs& pairs, BodySide side);
 
-// The bones of that body's clip that no other joint stands for.
+// The bones of that body's clip without a partner.
 std::vector<int> unpaired_bones(const JointPairs& pairs, const formats::Clip& clip, BodySide side);
 
 }  // namespace swivel::tools

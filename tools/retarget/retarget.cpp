@@ -51,7 +51,7 @@ struct Bones {
     double thigh, shin;
 
     double length() const { return thigh + shin; }
-    // How far a knee is bent when hip and ankle are this far apart, 0 for a straight one; and back.
+    // A knee's bend for a distance from hip to ankle, 0 for a straight leg; and the reverse.
     double flexion(double apart) const
     {
         return std::acos(std::clamp((apart * apart - thigh * thigh - shin * shin) / (2 * thigh * shin), -1.0, 1.0));
@@ -179,7 +179,7 @@ private:
             if (transfers_[n]) {
                 const Quaterniond turn_w = target_.world(turn_of(source_w, *transfers_[n]));
                 const Quaterniond local = parent_w.rotation.conjugate() * turn_w * target_.pose_w[n].rotation;
-                // What scales below zero add to the joint's rotation is no key of it.
+                // The rotation that negative scales add is no part of the joint's key.
                 const Quaterniond by_scale = joint.rest_rotation.conjugate() * formats::local_rest_pose(joint).rotation;
                 clip.rotation[frame * clip.joints.size() + n] =
                     ((parent_w.mirrored ? formats::mirrored(local) : local) * by_scale.conjugate()).normalized();
@@ -206,7 +206,7 @@ private:
         clip.translation[frame] = parent < 0 ? place_w : formats::to_inner(at(pose_w, parent), place_w);
     }
 
-    // Where the target's ankle belongs, wherever its hips are.
+    // The target's ankle place, which does not depend on its hips.
     Vector3d ankle_goal(std::size_t leg, const Poses& source_w, const Poses& pose_w) const
     {
         return mapped(at(source_w, ground_joint(source_, leg)).position) +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A clip's motion on another skeleton: rotations by transfers, the hips by the ratio of leg lengths, and where hands
-// and feet then belong. Knows clips and rigs, no solver.
+// Puts a clip's motion on another skeleton: rotations by transfers, the hips by the ratio of leg lengths, and goals of
+// hands and feet. Knows clips and rigs, no solver.
 #pragma once
 
 #include <optional>
@@ -23,19 +23,19 @@ struct Retargeted {
     formats::Clip clip;                   // the target, with the source's frames; its hips alone move against a parent
     int hips = -1;                        // of the target
     double leg_ratio = 1;                 // lengths of the target for one of the source
-    std::optional<GroundHeights> ground;  // none where the source does not say where it stands
+    std::optional<GroundHeights> ground;  // none if the source's ground is unknown
     // Wrists and ankles, of the limbs that both have: their places in the target's world, and where elbow and knee
     // lean. [frame * limbs.size() + limb]
     std::vector<formats::Target> goals;
-    std::vector<formats::Target> eased;  // those that are solved for: near the goals where knees and elbows would pop
+    std::vector<formats::Target> eased;  // the goals to solve, which differ near pops of knees and elbows
     std::vector<formats::LimbName> limbs;
 };
 
 // Joints turn as transfers_of() says; those without a partner rest. The world is scaled about the origin by the ratio
 // of leg lengths. It is turned from the source's left, up and forwards to the target's. If both stances say their
 // height, it is raised: feet that stand in the source then stand on the target's ground. In that world
-// - toes, or else ankles, go where the source's are. So what stands in the source stands. The target's own foot then
-//   says where its ankle is;
+// - toes, or else ankles, go to the source's places, so that standing feet stand. The target's own foot then gives its
+//   ankle's place;
 // - the hips go to where the middle of the hip joints is the source's. Flat feet may differ in length and height: by
 //   that the hips are moved, in the pelvis's axes. Then they are moved so that knees bend as in the source.
 // The latter is by least squares of the knees' angles, and of the way that this takes, which is at most a tenth of a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Hands and feet brought to their goals by the solver, in a clip that has all else already.
+// Brings hands and feet to their goals by the solver, in a clip that is otherwise done.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace swivel::tools {
 
-// Turns each limb's three joints so that its end is at its goal. The solver says where elbow or knee then are: they
-// lean as the goal says. The joints get there by the least turns; hand and foot keep their orientation in the world. A
-// frame in which the end is within 1e-6 limb lengths of the goal is left as it is. parts: of the target. file: for
-// messages. Throws as choose_joints() does.
+// Turns each limb's three joints to bring its end to its goal. The solver places elbow or knee, which leans as in the
+// goal. The joints get there by the least turns; hand and foot keep their orientation in the world. A frame in which
+// the end is within 1e-6 limb lengths of the goal is left as it is. parts: of the target. file: for messages. Throws as
+// choose_joints() does.
 //
-// Returns for each of motion.limbs why it was not solved and only turns as the source's; empty: it was.
+// Returns for each of motion.limbs why it was not solved, and only turns like the source's; empty: solved.
 std::vector<std::string> solve_limbs(Retargeted& motion, const std::vector<BodyPart>& parts,
                                      const std::filesystem::path& file);
 

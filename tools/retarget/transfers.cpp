@@ -90,7 +90,7 @@ struct Aligner {
     const StandingFigure& target;
     std::map<int, int> to_target{}, to_source{};  // joints that stand for one another
 
-    // Where a pair's bones lead: to the pairs right below both, in the mean.
+    // The directions of a pair's bones: the mean to the pairs right below both.
     std::pair<Vector3d, Vector3d> ways_below(int from, int to) const
     {
         Vector3d from_way = Vector3d::Zero(), to_way = Vector3d::Zero();
@@ -203,21 +203,21 @@ std::vector<std::optional<Transfer>> transfers_of(const JointPairs& pairs, const
             const double place =
                 static_cast<double>((n + 1) * part.source.size()) / static_cast<double>(part.target.size());
             const auto after = static_cast<std::size_t>(std::ceil(place)) - 1;
-            const auto to = static_cast<std::size_t>(part.target[n]);
-            transfers[to] = Transfer{after > 0 ? part.source[after - 1] : -1, part.source[after],
-                                     place - static_cast<double>(after)};
-            part_of[to] = &part.name;
+            const auto joint = static_cast<std::size_t>(part.target[n]);
+            transfers[joint] = Transfer{after > 0 ? part.source[after - 1] : -1, part.source[after],
+                                        place - static_cast<double>(after)};
+            part_of[joint] = &part.name;
             aligner.to_source[part.target[n]] = part.source[after];
             aligner.to_target[part.source[after]] = part.target[n];
         }
     for (std::size_t n = 0; n < transfers.size(); ++n) {  // parents come before their children
         if (!transfers[n]) continue;
-        const auto to = static_cast<int>(n);
+        const auto joint = static_cast<int>(n);
         Transfer& transfer = *transfers[n];
         if (transfer.before < 0) transfer.before = nearest_above(source.clip, transfer.after, aligner.to_target);
-        const int above = nearest_above(target.clip, to, aligner.to_source);
+        const int above = nearest_above(target.clip, joint, aligner.to_source);
         transfer.align =
-            aligner.align(*part_of[n], transfer.after, to,
+            aligner.align(*part_of[n], transfer.after, joint,
                           above < 0 ? Quaterniond::Identity() : transfers[static_cast<std::size_t>(above)]->align);
     }
     return transfers;

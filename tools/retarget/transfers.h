@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What each joint of a skeleton takes from which joint of another. Knows figures at rest, no motion.
+// The rotations that each joint of a skeleton takes from joints of another. Knows figures at rest, no motion.
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@ namespace swivel::tools {
 struct RestFigure {
     std::vector<formats::JointPose> pose_w;                    // of each joint, in the world
     Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();  // columns: the figure's left, up and forwards
-    bool mirrored = false;  // as a whole: its left side is on the right of where it faces
+    bool mirrored = false;                                     // as a whole: its left limbs are on its right
     KnownLimbs limbs;
     std::array<int, 2> toes{-1, -1};  // left and right; -1: it has none
     double leg = 0;                   // thigh and shin together, mean of the sides that are known; 0: none is
 
     const Eigen::Vector3d& place_w(int joint) const { return pose_w[static_cast<std::size_t>(joint)].position; }
     Eigen::Vector3d up_w() const { return axes * Eigen::Vector3d::UnitY(); }
-    // A direction of the world as the figure has it: left, up, forwards. Left is where its left limbs are.
+    // A direction of the world in the figure's axes: left, up, forwards. Left is the side of its left limbs.
     Eigen::Vector3d own(const Eigen::Vector3d& direction_w) const { return in_mirror(axes.conjugate() * direction_w); }
     Eigen::Vector3d world(const Eigen::Vector3d& own_direction) const { return axes * in_mirror(own_direction); }
-    // The same of a turn.
+    // The same for a turn.
     Eigen::Quaterniond own(const Eigen::Quaterniond& turn_w) const
     {
         return in_mirror(axes.conjugate() * turn_w * axes);
@@ -41,39 +41,38 @@ struct RestFigure {
         const LimbJoints& at = *limbs[limb];
         return own_way(at[0], at[1]).norm() + own_way(at[1], at[2]).norm();
     }
-    // From one joint to another at rest, as the figure has it.
+    // From one joint to another at rest, in the figure's axes.
     Eigen::Vector3d own_way(int from, int to) const { return own(place_w(to) - place_w(from)); }
 
 private:
     template <class Geometry>
-    Geometry in_mirror(const Geometry& of) const
+    Geometry in_mirror(const Geometry& geometry) const
     {
-        return mirrored ? formats::mirrored(of) : of;
+        return mirrored ? formats::mirrored(geometry) : geometry;
     }
 };
 
-// Up is the axis of the world nearest to the way up that facing_of() tells. Forwards is at right angles to it: the axis
-// of the world that is within 15 degrees, else what facing_of() tells. So a toe a little off does not turn a walk.
+// Up is the axis of the world nearest to facing_of()'s up. Forwards is at right angles to it: an axis of the world
+// within 15 degrees of facing_of()'s forwards, else that itself. So a toe a little off does not turn a walk.
 RestFigure rest_figure(const formats::Clip& clip, const std::vector<BodyPart>& parts);
 
-// How feet stand: how high over the world's origin, and how steep from ankle to toe.
+// A figure's standing feet: their height over the world's origin, and their slope from ankle to toe.
 struct Stance {
     std::optional<double> height;                // of toes, or else ankles, on the ground, along the figure's up
     std::array<std::optional<double>, 2> slope;  // from ankle to toe of a flat foot, left and right: the angle over
                                                  // the ground, radians; nothing without toes, too
 };
 
-// The angle of a way, as a figure has it, over the ground: radians, below 0 downwards.
+// The angle of a vector in the figure's axes over the ground: radians, below 0 downwards.
 double slope_of(const Eigen::Vector3d& way);
 
-// A figure whose feet at rest are within 0.3 leg lengths of height 0 stands so: its rest tells all. Otherwise its clip
-// tells it, where that has more than one frame. A foot is still in a frame to which ankle and toe come slower than 0.3
-// legs a second. With ten still feet or more, the slope of both feet is the one that nine
-// tenths of them are not above, and the height is the median of those that were the lower foot. With fewer, the height
-// is that which the lower foot is not above in a twentieth of the frames, and no slope is told.
+// The stance of the rest pose, if its feet are within 0.3 leg lengths of height 0. Otherwise the clip shows the stance,
+// if it has more than one frame. A foot is still in a frame if ankle and toe come to it slower than 0.3 legs a second.
+// With ten still feet or more, the slope of both feet is the 90th percentile of theirs, and the height is the median of
+// those that were the lower foot. With fewer, the height is the lower foot's 5th percentile, and there is no slope.
 Stance stance_of(const formats::Clip& clip, const RestFigure& figure, bool has_toes);
 
-// A target's joint turns from rest as a source's joint does, or as what lies between two.
+// A target's joint turns from rest like a source's joint, or like a blend of two.
 struct Transfer {
     int before = -1, after = -1;  // joints of the source; before -1: the world, which never turns
     double share = 1;             // of the way from `before` to `after`
@@ -88,8 +87,8 @@ struct StandingFigure {
     const Stance& stance;
 };
 
-// One for each joint of the target; nothing: it keeps its rest. Where a part has n joints and m in the target, the m
-// divide the part's turns evenly among them: its last joint turns as the source's last does.
+// One for each joint of the target; nothing: it keeps its rest. If a part has n joints in the source and m in the
+// target, these m divide the part's turns evenly: the target's last joint turns like the source's last.
 // Limbs and fingers are aligned bone by bone, each by the least turn beyond that of the joint above. A foot is aligned
 // so that it is flat where the source's is. Where one of the two does not say when it is flat, it takes the source's
 // direction. Hips, spine, neck, head and clavicles are not aligned: both figures rest upright, whatever the shape of

@@ -24,7 +24,7 @@ constexpr double kSunk = 0.03;                 // leg lengths below the ground, 
 constexpr double kFast_deg = 720;              // a second
 constexpr double kMostly = 0.25;               // of the frames
 
-// How often something is too much, and where it is most.
+// How often a value is too large, and where it is largest.
 struct Excess {
     double bound, max = 0, sum = 0;
     std::size_t count = 0, max_frame = 0;

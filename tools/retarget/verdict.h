@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A retargeted motion judged as a stranger would: beside the source's, limb by limb. Knows clips and rigs.
+// Judges a retargeted motion beside the source's, limb by limb, as a viewer would. Knows clips and rigs.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace swivel::tools {
 
-// How far a limb's end is from its goal, in lengths of the limb.
+// The distance of a limb's end from its goal, in limb lengths.
 struct GoalMiss {
     double mean = 0, max = 0;
     std::size_t max_frame = 0;

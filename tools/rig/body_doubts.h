@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Faults of the body in a clip, whatever the body does: left and right exchanged, a knee that bends the wrong way.
-// Knows clips and the parts of bodies.
+// Finds faults of a clip's body in any motion: left and right exchanged, a knee that bends the wrong way. Knows clips
+// and the parts of bodies.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace swivel::tools {
 
 inline constexpr double kMostly = 0.25;  // of the frames
 
-// The frames of a clip in which something is so.
+// The frames of a clip with some property.
 struct SomeFrames {
     std::size_t all;  // frames of the clip
     std::size_t count = 0, first = 0;
@@ -29,10 +29,10 @@ struct SomeFrames {
     std::string words() const;
 };
 
-// Where a clip has the joints of a body that doubts are about, in all of its frames.
+// The places of the judged joints of a body, in all frames of a clip.
 class BodyFrames {
 public:
-    // Where the joints are in one frame: of limbs, then toes and hips.
+    // The joints' places in one frame: limbs, then toes and hips.
     using Places = std::vector<Eigen::Vector3d>;
 
     BodyFrames(const formats::Clip& clip, const std::vector<BodyPart>& parts);
@@ -69,8 +69,8 @@ public:
     {
         return place(places_w, (*limbs_[pair])[0]) - place(places_w, (*limbs_[pair + 1])[0]);
     }
-    // The direction to the left of a pair of limbs, and the one that it faces, unit. In a figure that is mirrored as a
-    // whole, the limbs called left are on the right of where it faces.
+    // The left of a pair of limbs, and its front, unit. In a figure that is mirrored as a whole, the limbs called left
+    // are on its right.
     Eigen::Vector3d left_w(const Places& places_w, std::size_t pair) const
     {
         return (is_mirrored_ ? -1 : 1) * to_left_w(places_w, pair).normalized();
@@ -81,7 +81,7 @@ public:
     }
     double leg_length() const;  // at rest; a leg must be known
 
-    // The frames for which this is so.
+    // The frames for which is_so holds.
     template <class IsSo>
     SomeFrames where(const IsSo& is_so) const
     {
@@ -111,10 +111,10 @@ private:
 //   backwards.
 // - A knee bends forwards, or an elbow backwards.
 // - The frames stand along another axis than the rest pose. This stands alone, since all else would follow from it.
-// parts: as body_parts() finds them; what is not known is not judged.
+// parts: of body_parts(). Unknown parts are not judged.
 struct BodyDoubts {
     std::vector<std::string> lines;
-    bool is_up_wrong = false;  // the line is that of the axes
+    bool is_up_wrong = false;  // the line is about the axes
 };
 BodyDoubts body_doubts(const BodyFrames& body);
 std::vector<std::string> body_doubts(const formats::Clip& clip, const std::vector<BodyPart>& parts);
@@ -122,7 +122,7 @@ std::vector<std::string> body_doubts(const formats::Clip& clip, const std::vecto
 // "thigh"; bone: 0 for a limb's upper one, 1 for its lower one
 std::string_view bone_name(std::size_t limb, std::size_t bone);
 
-// Whether one length is a tenth longer than the other. A bone of no length tells nothing.
+// Whether one length is a tenth longer than the other. False for bones of no length.
 bool is_other_length(double a, double b);
 
 }  // namespace swivel::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A body's joints by what they are, in VRM's words: hips, spine, neck, head, and of each side "leftShoulder" (the
+// A body's joints by anatomy, in VRM's words: hips, spine, neck, head, and of each side "leftShoulder" (the
 // clavicle), "leftUpperArm", "leftLowerArm", "leftHand", "leftUpperLeg", "leftLowerLeg", "leftFoot" and "leftToes".
 // Knows clips alone.
 #pragma once
@@ -22,10 +22,10 @@ struct BodyPart {
 
 // The parts that the skeleton has, in the order above, right after left. Hips, head and toes are those that the file
 // names so (VRM). Otherwise the hips are where both legs meet, or are called hips or pelvis. The head is a joint above
-// the chest: a bone before other nodes, one that is called head before one of which that is the last word or that
-// Rigify means, and the first of equals. Toes are as toes_of() has them. All else follows from these and the limbs. The
-// spine leads from the hips to where both arms meet, a clavicle from there to its arm, the neck from there to the head.
-// given_head: the joint that is the head, if the caller knows it.
+// the chest: bones come before other nodes, then joints called head before those whose last word is head or that are
+// Rigify's, then earlier joints before later ones. Toes are those of toes_of(). All else follows from these and the
+// limbs. The spine leads from the hips to where both arms meet, a clavicle from there to its arm, the neck from there
+// to the head. given_head: the joint that is the head, if the caller knows it.
 std::vector<BodyPart> body_parts(const formats::Clip& clip, const KnownLimbs& limbs,
                                  std::optional<int> given_head = {});
 

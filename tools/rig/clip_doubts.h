@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The faults that a stranger would point at in a clip: of its body, and a joint that jumps in one frame, a limb that
-// never moves, feet below the ground. Knows clips and the parts of bodies.
+// Finds visible faults in a clip: those of its body, a joint that jumps in one frame, a limb that never moves, feet
+// below the ground. Knows clips and the parts of bodies.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace swivel::tools {
 // - A joint turns there and back within three frames, far more than it does beside that. The worst one is told.
 // - The first frame is a pose of its own, such as a T-pose. The body jumps. A limb never moves while the other does.
 // - The feet are below height 0.
-// parts: as body_parts() finds them; what is not known is not judged. Time: some passes over all frames.
+// parts: of body_parts(). Unknown parts are not judged. Time: some passes over all frames.
 std::vector<std::string> clip_doubts(const formats::Clip& clip, const std::vector<BodyPart>& parts);
 
 }  // namespace swivel::tools

@@ -11,8 +11,7 @@
 
 namespace swivel::tools {
 
-// A joint's name in the form that the table of names is written in: lower case, without separators, and without what
-// exporters add to every name. That is
+// A joint's name in the form of the table of names: lower case, without separators and exporters' additions. These are
 // - a name space before a colon or bar, and "FBXASC046" for the character of that number;
 // - an ending that is a number after an underscore, "jnt" or "joint" ("LeftArm_09", "LeftArm_jnt");
 // - before that, m or x as a last word of its own, which says the middle ("Head_M", "head.x");
@@ -24,7 +23,7 @@ std::string plain(std::string_view joint_name);
 // Its last word, without such endings and without a number: "head" of "CC_Base_Head" and "ValveBiped.Bip01_Head1".
 std::string last_word(std::string_view joint_name);
 
-// The side that a joint's name says: left or right as a part of a word, l or r as a whole word. Nothing if it says none
+// The side in a joint's name: left or right as a part of a word, l or r as a whole word. Nothing if the name has none
 // or both.
 std::optional<formats::Side> side_word(std::string_view joint_name);
 

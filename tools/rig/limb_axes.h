@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The axes and ranges by which one writes a limb's limits: which way its own frame's axes point, and where a clip takes
-// its bones in that frame. For reports alone: angles are taken by arc functions, which nothing that is solved may.
-// Knows clips and limbs.
+// Axes and ranges that help to write a limb's limits: the directions of its own frame's axes, and the range of a clip's
+// bones in that frame. For reports alone: it uses arc functions, which solves may not. Knows clips and limbs.
 #pragma once
 
 #include <optional>
@@ -12,16 +11,16 @@
 
 namespace swivel::tools {
 
-// A direction of the world as the figure itself says it: "left", or of what lies between "left and down".
+// A direction of the world in the figure's words: "left", or between two axes "left and down".
 std::string direction_words(const Eigen::Vector3d& direction_w, const Facing& facing);
 
-// The least and the most of an angle, in degrees.
+// The min and max of an angle, in degrees.
 struct AngleRange {
     double min = 180, max = 0;
 };
 
-// Where all of a clip lies, as a crowd file's limits say it. All frames fit into them, if the limb is bound with this
-// bend: the frame's x and y turn with it.
+// Limits of a crowd file that all frames of a clip keep if the limb is bound with this bend: the frame's x and y turn
+// with the bend.
 struct LimbRange {
     Eigen::Vector3d bend;  // the limb's to three decimals, in the upper joint's axes; near 1 long
     Eigen::Vector3d axis;  // the upper bone's mean direction in the frame of that bend, to three decimals
@@ -30,8 +29,8 @@ struct LimbRange {
     AngleRange flexion;    // the angle between both bones, outwards to the next tenth
 };
 
-// Nothing for a clip of one frame, and for a limb that never moves by a tenth of a degree: a T-pose tells no limits.
-// Takes every frame's pose of the limb: what lies between frames may leave the range.
+// Nothing for a clip of one frame, or a limb that never moves by a tenth of a degree, such as in a T-pose. Looks at
+// frames only: the motion between them may leave the range.
 std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb);
 
 }  // namespace swivel::tools

@@ -74,7 +74,7 @@ Vector3d mean_of(std::span<const Vector3d> axes)
 
 double degrees_of_sine(double sine) { return std::asin(std::min(sine, 1.0)) * (180 / std::numbers::pi); }
 
-// One witness's answer about a bend.
+// A bend by the rest pose or by the clip.
 struct Said {
     Vector3d axis;     // as long as the sine of the bend
     bool is_clear;     // beyond doubt
@@ -102,13 +102,13 @@ Said clip_says(std::span<const Vector3d> axes)
 // Where flexion carries a lower bone that turns about the opposite of this axis: across the bone, unit.
 Vector3d bend_of_hinge(const Vector3d& upper_bone, const Vector3d& axis) { return upper_bone.cross(axis).normalized(); }
 
-// The rest pose and the clip are asked, in this order. The first that bends the limb clearly is taken, else the first
-// that bends it at all.
+// Tries the rest pose, then the clip. The first that bends the limb clearly is taken, else the first that bends it at
+// all.
 // - The rest pose bends it by more than 10 degrees, and clearly by more than 20. Its sine counts: a limb folded by 170
 //   tells as little as a straight one.
 // - The clip bends it by more than 10 degrees in the mean. It is clear above 30, and one way in nine of ten frames.
 //   The mean is of the cross products of the unit bones, in the upper joint's axes, so that noise cancels.
-// Where neither tells it, the body does: elbows bend forwards and knees backwards in a figure that faces so.
+// If neither bends it, the figure's front decides: elbows bend forwards and knees backwards.
 //
 // rest: of the chain; parent_w: the upper joint's parent at rest. Throws CannotBind where the body must tell and the
 // upper bone points within 30 degrees along that way, or against it; the advice has a bend to write.
@@ -307,7 +307,7 @@ Eigen::Matrix3d axes_of(const swivel_binding& binding, const JointPose& parent_w
     return (parent_w.rotation * quaternion(binding.parent_from_arm)).toRotationMatrix();
 }
 
-// Where the user gave a bend, for people.
+// The place of the user's bend, for people.
 std::string place_of(const GivenBend& given) { return fmt::format("{} of {}", given.key, given.file); }
 
 // The bend that the user gave the limb.
@@ -324,8 +324,8 @@ const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
     return &*given;
 }
 
-// A joint between two of the limb's, first and last by their places in the chain, keeps its own motion. So that may
-// hardly move the later one.
+// Joints between two of the limb's keep their own motion, which may hardly move the later one. first, last: places of
+// the two in the chain.
 void require_still_between(const Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last)
 {
     constexpr double kMax = 1e-3;  // of the bone

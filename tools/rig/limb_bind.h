@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One limb's joints made into what the solver takes: bones, lengths, bend, scale and mirror from the rest pose. Knows
-// clips and the public interface.
+// Binds one limb's joints for the solver: bones, lengths, bend, scale and mirror from the rest pose. Knows clips and
+// the public interface.
 #pragma once
 
 #include <span>
@@ -20,16 +20,16 @@ namespace swivel::tools {
 struct Limb {
     formats::LimbName name;
     LimbJoints joints{-1, -1, -1};                         // shoulder, elbow and wrist, or hip, knee and ankle
-    LimbChain chain;                                       // these and what lies between
-    std::string from;                                      // who names these, for people; see FoundJoints
+    LimbChain chain;                                       // these and the joints between
+    std::string from;                                      // the source of these names, for people; see FoundJoints
     formats::LimbRest rest;                                // in the axes that it is solved in, in the world's unit
     swivel_binding bound = swivel_default_binding();       // of it
     Eigen::Vector3d upper_bone = Eigen::Vector3d::Zero();  // its direction at rest, in the upper joint's axes
     Eigen::Vector3d lower_bone = Eigen::Vector3d::Zero();  // the same of the lower bone, in the lower joint's
     Eigen::Vector3d bend = Eigen::Vector3d::Zero();        // where flexion carries the lower bone, in the upper
                                                            // joint's axes, unit
-    std::string bend_source;                               // who says so, for people
-    std::vector<std::string> notes;                        // what the user should know of it
+    std::string bend_source;                               // the bend's source, for people
+    std::vector<std::string> notes;                        // notes on the limb for the user
     double scale = 1;                                      // world lengths for one of the upper joint's parent, at rest
     double unevenness = 0;  // uneven scales put the wrist off by at most this share of the limb's length
     bool mirrored = false;  // the upper joint's parent is mirrored: joints are solved in axes whose x is turned over
@@ -39,11 +39,11 @@ struct Limb {
     int lower() const { return joints[1]; }
     int end() const { return joints[2]; }
 
-    // Brings a direction or a turn from the joints' own axes to those that the limb is solved in, and back.
+    // Converts a direction or a turn between the joints' own axes and the axes that the limb is solved in, either way.
     template <class Geometry>
-    Geometry as_solved(const Geometry& of) const
+    Geometry as_solved(const Geometry& own) const
     {
-        return mirrored ? formats::mirrored(of) : of;
+        return mirrored ? formats::mirrored(own) : own;
     }
 };
 
@@ -63,7 +63,7 @@ struct GivenBend {
 // The limb at rest in the clip's own axes, its lengths in those of its upper joint's parent (times Limb::scale they are
 // the world's). bend: in the upper joint's axes.
 formats::LimbRest limb_rest(const formats::Clip& clip, const LimbChain& chain, const Eigen::Vector3d& bend);
-// What the library binds it to, as a skeleton of three joints. Throws swivel::Error as bind() does.
+// The library's binding of a limb at rest, as a skeleton of three joints. Throws swivel::Error as bind() does.
 swivel_binding binding_of(const formats::LimbRest& rest);
 
 // The limb of these joints, bound. joints: as is_chain() says. At, above and between them it looks at the rest pose and

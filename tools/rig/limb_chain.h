@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A limb's joints with all that lies between them, and where they are. The solver knows two bones; a skeleton may have
-// twist bones, scales and mirrors in between. Here is the way there and back. Knows clips alone.
+// A limb's joints with all joints between them, and their places. The solver has two bones; a skeleton may have twist
+// bones, scales and mirrors in between. This file converts between both. Knows clips alone.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace swivel::tools {
 struct LimbChain {
     std::vector<int> joints;  // from the upper joint to the end joint, each the parent of the next
     std::size_t lower = 0;    // where in them the lower joint is
-    bool is_plain = true;     // nothing lies between, and no scale is or may become negative
+    bool is_plain = true;     // no joints between, and no scale is or may become negative
 
     int upper() const { return joints.front(); }
     int end() const { return joints.back(); }
@@ -35,13 +35,13 @@ struct ChainPose {
     Eigen::Vector3d lower_bone() const { return turn[1].conjugate() * (position[2] - position[1]); }
 };
 
-// The joint above one at rest, in the world; that of the world for a root.
+// The joint above a joint at rest, in the world; the world itself for a root.
 formats::JointPose parent_at_rest(const formats::Clip& clip, int joint);
 
 ChainPose rest_pose(const formats::Clip& clip, const LimbChain& chain);
 ChainPose chain_pose(const formats::Clip& clip, std::size_t frame, const LimbChain& chain);
 
-// How far the joints between two of a chain's move the later of the two in a frame, by their own motion alone. It is a
+// How far the joints between two of a chain's joints move the later one in a frame, by their own motion alone, as a
 // share of the distance of the two at rest. first, last: places of the two in the chain.
 double moved_between(const formats::Clip& clip, std::size_t frame, const LimbChain& chain, std::size_t first,
                      std::size_t last);

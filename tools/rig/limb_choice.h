@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which limbs the user asks for, and what is said of them by options and crowd files.
+// The limbs that the user asks for by options and crowd files.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@
 
 namespace swivel::tools {
 
-// Where the user said something.
+// The place of a user's setting.
 struct Source {
     std::string key;               // the option or a file's key, for messages: "--arm", "limb.left_arm.joints"
-    std::filesystem::path file{};  // that has this key; empty for the command line
+    std::filesystem::path file{};  // the file with this key; empty for the command line
     std::size_t line = 0;          // of it
 
     bool is_file() const { return line > 0; }
@@ -36,8 +36,8 @@ struct NamedLimb {
     Source source;
 };
 
-// Reads an option's text: "SHOULDER,ELBOW,WRIST", with "left:" or "right:" in front or without. Any number of joints is
-// taken here; choose_joints() wants three.
+// Reads an option's text: "SHOULDER,ELBOW,WRIST", with or without "left:" or "right:" in front. Accepts any number of
+// joints; choose_joints() requires three.
 NamedLimb limb_of_option(std::string_view text, std::string_view option);
 
 // Which limbs to solve.
@@ -52,11 +52,11 @@ struct LimbChoice {
     {
         return kind == formats::LimbKind::arm ? arms : legs;
     }
-    // Whether limbs that are not named are looked for, too.
+    // Whether unnamed limbs are searched for, too.
     bool looks_for(formats::LimbKind kind) const;
 };
 
-// Where the kinds were chosen, within a sentence: "--limbs legs", "crowd.limbs = "legs" in line 2 of crowd.toml".
+// The source of the kinds, for a sentence: "--limbs legs", "crowd.limbs = "legs" in line 2 of crowd.toml".
 std::string kinds_words(const LimbChoice& choice);
 
 }  // namespace swivel::tools

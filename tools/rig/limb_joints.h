@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which joints of a skeleton are an arm or a leg: by what the file says, or else by their names. Knows clips alone.
+// Finds the joints of arms and legs in a skeleton: by the file's own data, or else by names. Knows clips alone.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ using KnownLimbs = std::array<std::optional<LimbJoints>, 4>;
 // A limb's joints, or why there are none.
 struct FoundJoints {
     std::optional<LimbJoints> joints;
-    std::string from;     // who names them so, for people: "Unreal, Mesh2Motion", "--arm"
+    std::string from;     // the source of these names, for people: "Unreal, Mesh2Motion", "--arm"
     std::string problem;  // without joints: one line; empty if no name speaks of such a limb
-    std::string advice;   // what to do about it, to follow after a semicolon; empty: name joints
+    std::string advice;   // what to do, for after a semicolon; empty: name joints
 };
 
 // Why a limb is not solved. what() is one line that leaves out the file; advice is as above.

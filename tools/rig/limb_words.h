@@ -13,8 +13,8 @@ namespace swivel::tools {
 struct LimbWords {
     std::string_view limb, limbs;
     std::string_view upper_joint, lower_joint, end_joint;  // the three joints
-    std::string_view upper, lower, end;                    // what each of them turns
-    std::string_view option, joints;                       // that names a limb, and what it takes
+    std::string_view upper, lower, end;                    // the parts that these turn
+    std::string_view option, joints;                       // the option for a limb, and its argument
 };
 
 inline constexpr LimbWords kArmWords = {"arm",       "arms",    "shoulder", "elbow", "wrist",

@@ -23,7 +23,7 @@ using formats::Side;
 
 constexpr std::size_t kShownName = 80;  // characters of a joint's name in a message
 
-// A fault of what the user said of a clip, where it was said.
+// An error about a user's setting, at its place.
 [[noreturn]] void refuse(const Source& source, const std::filesystem::path& clip, std::string_view cause,
                          std::string_view advice)
 {
@@ -97,8 +97,8 @@ void put_named(const Clip& clip, const std::filesystem::path& file, const LimbCh
     }
 }
 
-// No joint is in two limbs. One that the user named keeps it; two named are refused, and of two that were found none
-// is taken.
+// Resolves joints in two limbs. A limb that the user named keeps the joint; two named limbs are refused, and two found
+// ones are both dropped.
 void keep_apart(const Clip& clip, const std::filesystem::path& file, FigureJoints& figure)
 {
     const FigureJoints found = figure;

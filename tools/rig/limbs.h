@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The limbs of a clip's skeleton, from what the user asks for to what the solver takes. Joints come first; for these a
-// skeleton is enough. The clip's frames then bind them. Knows clips and the public interface; no file format.
+// Finds and binds the limbs of a clip's skeleton that the user asks for. Finding joints needs the skeleton alone;
+// binding them needs the clip's frames. Knows clips and the public interface; no file format.
 #pragma once
 
 #include <array>
@@ -19,17 +19,17 @@ namespace swivel::tools {
 struct LimbFound {
     formats::LimbName name;
     FoundJoints joints;
-    bool is_chosen = false;               // it is to be solved; others only say how the figure faces
+    bool is_chosen = false;               // to be solved; other limbs only show the figure's front
     const NamedLimb* named_by = nullptr;  // the user, in the choice; null: the file's names
 };
 
 // In the order of formats::kLimbNames.
 using FigureJoints = std::array<LimbFound, 4>;
 
-// Takes the joints that the user names, else those that joints_by_file() finds. A joint that is named for one limb is
-// no other's. file: of the clip, for messages; clip: its frames are not needed; choice: must outlive the result. Throws
-// InputError with the option, or the file and line, for joints that the user named wrongly. Wrong are an unknown or
-// ambiguous joint, joints that are not above each other, two limbs of a kind on one side, and a joint in two limbs.
+// Takes the joints that the user names, else those of joints_by_file(). A joint named for one limb belongs to no other.
+// file: of the clip, for messages; clip: its frames are not needed; choice: must outlive the result. Throws InputError
+// with the option, or the file and line, for joints that the user named wrongly. Wrong are an unknown or ambiguous
+// joint, joints that are not above each other, two limbs of a kind on one side, and a joint in two limbs.
 FigureJoints choose_joints(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
 // The joints of the limbs that are to be solved, as far as they are known.
@@ -38,7 +38,7 @@ std::vector<int> joints_of(const FigureJoints& figure);
 // All that are known, chosen or not.
 KnownLimbs known_limbs(const FigureJoints& figure);
 
-// The result for one limb: bound, or why not.
+// The result for one limb: bound, or a problem.
 struct LimbFinding {
     formats::LimbName name;
     std::optional<Limb> limb;
@@ -64,8 +64,8 @@ std::vector<BodyPart> body_of(const formats::Clip& clip, const std::filesystem::
 // The limbs bound, each or with its reason.
 LimbSearch bind_limbs(const formats::Clip& clip, const FigureJoints& joints, const LimbChoice& choice);
 
-// The limbs that bind, arms first. Throws InputError for a limb that the user named and that does not, and where none
-// does. What does not bind refuses nothing else.
+// The limbs that bind, arms first. Throws InputError if a limb that the user named does not bind, or if none does.
+// Other limbs that do not bind are left out.
 std::vector<Limb> require_limbs(const LimbSearch& search, const std::filesystem::path& file);
 
 }  // namespace swivel::tools

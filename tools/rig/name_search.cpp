@@ -22,7 +22,7 @@ using formats::LimbName;
 
 constexpr std::size_t kMaxCandidates = 4;  // that a message lists
 
-// One row with one side: who bears its three names.
+// One row with one side: the joints with its three names.
 struct Attempt {
     std::array<std::string, 3> names;
     std::array<std::vector<int>, 3> bearers;
@@ -139,7 +139,7 @@ struct NameSearch {
             made.advice = fmt::format("at rest '{}' lies in the same place: {}", shown(at[n]), option(at));
         return made;
     }
-    // Why names that are borne make no limb.
+    // Why joints with these names make no limb.
     FoundJoints problem_of(const Attempt& made) const
     {
         const auto problem = [](std::string text) { return FoundJoints{{}, {}, std::move(text), {}}; };
@@ -188,7 +188,7 @@ std::vector<bool> repeated_joints(const Clip& clip)
     return is_repeated;
 }
 
-NamedJoints::NamedJoints(const Clip& of) : clip(of)
+NamedJoints::NamedJoints(const Clip& skeleton) : clip(skeleton)
 {
     const std::vector<bool> is_repeated = repeated_joints(clip);
     for (std::size_t n = 0; n < clip.joints.size(); ++n) {
@@ -231,7 +231,7 @@ FoundJoints joints_by_name(const NamedJoints& joints, LimbName limb)
         }
     if (limbs.size() > 1) return search.several(limbs);
     if (limbs.size() == 1) return {limbs[0], std::string(from), {}, {}};
-    // One name alone says nothing: half the world has a "LeftHand".
+    // One name alone proves nothing: half the world has a "LeftHand".
     return nearest.borne() > 1 ? search.problem_of(nearest) : FoundJoints();
 }
 

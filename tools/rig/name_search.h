@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A limb's joints by the table of names.
+// Finds a limb's joints by the table of names.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace swivel::tools {
 
-// Which joints are of a figure that repeats an earlier one, as all but the first of a crowd do: below a root of its
-// own, with the same names in the same order.
+// Marks the joints of figures that repeat an earlier one, as in a file of a crowd: below a root of their own, with the
+// same names in the same order.
 std::vector<bool> repeated_joints(const formats::Clip& clip);
 
-// A skeleton's joints by their plain names. Nobody bears a name for a figure that repeats an earlier one.
+// A skeleton's joints by their plain names, without those of repeated figures.
 struct NamedJoints {
     const formats::Clip& clip;
     std::vector<std::string> names;  // of each joint
     std::unordered_map<std::string, std::vector<int>> bearers;
 
-    explicit NamedJoints(const formats::Clip& of);
+    explicit NamedJoints(const formats::Clip& skeleton);
 
     const std::string& name(int joint) const { return names[static_cast<std::size_t>(joint)]; }
     bool is_bone(int joint) const { return joint_at(clip, joint).is_bone; }

@@ -15,7 +15,7 @@ namespace swivel::tools {
 // Names as plain() has them, with * for the side. Empty names: this row knows no such limb.
 struct NameRow {
     std::array<std::string_view, 3> arm, leg;  // shoulder, elbow and wrist; hip, knee and ankle
-    std::string_view from;                     // who names joints so, for people
+    std::string_view from;                     // the tools that use these names, for people
 
     const std::array<std::string_view, 3>& joints(formats::LimbKind kind) const
     {
@@ -23,14 +23,14 @@ struct NameRow {
     }
 };
 
-// The first row that fits counts. So names of upper arms come before those that may be a clavicle's.
+// The first row that fits counts. So rows with clear names of upper arms come before rows with names that may be a
+// clavicle's.
 std::span<const NameRow> name_table();
 
 // The words that * may stand for.
 std::array<std::string_view, 3> side_words(formats::Side side);
 
-// The side that a joint's name speaks of: with which it is a name of the table, or else by a word of its own. Otherwise
-// `otherwise`.
+// The side in a joint's name: the one with which the name is in the table, else that of a word in it, else `otherwise`.
 formats::Side side_of(std::string_view joint_name, formats::Side otherwise);
 
 // A name of the table with this side.

@@ -50,7 +50,7 @@ public:
     {
         return legs_.empty() ? Vector3d(Vector3d::Zero()) : Vector3d(top_w(pose_w) - middle_w(pose_w, 2));
     }
-    // How upright the least upright part is: 1 for a figure that stands to attention, -1 where no leg is known.
+    // The cosine between up and the least upright part: 1 for a figure that stands to attention, -1 if no leg is known.
     double uprightness(const Poses& pose_w, const Vector3d& up_w) const
     {
         if (legs_.empty()) return -1;
@@ -211,8 +211,8 @@ void take_frame(Clip& clip, const KnownLimbs& limbs, std::size_t frame, const Ve
     Straightener(clip, limbs, up_w).straighten();
 }
 
-// How many times as long as at rest the limbs' bones are in the first frame: the median, without bones of no length
-// there. Infinite where they have none at rest, 1 where there are no bones.
+// The median ratio of the limbs' bone lengths, first frame to rest, without bones of no length in that frame. Infinite
+// for bones of no length at rest, 1 without bones.
 double change_of_length(const Clip& clip, const KnownLimbs& limbs)
 {
     const Poses rest_w = formats::rest_pose(clip), first_w = formats::world_pose(clip, 0);

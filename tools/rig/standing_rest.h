@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A rest pose that stands. Skeletons such as LAFAN1's have all bones along one axis in the rest pose, which then says
-// neither up nor forwards nor which way a limb hangs; their frames do. Knows clips alone.
+// Replaces rest poses that do not stand. Skeletons such as LAFAN1's rest with all bones along one axis, so that only
+// their frames show up, forwards and how limbs hang. Knows clips alone.
 #pragma once
 
 #include <optional>
@@ -28,14 +28,14 @@ struct RestChoice {
 // which heads are above feet, in the mean of all frames. The joints' rest_rotation changes alone, and no frame does.
 // choice overrides all. limbs: where no leg is known, a frame must be chosen.
 //
-// Returns what was done, a line for people; empty where the rest pose is the file's own. Where no frame stands, all
-// parts within 60 degrees of upright, the first of the three throws CannotBind, and so does the user's choice. The
-// others then leave the file's own, and so they do without motion, in clips of one frame.
+// Returns a line for people on the change; empty if the file's rest pose stays. A frame stands if all parts are within
+// 60 degrees of upright. If none does, the first of the three reasons, and the user's choice, throw CannotBind; the
+// other reasons then leave the file's rest pose, as they do in clips of one frame.
 std::string stand_at_rest(formats::Clip& clip, const KnownLimbs& limbs, const RestChoice& choice);
 
-// Some files have their bones' true lengths in keys alone. Where the limbs' bones are longer or shorter by a tenth in
-// the first frame than at rest, in the median, joints below the hips rest at the first frame's offsets, and all at its
-// scales. Returns a line for people; empty where nothing was changed.
+// Some files have their bones' true lengths only in keys. If the median bone of the limbs differs by a tenth between
+// the first frame and rest, joints below the hips rest at the first frame's offsets, and all at its scales. Returns a
+// line for people; empty without a change.
 std::string size_at_rest(formats::Clip& clip, const KnownLimbs& limbs);
 
 }  // namespace swivel::tools

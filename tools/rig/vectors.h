@@ -38,7 +38,7 @@ std::string axis_name(const Eigen::Vector3d& axis);
 // The axis of such a name; nothing for any other.
 std::optional<Eigen::Vector3d> axis_of(std::string_view name);
 
-// The value that this share of all is not above. values: one at least. share: 0 to 1.
+// The quantile of this share, 0 to 1. values: one or more.
 double quantile(std::vector<double> values, double share);
 
 // For people to read, without a -0.

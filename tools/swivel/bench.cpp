@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel bench`: becomes swivel-bench, the suite beside it (bench/), and has it run the families that are worth a look
-// on any machine. So the command itself needs no rivals to build.
+// `swivel bench`: replaces itself by swivel-bench, the suite beside it (bench/), and runs the families that suit any
+// machine. So the command itself builds without the rivals.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A clip's crowd as a cache and a page hold it, and the figure's own skin for the page.
+// Prepares a clip's crowd for a cache or a page, and the figure's skin for the page.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct ClipNames {
 // The clip's joints that are drawn: bones, the limbs' own, and those of the plan's look with the one above.
 std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan);
 
-// Its joints are those that are drawn. All frames of the clip, all characters of the plan.
+// The crowd with the drawn joints, all frames of the clip and all characters of the plan.
 CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::span<const Limb> limbs,
                         const CrowdPlan& plan, const ClipMotion& motion);
 
@@ -35,8 +35,8 @@ struct PageSkin {
     std::vector<int> nodes;  // of each joint that is drawn, by the file's own number
     // For each frame and each such joint: its rotation in the world, x, y, z, w, and its scale, below 0 in a mirror.
     std::vector<float> turns;
-    // The necks' joints and the head's, among those that are drawn, and where the face is in the last one's axes.
-    // Empty: no head is drawn.
+    // The necks' and the head's places among the drawn joints, and the face in the head's axes. Empty: no head is
+    // drawn.
     std::vector<std::size_t> head;
     std::array<double, 3> face{0, 0, 1};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The command line: what each subcommand takes, and the run of one.
+// The command line: the options of each subcommand, and running one.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -60,7 +60,7 @@ void add_solve(CLI::App& app)
     command->callback([options] { run_solve(*options); });
 }
 
-// The first option given that says what a clip's crowd is. Empty: none is.
+// The first given option that describes a clip's crowd; empty: none.
 std::string option_about_clip(const CLI::App& command)
 {
     constexpr std::string_view kOfPages[] = {"FILE", "--out", "--characters", "--threads", "--quiet"};
@@ -251,7 +251,7 @@ void add_info(CLI::App& app)
 
 // ---- the run
 
-// Lets the words do what they say. Throws whatever fails.
+// Parses and runs the command line. Throws if it fails.
 void parse(CLI::App& app, int argc, const char* const* argv)
 {
     try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The subcommands: what each may be asked for, and what runs it. They report failure by throwing CommandError,
-// formats::InputError or swivel::Error; run_swivel() turns these into one line and an exit code.
+// The subcommands: their options and their functions, which throw CommandError, formats::InputError or swivel::Error on
+// failure. run_swivel() turns these into one line and an exit code.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace swivel::tools {
 
-// Which of a file's animations, how densely, and which rest pose.
+// The animation to take from a file, its rate, and the rest pose.
 struct MotionChoice {
     std::string clip;  // name or index of an animation; empty: the first
     double rate = 0;   // frames a second; 0: as the file has them
@@ -37,7 +37,7 @@ struct SolveOptions {
     std::vector<std::string> arms, legs;
     std::string kinds;
     std::string between;                 // hold, linear, or empty: limbs without a row follow the clip
-    std::optional<std::string> targets;  // these three: else the crowd file's, else "clip", 1 and 1
+    std::optional<std::string> targets;  // these three: not given: the crowd file's, else "clip", 1 and 1
     std::optional<std::uint32_t> characters;
     std::optional<std::uint64_t> seed;
     unsigned threads = 0;
@@ -46,7 +46,7 @@ struct SolveOptions {
 void run_solve(const SolveOptions& options);
 // The same for the page alone, whose name comes from the file's unless `view` says it. The file may be a cache;
 // without one it is the figure that is installed with the command, on hills.
-// about_clip: the first option given that a cache has no use for; empty: none is given.
+// about_clip: the first given option that caches do not take; empty: none.
 void run_view(SolveOptions options, const std::string& about_clip);
 
 struct RetargetOptions {
@@ -56,7 +56,7 @@ struct RetargetOptions {
     std::vector<std::string> arms, legs, heads, rests, ups;
     std::string clip;    // of source, as MotionChoice has it
     double rate = 0;     // so is this
-    bool force = false;  // garbage is written, too
+    bool force = false;  // also writes a motion that is judged as garbage
     bool quiet = false;
 };
 void run_retarget(const RetargetOptions& options);
@@ -86,7 +86,7 @@ void run_replay(const ReplayOptions& options);
 
 struct FeetOptions {
     std::vector<std::string> files;
-    std::string out;  // a file, or of several files a folder; empty: none
+    std::string out;  // a file, or for several clips a folder; empty: none
     std::string contacts, export_contacts;
     std::string ground, ground_size;  // the picture of hills, "X,Y,Z"; empty: a level floor
     MotionChoice motion;
@@ -126,8 +126,8 @@ struct InfoOptions {
 void run_info(const InfoOptions& options);
 
 // The whole command as a function.
-// Runs what the words say, argv[0] being the command's own name. Returns the exit code: 0 done, 1 failed, 2 bad usage,
-// 128 and its number for a signal that ended the run. What went wrong is one line on stderr.
+// Runs the command line, argv[0] being the command's own name. Returns the exit code: 0 done, 1 failed, 2 bad usage,
+// 128 plus its number for a signal that ended the run. Prints an error as one line on stderr.
 int run_swivel(int argc, const char* const* argv);
 
 }  // namespace swivel::tools

@@ -145,7 +145,7 @@ std::optional<NamedJoint> named_head(const CrowdJob& job)
     return NamedJoint{head.value, {head.key, job.crowd->path, head.line}};
 }
 
-constexpr std::size_t kBuilds = 8;  // figures of which each character is one, where proportions differ
+constexpr std::size_t kBuilds = 8;  // the number of figures, where proportions differ
 
 // The builds of a crowd, the clip's own first.
 std::vector<Proportions> builds_of(const SolveOptions& options, const formats::CrowdFile& file,
@@ -185,8 +185,8 @@ std::vector<Proportions> builds_of(const SolveOptions& options, const formats::C
     return builds;
 }
 
-// Puts what the crowd performs in place of the clip: clips as they go on, or several of them, one after the other, each
-// by figures of all builds. Returns the parts.
+// Replaces the clip by the crowd's performance: looped clips, or several clips one after the other, each by figures of
+// all builds. Returns the parts.
 std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> joints, MotionFile& file, CrowdJob& job)
 {
     const formats::Clip& clip = file.clip();
@@ -198,7 +198,7 @@ std::vector<ClipPart> perform(const SolveOptions& options, std::span<const int> 
     const auto goes_on = static_cast<std::size_t>(std::ceil(static_cast<double>(job.frame_count) * fastest));
     std::vector<formats::Clip> clips;
     std::vector<ClipPart> parts;
-    // A clip as it goes on, for as many frames as are solved, wherever in the loop one starts; or its first frames.
+    // Adds a looped clip, long enough for all solved frames from any start in the loop; or the clip's first frames.
     const auto add = [&](const std::string& name, const formats::Clip& from) {
         const std::size_t max = options.frames > 0 ? options.frames : from.frame_count;
         const ClipLoop loop = is_loop ? job.loops.emplace_back(loop_of(*job.crowd, name, from, body)).loop : ClipLoop();
@@ -269,7 +269,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     const formats::Clip& clip = file.clip();
     const FigureJoints joints = choose_joints(clip, options.file, choice);
     file.sample(joints_of(joints));
-    file.stand(known_limbs(joints));
+    file.fix_rest_pose(known_limbs(joints));
     LimbSearch search = bind_limbs(clip, joints, choice);
     job.limbs = require_limbs(search, options.file);
     const Eigen::Vector3d up_w = nearest_axis(search.facing.up_w), &forwards_w = search.facing.forwards_w;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A clip, its limbs and what they are asked for, from the command line and the crowd file: what solve, view and store
-// begin with.
+// The job of solve, view and store: a clip, its limbs and their goals, from the command line and the crowd file.
 #pragma once
 
 #include <optional>
@@ -17,7 +16,7 @@
 
 namespace swivel::tools {
 
-// A motion beside the clip.
+// Another motion besides the clip.
 struct FurtherMotion {
     std::filesystem::path file;
     std::string words;  // for people
@@ -29,28 +28,28 @@ struct CrowdJob {
     std::vector<Limb> limbs;
     std::vector<LimbFinding> missing;
     std::vector<BodyPart> body;
-    Eigen::Vector3d faces_w;  // where the figure looks at rest: forwards, and level, though its back may lean
+    Eigen::Vector3d faces_w;  // the figure's forwards at rest, level even if its back leans
     CrowdPlan plan;
-    std::vector<FoundLoop> loops;  // of each clip, where they go on and on
+    std::vector<FoundLoop> loops;  // one for each clip, if they loop
     std::vector<FurtherMotion> further;
-    // Figures that perform the clips: all clips by the first one, then by the next one.
+    // The figures that perform the clips: the first one performs all, then the next one.
     std::vector<Proportions> builds = std::vector<Proportions>(1);
-    std::size_t frame_count = 0;  // to solve: those of the first clip, fewer, or of loops any number
-    std::size_t clip_frames = 0;  // that the file has
+    std::size_t frame_count = 0;  // to solve: the first clip's or fewer; with loops any number
+    std::size_t clip_frames = 0;  // in the file
     std::string targets;          // "clip" or a file
     std::optional<GivenTargets> given;
     std::string heights, contacts;  // the picture of the ground, the table of contacts; empty: none
 };
 
-// A motion's file as pages and caches call it, and what is performed of it and of further clips.
+// The title of a motion's file on pages and in caches, and the names of the performed clips.
 std::string title_of(const std::string& file);
 std::string motion_of(const MotionFile& file, const CrowdJob& job);
 
 // The limbs that the options name. Throws CommandError where they contradict each other.
 LimbChoice choice_of(const SolveOptions& options);
 
-// The command line before the crowd file before what is so without both. Samples file. Throws InputError and
-// CommandError as what it reads does.
+// Options override the crowd file, which overrides defaults. Samples `file`. Throws InputError and CommandError as the
+// readers do.
 CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& file);
 
 }  // namespace swivel::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel feet`: finds when feet of clips are on the ground, lets them stand, reports, and writes the clips.
+// `swivel feet`: finds when clips' feet are on the ground, makes them stand, reports, and writes the clips.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -262,7 +262,7 @@ void bind_legs(const FeetOptions& options, MotionFile& file, FeetRun& run)
     const LimbChoice choice = choice_of(legs);
     const FigureJoints figure = choose_joints(file.clip(), run.file, choice);
     file.sample(joints_of(figure));
-    file.stand(known_limbs(figure));
+    file.fix_rest_pose(known_limbs(figure));
     const formats::Clip& clip = file.clip();
     if (clip.frame_time == 0 && clip.frame_count > 1)
         throw InputError(run.file, "its keys lie at uneven times, and feet are judged by even frames; give --fps");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel fill`: solves the chunks of a cache. `swivel check`: proves that all of them are right, and mends those that
-// are not.
+// `swivel fill`: solves the chunks of a cache. `swivel check`: verifies all chunks, and solves wrong ones again.
 #include <fmt/format.h>
 
 #include <algorithm>

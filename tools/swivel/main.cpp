@@ -33,11 +33,11 @@ void write_line(const char* cause, const char* rest)
     static_cast<void>(!::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(size)));
 }
 
-// The signal's second coming is the process's end: when this returns.
+// Raises the signal again, which ends the process when the handler returns.
 void end_by(int signal)
 {
     formats::Partial::remove_all();
-    // Where nobody reads any more, a run ends without a word, as other tools do.
+    // A run whose output nobody reads any more ends silently, as other tools do.
     if (signal != SIGPIPE) write_line(::sigdescr_np(signal), "; unfinished files are removed");
     ::raise(signal);
 }
@@ -53,8 +53,8 @@ void end_by_signals()
             ::sigaction(signal, &once, nullptr);
 }
 
-// Where memory lacks, no exception is thrown. Unwinding would run destructors that ask for memory, or that find an
-// object half made: those of nlohmann's JSON do both.
+// Without memory the process ends instead of throwing. Unwinding would run destructors that allocate, or that meet
+// half-made objects: those of nlohmann's JSON do both.
 [[noreturn]] void end_without_memory()
 {
     formats::Partial::remove_all();

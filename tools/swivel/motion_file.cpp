@@ -29,9 +29,9 @@ void require_no_choice(const MotionChoice& choice)
         throw CommandError(2, "--fps samples a glTF file; a BVH file has frames of its own; leave it out");
 }
 
-// A GLB's header, which says how long it is. No more may be read of a GLB: from a pipe, more may never come.
+// A GLB's header, which says its length. Nothing beyond it may be read yet: from a pipe, it may never come.
 constexpr std::size_t kGlbHead = 12;
-// By then a text has said what it is, even after blank lines.
+// A text shows its format within this, even after blank lines.
 constexpr std::size_t kTextHead = 4096;
 constexpr std::size_t kShownHead = 20;  // bytes of it in a message
 
@@ -76,7 +76,7 @@ void MotionFile::sample(std::span<const int> limb_joints)
     if (GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::sample(*gltf, limb_joints);
 }
 
-void MotionFile::stand(const KnownLimbs& limbs, bool is_replaced)
+void MotionFile::fix_rest_pose(const KnownLimbs& limbs, bool is_replaced)
 {
     formats::Clip& clip = std::visit([](auto& file) -> formats::Clip& { return file.clip; }, file_);
     try {

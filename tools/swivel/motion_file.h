@@ -30,11 +30,11 @@ public:
     // its frames already.
     void sample(std::span<const int> limb_joints);
 
-    // Sees to a rest pose that stands, by stand_at_rest() and the choice that this was made with. It gets the clip's
-    // size, by size_at_rest(), unless its motion is to be replaced. Throws InputError.
-    void stand(const KnownLimbs& limbs, bool is_replaced = false);
+    // Replaces the clip's rest pose by a standing one if need be: see stand_at_rest(). First gives it the clip's size,
+    // by size_at_rest(), unless the motion will be replaced. Throws InputError.
+    void fix_rest_pose(const KnownLimbs& limbs, bool is_replaced = false);
 
-    // Keeps the first frames alone, for a motion that will not be written. frame_count: at most the clip's.
+    // Drops all but the first frames, for a motion that will not be written. frame_count: at most the clip's.
     void cut(std::size_t frame_count);
     // Takes another motion of the clip's joints, which will not be written.
     void replace(formats::Clip clip);
@@ -51,11 +51,11 @@ public:
     bool has_motion() const;
     // Notes for the user on how the file was read, a line each; mostly none.
     std::vector<std::string> notes() const;
-    // Throws CommandError (bad usage) for an output file that cannot hold this motion. what: the file's own name in the
-    // message; others: what else is written.
+    // Throws CommandError (bad usage) for an output file that cannot hold this motion. what, others: this file and
+    // other formats, for the message.
     void require_can_write(const std::filesystem::path& out, std::string_view what = "this clip",
                            std::string_view others = " or .csv") const;
-    // Throws InputError for a joint whose rotation that cannot hold.
+    // Throws InputError for a joint whose rotation the file cannot store.
     void require_can_key(int joint) const;
     bool can_key(int joint) const;  // whether it would not throw
     // In the format that the suffix of `out` says; as write_bvh() and write_gltf() do.
@@ -73,7 +73,7 @@ private:
     std::array<std::string, 2> rest_notes_;  // empty: there is nothing to say
 };
 
-// Whether a file that is written under this suffix, in lower case, holds one character's motion, and of which format.
+// Whether files with this suffix, in lower case, are of one of these formats.
 inline bool is_bvh(std::string_view suffix) { return suffix == ".bvh"; }
 inline bool is_gltf(std::string_view suffix) { return suffix == ".glb" || suffix == ".gltf" || suffix == ".vrm"; }
 

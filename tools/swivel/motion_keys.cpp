@@ -126,14 +126,14 @@ void MotionKeys::write(const std::filesystem::path& out, const MotionFile& file,
     const std::size_t frames = rotations_.empty() ? places_.front().size() : rotations_.front().size();
     std::vector<formats::GltfCharacter> whole;
     for (std::size_t c = 0; c < characters.size(); ++c) {
-        formats::GltfCharacter& to = whole.emplace_back();
-        to.name = fmt::format("character {}", c);
-        to.place = Vector3d(characters[c].place), to.size = characters[c].size;
+        formats::GltfCharacter& figure = whole.emplace_back();
+        figure.name = fmt::format("character {}", c);
+        figure.place = Vector3d(characters[c].place), figure.size = characters[c].size;
         for (std::size_t n = 0; n < turning_.size(); ++n)
-            to.keys.push_back({turning_[n], rotations_[c * turning_.size() + n], {}});
+            figure.keys.push_back({turning_[n], rotations_[c * turning_.size() + n], {}});
         for (std::size_t n = 0; n < moving_.size(); ++n) {
-            const auto found = std::ranges::find(to.keys, moving_[n], &formats::JointKeys::joint);
-            formats::JointKeys& keys = found == to.keys.end() ? to.keys.emplace_back() : *found;
+            const auto found = std::ranges::find(figure.keys, moving_[n], &formats::JointKeys::joint);
+            formats::JointKeys& keys = found == figure.keys.end() ? figure.keys.emplace_back() : *found;
             keys.joint = moving_[n], keys.translation = places_[c * moving_.size() + n];
         }
     }

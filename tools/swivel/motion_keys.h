@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The solved poses, kept for a file of motion that is written at the end: the first character's rotations in the
-// frames that the file has, or whole characters in frames of its own. There limbs are as solved. All else is as the
-// clip has it in the frame that the character shows, raised with its ground.
+// Collects the solved poses for a motion file that is written at the end: the first character's rotations in the file's
+// frames, or whole characters in new frames. Limbs are as solved, all else is as in the clip's frame that the character
+// shows, raised with its ground.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,8 @@ public:
     // must outlive it.
     MotionKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan, bool has_new_frames);
 
-    // Throws, before any work is done, for what write() could not hold: joints that cannot have keys; with new frames
-    // also joints that change their size, more than kMaxInFile characters and more than 3 GB of keys, with the size
-    // that the file would have.
+    // Throws early if write() would fail: for joints that cannot have keys; with new frames also for joints that change
+    // their size, for more than kMaxInFile characters, and for more than 3 GB of keys, with the file's size.
     void require_can_write(const std::filesystem::path& out, const MotionFile& file, std::size_t frame_count) const;
 
     // Takes the frame that the crowd has solved.
@@ -35,8 +34,8 @@ public:
                std::span<const goal_character> characters) const;
 
 private:
-    // A joint that is solved, with the limb and which of its rotations, 3: the joint above. After the limbs comes the
-    // look, whose rotations are counted along it.
+    // A solved joint, with its limb and the number of its rotation; 3: the joint above. The look counts as the last
+    // limb, with rotations counted along it.
     struct Solved {
         std::size_t limb, part;
         int joint;
@@ -48,7 +47,7 @@ private:
     std::uint32_t characters_;
     std::size_t limb_count_;
     std::vector<int> turning_, moving_;  // joints that have keys of rotation, of translation
-    int raised_ = -1;                    // the joint that the ground raises, with all that hangs from it; -1: none
+    int raised_ = -1;                    // the joint that the ground raises with all joints below; -1: none
     std::vector<Solved> solved_;
     std::vector<std::vector<Eigen::Quaterniond>> rotations_;  // [character * turning joints + n][frame]
     std::vector<std::vector<Eigen::Vector3d>> places_;        // [character * moving joints + n][frame]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel replay`: computes a part of a cached crowd again from its goals, proves it by the digests, and writes it.
+// `swivel replay`: solves a part of a cached crowd again from its goals, checks it by the digests, and writes it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Range {
     std::uint32_t begin, end;
 };
 
-// "A:B" is A and on, up to B without it; either may be left out. "A" is that one.
+// "A:B" is A up to B, B excluded; either may be left out. "A" is A alone.
 Range range_of(const char* option, const std::string& text, std::uint32_t count)
 {
     const std::size_t colon = text.find(':');
@@ -163,7 +163,7 @@ private:
     formats::PosesCsv csv_;
 };
 
-// The part of [whole.begin, whole.end) that is in the piece of that many from first on, counted from first.
+// The part of [whole.begin, whole.end) in the piece [first, first + count), relative to first.
 Range within(Range whole, std::uint32_t first, std::uint32_t count)
 {
     return {std::max(whole.begin, first) - first, std::min(whole.end, first + count) - first};

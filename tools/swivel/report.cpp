@@ -49,7 +49,7 @@ nlohmann::ordered_json json_of(const PoseName& pose)
     return {{"frame", pose.frame}, {"character", pose.character}, {"limb", limb_word(pose.limb)}};
 }
 
-// The kind of limbs that were solved, in one word.
+// The solved limbs' kind, in one word.
 std::string limbs_solved(const Statistics& statistics)
 {
     if (statistics.legs.limb_count == 0) return "arms";
@@ -61,13 +61,13 @@ double limbs_per_second(const Statistics& statistics)
     return statistics.solve_seconds > 0 ? static_cast<double>(statistics.limb_count()) / statistics.solve_seconds : 0;
 }
 
-// The meaning of a distance: that the solver is wrong, that a target is out of reach, or that a pose is not the clip's.
+// The meaning of a distance: the solver's error, a miss of a target out of reach, or a difference from the clip.
 struct Meaning {
     const char *line, *key;  // in a report, in JSON
 };
 constexpr Meaning kError{"error", "errors"}, kMissed{"missed", "missed"}, kDiffers{"differs", "differences_from_clip"};
 
-// The distances that were measured, each with its name and what it is measured in.
+// A measured distance, with its name and unit.
 struct Distance {
     Meaning meaning;
     std::string key, text, unit;
@@ -103,7 +103,7 @@ std::vector<Distance> distances_of(const Statistics& statistics)
     return distances;
 }
 
-// Says what is wrong with the limbs of a run that went_wrong(), and what to look at.
+// Says what is wrong with the limbs of a run that went_wrong(), and what to check.
 std::string what_went_wrong(const Statistics& statistics)
 {
     std::string text = fmt::format("of {} {}", statistics.limb_count(), limbs_solved(statistics));
@@ -133,7 +133,7 @@ std::string number_of_clip(const CrowdJob& job, std::size_t n)
     return job.loops.size() > 1 ? fmt::format(" {}", n + 1) : "";
 }
 
-// The same of loops.
+// The same for loops.
 std::vector<std::string> loop_notes(const CrowdJob& job)
 {
     std::vector<std::string> notes;
@@ -148,12 +148,12 @@ std::vector<std::string> loop_notes(const CrowdJob& job)
     return notes;
 }
 
-// Who walks beside the picture of heights, where the ground goes on level: a line, or nothing.
+// A note if characters leave the picture of heights, beyond which the ground is level; else none.
 std::vector<std::string> ground_notes(const formats::Clip& clip, const CrowdJob& job)
 {
     if (job.heights.empty()) return {};
     std::vector<formats::JointPose> pose_w(clip.joints.size());
-    std::vector<Eigen::AlignedBox2d> ways(clip.frame_count);  // from each frame that a clip begins with
+    std::vector<Eigen::AlignedBox2d> ways(clip.frame_count);  // [the first frame of a clip]
     std::vector<ClipPart> parts = job.plan.clips;
     if (parts.empty()) parts = {{0, clip.frame_count}};
     for (const ClipPart& part : parts)
@@ -180,6 +180,88 @@ std::vector<std::string> ground_notes(const formats::Clip& clip, const CrowdJob&
         "crowd.spacing",
         std::ranges::count_if(characters, leaves), characters.size(), picture.min().x(), picture.max().x(),
         picture.min().y(), picture.max().y(), first - characters.begin())};
+}
+
+// The limbs that are bound, with their notes, and those that are not.
+void print_limbs(std::FILE* to, const formats::Clip& clip, const CrowdJob& job)
+{
+    const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
+    for (const Limb& limb : job.limbs)
+        say(to, "{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
+            side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
+            limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend), limb.bend_source);
+    for (const Limb& limb : job.limbs)
+        for (const std::string& note : limb.notes) say(to, "note     {}: {}\n", plain_name(limb.name), note);
+    for (const LimbFinding& finding : job.missing)
+        say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
+            finding.has_joints ? "refused" : "missing", problem_text(finding));
+}
+
+// The clips after the first one, and the frames between which clips loop.
+void print_further_clips(std::FILE* to, const formats::Clip& clip, const CrowdJob& job)
+{
+    for (const FurtherMotion& each : job.further) say(to, "clip     {}\n", each.words);
+    for (std::size_t n = 0; n < job.loops.size(); ++n) {
+        const FoundLoop& found = job.loops[n];
+        say(to, "loop     frames {} to {} of the clip{}, {:.2f} s{}\n", found.loop.first, found.loop.last,
+            number_of_clip(job, n), static_cast<double>(found.loop.length()) * clip.frame_time,
+            found.gap > 0 ? fmt::format("; a joint's pose and motion differ by {:.1f} degrees",
+                                        found.gap * 180 / std::numbers::pi)
+                          : "");
+    }
+    for (const std::string& note : loop_notes(job)) say(to, "note     {}\n", note);
+}
+
+void print_ground(std::FILE* to, const formats::Clip& clip, const CrowdJob& job)
+{
+    if (const auto& ground = job.plan.ground)
+        say(to, "ground   {}; feet stand{}, bodies hang lower by {:.3g}\n",
+            job.heights.empty()
+                ? "level"
+                : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
+            job.contacts.empty() ? "" : " when " + shown_file(job.contacts) + " says", -job.plan.shift_wish);
+    for (const std::string& note : ground_notes(clip, job)) say(to, "note     {}\n", note);
+}
+
+// The proportions of figures, where they differ.
+void print_builds(std::FILE* to, const CrowdJob& job)
+{
+    if (job.builds.size() <= 1) return;
+    const auto factors = [&](double Proportions::*part) {
+        const auto [min, max] = std::ranges::minmax(job.builds, {}, part);
+        return fmt::format("{:.3g} to {:.3g}", min.*part, max.*part);
+    };
+    say(to, "builds   {}: legs {}, arms {}, spine {}, speed {} times the clip's own\n", job.builds.size(),
+        factors(&Proportions::legs), factors(&Proportions::arms), factors(&Proportions::spine),
+        factors(&Proportions::speed));
+}
+
+// The hands that hold another hand or a box.
+void print_hands(std::FILE* to, const formats::Clip& clip, const CrowdJob& job)
+{
+    for (std::size_t n = 0; n < job.limbs.size(); ++n)
+        if (const auto held = job.plan.limbs[n].holds)
+            say(to, "hold     the {} keeps its hand to that of the {}, as in the clip\n", plain_name(job.limbs[n].name),
+                plain_name(job.limbs[*held].name));
+    if (const auto& carry = job.plan.carry)
+        say(to, "carry    {} of {} characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
+            std::ranges::count(characters_of(job.plan, job.limbs, clip.frame_count), 1u, &goal_character::carries),
+            job.plan.characters, carry->size.x(), carry->size.y(), carry->size.z());
+}
+
+void print_crowd(std::FILE* to, const SolveOptions& options, const CrowdJob& job)
+{
+    const std::uint32_t characters = job.plan.characters;
+    std::string counts;
+    for (const LimbKind kind : {LimbKind::arm, LimbKind::leg}) {
+        const auto is_of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
+        const auto count = static_cast<std::size_t>(std::ranges::count_if(job.limbs, is_of_kind));
+        if (count > 0)
+            counts += fmt::format(", {} {}{}", count * characters, kind_name(kind), count * characters == 1 ? "" : "s");
+    }
+    say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
+        job.targets == "clip" ? "the clip" : shown_file(job.targets),
+        options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
 }
 
 }  // namespace
@@ -247,69 +329,19 @@ std::string shown_file(const std::string& name) { return formats::printable(name
 void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
 {
     const formats::Clip& clip = file.clip();
-    const std::vector<Limb>& limbs = job.limbs;
-    const std::uint32_t characters = job.plan.characters;
     say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(options.file), file.describe(),
         clip.joints.size(), job.frame_count, job.frame_count == 1 ? "" : "s",
         clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
     for (const std::string& note : motion_notes(options, file, job)) say(to, "note     {}\n", note);
-    const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
-    for (const Limb& limb : limbs)
-        say(to, "{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
-            side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
-            limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend), limb.bend_source);
-    for (const Limb& limb : limbs)
-        for (const std::string& note : limb.notes) say(to, "note     {}: {}\n", plain_name(limb.name), note);
-    for (const LimbFinding& finding : job.missing)
-        say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
-            finding.has_joints ? "refused" : "missing", problem_text(finding));
-    for (const FurtherMotion& each : job.further) say(to, "clip     {}\n", each.words);
-    for (std::size_t n = 0; n < job.loops.size(); ++n) {
-        const FoundLoop& found = job.loops[n];
-        say(to, "loop     frames {} to {} of the clip{}, {:.2f} s{}\n", found.loop.first, found.loop.last,
-            number_of_clip(job, n), static_cast<double>(found.loop.length()) * clip.frame_time,
-            found.gap > 0 ? fmt::format("; a joint's pose and motion differ by {:.1f} degrees",
-                                        found.gap * 180 / std::numbers::pi)
-                          : "");
-    }
-    for (const std::string& note : loop_notes(job)) say(to, "note     {}\n", note);
+    print_limbs(to, clip, job);
+    print_further_clips(to, clip, job);
     if (const std::size_t count = job.given->left_out(); count > 0)
         say(to, "note     {}: {} row{} left out, of limbs that are not solved\n", shown_file(job.targets), count,
             count == 1 ? " is" : "s are");
-    std::string counts;
-    for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
-        const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
-        const auto count = static_cast<std::size_t>(std::count_if(limbs.begin(), limbs.end(), of_kind));
-        if (count > 0)
-            counts += fmt::format(", {} {}{}", count * characters, kind_name(kind), count * characters == 1 ? "" : "s");
-    }
-    if (const auto& ground = job.plan.ground)
-        say(to, "ground   {}; feet stand{}, bodies hang lower by {:.3g}\n",
-            job.heights.empty()
-                ? "level"
-                : fmt::format("{}, {} x {} pixels", shown_file(job.heights), ground->grid.columns, ground->grid.rows),
-            job.contacts.empty() ? "" : " when " + shown_file(job.contacts) + " says", -job.plan.shift_wish);
-    for (const std::string& note : ground_notes(clip, job)) say(to, "note     {}\n", note);
-    if (job.builds.size() > 1) {
-        const auto factors = [&](double Proportions::*of) {
-            const auto [min, max] = std::ranges::minmax(job.builds, {}, of);
-            return fmt::format("{:.3g} to {:.3g}", min.*of, max.*of);
-        };
-        say(to, "builds   {}: legs {}, arms {}, spine {}, speed {} times the clip's own\n", job.builds.size(),
-            factors(&Proportions::legs), factors(&Proportions::arms), factors(&Proportions::spine),
-            factors(&Proportions::speed));
-    }
-    for (std::size_t n = 0; n < limbs.size(); ++n)
-        if (const auto held = job.plan.limbs[n].holds)
-            say(to, "hold     the {} keeps its hand to that of the {}, as in the clip\n", plain_name(limbs[n].name),
-                plain_name(limbs[*held].name));
-    if (const auto& carry = job.plan.carry)
-        say(to, "carry    {} of {} characters have a box in both hands, {:.3g} x {:.3g} x {:.3g}\n",
-            std::ranges::count(characters_of(job.plan, limbs, clip.frame_count), 1u, &goal_character::carries),
-            characters, carry->size.x(), carry->size.y(), carry->size.z());
-    say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
-        job.targets == "clip" ? "the clip" : shown_file(job.targets),
-        options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
+    print_ground(to, clip, job);
+    print_builds(to, job);
+    print_hands(to, clip, job);
+    print_crowd(to, options, job);
 }
 
 nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
@@ -330,15 +362,16 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
     if (!job.contacts.empty()) out["contacts"] = job.contacts;
     for (std::size_t n = 0; n < job.plan.clips.size(); ++n) {
         const ClipPart& part = job.plan.clips[n];
-        nlohmann::ordered_json& of = out["performed"].emplace_back();
+        nlohmann::ordered_json& performed = out["performed"].emplace_back();
         const std::size_t which = n % (1 + job.further.size());
         const Proportions& build = job.builds[n / (1 + job.further.size())];
-        of = {{"motion", which == 0 ? file.describe() : job.further[which - 1].words},
-              {"first", part.first},
-              {"frames", part.count}};
-        if (!job.loops.empty()) of["loop"] = {job.loops[which].loop.first, job.loops[which].loop.last};
+        performed = {{"motion", which == 0 ? file.describe() : job.further[which - 1].words},
+                     {"first", part.first},
+                     {"frames", part.count}};
+        if (!job.loops.empty()) performed["loop"] = {job.loops[which].loop.first, job.loops[which].loop.last};
         if (job.builds.size() > 1)
-            of["legs"] = build.legs, of["arms"] = build.arms, of["spine"] = build.spine, of["speed"] = part.pace;
+            performed["legs"] = build.legs, performed["arms"] = build.arms, performed["spine"] = build.spine,
+            performed["speed"] = part.pace;
     }
     if (!job.loops.empty()) out["loop"] = {job.loops[0].loop.first, job.loops[0].loop.last};
     std::vector<std::string> notes = motion_notes(options, file, job);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Reports of a run, as lines for people or as JSON for machines: the clip, the limbs bound and the crowd, and then the
-// measurements.
+// Reports of a run, as lines for people or as JSON: the clip, the bound limbs, the crowd, and the measurements.
 #pragma once
 
 #include <cstdio>

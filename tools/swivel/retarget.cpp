@@ -72,8 +72,7 @@ Eigen::Vector3d axis_of_option(std::string_view said)
     return *axis;
 }
 
-// Throws CommandError for an option that does not say whose it is or is given twice for one body, and for the first
-// three beside --map.
+// Throws CommandError for an option that names no body or is given twice for one, and for the first three beside --map.
 BodyChoice body_choice(const RetargetOptions& options, BodySide side)
 {
     BodyChoice choice;
@@ -155,7 +154,7 @@ void require_bones(const std::string& file, const Clip& clip, const LimbJoints& 
                             printable_name(joint_at(clip, joints[n])), printable_name(joint_at(clip, joints[n + 1]))));
 }
 
-// A limb that is not below the hips would stay where it is while they walk off.
+// Refuses limbs that are not below the hips: they would stay behind while the hips walk.
 void require_below(const std::string& file, const Clip& clip, int hips, int joint)
 {
     if (is_above(clip, hips, joint)) return;
@@ -293,8 +292,8 @@ void run_retarget(const RetargetOptions& options)
                                                  : read_joint_map(options.map, source, target);
     if (!options.export_map.empty()) write_joint_map(options.export_map, pairs, source, target);
     if (source.frame_time == 0) throw formats::InputError(options.source, "its keys lie at uneven times; give --fps");
-    source_file.stand(limbs_of(parts_of(pairs, BodySide::source)));
-    target_file.stand(limbs_of(parts_of(pairs, BodySide::target)), true);
+    source_file.fix_rest_pose(limbs_of(parts_of(pairs, BodySide::source)));
+    target_file.fix_rest_pose(limbs_of(parts_of(pairs, BodySide::target)), true);
     require_bodies(options, pairs, source, target);
     Retargeted motion = retarget(source, target, pairs);
     const std::vector<std::string> problems =

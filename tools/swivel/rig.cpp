@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel rig`: what a file's skeleton is to the solver, limb by limb, and why.
+// `swivel rig`: shows how a file's skeleton is bound, limb by limb, and why.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -142,7 +142,7 @@ std::string toml_name(const Clip& clip, int joint)
     const std::string& name = joint_at(clip, joint).name;
     using Errors = nlohmann::ordered_json::error_handler_t;
     const auto dumped = [&](Errors errors) { return nlohmann::ordered_json(name).dump(-1, ' ', false, errors); };
-    // One text has replacements for bytes that are no UTF-8, the other drops them. So equal texts had none.
+    // One text replaces bytes that are no UTF-8, the other drops them. So the texts are equal only without such bytes.
     const std::string quoted = dumped(Errors::replace);
     const bool can_be_written = name == printable(name, name.size()) && quoted == dumped(Errors::ignore);
     if (can_be_written && formats::find_joints(clip, name).size() == 1) return quoted;
@@ -263,7 +263,7 @@ void run_rig(const RigOptions& options)
     MotionFile motion(file, options.clip.motion);
     const FigureJoints joints = choose_joints(motion.clip(), file, choice);
     motion.sample(joints_of(joints));
-    motion.stand(known_limbs(joints));
+    motion.fix_rest_pose(known_limbs(joints));
     const LimbSearch search = bind_limbs(motion.clip(), joints, choice);
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)

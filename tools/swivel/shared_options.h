@@ -23,9 +23,10 @@ CLI::Option* add_characters(CLI::App& command, Value& characters, const std::str
 
 // Value: std::uint64_t, or an optional of it; 1 where it is not given.
 template <class Value>
-CLI::Option* add_seed(CLI::App& command, Value& seed, const std::string& of)
+CLI::Option* add_seed(CLI::App& command, Value& seed, const std::string& subject)
 {
-    return takes(command.add_option("--seed", seed, "Seed of " + of)->default_str("1"), whole_number(0, UINT64_MAX));
+    return takes(command.add_option("--seed", seed, "Seed of " + subject)->default_str("1"),
+                 whole_number(0, UINT64_MAX));
 }
 
 CLI::Option* add_threads(CLI::App& command, unsigned& threads,
@@ -41,18 +42,18 @@ CLI::Option* add_file_option(CLI::App& command, const char* name, Files& files, 
 // The positional FILE.
 CLI::Option* add_file(CLI::App& command, std::string& file, const std::string& meaning);
 CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning);
-// --clip and --fps, as MotionChoice has them; use: what the animation is there for.
+// --clip and --fps, for MotionChoice; use: the animation's purpose, for the help.
 void add_animation(CLI::App& command, std::string& clip, double& rate, const std::string& use);
 // The same, and --rest and --up.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use);
 // --leg alone.
 CLI::Option* add_named_legs(CLI::App& command, std::vector<std::string>& legs, const std::string& meaning);
-// --arm and --leg; other_side: what becomes of the one that is not named.
+// --arm and --leg; other_side: the fate of a side that is not named, for the help.
 void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vector<std::string>& legs,
                      const std::string& other_side);
 void add_view(CLI::App& command, std::string& view);
 void add_frames(CLI::App& command, std::uint32_t& frames);
-// The clip, its crowd and what is asked of it. Returns the positional FILE, which is required.
+// Options of the clip, its crowd and their goals. Returns the positional FILE, which is required.
 CLI::Option* add_crowd_of_clip(CLI::App& command, SolveOptions& options);
 
 // store, fill, check and replay.

@@ -44,12 +44,12 @@ std::vector<goal_character> first_characters(const Cache& cache, std::uint32_t c
     return characters;
 }
 
-// Goals of one's own of a cache's first characters, frame by frame, in order.
+// The given goals of a cache's first characters, frame by frame, in order.
 class GivenGoals {
 public:
     explicit GivenGoals(const Cache& cache) : cache_(cache) {}
 
-    // Puts those of a frame in the formula's place. Returns the limbs that had some.
+    // Replaces the formula's goals by those of a frame. Returns the limbs that have some.
     std::vector<GivenPlace> put(std::uint32_t frame, GoalCrowd& solved)
     {
         const CachedCrowd& crowd = cache_.crowd();
@@ -160,10 +160,11 @@ nlohmann::ordered_json json_of_run(const SolveOptions& options, const MotionFile
     for (const goal_character& each : characters_of(job.plan, job.limbs, file.clip().frame_count)) {
         out["each_character"].push_back(
             {{"place", each.place}, {"size", each.size}, {"start", each.first + each.start}});
-        nlohmann::ordered_json& of = out["each_character"].back();
-        if (job.plan.carry) of["carries"] = each.carries == 1;
+        nlohmann::ordered_json& character = out["each_character"].back();
+        if (job.plan.carry) character["carries"] = each.carries == 1;
         if (!job.plan.clips.empty())
-            of["performs"] = std::ranges::find(job.plan.clips, each.first, &ClipPart::first) - job.plan.clips.begin();
+            character["performs"] =
+                std::ranges::find(job.plan.clips, each.first, &ClipPart::first) - job.plan.clips.begin();
     }
     out.update(json_of(statistics));
     out["seconds"] = seconds;

@@ -19,8 +19,8 @@ namespace {
 
 using formats::is_standard_stream;
 
-// Equal for two files if what is written to the one would replace the other. Empty for what is never replaced, such as
-// a device.
+// A key that is equal for two names if writing to one would replace the other. Empty for devices and other files that
+// are never replaced.
 std::string key_of(const struct stat& file)
 {
     return S_ISREG(file.st_mode) ? fmt::format("{}:{}", file.st_dev, file.st_ino) : std::string();
@@ -33,7 +33,7 @@ std::string key_of(const std::filesystem::path& path)
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored).string();
 }
 
-// The path of the file that is read by that name: standard input may be a file, as with `< FILE`.
+// The path of the file behind a name: standard input may be a file, as with `< FILE`.
 std::string read_key(const std::string& name)
 {
     struct stat input;

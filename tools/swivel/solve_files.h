@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The files that `swivel solve` reads and writes, as its options name them: formats, standard streams, and files that
-// are not to be lost.
+// The files that `swivel solve` reads and writes: their formats, standard streams, and the rule that no input is
+// overwritten.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace swivel::tools {
 
 enum class OutKind { none, motion, csv };
 
-// The format that the suffix says; standard output is CSV. Throws CommandError (bad usage) for a format that is not
-// written, and for one that does not hold so many characters.
+// The format of the suffix; standard output is CSV. Throws CommandError (bad usage) for a format that is not written,
+// or cannot hold this many characters.
 OutKind out_kind(const std::string& out, std::uint32_t characters);
 
-// Standard input can be read once. targets: "clip" or a file; throws CommandError.
+// Throws CommandError if two inputs are standard input. targets: "clip" or a file.
 void require_one_reader(const SolveOptions& options, const std::string& targets);
 
 // A file that a run reads, and its name in a message.
@@ -29,12 +29,12 @@ struct ReadFile {
     std::string name;
     const char* what;
 };
-// Refuses an output that is one of these files, or is another output. Empty names are none. Throws CommandError.
+// Refuses an output that is one of these files or another output. Empty names are ignored. Throws CommandError.
 void require_own_outputs(std::span<const std::string> outputs, std::span<const ReadFile> read);
 // Refuses an output that is a file beside the clip. Throws CommandError.
 void require_not_beside(std::span<const std::string> outputs, const MotionFile& clip);
 
-// Nothing that is read is written over, and nothing that is written. Throws CommandError.
+// Refuses outputs that would overwrite an input or another output. Throws CommandError.
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const CrowdJob& job);
 
 // Where reports go: stderr, where stdout is for data.

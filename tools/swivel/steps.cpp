@@ -67,8 +67,8 @@ StepsArm given_arm(const StepsOptions& options)
     return {vector(options.target), vector(options.pole), lengths[0], lengths[1]};
 }
 
-// Coefficients that are rounding beside the largest are left out. 1e-14 of it is 45 roundings of a double, more than
-// sums of a few products make where they should be 0.
+// Leaves out coefficients that are rounding beside the largest. 1e-14 of that is 45 roundings of a double, more than
+// sums of a few products have where they should be 0.
 std::string text_of(const swivel_entity& entity)
 {
     double max = 0;

@@ -25,7 +25,7 @@ namespace swivel::tools {
 
 namespace {
 
-// The goals of one's own of one time chunk, by column, as far as there are any.
+// The given goals of one time chunk, by column.
 class GoalChunks {
 public:
     GoalChunks(const CachedCrowd& crowd, std::uint32_t time) : crowd_(crowd), time_(time) {}
@@ -73,7 +73,7 @@ void write_characters(CacheMaker& maker, const CrowdJob& job, bool quiet)
     }
 }
 
-// The goals that the formula does not give.
+// Writes the goals that the formula does not make.
 void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFile& file, CrowdJob& job)
 {
     const CachedCrowd& crowd = maker.crowd();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel verify`: the formulas are held against each other, and every instruction set of this machine against the
-// corpus's golden bits, with several thread counts and chunk sizes.
+// `swivel verify`: compares the formulas with each other, and every instruction set of this machine with the corpus's
+// golden bits, with several thread counts and chunk sizes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,7 +84,7 @@ void solve_in_chunks(Crowd& crowd, Job job, std::uint32_t chunk)
     }
 }
 
-// The corpus on one instruction set, every way there is to run it.
+// Runs the corpus on one instruction set in every way.
 void add_digests(const char* isa, std::vector<Digest>& digests)
 {
     const auto solve = [](Crowd& crowd, Job job) {

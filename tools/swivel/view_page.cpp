@@ -88,7 +88,7 @@ Json json_of_look(const CachedLook& look)
             {"cos_max", how.cos_max[0]}};
 }
 
-// Appends it as a script may hold it: without the sign that could end it. Bytes that are no UTF-8 are replaced.
+// Appends JSON for a script: escapes the sign that could end it, and replaces bytes that are no UTF-8.
 void append_script_text(std::string& text, const Json& json)
 {
     for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))

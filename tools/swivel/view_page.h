@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The page that shows a solved crowd and solves it again (tools/view). Its program is a file beside the command; the
-// crowd is written into it. Knows what the page holds; what it draws is the page's affair.
+// The page that shows a solved crowd and solves it again (tools/view). Its program is a file beside the command, into
+// which the crowd is written. Knows the page's data, but no drawing.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace swivel::tools {
 
-// A file that is installed with the command, which stands in bin: share/swivel/NAME beside that folder.
+// A file that is installed with the command: share/swivel/NAME beside the command's folder, bin.
 std::filesystem::path shared_file(const char* name);
 
 class ViewPage {
@@ -27,15 +27,14 @@ public:
     // file's, and InputError as OutputFile does.
     explicit ViewPage(const std::filesystem::path& path);
 
-    // Takes a frame just solved: its digest, and the goals that were given. Frames in order, from the first.
+    // Takes the digest and the given goals of the frame just solved. Frames come in order, from the first.
     void add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> given);
 
-    // Writes the page and makes it appear; to be called once, last. cached: what the crowd performs. skin: of
-    // the figure that performs it, if it has one.
+    // Writes the page and makes it appear. Call it once, last. cached: the crowd's motion. skin: its figure's, if any.
     void commit(const CachedCrowd& cached, const GoalCrowd& crowd, const std::optional<PageSkin>& skin = {});
 
 private:
-    // The program: up to the digest's place, around the crowd's, and from the script's end on.
+    // The program's parts: up to the digest's place, from there to the crowd's, and from the script's end on.
     std::string before_, script_begin_, script_end_, after_;
     formats::OutputFile out_;
     std::vector<std::uint64_t> digests_;  // by frame

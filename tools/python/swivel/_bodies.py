@@ -12,7 +12,7 @@ class Skeleton(NamedTuple):
     """A skeleton at rest, which all bodies of a Crowd have. Joints are in any order.
 
     parents       (joints,) each joint's parent, -1 for a root
-    translations  (joints, 3) its place in its parent's frame
+    translations  (joints, 3) its position in its parent's frame
     rotations     (joints, 4) relative to its parent, x, y, z, w; None: no joint is turned at rest
     """
 
@@ -72,7 +72,7 @@ class Pose(NamedTuple):
 
     rotations         (bodies, joints, 4) x, y, z, w, each joint's relative to its parent
     matrices          (bodies, joints, 3, 4) or (bodies, joints, 4, 4) instead of rotations, translations and scales
-    translations      (bodies, joints, 3) each joint's place in its parent's frame; None: as the skeleton rests
+    translations      (bodies, joints, 3) each joint's position in its parent's frame; None: as the skeleton rests
     scales            (bodies, joints, 3) uniform within a thousandth; None: 1
     root_position     (bodies, 3) what joints without a parent hang below, in the world; None: the origin
     root_rotation     (bodies, 4) None: not turned

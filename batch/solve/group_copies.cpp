@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch/solve/share.h"
+#include "batch/solve/group_copies.h"
 
 #include <algorithm>
 #include <bit>
@@ -31,21 +31,22 @@ template <class Lanes, class Copy>
 void for_some_limbs(GroupBlocks blocks, const Lanes& lanes_in, const Copy& copy)
 {
     std::size_t first = std::size_t{blocks.first} * SWIVEL_LANES;
-    std::size_t from = first, to = first;  // limbs that lie side by side, not yet copied
+    std::size_t begin = first, end = first;  // limbs that lie side by side, not yet copied
     for (std::uint32_t block = blocks.first; block < blocks.first + blocks.count; ++block, first += SWIVEL_LANES) {
         LaneMask lanes = lanes_in(block);
         for (std::size_t limb = first; lanes != 0;) {
             const int skipped = std::countr_zero(lanes), taken = std::countr_one(lanes >> skipped);
             limb += static_cast<std::size_t>(skipped);
-            if (limb > to) {
-                if (from < to) copy(from, to - from);
-                from = limb;
+            if (limb > end) {
+                if (begin < end) copy(begin, end - begin);
+                begin = limb;
             }
-            to = limb += static_cast<std::size_t>(taken);
+            limb += static_cast<std::size_t>(taken);
+            end = limb;
             lanes >>= skipped + taken;
         }
     }
-    if (from < to) copy(from, to - from);
+    if (begin < end) copy(begin, end - begin);
 }
 
 // The lanes of a group's block whose limbs have bad input.
@@ -62,13 +63,13 @@ LaneMask bad_lanes(const Group& group, std::uint32_t block)
     return lanes;
 }
 
-Stream* add_input(const Group& group, const swivel_streams& given, const swivel_stream& each, Stream* to)
+Stream* add_input(const Group& group, const swivel_streams& given, const swivel_stream& each, Stream* next)
 {
     const FieldRows rows = rows_of(group, each.field);
     const swivel_in values{each.data, each.stride};
-    if (!given.origin.data || !is_position(each.field)) return streams_in(rows, 0, values, to);
+    if (!given.origin.data || !is_position(each.field)) return streams_in(rows, 0, values, next);
     const swivel_in origin = has_origin(group, each.field) ? given.origin : swivel_in{};
-    return streams_of_doubles(rows, 0, values, origin, to);
+    return streams_of_doubles(rows, 0, values, origin, next);
 }
 void copy_chosen(const Group& group, const Stream* from, const Stream* end, const std::uint32_t* mask, GroupBlocks some)
 {
@@ -80,12 +81,12 @@ void copy_chosen(const Group& group, const Stream* from, const Stream* end, cons
         for_all_limbs(group, some, copy_limbs);
 }
 
-// Calls copy(part) for a few blocks after the other.
+// Calls copy(part) for a few of some blocks at a time.
 template <class Copy>
-void in_parts(const Share& share, GroupBlocks some, const Copy& copy)
+void in_parts(const GroupCopies& copies, GroupBlocks some, const Copy& copy)
 {
-    for (std::uint32_t done = 0; done < some.count; done += share.copied_blocks)
-        copy(GroupBlocks{some.first + done, std::min(share.copied_blocks, some.count - done)});
+    for (std::uint32_t done = 0; done < some.count; done += copies.copied_blocks)
+        copy(GroupBlocks{some.first + done, std::min(copies.copied_blocks, some.count - done)});
 }
 
 }  // namespace
@@ -98,39 +99,40 @@ std::uint32_t stream_count_of(const Group& group, const swivel_streams& given)
     return count;
 }
 
-Stream* Share::set(const GroupStreams& from, std::uint32_t run, Stream* to)
+Stream* GroupCopies::set(const GroupStreams& from, std::uint32_t max_blocks, Stream* first)
 {
     group = from.group;
     blocks = from.blocks;
-    streams = to;
+    streams = first;
+    Stream* next = first;
     for (const swivel_stream& each : fields_of(from.given))
-        if (each.data && is_input(each.field)) to = add_input(*group, from.given, each, to);
-    in_end = to;
+        if (each.data && is_input(each.field)) next = add_input(*group, from.given, each, next);
+    in_end = next;
     for (const bool is_flags : {false, true}) {
         for (const swivel_stream& each : fields_of(from.given))
             if (each.data && !is_input(each.field) && (each.field == SWIVEL_FLAGS) == is_flags)
-                to = streams_out(rows_of(*group, each.field), 0, {each.data, each.stride}, to);
-        (is_flags ? out_end : kept_end) = to;
+                next = streams_out(rows_of(*group, each.field), 0, {each.data, each.stride}, next);
+        (is_flags ? out_end : kept_end) = next;
     }
     const bool is_crowded = std::any_of(streams, out_end, [](const Stream& stream) {
         return stream.stride > 0 && stream.stride % kCrowdedStride == 0;
     });
-    copied_blocks = is_crowded ? kCrowdedBlocks : run;
+    copied_blocks = is_crowded ? kCrowdedBlocks : max_blocks;
     return out_end;
 }
 
-void Share::copy_in(const std::uint32_t* mask, GroupBlocks some) const
+void GroupCopies::copy_in(const std::uint32_t* mask, GroupBlocks some) const
 {
     in_parts(*this, some, [&](GroupBlocks part) { copy_chosen(*group, streams, in_end, mask, part); });
 }
 
-void Share::copy_out(const std::uint32_t* mask, GroupBlocks some) const
+void GroupCopies::copy_out(const std::uint32_t* mask, GroupBlocks some) const
 {
     const auto good = [&](std::uint32_t block) {
         return (mask ? chosen_limbs(*group, block, mask) : lanes_of_limbs(*group, block)) & ~bad_lanes(*group, block);
     };
     in_parts(*this, some, [&](GroupBlocks part) {
-        if (!group->keeps) return copy_chosen(*group, in_end, out_end, mask, part);
+        if (!group->keeps_pose) return copy_chosen(*group, in_end, out_end, mask, part);
         for_some_limbs(part, good,
                        [&](std::size_t limb, std::size_t limb_count) { copy(in_end, kept_end, limb, limb_count); });
         copy_chosen(*group, kept_end, out_end, mask, part);

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "batch/api/doubts.h"
+
+#include <bit>
+#include <cstring>
+#include <optional>
+
+#include "batch/crowd/lane_mask.h"
+#include "batch/solve/pose.h"
+#include "simd/float_env.h"
+
+namespace swivel {
+
+namespace {
+
+// The first body that a job solves, or nullopt if its mask selects none.
+std::optional<std::uint32_t> first_body(const Work& work)
+{
+    if (!work.mask && work.blocks.count > 0) return work.blocks.first * SWIVEL_LANES;
+    for (std::uint32_t block = work.blocks.first; block < work.blocks.first + work.blocks.count; ++block)
+        if (const LaneMask bits = chosen_limbs(work.crowd.groups[0], block, work.mask))
+            return block * SWIVEL_LANES + static_cast<std::uint32_t>(std::countr_zero(bits));
+    return std::nullopt;
+}
+
+// Counts the solves in a row that began with all bodies reset.
+void note_resets(swivel_crowd& crowd)
+{
+    const std::uint32_t reset = crowd.reset_limbs.exchange(0, std::memory_order_relaxed);
+    if (reset >= crowd.groups[0].limb_count)
+        crowd.solves_anew.fetch_add(1, std::memory_order_relaxed);
+    else
+        crowd.solves_anew.store(0, std::memory_order_relaxed);
+}
+
+// The first body's time in seconds if it is doubted: above a second, or 0 where the results replace the pose. Else
+// kNoDoubt.
+float doubted_time(const Work& work, const swivel_pose& pose)
+{
+    const std::optional<std::uint32_t> body = first_body(work);
+    if (!body || !pose.time.data) return kNoDoubt;
+    float time;
+    std::memcpy(&time, static_cast<const char*>(pose.time.data) + *body * pose.time.stride, sizeof time);
+    const bool is_in_place = !pose.results.data || pose.results.data == pose.rotations.data;
+    return time > 1 || (time == 0 && is_in_place) ? time : kNoDoubt;
+}
+
+// The bits of PoseNote.
+std::uint32_t notes_of(const swivel_pose& pose, std::uint32_t body_count)
+{
+    std::uint32_t notes = 0;
+    const bool is_shared = pose.time.stride == 0 || body_count == 1;
+    if (pose.time.data && is_shared) {
+        float time;
+        std::memcpy(&time, pose.time.data, sizeof time);
+        notes |= time >= 0 && time <= 1e15f ? kTimeIsGood : kTimeIsBad;
+    }
+    if (pose.support_position.data || pose.support_rotation.data) notes |= kHasSupport;
+    if (pose.weight.data) notes |= kHasWeight;
+    if (pose.root_is_double) notes |= kHasDoubleRoot;
+    return notes;
+}
+
+}  // namespace
+
+void note_doubts(const Work& work)
+{
+    const FloatEnv env;  // a time may be anything
+    note_resets(work.crowd);
+    const swivel_pose pose = full_pose(work.pose);
+    work.crowd.doubted_time.store(doubted_time(work, pose), std::memory_order_relaxed);
+    work.crowd.pose_notes.store(notes_of(pose, work.crowd.groups[0].limb_count), std::memory_order_relaxed);
+}
+
+}  // namespace swivel

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// A job as the solver takes it, and the blocks of groups that it touches.
+#pragma once
+
+#include <algorithm>
+
+#include "batch/crowd/crowd.h"
+#include "simd/kernels.h"
+
+namespace swivel {
+
+// A swivel_job, checked.
+struct Work {
+    swivel_crowd& crowd;
+    const Kernels& kernels;
+    swivel_blocks blocks;
+    const std::uint32_t* groups;    // bits of those that are named; null: all
+    const std::uint32_t* mask;      // bits of the limbs to solve; null: all
+    const swivel_streams* streams;  // of each group that is named; null: values are in rows
+    bool exceeds_cache;             // the job's rows do not fit the caches
+    StripMemory strip;              // of a workspace
+    const swivel_pose* pose;        // of bodies; null: free limbs
+    swivel_sample* sample = nullptr;
+    void* sample_user = nullptr;
+};
+inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
+
+// Some of a group's blocks, counted within it.
+struct GroupBlocks {
+    std::uint32_t first, count;
+};
+
+// Calls take(group, its blocks, n) for each named group that has blocks in a range of the crowd's; n counts the named
+// groups before it.
+template <class Take>
+void for_each_group(const swivel_crowd& crowd, const std::uint32_t* groups, swivel_blocks blocks, const Take& take)
+{
+    for (std::uint32_t g = 0, n = 0; g < crowd.group_count; ++g) {
+        if (!is_named(groups, g)) continue;
+        const Group& group = crowd.groups[g];
+        const std::uint32_t first = std::max(blocks.first, group.first_block);
+        const std::uint32_t end = std::min(blocks.first + blocks.count, group.first_block + group.block_count);
+        if (first < end) take(group, GroupBlocks{first - group.first_block, end - first}, n);
+        ++n;
+    }
+}
+
+// Counts the blocks of the named groups in a range. Groups of bodies share their blocks, so these count once.
+inline std::uint32_t block_count_of(const swivel_crowd& crowd, const std::uint32_t* groups, swivel_blocks blocks)
+{
+    if (crowd.joint_count > 0) return blocks.count;
+    std::uint32_t count = 0;
+    for_each_group(crowd, groups, blocks, [&](const Group&, GroupBlocks part, std::uint32_t) { count += part.count; });
+    return count;
+}
+
+}  // namespace swivel
