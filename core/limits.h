@@ -11,7 +11,8 @@ namespace swivel::inline SWIVEL_ISA {
 // Less room than this is a violation. At the end of an allowed arc, rounding leaves about half of it in
 // random limbs; docs/howto/limits.md has the worst.
 inline constexpr double kNoRoom = -5e-7;
-// Room is a difference of cosines or sines: how far a swivel is within a limit. No limit leaves more than this.
+// Room is the margin by which a swivel keeps a limit, as a difference of cosines, or for boxes of sines. No
+// limit leaves more than this.
 inline constexpr double kMaxRoom = 2;
 
 template <int Boxes>

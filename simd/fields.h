@@ -201,16 +201,18 @@ struct FieldRow {
     ValueLayout value = {""};
     float start[kMaxComponents] = {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
     Start starts = Start::neutral;
+    std::uint32_t start_count = 0;  // of the numbers of a start that is not that of the value's parts
 
     // Component c of a value of any number of components: values of twist bones are many of the row's.
     constexpr float start_of(std::uint32_t c) const { return start[c % component_count]; }
 };
 // Calls take(part, number) for each part of a field's value; `number` is the place of the part's first number. A group
-// has only the value's last `count` numbers: a body's clavicle is its share alone.
+// has only the value's last `count` numbers: a body's clavicle is its share alone. If it has more than the row says, as
+// of twist bones, all parts are taken once.
 template <class Take>
 constexpr void for_each_part(const FieldRow& row, std::uint32_t count, const Take& take)
 {
-    std::uint32_t left_out = row.component_count - count, number = 0;
+    std::uint32_t left_out = count < row.component_count ? row.component_count - count : 0, number = 0;
     for (const ValuePart part : row.value.parts) {
         const std::uint32_t part_count = row_of(part).count;
         if (left_out >= part_count) {  // ValuePart::none is always left out
@@ -231,7 +233,6 @@ constexpr ValueLayout kPosition = {"no further than 1e15", {ValuePart::position}
                                {ValuePart::axis, ValuePart::cosine}},
                       kRange = {"ranges of angles; swivel_range() makes them", {ValuePart::range}},
                       kBox = {kRange.words, {ValuePart::range, ValuePart::range, ValuePart::range}};
-void start_has_another_size();  // no constant expression calls it, so such a row of kFields does not compile
 // start: unless it is that of the value's parts.
 constexpr FieldRow input(swivel_field field, const char* name, swivel_features needs, const ValueLayout& value,
                          std::initializer_list<float> start = {})
@@ -239,7 +240,7 @@ constexpr FieldRow input(swivel_field field, const char* name, swivel_features n
     FieldRow row{field, name, 0, kInput, needs, 0, value};
     for (const ValuePart part : value.parts)
         for (std::uint32_t n = 0; n < row_of(part).count; ++n) row.start[row.component_count++] = row_of(part).start[n];
-    if (start.size() != 0 && start.size() != row.component_count) start_has_another_size();
+    row.start_count = static_cast<std::uint32_t>(start.size());
     float* number = row.start;
     for (const float x : start) *number++ = x;
     return row;
@@ -354,6 +355,11 @@ static_assert([] {
 static_assert([] {
     for (const FieldRow& row : kFields)
         if (row.kind != kResult && row.component_count > kMaxComponents) return false;
+    return true;
+}());
+static_assert([] {
+    for (const FieldRow& row : kFields)
+        if (row.start_count != 0 && row.start_count != row.component_count) return false;
     return true;
 }());
 

@@ -3,6 +3,8 @@
 // A body whose one leg is planted while its root glides.
 #pragma once
 
+#include <optional>
+
 #include "swivel/swivel_bodies.hpp"
 #include "swivel/swivel_explain.hpp"
 #include "tests/test_arm.h"
@@ -29,6 +31,9 @@ struct GlidingLeg {
     float time = kFrame, scale = 1;
     float stretch = 1;  // of the pose's bones
     bool is_in_place = false;
+    bool is_masked = false;         // the job has a mask, with all bodies
+    bool has_joint_scales = false;  // of 1
+    std::optional<Float4> root_turn;
     std::vector<Vector3d> sent;  // the target of each frame
 
     explicit GlidingLeg(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant(),
@@ -58,9 +63,15 @@ struct GlidingLeg {
         if (stretch != 1) pose.translations = {places.data(), sizeof places, sizeof places[0], nullptr};
         pose.root_position = {&root, 0};
         pose.root_scale = {&scale, 0};
+        if (root_turn) pose.root_rotation = {&*root_turn, 0};
+        Float3 unscaled{1, 1, 1};
+        if (has_joint_scales) pose.scales = {unscaled.data(), 0, 0, nullptr};
         pose.support_position = {&support, 0};
         pose.time = {&time, 0};
-        crowd.solve({.pose = &pose});
+        const std::uint32_t mask[] = {1};
+        Job job{.pose = &pose};
+        if (is_masked) job.mask = mask;
+        crowd.solve(job);
         if (!(swivel_group_features(crowd.get(), 0) & SWIVEL_WITH_PLANT)) return;
         std::array<float, 7> goal;
         crowd.read(SWIVEL_SOLVED_GOAL, 0, std::span(&goal, 1));
@@ -84,7 +95,6 @@ struct GlidingLeg {
         return flags;
     }
 
-private:
     static swivel_skeleton skeleton()
     {
         swivel_skeleton made = swivel_default_skeleton();
@@ -93,6 +103,8 @@ private:
         made.joint_count = 4;
         return made;
     }
+
+private:
     static swivel_limb_joints joints_of_leg()
     {
         swivel_limb_joints made = swivel_default_limb_joints(1, 2, 3);

@@ -159,6 +159,7 @@ struct Upright {
 struct UprightCrowd {
     Crowd crowd;
     std::vector<std::array<Float4, 4>> rotations;
+    float root_scale = 1;
 
     UprightCrowd(const Upright& of, std::size_t count)
         : crowd(of.skeleton.view(), static_cast<std::uint32_t>(count), {of.look}), rotations(count)
@@ -175,6 +176,7 @@ struct UprightCrowd {
         pose.rotations = {rotations.data(), sizeof rotations[0], sizeof(Float4), nullptr};
         pose.time = {&time, 0};
         if (weight != 1) pose.weight = {&weight, 0};
+        if (root_scale != 1) pose.root_scale = {&root_scale, 0};
         crowd.write(SWIVEL_LOOK_TARGET, 0, std::span(targets));
         crowd.solve({.pose = &pose});
     }

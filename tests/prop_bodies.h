@@ -14,8 +14,10 @@ struct UnmovedProp {
     std::vector<Held> points, hands;
     std::vector<Ball> moves;                 // by which each arm reaches
     std::vector<double> nearest;             // how near to its shoulder each gets
-    std::vector<bool> is_posed, is_written;  // each arm's goal: nothing of it was written, its target at least
+    std::vector<bool> has_target, has_hand;  // what was written of each arm's goal
     double max, off;                         // off: what floats may be off
+
+    bool is_posed(std::size_t arm) const { return !has_target[arm] && !has_hand[arm]; }
 };
 
 struct PropBodies : PosedBodies {
@@ -191,7 +193,7 @@ private:
         if (has_target) point.place = vec(target) - root;
         if (has_hand) point.rotation = quat(hand).normalized();
         is.points.push_back(point);
-        is.is_posed.push_back(!has_target && !has_hand), is.is_written.push_back(has_target);
+        is.has_target.push_back(has_target), is.has_hand.push_back(has_hand);
     }
     static Held between(const Held& a, const Held& b, double share)
     {

@@ -45,11 +45,21 @@ float doubted_time(const Work& work, const swivel_pose& pose)
     return time > 1 || (time == 0 && is_in_place) ? time : kNoDoubt;
 }
 
-// The bits of PoseNote.
-std::uint32_t notes_of(const swivel_pose& pose, std::uint32_t body_count)
+// Whether a job solves all bodies and all their groups. A mask counts as one that leaves bodies out.
+bool covers_crowd(const Work& work)
 {
+    if (work.mask || work.blocks.count < work.crowd.block_count) return false;
+    for (std::uint32_t g = 0; g < work.crowd.group_count; ++g)
+        if (!is_named(work.groups, g)) return false;
+    return true;
+}
+
+// The bits of PoseNote.
+std::uint32_t notes_of(const Work& work, const swivel_pose& pose)
+{
+    if (!covers_crowd(work)) return kUnknownPose;
     std::uint32_t notes = 0;
-    const bool is_shared = pose.time.stride == 0 || body_count == 1;
+    const bool is_shared = pose.time.stride == 0 || work.crowd.groups[0].limb_count == 1;
     if (pose.time.data && is_shared) {
         float time;
         std::memcpy(&time, pose.time.data, sizeof time);
@@ -58,6 +68,9 @@ std::uint32_t notes_of(const swivel_pose& pose, std::uint32_t body_count)
     if (pose.support_position.data || pose.support_rotation.data) notes |= kHasSupport;
     if (pose.weight.data) notes |= kHasWeight;
     if (pose.root_is_double) notes |= kHasDoubleRoot;
+    if (pose.root_rotation.data) notes |= kHasRootRotation;
+    if (pose.root_scale.data) notes |= kHasRootScale;
+    if (pose.scales.data || pose.form != SWIVEL_ROTATIONS) notes |= kHasJointScales;
     return notes;
 }
 
@@ -69,7 +82,7 @@ void note_doubts(const Work& work)
     note_resets(work.crowd);
     const swivel_pose pose = full_pose(work.pose);
     work.crowd.doubted_time.store(doubted_time(work, pose), std::memory_order_relaxed);
-    work.crowd.pose_notes.store(notes_of(pose, work.crowd.groups[0].limb_count), std::memory_order_relaxed);
+    work.crowd.pose_notes.store(notes_of(work, pose), std::memory_order_relaxed);
 }
 
 }  // namespace swivel

@@ -15,8 +15,8 @@ swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel
 swivel_status check_mask(const swivel_crowd& crowd, const std::uint32_t* mask, std::uint32_t word_count);
 swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* priorities);
 
-// Whether results of a job, whose streams and pose are right, overlap each other or another limb's inputs. For builds
-// with SWIVEL_CHECK_USE.
+// Whether results of a job, whose streams and pose are right, overlap each other or inputs that are not their own. For
+// builds with SWIVEL_CHECK_USE.
 swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks);
 
 }  // namespace swivel

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Finds results of a job, in streams or in its pose, that overlap each other or another limb's inputs, for builds with
-// SWIVEL_CHECK_USE. It knows strides of which one is a multiple of the other, and values that all limbs share.
+// Finds results of a job, in streams or in its pose, that overlap each other or inputs that are not their own, for
+// builds with SWIVEL_CHECK_USE. It knows strides of which one is a multiple of the other, and values that all limbs
+// share.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -25,12 +26,20 @@ struct LimbValues {
     std::int64_t at, stride, bytes, count;  // at: the first one's address; count: 1 where all limbs share it
     bool is_result, is_shared;
     std::uint32_t group, joint;  // group: or kOfPose
+    std::uint32_t array;         // a field's place in the table, or a PoseKind
     const char* name;
 
     std::int64_t end() const { return at + (count - 1) * stride + bytes; }
-    bool is_same(const LimbValues& other) const
+    bool is_same_array(const LimbValues& other) const
     {
-        return group == other.group && joint == other.joint && name == other.name;
+        return group == other.group && joint == other.joint && array == other.array;
+    }
+    // Whether a solve reads a limb's value here before it writes the limb's result. It reads all inputs of a group's
+    // limb first, and of a pose the value of the same joint: other joints that only move along are read late.
+    bool is_input_of(const LimbValues& result) const
+    {
+        if (is_result || is_shared || group != result.group) return false;
+        return group != kOfPose || is_same_array(result);
     }
     void print(char (&text)[96]) const
     {
@@ -63,13 +72,12 @@ bool overlaps(const LimbValues& sparse, const LimbValues& dense, std::int64_t pe
 // Whether a result overlaps another value.
 bool overlaps(LimbValues result, LimbValues other)
 {
-    if (result.is_same(other) && other.is_result) return false;
+    if (result.is_same_array(other) && other.is_result) return false;
     if (result.end() <= other.at || other.end() <= result.at) return false;
     // The stride of one value alone may be anything.
     if (result.count == 1) result.stride = other.count == 1 ? result.bytes : other.stride;
     if (other.count == 1) other.stride = result.stride;
-    const bool is_of_one = result.group == other.group || result.group == kOfPose || other.group == kOfPose,
-               is_own = !other.is_result && !other.is_shared && is_of_one;
+    const bool is_own = other.is_input_of(result);
     if (result.stride % other.stride == 0) return overlaps(result, other, result.stride / other.stride, is_own);
     if (other.stride % result.stride == 0) return overlaps(other, result, other.stride / result.stride, is_own);
     return false;
@@ -87,6 +95,7 @@ LimbValues values_of(const void* data, std::size_t stride, std::size_t bytes, st
             stride == 0 && limb_count > 1,
             kOfPose,
             kNoJoint,
+            0,
             name};
 }
 
@@ -98,20 +107,23 @@ void for_each_streamed(const swivel_crowd& crowd, const swivel_job& job, swivel_
     for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
         swivel_streams streams = streams_at(job.streams, n);
         if (job.pose) streams.origin = origin_of(full_pose(job.pose));
-        const auto take_values = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name,
-                                     bool is_result) {
+        const auto take_values = [&](const void* data, std::size_t stride, std::size_t bytes, std::size_t array,
+                                     const char* name, bool is_result) {
             LimbValues values = values_of(data, stride, bytes, group.limb_count, name);
             values.group = static_cast<std::uint32_t>(&group - crowd.groups);
+            values.array = static_cast<std::uint32_t>(array);
             values.is_result = is_result;
             take(values);
         };
         if (streams.origin.data)
-            take_values(streams.origin.data, streams.origin.stride, 3 * sizeof(double), "origin", false);
+            take_values(streams.origin.data, streams.origin.stride, 3 * sizeof(double), kFieldCount, "origin", false);
         for (const swivel_stream& each : fields_of(streams)) {
             const bool is_double = streams.origin.data && is_position(each.field);
             const std::size_t bytes =
                 field_row_count(group.features, each.field) * (is_double ? sizeof(double) : sizeof(float));
-            if (each.data) take_values(each.data, each.stride, bytes, name_of(each.field), !is_input(each.field));
+            if (each.data)
+                take_values(each.data, each.stride, bytes, index_of(each.field), name_of(each.field),
+                            !is_input(each.field));
         }
     });
 }
@@ -128,6 +140,7 @@ void for_each_posed(const swivel_crowd& crowd, const swivel_job& job, const Take
                                           array.values.body_stride, array.bytes, body_count, array.name);
             values.is_result = array.use != PoseUse::read;
             values.joint = joint;
+            values.array = static_cast<std::uint32_t>(array.kind);
             take(values);
         });
     });
@@ -166,7 +179,7 @@ swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, sw
             result.print(names[0]);
             other.print(names[1]);
             status = fail(SWIVEL_INVALID_ARGUMENT, "%s overlaps %s, %s; give it a place of its own", names[0],
-                          other.is_result ? "another result" : "another limb's input", names[1]);
+                          other.is_result ? "another result" : "an input that is not its own", names[1]);
         });
     });
     return status;

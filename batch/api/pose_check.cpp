@@ -88,20 +88,29 @@ swivel_status check_bodies_apart(const swivel_crowd& crowd, const std::uint32_t*
     const bool is_body_by_body = body_step >= (last - first) * joint_step + bytes,
                is_joint_by_joint = joint_step >= (body_count - 1) * body_step + bytes;
     if (is_body_by_body || is_joint_by_joint) return SWIVEL_OK;
+    // The body whose lower joint overlaps body 0's higher one, `apart` joints on; 0: none. Only two bodies' lower
+    // joints are next to the higher one.
+    const auto body_on = [=](std::uint32_t apart) -> std::uint64_t {
+        const std::uint64_t at = apart * joint_step, before = at / body_step, behind = before + 1;
+        if (before > 0 && before < body_count && at - before * body_step < bytes) return before;
+        return behind < body_count && behind * body_step - at < bytes ? behind : 0;
+    };
+    // Distances are few and pairs are many, so pairs are looked at only where some distance overlaps.
+    std::uint32_t apart = 1;
+    while (apart <= last - first && body_on(apart) == 0) ++apart;
+    if (apart > last - first) return SWIVEL_OK;
     swivel_status status = SWIVEL_OK;
     for_each_joint(crowd, groups, pose, array.use, [&](std::uint32_t low) {
+        if (status != SWIVEL_OK) return;
         for_each_joint(crowd, groups, pose, array.use, [&](std::uint32_t high) {
-            if (high <= low || status != SWIVEL_OK) return;
-            // No lower joint of another body is nearer to the higher joint of body 0 than one of these two.
-            const std::uint64_t at = (high - low) * joint_step, before = at / body_step, behind = before + 1;
-            const bool overlaps_before = before > 0 && before < body_count && at - before * body_step < bytes,
-                       overlaps_behind = behind < body_count && behind * body_step - at < bytes;
-            if (!overlaps_before && !overlaps_behind) return;
+            const std::uint64_t body = high > low && status == SWIVEL_OK ? body_on(high - low) : 0;
+            if (body == 0) return;
             status = fail(SWIVEL_INVALID_ARGUMENT,
-                          "the pose's %s: by a body_stride of %zu joint %u of body %llu overlaps joint %u of body 0; "
-                          "give the bytes from body to body, such as the size of your structure",
-                          array.name, array.values.body_stride, low,
-                          static_cast<unsigned long long>(overlaps_before ? before : behind), high);
+                          "the pose's %s: by a body_stride of %zu and a joint_stride of %zu joint %u of body %llu "
+                          "overlaps joint %u of body 0; give the bytes from body to body, such as the size of your "
+                          "structure, and from joint to joint",
+                          array.name, array.values.body_stride, array.values.joint_stride, low,
+                          static_cast<unsigned long long>(body), high);
         });
     });
     return status;

@@ -73,7 +73,7 @@ struct swivel_crowd {
 namespace swivel {
 
 inline constexpr float kNoDoubt = -1;  // swivel_crowd::doubted_time
-// What swivel_explain() knows of a pose where it looks for what is bad in it. A time that bodies do not share has
+// What swivel_explain() knows of the pose that bodies were solved with last. A time that bodies do not share has
 // neither of the first two.
 enum PoseNote : std::uint32_t {
     kTimeIsGood = 1,
@@ -81,7 +81,14 @@ enum PoseNote : std::uint32_t {
     kHasSupport = 4,
     kHasWeight = 8,
     kHasDoubleRoot = 16,
+    kHasRootRotation = 32,
+    kHasRootScale = 64,
+    kHasJointScales = 128,  // or matrices, which may have scales
+    kIsUnknown = 256,       // the job left out bodies or groups, whose last pose may have been another
 };
+// The notes of a pose that is not known, which may have everything.
+inline constexpr std::uint32_t kUnknownPose =
+    kHasSupport | kHasWeight | kHasDoubleRoot | kHasRootRotation | kHasRootScale | kHasJointScales | kIsUnknown;
 
 // A group with any of these features has whole limbs.
 inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);

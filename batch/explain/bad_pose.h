@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Names the value of a body's pose that was bad in the last solve. Crowds keep no poses, so it goes by what is known of
-// that one: a time that all bodies share, and values that it did not have.
+// that one: a time that all bodies share, and values that it did not have. Nothing is known after a job that left out
+// bodies or groups.
 #pragma once
 
 #include "batch/crowd/crowd.h"

@@ -111,7 +111,7 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
                          kTimeOfPose | kSupportOfPose | kWeightOfPose | (notes & kHasDoubleRoot ? kRootOfPose : 0u), "",
                          text);
     else if (!is_found && probe.is_of_body())
-        explain_bad_pose(crowd, notes & kHasWeight ? kWeightOfPose : kJointsOfPose,
+        explain_bad_pose(crowd, kWeightOfPose | (notes & kHasWeight && !(notes & kIsUnknown) ? 0u : kJointsOfPose),
                          "a rotation, place or scale of the limb's joints, of those above or of the root", text);
     else if (!is_found)
         text.add("each input is in its range, but not as the parent's rotation and scale have it");
@@ -230,7 +230,8 @@ bool is_near(const LimbPose& a, const LimbPose& b)
     if (group.features & SWIVEL_WITH_GROUND) explain_ground(group, limb, text);
     if (group.features & SWIVEL_WITH_LINK) explain_link(crowd, group, limb, text);
     explain_reach(probe, flags, text);
-    if (group.features & SWIVEL_WITH_PELVIS_FIT && flags & SWIVEL_CLAMPED_FAR) explain_coming_shift(crowd, limb, text);
+    if (group.features & SWIVEL_WITH_PELVIS_FIT && flags & SWIVEL_CLAMPED_FAR)
+        explain_coming_shift(crowd, group, limb, text);
     explain_limits(probe, flags_were, flags, text);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "batch/explain/bad_pose.h"
 #include "batch/explain/bad_value.h"
@@ -26,6 +27,7 @@ struct LookOfBody {
     const GroupJoints& joints = group.plan.joints;
     double weight = LimbValue(group, limb, SWIVEL_LOOK_WEIGHT)[0];
     std::uint32_t flags = flags_of(group, limb);
+    std::uint32_t notes = crowd.pose_notes.load(std::memory_order_relaxed);
     Vector<double> axis = vector(sight[3], sight[4], sight[5]),
                    to = vector(target[0] - sight[0], target[1] - sight[1], target[2] - sight[2]);
 
@@ -92,8 +94,13 @@ struct LookOfBody {
         if (flags & SWIVEL_LIMITED_STEP) explain_rate(is_whole && !(flags & SWIVEL_LIMITED_LOOK), text);
         if (flags & SWIVEL_LIMITED_LOOK) explain_cone(is_whole, text);
         if (!is_whole || flags & (SWIVEL_LIMITED_STEP | SWIVEL_LIMITED_LOOK)) return;
-        if (is_too_near() || !(crowd.pose_notes.load(std::memory_order_relaxed) & kHasWeight))
+        if (!(notes & kHasWeight))
             explain_nearness(text);
+        else if (may_be_too_near())
+            text.add(
+                " Either the target is nearer to joint %u than the line of sight comes, or the pose has a weight below "
+                "1.",
+                last_joint());
         else
             text.add(" The pose has a weight below 1.");
     }
@@ -108,22 +115,28 @@ private:
     std::uint32_t parent_of(std::uint32_t number) const { return number_of(crowd.joints[number].parent); }
     std::uint32_t last_joint_number() const { return number_of(joints.turned[joints.turned_count - 1].row); }
     std::uint32_t last_joint() const { return crowd.joints[last_joint_number()].skeleton_joint; }
-    // The scale of the body, as a limb with a record has it; else 1.
-    double scale() const
+    Vector<double> eye() const { return vector<double>(rules.eye[0], rules.eye[1], rules.eye[2]); }
+    Vector<double> ahead() const { return vector<double>(rules.axis[0], rules.axis[1], rules.axis[2]); }
+    // The scale of the last joint, where it is known. If joints have no scales of their own, it is the root's, which a
+    // limb with a record has, unless its pose was bad.
+    std::optional<double> scale() const
     {
+        if (notes & kHasJointScales) return std::nullopt;
+        if (!(notes & kHasRootScale)) return 1;
         for (std::uint32_t g = 0; g < crowd.group_count; ++g)
             if (crowd.groups[g].features & SWIVEL_WITH_RECORD)
-                return LimbValue(crowd.groups[g], limb, SWIVEL_RECORD)[kRecordScale];
-        return 1;
+                if (const double found = LimbValue(crowd.groups[g], limb, SWIVEL_RECORD)[kRecordScale]; found > 0)
+                    return found;
+        return std::nullopt;
     }
-    // Whether the target is nearer to the last joint than the line of sight comes. Then that joint has turned the
-    // line's nearest point to the target, which so lies between the two.
-    bool is_too_near() const
+    // Whether the target may be nearer to the last joint than the line of sight comes. Then that joint has turned the
+    // line's nearest point to the target, which so lies between the two. Holds where the scale is not known.
+    bool may_be_too_near() const
     {
-        const Vector<double> eye = vector<double>(rules.eye[0], rules.eye[1], rules.eye[2]),
-                             ahead = vector<double>(rules.axis[0], rules.axis[1], rules.axis[2]);
-        const double along = scale() * scalar_product(eye, ahead),
-                     across = scale() * std::sqrt(len2(cross(eye, ahead))),
+        const std::optional<double> unit = scale();
+        if (!unit) return true;
+        const double along = *unit * scalar_product(eye(), ahead()),
+                     across = *unit * std::sqrt(len2(cross(eye(), ahead()))),
                      seen = 1e-3 * across + rounding() * distance();
         const Vector<double> from_nearest = to + along * axis;
         return std::fabs(scalar_product(from_nearest, axis)) <= seen && std::sqrt(len2(from_nearest)) <= across + seen;
@@ -133,21 +146,30 @@ private:
         text.add(" The target is nearer to joint %u than the line of sight comes: it is %.4g from the eye.",
                  last_joint(), distance());
     }
-    // An eye that turns towards a target comes nearer to it, so a target that is far from it by now was so before.
+    // Whether nearness may have faded the look. The look judged the distance before the turn, and the distance that is
+    // known is the one after it. An eye ahead of its joint comes nearer to the target as the chain turns there, so a
+    // target that is far by now was so before. A target that is near by now may have been far, and behind.
+    bool may_have_been_near() const
+    {
+        if (rules.fade.distance == 0) return false;
+        const std::optional<double> unit = scale();
+        return !unit || flags & SWIVEL_LIMITED_STEP || scalar_product(eye(), ahead()) < 0 ||
+               distance() < *unit * double{rules.fade.distance};
+    }
     void explain_fade(Text& text) const
     {
         const double cos_full = double{rules.fade.cos_none} + 1 / double{rules.fade.per_cos},
                      full = in_degrees(std::acos(std::clamp(cos_full, -1.0, 1.0))),
                      none = in_degrees(std::acos(std::clamp(double{rules.fade.cos_none}, -1.0, 1.0)));
         const bool is_followed = !(flags & SWIVEL_LIMITED_STEP);
-        if (distance() < scale() * double{rules.fade.distance})
-            text.add(
-                " The look fades, because its target is nearer to the eye than %.3g of the last joint's unit: it is "
-                "%.4g away.",
-                double{rules.fade.distance}, distance());
-        else if (is_followed && in_degrees(missed()) >= none + 0.01)
+        if (is_followed && in_degrees(missed()) >= none + 0.01)
             text.add(" The target is behind, more than %.4g degrees from the incoming line, so the look has faded out.",
                      none);
+        else if (may_have_been_near())
+            text.add(
+                " The look fades, because its target was nearer to the eye than %.3g of the last joint's unit, or "
+                "behind, more than %.4g degrees from the incoming line. By now it is %.4g away.",
+                double{rules.fade.distance}, full, distance());
         else
             text.add(" The target is behind, more than %.4g degrees from the incoming line, so the look fades.", full);
     }
@@ -164,11 +186,14 @@ private:
         const LookJoint& last = rules.joint[count - 1];
         const double max = in_degrees(2 * std::atan2(double{last.sin_half_max}, double{last.cos_half_max}));
         const bool is_last = count == 1 || (is_whole && !(flags & SWIVEL_LIMITED_STEP)),
-                   is_near = count > 1 && is_last && is_too_near();
+                   is_near = count > 1 && is_last && may_be_too_near();
         if (is_last && !is_near)
             return text.add(" The cone of joint %u, %.4g degrees, holds it back.", last_joint(), max);
         text.add(" A cone holds a joint of the chain back.");
-        if (is_near) explain_nearness(text);
+        if (is_near && scale())
+            explain_nearness(text);
+        else if (is_near)
+            text.add(" The target may also be nearer to joint %u than the line of sight comes.", last_joint());
     }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// No row has the shift that a spring seeks. So it is computed again, from the records of the limbs that count, as if
-// the root stood upright, because no result says how it is turned.
+// No row has the shift that a spring seeks. So it is computed again, from the records of the limbs that fit, unless the
+// root is turned or joints have scales of their own, which no row has, either.
 #include "batch/explain/explain_shift.h"
 
 #include <cmath>
@@ -45,12 +45,20 @@ struct FittedLimb {
     Rotor<double> hand() const
     {
         if (has(SWIVEL_WITH_PLANT)) return normalise(rotor_of(value(SWIVEL_SOLVED_GOAL), 3));
-        const Rotor<double> given = rotor_of(value(SWIVEL_HAND));
-        if (!std::isnan(len2(given))) return normalise(given);
-        const Rotor<double> in_arm = rotor_of(record, kRecordIncoming) * rotor_of(record, kRecordIncoming + 4) *
-                                     rotor_of(record, kRecordIncoming + 8);
-        return normalise(rotor_of(record, kRecordArm) * in_arm * hand_from_arm(group));
+        return normalise(wanted_hand(group, limb));
     }
+    double weight() const
+    {
+        return value(SWIVEL_PELVIS_FIT_WEIGHT)[0] * (has(SWIVEL_WITH_WEIGHTS) ? value(SWIVEL_WEIGHTS)[0] : 1);
+    }
+    // The weight of its next target.
+    double next_weight() const
+    {
+        if (!has(SWIVEL_WITH_NEXT_TARGET)) return 0;
+        const double near = std::fmax(1 - value(SWIVEL_NEXT_TIME)[0] * double{group.plan.limb.per_ahead}, 0);
+        return near * near;
+    }
+    bool counts() const { return weight() > 0 || next_weight() > 0; }
     // The shifts that it asks for. shift: the body's in the last solve, which its record has.
     ShiftSpan<double> asks(const Vector<double>& up, double shift) const
     {
@@ -60,13 +68,10 @@ struct FittedLimb {
         const auto asks_for = [&](const LimbValue& target, double share) {
             return counted(shift_span(Vector<double>(point - vector_of(target)), up, far), share);
         };
-        const double weight =
-            value(SWIVEL_PELVIS_FIT_WEIGHT)[0] * (has(SWIVEL_WITH_WEIGHTS) ? value(SWIVEL_WEIGHTS)[0] : 1);
         const ShiftSpan<double> present =
-            asks_for(value(has(SWIVEL_WITH_PLANT) ? SWIVEL_SOLVED_GOAL : SWIVEL_TARGET), weight);
+            asks_for(value(has(SWIVEL_WITH_PLANT) ? SWIVEL_SOLVED_GOAL : SWIVEL_TARGET), weight());
         if (!has(SWIVEL_WITH_NEXT_TARGET)) return present;
-        const double near = std::fmax(1 - value(SWIVEL_NEXT_TIME)[0] * double{group.plan.limb.per_ahead}, 0);
-        return present & asks_for(value(SWIVEL_NEXT_TARGET), near * near);
+        return present & asks_for(value(SWIVEL_NEXT_TARGET), next_weight());
     }
 };
 
@@ -79,9 +84,19 @@ struct SoughtShift {
     bool is_late() const { return std::fabs(goal - at) > seen; }
 };
 
-// Null where it is not known: a limb that counts has no record, or flags say that the root stands otherwise.
+// Whether a limb's record has the shoulder from which the limb asked for a shift. A clavicle, or a look above the limb,
+// turns the shoulder only after that. A limb with bad input may have asked for nothing.
+bool is_known(const Group& group, std::uint32_t limb)
+{
+    return group.features & SWIVEL_WITH_RECORD && !(group.features & SWIVEL_WITH_CLAVICLE) &&
+           group.plan.joints.above == 0 && !(flags_of(group, limb) & SWIVEL_BAD_INPUT);
+}
+
+// Null where it is not known: the root may be turned, or its scale may not be that of the limbs, as after a job for a
+// part of the crowd; or it is not known what a limb asked for; or the flags contradict.
 std::optional<SoughtShift> sought_shift(const swivel_crowd& crowd, const Group& shift, std::uint32_t limb)
 {
+    if (crowd.pose_notes.load(std::memory_order_relaxed) & (kHasRootRotation | kHasJointScales)) return std::nullopt;
     const Vector<double> up = vector<double>(shift.plan.up[0], shift.plan.up[1], shift.plan.up[2]);
     const double at = LimbValue(shift, limb, SWIVEL_SHIFT)[0];
     ShiftSpan<double> span{-kAnyShift, kAnyShift, true};
@@ -89,10 +104,9 @@ std::optional<SoughtShift> sought_shift(const swivel_crowd& crowd, const Group& 
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         const Group& group = crowd.groups[g];
         if (!(group.features & SWIVEL_WITH_PELVIS_FIT)) continue;
-        if (!(group.features & SWIVEL_WITH_RECORD)) return std::nullopt;
-        if (flags_of(group, limb) & SWIVEL_BAD_INPUT) continue;  // it asks for nothing
+        if (!is_known(group, limb)) return std::nullopt;
         const FittedLimb fitted{group, limb};
-        if (length == 0) length = fitted.scale * double{shift.plan.rest_length};
+        length = fitted.scale * double{shift.plan.rest_length};  // all limbs have the root's scale
         span = span & fitted.asks(up, at);
     }
     const FittedShift<double> goal =
@@ -145,8 +159,9 @@ void explain_shift(const swivel_crowd& crowd, const Group& group, std::uint32_t 
     if (wish[0] != 0) text.add(" The wish is %.4g.", wish[0]);
 }
 
-void explain_coming_shift(const swivel_crowd& crowd, std::uint32_t limb, Text& text)
+void explain_coming_shift(const swivel_crowd& crowd, const Group& fits, std::uint32_t limb, Text& text)
 {
+    if (!FittedLimb{fits, limb}.counts()) return;
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         const Group& group = crowd.groups[g];
         if (!(group.features & kShift) || flags_of(group, limb) & SWIVEL_BAD_INPUT || is_bad_in_body(group, limb))

@@ -14,8 +14,8 @@ namespace swivel {
 // Explains a body's shift.
 void explain_shift(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text);
 
-// Says how far the body's shift still goes, for a limb that counts for it and is out of reach. Says nothing where that
-// is not known.
-void explain_coming_shift(const swivel_crowd& crowd, std::uint32_t limb, Text& text);
+// Says how far the body's shift still goes, for a limb of a group that fits and is out of reach. Says nothing where
+// that is not known, or where the limb does not count for the shift.
+void explain_coming_shift(const swivel_crowd& crowd, const Group& fits, std::uint32_t limb, Text& text);
 
 }  // namespace swivel

@@ -94,18 +94,12 @@ private:
     {
         for (std::uint32_t g = 0; g < work.crowd.group_count; ++g) {
             const Group& group = work.crowd.groups[g];
-            if (is_named(work.groups, g) || !hangs_on_solved(group)) continue;
+            if (is_named(work.groups, g) || !hangs_on_solved(work.crowd, work.groups, group)) continue;
             for_each_block(strip, [&](const BodyBlock& block) {
                 stay(group, block);
                 carry_out(work.kernels.bodies, plan, group, block);
             });
         }
-    }
-    bool hangs_on_solved(const Group& group) const
-    {
-        const GroupJoints& joints = group.plan.joints;
-        if (joints.above == 0) return false;
-        return is_named(work.groups, joints.above_group) || hangs_on_solved(work.crowd.groups[joints.above_group]);
     }
     // Asks the caller for the ground below a group's feet.
     void sample(const Group& group, GroupBlocks strip) const

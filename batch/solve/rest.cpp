@@ -41,7 +41,8 @@ void rest_in_arm_frame(const Group& group)
 
 }  // namespace
 
-// The kernel does so, because the limbs' inputs are bad. Limbs that were never solved have no flag.
+// Puts a group's free limbs into their rest pose. The kernel gives them that pose because their inputs are bad. Limbs
+// that were never solved have no flag.
 void rest(Group& group)
 {
     const FloatEnv env;

@@ -7,6 +7,7 @@
 
 namespace swivel {
 
+// Solves all parts of a job, one after the other.
 void solve_here(const Work& work);
 
 // A job in parts, each of which any one thread solves.

@@ -25,6 +25,13 @@ struct Work {
     void* sample_user = nullptr;
 };
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
+// Whether a group's joints hang below a look that a job solves.
+inline bool hangs_on_solved(const swivel_crowd& crowd, const std::uint32_t* groups, const Group& group)
+{
+    const GroupJoints& joints = group.plan.joints;
+    if (joints.above == 0) return false;
+    return is_named(groups, joints.above_group) || hangs_on_solved(crowd, groups, crowd.groups[joints.above_group]);
+}
 
 // Some of a group's blocks, counted within it.
 struct GroupBlocks {

@@ -19,7 +19,7 @@
 // shorter structures of older headers.
 //
 // Debug builds, and builds with SWIVEL_CHECK_USE, also refuse crowds that are destroyed or used by two threads at once,
-// and results that overlap each other or other limbs' inputs, if one stride is a multiple of the other.
+// and results that overlap each other or inputs that are not their own, if one stride is a multiple of the other.
 #pragma once
 
 #include <stddef.h>
@@ -154,7 +154,7 @@ typedef enum swivel_field {
     SWIVEL_SHOULDER_POSITION,  // 3, WORLD
     SWIVEL_PARENT_ROTATION,    // 4, WORLD: the shoulder's parent joint's
     SWIVEL_PARENT_SCALE,       // 1, WORLD
-    SWIVEL_HAND,               // 4: the hand's rotation, or with JOINTS the wrist joint's. Bodies: NaN is the incoming
+    SWIVEL_HAND,               // 4: the hand's rotation; JOINTS: the wrist joint's. Bodies without AIM: NaN is incoming
     SWIVEL_EFFECTOR,           // 3: a point in the frame of that, in the bones' unit
     SWIVEL_ANGLE,              // 2: cosine and sine of a turn about the line from shoulder to wrist
     SWIVEL_INCOMING_SHOULDER,  // 4, WITH_INCOMING: the pose so far, as the results are; so the next two

@@ -175,7 +175,7 @@ typedef enum swivel_pose_space {
 
 // Values of joints in the caller's own array, joint j of body i at data + i * body_stride + offsets[j], or j *
 // joint_stride where offsets is null. Strides and offsets are in bytes. Without offsets a job is refused whose results
-// of two bodies overlap.
+// of two bodies overlap; with offsets, only debug builds and builds with SWIVEL_CHECK_USE see that.
 typedef struct swivel_joint_values {
     void* data;                        // null: none
     size_t body_stride, joint_stride;  // 0 of inputs: one value for all

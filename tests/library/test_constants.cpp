@@ -2,7 +2,7 @@
 //
 // The promise: swivel_describe_constant() tells every constant of groups, with the default that the header gives it. A
 // number beyond a bound is refused by its name. docs/fields.md has the table as the library has it, and says which
-// inputs start as NaN.
+// inputs of bodies and of free limbs start as NaN.
 #include <catch2/catch.hpp>
 
 #include <cctype>
@@ -73,6 +73,30 @@ struct EveryStructure {
         return reinterpret_cast<float*>(static_cast<std::byte*>(structures.at(info.structure)) + info.offset);
     }
 };
+
+// Checks which inputs of a crowd start as NaN by a column of the page's table: 2 is that of bodies, 3 that of free
+// limbs.
+void check_starts(const Crowd& crowd, int column)
+{
+    const std::string page = text_of("docs/fields.md");
+    const std::size_t table = page.find("| Field | Bodies start with | Free limbs start with |");
+    REQUIRE(table != std::string::npos);
+    swivel_field_info info;
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
+            if (info.kind != SWIVEL_FIELD_INPUT || !swivel_field_row_count(crowd.get(), group, info.field)) continue;
+            std::string name = info.name;
+            for (char& letter : name) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+            const std::size_t row = page.find("| `" + name + "` |", table);
+            std::istringstream cells(row == std::string::npos ? "" : page.substr(row, page.find('\n', row) - row));
+            std::string cell;
+            for (int c = 0; c <= column; ++c) std::getline(cells, cell, '|');
+            const std::uint32_t first = swivel_field_first_row(crowd.get(), group, info.field);
+            const bool starts_as_nan = std::isnan(swivel_input_rows(crowd.get(), group).base[first * SWIVEL_LANES]);
+            INFO("group " << group << ", " << name);
+            CHECK((cell.find(" NaN") == 0) == starts_as_nan);
+        }
+}
 
 }  // namespace
 
@@ -165,17 +189,12 @@ TEST_CASE("the page of fields has the constants as the library has them")
 TEST_CASE("the page of fields says which inputs of bodies start as NaN")
 {
     const EveryStructure given;
-    const Crowd crowd(given.def);
-    const std::string page = text_of("docs/fields.md");
-    swivel_field_info info;
-    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-        for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
-            if (info.kind != SWIVEL_FIELD_INPUT || !swivel_field_row_count(crowd.get(), group, info.field)) continue;
-            std::string name = info.name;
-            for (char& letter : name) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-            const std::uint32_t row = swivel_field_first_row(crowd.get(), group, info.field);
-            const bool starts_as_nan = std::isnan(swivel_input_rows(crowd.get(), group).base[row * SWIVEL_LANES]);
-            INFO("group " << group << ", " << name);
-            CHECK((page.find("| `" + name + "` | NaN") != std::string::npos) == starts_as_nan);
-        }
+    check_starts(Crowd(given.def), 2);
+}
+
+TEST_CASE("the page of fields says which inputs of free limbs start as NaN")
+{
+    constexpr swivel_features kNeedMore = SWIVEL_JOINTS | SWIVEL_WITH_REGION;  // a binding, and a region
+    for (const swivel_features first : {SWIVEL_WORLD, SWIVEL_WITH_INCOMING | SWIVEL_WITH_CAP})
+        check_starts(crowd_with(all_beside(first, kNeedMore), {limbs(1)}), 3);
 }

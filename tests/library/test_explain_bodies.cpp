@@ -146,6 +146,10 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     offset.eye[0] = 0.1f;
     ToldLook aside(texts, "an eye beside its joint", offset);
     aside.aim(70), aside.solved("at 70 degrees");
+    aside.bodies.root_scale = 2, aside.solve(1);  // nothing says how large the last joint's unit is
+    CHECK_THAT(explain(aside.crowd, 0, 0),
+               Catch::EndsWith(" A cone holds a joint of the chain back. The target may also be nearer to joint 2 than "
+                               "the line of sight comes."));
 
     offset = ToldLook::look(1, 180);
     offset.eye[0] = 0.3f;
@@ -155,6 +159,10 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     near.aim(0, 0.4), near.solved("not too near");
     near.solve(0.5f);
     CHECK_THAT(explain(near.crowd, 0, 0), Catch::EndsWith("degrees. The pose has a weight below 1."));
+    near.bodies.root_scale = 2, near.solve(0.5f);
+    CHECK_THAT(explain(near.crowd, 0, 0),
+               Catch::EndsWith("degrees. Either the target is nearer to joint 2 than the line of sight comes, or the "
+                               "pose has a weight below 1."));
 
     swivel_look_def eased = ToldLook::look(2, 90);
     eased.rate = 1;
@@ -172,6 +180,10 @@ void tell_of_what_holds_back(ApprovedTexts& texts)
     CHECK_THAT(explain(fades.crowd, 0, 0),
                Catch::Contains(" behind, more than 95.74 degrees from the incoming line, so the look fades."));
     fades.aim(30, 0.03), fades.solved("near the eye");
+    fades.aim(140), fades.bodies.root_scale = 2, fades.solve(1);
+    CHECK_THAT(explain(fades.crowd, 0, 0),
+               Catch::Contains(" The look fades, because its target was nearer to the eye than 0.05 of the last "
+                               "joint's unit, or behind, more than 95.74 degrees from the incoming line. By now it "));
 }
 
 void tell_of_bad_input(ApprovedTexts& texts)

@@ -178,6 +178,8 @@ void tell_of_bad_poses(ApprovedTexts& texts)
     leg.solve(), leg.says("its root");
     leg.root[1] = 0, leg.time = kNan;
     leg.solve(), leg.says("its time");
+    leg.is_masked = true;
+    leg.solve(), leg.says("its time, in a job with a mask");
     ToldLeg handless(texts, "a bad pose of a leg without a hand");
     handless.rotations[3] = {0, 0, kNan, 0};
     handless.solve(), handless.says("its foot");

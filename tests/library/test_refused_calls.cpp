@@ -375,6 +375,28 @@ TEST_CASE("poses are refused exactly where results of two bodies overlap by thei
     });
 }
 
+TEST_CASE("a limb that only moves along with a look has results that may overlap, too")
+{
+    const ArmDef arm;
+    swivel_limb_joints joints = swivel_default_limb_joints(2, 3, 4);
+    joints.bend[1] = 1;
+    swivel_look_def look = swivel::look({1});
+    look.rate = 0;
+    Crowd crowd(arm.skeleton, 2, {look, body_limb(joints)});
+    Float4 unturned = {0, 0, 0, 1};
+    std::vector<float> room(100);
+    swivel_pose pose = swivel_default_pose();
+    pose.rotations = {unturned.data(), 0, 0, nullptr};
+    pose.results = {room.data(), sizeof(Float4), sizeof(Float4), nullptr};
+    const std::uint32_t look_alone = 1;
+    swivel_job job = job_with(&pose);
+    job.groups = &look_alone, job.group_word_count = 1;
+    CHECK(swivel_solve(crowd.get(), &job) == SWIVEL_OK);  // joint 1 alone is written
+    pose.space = SWIVEL_IN_BODY;
+    CHECK_REFUSED(swivel_solve(crowd.get(), &job), SWIVEL_INVALID_ARGUMENT);
+    CHECK_THAT(swivel_last_error(), Catch::Contains("the pose's results: by a body_stride of 16"));
+}
+
 TEST_CASE("poses that cannot be are refused")
 {
     using Values = swivel_joint_values;
@@ -398,7 +420,7 @@ TEST_CASE("poses that cannot be are refused")
         {"only translations in the body's space change", [](auto& p, auto& o) { p.translation_results = o; }},
         {"but no translation_results",
          [](auto& p, auto& o) { p.space = SWIVEL_IN_BODY, p.translations = p.results = o; }},
-        {"the pose's results: by a body_stride of 16 joint ",
+        {"the pose's results: by a body_stride of 16 and a joint_stride of 16 joint ",
          [](auto& p, auto& o) {
              p.results = {o.data, 16, 16, nullptr};
          }},
