@@ -86,6 +86,19 @@ TEST_CASE("the known answer: oracle, lecture's steps and production formula")
 
 // ---- other sizes
 
+TEST_CASE("an arm with a bad number is bad input by the formula, too")
+{
+    const Arm good{{0.4, 0.3, 1}, {0, -1, 0}, 1, 0.8};
+    CHECK(!(solve<double>(good).flags & SWIVEL_BAD_INPUT));
+    for (const double bad : {-1.1e15, 1.1e15, std::nan(""), HUGE_VAL})
+        for (int part = 0; part < 4; ++part) {
+            Arm arm = good;
+            (part == 0 ? arm.wrist.y() : part == 1 ? arm.pole.y() : part == 2 ? arm.upper : arm.fore) = bad;
+            CAPTURE(bad, part);
+            CHECK(solve<double>(arm).flags & SWIVEL_BAD_INPUT);
+        }
+}
+
 TEST_CASE("lengths times a power of two give the same arm, to the bit")
 {
     rc::prop("everyday arms, sizes from 2^-10 to 2^10", [](std::uint64_t seed) {
