@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "tests/test_whole_limb.h"
@@ -26,15 +27,13 @@ inline AngleRange random_range(Random& random, double min)
     const double middle = random.between(-kPi, kPi);
     return {middle, random.spread(min, kPi)};
 }
-inline AngleBox random_box(Random& random, swivel_euler_order order)
+// A turn's range, or a box's three.
+inline void draw_ranges(Random& random, std::span<AngleRange> ranges)
 {
-    constexpr int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
-    AngleBox box;
-    std::ranges::copy(axes[order], box.axes);
-    const double min = random.below(4) ? 0.1 : 0.004;
-    for (AngleRange& range : box.range) range = random_range(random, min);
-    if (random.below(2)) box.range[1] = {random.between(-0.5, 0.5), random.spread(min, 1)};
-    return box;
+    const bool is_box = ranges.size() == 3;
+    const double min = !is_box ? 0.05 : random.below(4) ? 0.1 : 0.004;
+    for (AngleRange& range : ranges) range = random_range(random, min);
+    if (is_box && random.below(2)) ranges[1] = {random.between(-0.5, 0.5), random.spread(min, 1)};
 }
 inline LimitedArm random_limited_arm(Random& random, swivel_euler_order shoulder_order, swivel_euler_order wrist_order)
 {
@@ -47,18 +46,15 @@ inline LimitedArm random_limited_arm(Random& random, swivel_euler_order shoulder
     const Arm arm = rounded(Arm{distance * line, along * line + aside * random.across(line), upper, fore});
     Quaterniond hand = random.rotation();
     hand.coeffs() = hand.coeffs().cast<float>().cast<double>();
-    LimbLimits limits(random);
-    limits.shoulder = std::acos(random.between(-0.99, 0.99)), limits.hand = std::acos(random.between(-0.99, 0.95));
-    for (AngleRange* const range : {&limits.humeral, &limits.forearm, &limits.twist})
-        *range = random_range(random, 0.05);
-    limits.shoulder_box = random_box(random, shoulder_order), limits.wrist_box = random_box(random, wrist_order);
+    LimbLimits limits(random, shoulder_order, wrist_order);
+    for (Limit& limit : limits.each)
+        if (limit.is_cone())
+            limit.opening = std::acos(random.between(-0.99, limit.shape == LimitShape::axis_in_cone ? 0.95 : 0.99));
+    for (Limit& limit : limits.each) draw_ranges(random, limit.ranges());
     return {arm, hand.normalized(), limits};
 }
 
 // The arm at a swivel from the wish, in double, from its elbow's place.
-struct ArmAt {
-    Quaterniond shoulder, wrist;
-};
 struct SwivelCircle {
     Vector3d line, wish, across;  // across: a quarter turn on from the wish
     double along, away;           // the upper arm, of length 1, along the line and from it
@@ -81,14 +77,14 @@ struct SwivelCircle {
         along = wrist.normalized().z();
         away = wrist.normalized().head<2>().norm();
     }
-    ArmAt at(double swivel) const
+    LocalPose at(double swivel) const
     {
         const Vector3d normal = std::cos(swivel) * wish + std::sin(swivel) * across;
         const Vector3d bone = along * line + away * normal.cross(line);
         Eigen::Matrix3d r;
         r << normal, bone.cross(normal), bone;
         const Quaterniond shoulder(r);
-        return {shoulder, (shoulder * elbow).conjugate() * hand};
+        return {shoulder, elbow, (shoulder * elbow).conjugate() * hand};
     }
 };
 // The swivel that a pose took, from the wish, -pi to pi.
@@ -109,9 +105,9 @@ struct LimitedArms {
     {
         // The first two are there by one bit, in half of the crowds. The others are by two, in a quarter.
         std::uint32_t kinds = random.word();
-        for (std::size_t n = 0; n < std::size(kLimitFields); ++n) {
+        for (std::size_t n = 0; n < kOpenLimits.size(); ++n) {
             const std::uint32_t bits = n < 2 ? 1 : 3;
-            if ((kinds & bits) == bits) features |= describe(kLimitFields[n]).needs;
+            if ((kinds & bits) == bits) features |= kOpenLimits[n].feature;
             kinds >>= n < 2 ? 1 : 2;
         }
         if (has_region) features |= SWIVEL_WITH_REGION, region = random_region(random);
@@ -140,16 +136,19 @@ struct LimitedArms {
     }
 
     // How much room limits and region leave, in units of a cosine; negative where one is violated.
-    double room(std::uint32_t n, const ArmAt& at) const { return std::min(region_room(at), limit_room(n, at)); }
-    double room(std::uint32_t n, const LimbPose& pose) const { return room(n, ArmAt{pose.shoulder, pose.wrist}); }
-    double region_room(const ArmAt& at) const
+    double room(std::uint32_t n, const LocalPose& at) const { return std::min(region_room(at), limit_room(n, at)); }
+    double room(std::uint32_t n, const LimbPose& pose) const
+    {
+        return room(n, LocalPose{pose.shoulder, pose.elbow, pose.wrist});
+    }
+    double region_room(const LocalPose& at) const
     {
         if (!(features & SWIVEL_WITH_REGION)) return 1;
         return room_by_half_spaces(region.region, at.shoulder * Vector3d::UnitZ());
     }
-    double limit_room(std::uint32_t n, const ArmAt& at) const
+    double limit_room(std::uint32_t n, const LocalPose& at) const
     {
-        return -violation_of(arms[n].limits, features, at.shoulder, at.wrist);
+        return -violation_of(arms[n].limits, features, at);
     }
 };
 

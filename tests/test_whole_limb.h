@@ -5,9 +5,11 @@
 // wrist, and limits of angles.
 #pragma once
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cctype>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "tests/limit_oracle.h"
@@ -131,18 +133,6 @@ inline void check_forward(const Crowd& crowd, std::uint32_t group, const std::ve
 }
 
 inline constexpr swivel_features kWorldJointsHand = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
-// The limits of the swivel, in the order in which LimitedArms draws them.
-inline constexpr swivel_field kLimitFields[] = {SWIVEL_SHOULDER_CONE, SWIVEL_HUMERAL_TWIST, SWIVEL_HAND_CONE,
-                                                SWIVEL_FOREARM_TWIST, SWIVEL_HAND_TWIST,    SWIVEL_SHOULDER_BOX,
-                                                SWIVEL_WRIST_BOX};
-// Those of the upper arm that are no box.
-inline constexpr swivel_features kUpperArmLimits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
-// The features of all limits, the flexion's too.
-inline const swivel_features kLimits = [] {
-    swivel_features limits = SWIVEL_WITH_FLEXION_LIMIT;
-    for (const swivel_field limit : kLimitFields) limits |= describe(limit).needs;
-    return limits;
-}();
 // The flag that a limit of the swivel has, by its name; 0 for another field.
 inline std::uint32_t flag_of(swivel_field limit)
 {
@@ -222,50 +212,117 @@ inline Float12 box_of(const AngleBox& box)
     return value;
 }
 
-// A limb's limits in angles; at first they are wide open.
-struct LimbLimits {
-    Vector3d shoulder_axis, hand_axis, twist_axis;
-    double shoulder = kPi, hand = kPi;  // openings of the cones
-    AngleRange humeral, forearm, twist;
-    AngleBox shoulder_box, wrist_box;
+// ---- limits of the swivel, in angles
 
-    explicit LimbLimits(Random& random)
-        : shoulder_axis(random.direction()), hand_axis(random.direction()), twist_axis(random.direction())
+// At rest the bone of a joint lies along the e3 of the arm frame.
+enum class LimitShape {
+    bone_in_cone,     // about an axis that does not turn with the joint
+    axis_in_cone,     // about the bone; the axis turns with the joint
+    turn_about_bone,  // a range of angles
+    turn_about_axis,  // the same
+    box               // three ranges, of Euler angles
+};
+struct Limit {
+    swivel_field field;
+    Quaterniond LocalPose::*joint;
+    LimitShape shape;
+    swivel_features feature = describe(field).needs;
+    Vector3d axis = Vector3d::UnitZ();  // unit; that of a turn about the bone stays so
+    double opening = kPi;               // of a cone
+    AngleBox angles = {};               // a turn's range is the first
+
+    bool is_cone() const { return shape == LimitShape::bone_in_cone || shape == LimitShape::axis_in_cone; }
+    bool has_own_axis() const { return is_cone() || shape == LimitShape::turn_about_axis; }
+    std::span<AngleRange> ranges()
     {
+        const std::size_t count = is_cone() ? 0 : shape == LimitShape::box ? 3 : 1;
+        return {angles.range, count};
+    }
+
+    // Makes it the limit of the other side of the body. Turns about the mirrored axis e1 keep their sense.
+    void mirror()
+    {
+        axis.x() = -axis.x();
+        for (std::size_t n = 0; n < ranges().size(); ++n)
+            if (shape != LimitShape::box || angles.axes[n] != 0) angles.range[n].middle = -angles.range[n].middle;
+    }
+    // How far a pose in the arm frame is outside, in units of a cosine; negative inside.
+    double outside(const LocalPose& pose) const
+    {
+        const Vector3d bone = Vector3d::UnitZ();
+        const Quaterniond& q = pose.*joint;
+        if (shape == LimitShape::bone_in_cone) return cone_violation(axis, std::cos(opening), q * bone);
+        if (shape == LimitShape::axis_in_cone) return cone_violation(bone, std::cos(opening), q * axis);
+        if (shape == LimitShape::box) return box_violation(angles, q.toRotationMatrix());
+        return twist_violation(axis, angles.range[0], q);
+    }
+    // Calls take(field, value).
+    template <class Take>
+    void give(const Take& take) const
+    {
+        const Float4 about = cone({axis.x(), axis.y(), axis.z()}, opening), turns = range_of(angles.range[0]);
+        if (is_cone()) take(field, about);
+        if (shape == LimitShape::turn_about_bone) take(field, turns);
+        if (shape == LimitShape::turn_about_axis)
+            take(field, Float7{about[0], about[1], about[2], turns[0], turns[1], turns[2], turns[3]});
+        if (shape == LimitShape::box) take(field, box_of(angles));
+    }
+};
+// All limits of the swivel, wide open, in the order in which LimitedArms draws their features.
+inline const auto kOpenLimits = std::to_array<Limit>({
+    {SWIVEL_SHOULDER_CONE, &LocalPose::shoulder, LimitShape::bone_in_cone},
+    {SWIVEL_HUMERAL_TWIST, &LocalPose::shoulder, LimitShape::turn_about_bone},
+    {SWIVEL_HAND_CONE, &LocalPose::wrist, LimitShape::axis_in_cone},
+    {SWIVEL_FOREARM_TWIST, &LocalPose::wrist, LimitShape::turn_about_bone},
+    {SWIVEL_HAND_TWIST, &LocalPose::wrist, LimitShape::turn_about_axis},
+    {SWIVEL_SHOULDER_BOX, &LocalPose::shoulder, LimitShape::box},
+    {SWIVEL_WRIST_BOX, &LocalPose::wrist, LimitShape::box},
+});
+// Those of the upper arm that are no box.
+inline constexpr swivel_features kUpperArmLimits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
+// The features of all limits, the flexion's too.
+inline const swivel_features kLimits = [] {
+    swivel_features limits = SWIVEL_WITH_FLEXION_LIMIT;
+    for (const Limit& limit : kOpenLimits) limits |= limit.feature;
+    return limits;
+}();
+
+// A limb's limits, about random axes; at first they are wide open.
+struct LimbLimits {
+    std::array<Limit, kOpenLimits.size()> each = kOpenLimits;
+
+    explicit LimbLimits(Random& random, swivel_euler_order shoulder_order = SWIVEL_XYZ,
+                        swivel_euler_order wrist_order = SWIVEL_XYZ)
+    {
+        constexpr int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
+        for (Limit& limit : each) {
+            if (limit.has_own_axis()) limit.axis = random.direction();
+            std::ranges::copy(axes[limit.joint == &LocalPose::shoulder ? shoulder_order : wrist_order],
+                              limit.angles.axes);
+        }
+    }
+    // Takes each cone's opening from opening(limit), and then each range of the other limits from range(limit).
+    template <class Opening, class Range>
+    void draw(const Opening& opening, const Range& range)
+    {
+        for (Limit& limit : each)
+            if (limit.is_cone()) limit.opening = opening(limit);
+        for (Limit& limit : each)
+            for (AngleRange& drawn : limit.ranges()) drawn = range(limit);
     }
 };
 // Calls put(field, value) for each limit.
 template <class Put>
 void each_limit(const LimbLimits& limits, const Put& put)
 {
-    const auto array_of = [](const Vector3d& v) { return std::array{v.x(), v.y(), v.z()}; };
-    put(SWIVEL_SHOULDER_CONE, cone(array_of(limits.shoulder_axis), limits.shoulder));
-    put(SWIVEL_HAND_CONE, cone(array_of(limits.hand_axis), limits.hand));
-    put(SWIVEL_HUMERAL_TWIST, range_of(limits.humeral));
-    put(SWIVEL_FOREARM_TWIST, range_of(limits.forearm));
-    const auto [x, y, z, cosine] = cone(array_of(limits.twist_axis), kPi);
-    const auto [a, b, c, d] = range_of(limits.twist);
-    put(SWIVEL_HAND_TWIST, Float7{x, y, z, a, b, c, d});
-    put(SWIVEL_SHOULDER_BOX, box_of(limits.shoulder_box)), put(SWIVEL_WRIST_BOX, box_of(limits.wrist_box));
+    for (const Limit& limit : limits.each) limit.give(put);
 }
-// How far joints as they are in the arm frame are outside of the worst of some limits, in units of a cosine; negative
-// inside.
-inline double violation_of(const LimbLimits& limits, swivel_features some, const Quaterniond& shoulder,
-                           const Quaterniond& wrist)
+// How far a pose in the arm frame is outside of the worst of some limits, in units of a cosine; negative inside.
+inline double violation_of(const LimbLimits& limits, swivel_features some, const LocalPose& pose)
 {
-    const Vector3d bone = Vector3d::UnitZ();
     double worst = -1;
-    const auto judge = [&](swivel_features limit, const auto& violation) {
-        if (some & limit) worst = std::max(worst, violation());
-    };
-    judge(SWIVEL_WITH_SHOULDER_CONE,
-          [&] { return cone_violation(limits.shoulder_axis, std::cos(limits.shoulder), shoulder * bone); });
-    judge(SWIVEL_WITH_HUMERAL_TWIST, [&] { return twist_violation(bone, limits.humeral, shoulder); });
-    judge(SWIVEL_WITH_SHOULDER_BOX, [&] { return box_violation(limits.shoulder_box, shoulder.toRotationMatrix()); });
-    judge(SWIVEL_WITH_HAND_CONE, [&] { return cone_violation(bone, std::cos(limits.hand), wrist * limits.hand_axis); });
-    judge(SWIVEL_WITH_FOREARM_TWIST, [&] { return twist_violation(bone, limits.forearm, wrist); });
-    judge(SWIVEL_WITH_HAND_TWIST, [&] { return twist_violation(limits.twist_axis, limits.twist, wrist); });
-    judge(SWIVEL_WITH_WRIST_BOX, [&] { return box_violation(limits.wrist_box, wrist.toRotationMatrix()); });
+    for (const Limit& limit : limits.each)
+        if (some & limit.feature) worst = std::max(worst, limit.outside(pose));
     return worst;
 }
 

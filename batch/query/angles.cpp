@@ -42,15 +42,16 @@ swivel_status store_unit(const char* function, const double axis[3], float* unit
     return SWIVEL_OK;
 }
 
-// Mirrors a limit: its axis, and the middles of its ranges, which turn the other way. Only a box's range about the
-// hinge stays.
-void mirror_limit(const FieldRow& row, const EulerOrder& order, float* value)
+// Mirrors turns, which go the other way, and limits: their axes, and the middles of their ranges, which turn the other
+// way, too. Only a box's range about the hinge stays.
+void mirror_value(const FieldRow& row, const EulerOrder& order, float* value)
 {
-    const bool is_box = row.needs & kBoxFeatures;
+    const bool is_limit = row.needs & kSwivelLimits, is_box = row.needs & kBoxFeatures;
     const int turned_about[] = {order.first, order.middle, order.last};
     for (std::size_t n = 0; n < std::size(row.value.parts); ++n) {
         const ValuePart part = row.value.parts[n];
-        if (part == ValuePart::axis) value[0] = -value[0];
+        if (part == ValuePart::axis && is_limit) value[0] = -value[0];
+        if (part == ValuePart::turn) value[1] = -value[1];
         if (part == ValuePart::range && !(is_box && turned_about[n] == 0)) value[1] = -value[1];
         value += row_of(part).count;
     }
@@ -131,8 +132,7 @@ swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const 
     float value[kMaxComponents] = {};
     const std::uint32_t count = row_of(field).component_count;
     for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
-    if (field == SWIVEL_ANGLE) value[1] = -value[1];
-    if (row_of(field).needs & kSwivelLimits) mirror_limit(row_of(field), kEulerOrders[order], value);
+    mirror_value(row_of(field), kEulerOrders[order], value);
     for (std::uint32_t n = 0; n < count; ++n) to[n] = value[n];
     return SWIVEL_OK;
 }

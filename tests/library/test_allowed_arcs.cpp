@@ -54,13 +54,9 @@ namespace {
 LimitedArms mirrored(LimitedArms image)
 {
     for (LimitedArm& a : image.arms) {
-        LimbLimits& l = a.limits;
-        for (Vector3d* v : {&a.arm.wrist, &a.arm.pole, &l.shoulder_axis, &l.hand_axis, &l.twist_axis}) v->x() = -v->x();
+        for (Vector3d* v : {&a.arm.wrist, &a.arm.pole}) v->x() = -v->x();
         a.hand = Quaterniond(a.hand.w(), a.hand.x(), -a.hand.y(), -a.hand.z());
-        for (AngleRange* range : {&l.humeral, &l.forearm, &l.twist}) range->middle = -range->middle;
-        for (AngleBox* box : {&l.shoulder_box, &l.wrist_box})
-            for (int n = 0; n < 3; ++n)
-                if (box->axes[n] != 0) box->range[n].middle = -box->range[n].middle;
+        for (Limit& limit : a.limits.each) limit.mirror();
     }
     swivel_region& region = image.region.region;
     if (image.features & SWIVEL_WITH_REGION) REQUIRE(swivel_region_mirror(&region, &region) == SWIVEL_OK);

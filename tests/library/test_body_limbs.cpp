@@ -11,6 +11,7 @@
 
 #include <map>
 
+#include "simd/fields.h"
 #include "tests/limit_oracle.h"
 #include "tests/posed_bodies.h"
 #include "tests/test_whole_limb.h"
@@ -54,35 +55,61 @@ std::vector<float> list(const Value& value)
 {
     return {value.begin(), value.end()};
 }
+// A good value of a field, by its parts. length: of the limb.
+std::vector<float> random_value(Random& random, const FieldRow& row, double length)
+{
+    std::vector<float> value;
+    const auto add = [&](const auto& numbers) { value.insert(value.end(), std::begin(numbers), std::end(numbers)); };
+    const auto number = [&](double min, double max) { value.push_back(static_cast<float>(random.between(min, max))); };
+    for (const ValuePart part : row.value.parts) {
+        if (part == ValuePart::position || part == ValuePart::point)
+            add(floats(Vector3d(length * random.vector(0, 0.3))));
+        else if (part == ValuePart::direction || part == ValuePart::axis)
+            add(floats(random.direction()));
+        else if (part == ValuePart::quaternion)
+            add(floats(random.rotation()));
+        else if (part == ValuePart::turn)
+            add(cos_sin(random.between(-3, 3)));
+        else if (part == ValuePart::half_turn)
+            add(cos_sin(random.below(6) ? random.between(0, 1) : kPi));
+        else if (part == ValuePart::right_turn)
+            add(cos_sin(random.between(0.1, 1.25)));
+        else if (part == ValuePart::flexion)  // rounding decides whether a least flexion near 0 shortens the reach
+            add(flexion(random.between(0.05, 1), random.between(1.5, 3)));
+        else if (part == ValuePart::length)
+            number(0.05, 0.3);
+        else if (part == ValuePart::stretch)
+            number(1, 1.3);
+        else if (part == ValuePart::share)
+            number(0, 1);
+        else
+            add(std::span(row_of(part).start, row_of(part).count));  // which changes nothing
+    }
+    return value;
+}
 // Goals and limits, in the terms of a body.
 Values random_values(Random& random, const BodyGoal& goal, swivel_features features, double length)
 {
     const auto number = [&](double min, double max) { return static_cast<float>(random.between(min, max)); };
-    const auto angles = [&] { return AngleRange{random.between(-1, 1), random.between(1.5, 3)}; };
-    const auto direction = [&] { return floats(random.direction()); };
     Values values;
+    for (const FieldRow& row : kFields)
+        if (row.kind == kInput && (kinds_of(row) & kBodyLimbs) && !(row.needs & kOtherwise))
+            values[row.field] = random_value(random, row, length);
     values[SWIVEL_TARGET] = list(goal.target);
     const bool is_point = !(features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL));
-    values[SWIVEL_POLE] = list(is_point ? goal.pole : direction());
+    values[SWIVEL_POLE] = list(is_point ? goal.pole : floats(random.direction()));
     values[SWIVEL_HAND] = list(goal.hand);
     const bool is_written = features & SWIVEL_WITH_AIM || random.below(4) > 0;
     if (!is_written) values[SWIVEL_HAND][random.below(4)] = kNan;  // the incoming hand
-    values[SWIVEL_EFFECTOR] = list(floats(Vector3d(length * random.vector(0, 0.3))));
-    values[SWIVEL_ANGLE] = list(cos_sin(random.between(-3, 3)));
-    values[SWIVEL_LENGTHS] = {kNan, kNan};  // as the pose has them
-    if (random.below(6) == 0) values[SWIVEL_LENGTHS] = {number(0.05, 0.3), number(0.05, 0.3)};
+    if (random.below(6)) values[SWIVEL_LENGTHS] = {kNan, kNan};    // as the pose has them
     values[SWIVEL_WEIGHTS] = {number(0, 1), number(0, 1), random.below(2) ? number(0.1, 1) : 0};
     values[SWIVEL_REACH] = {number(0, 0.2), number(0, 0.2), number(1, 1.3), number(0, 0.2)};
-    values[SWIVEL_MAX_SWIVEL] = list(cos_sin(random.below(6) ? random.between(0, 1) : kPi));
     values[SWIVEL_CAP] = {number(0, 0.2), number(0, 0.9), number(0, 0.2)};
-    // Rounding decides whether a least flexion near 0 shortens the reach.
-    values[SWIVEL_FLEXION_LIMIT] = list(flexion(random.between(0.05, 1), random.between(1.5, 3)));
-    const Float3 axis = direction();
-    values[SWIVEL_AIM] = list(aim({axis[0], axis[1], axis[2]}, random.between(0.2, 2.5)));
     LimbLimits limits(random);
-    limits.shoulder = random.between(1, 3), limits.hand = random.between(1, 3);
-    for (AngleRange* const range : {&limits.humeral, &limits.forearm, &limits.twist}) *range = angles();
-    for (int n = 0; n < 3; ++n) limits.shoulder_box.range[n] = angles(), limits.wrist_box.range[n] = angles();
+    limits.draw([&](const Limit&) { return random.between(1, 3); },
+                [&](const Limit&) {
+                    return AngleRange{random.between(-1, 1), random.between(1.5, 3)};
+                });
     each_limit(limits, [&](swivel_field field, const auto& value) { values[field] = list(value); });
     return values;
 }

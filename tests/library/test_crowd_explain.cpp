@@ -31,6 +31,17 @@ double off_box(const Quaterniond& q, const AngleBox& box)
     return std::min(max(angles[0], angles[1], angles[2]), max(angles[0] + kPi, kPi - angles[1], angles[2] + kPi));
 }
 
+// How far a pose in the arm frame is outside of a limit, as an angle.
+double off_limit(const Limit& limit, const LocalPose& pose)
+{
+    const Vector3d bone = Vector3d::UnitZ();
+    const Quaterniond& q = pose.*limit.joint;
+    if (limit.shape == LimitShape::bone_in_cone) return off_cone(limit.axis, q * bone, limit.opening);
+    if (limit.shape == LimitShape::axis_in_cone) return off_cone(bone, q * limit.axis, limit.opening);
+    if (limit.shape == LimitShape::box) return off_box(q, limit.angles);
+    return off_twist(q, limit.axis, limit.angles.range[0]);
+}
+
 // A limb of bones of length 1 whose shoulder is at the origin, or what a scene makes of it.
 struct Told {
     ApprovedTexts& texts;
@@ -284,12 +295,16 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
         def.shoulder_order = SWIVEL_ZXY;
         def.wrist_order = SWIVEL_YXZ;
         Crowd crowd(def), free = crowd_of(kWorldJointsHand, count, limb.bound);
-        LimbLimits l(random);
-        l.shoulder = limits & SWIVEL_WITH_HAND_CONE ? 0.5 : 1.1, l.hand = 0.3;
-        l.humeral = limits & SWIVEL_WITH_HAND_CONE ? narrow() : AngleRange{0.1, 1.6};
-        l.forearm = narrow(), l.twist = narrow();
-        l.shoulder_box = {{2, 0, 1}, {narrow(), narrow(), narrow()}};
-        l.wrist_box = {{1, 0, 2}, {narrow(), narrow(), narrow()}};
+        LimbLimits l(random, def.shoulder_order, def.wrist_order);
+        // Without a hand's cone a wide twist of the upper arm lets many arms keep all limits.
+        const bool has_hand_cone = limits & SWIVEL_WITH_HAND_CONE;
+        l.draw(
+            [&](const Limit& limit) {
+                return limit.shape == LimitShape::axis_in_cone ? 0.3 : has_hand_cone ? 0.5 : 1.1;
+            },
+            [&](const Limit& limit) {
+                return limit.field == SWIVEL_HUMERAL_TWIST && !has_hand_cone ? AngleRange{0.1, 1.6} : narrow();
+            });
         each_limit(l, [&](swivel_field field, const auto& value) {
             if (swivel_field_row_count(crowd.get(), 0, field)) crowd.write_all(field, 0, value);
         });
@@ -308,29 +323,20 @@ TEST_CASE("explain says by which angles a limit turned the elbow, or a pose that
             const std::string text = explain(crowd, 0, n);
             INFO(text);
             const LocalPose q = added_to_rest(local_pose(crowd, n), limb.bound);
-            const Vector3d bone = Vector3d::UnitZ();
-            const double off[] = {off_cone(l.shoulder_axis, q.shoulder * bone, l.shoulder),
-                                  off_twist(q.shoulder, bone, l.humeral),
-                                  off_cone(bone, q.wrist * l.hand_axis, l.hand),
-                                  off_twist(q.wrist, bone, l.forearm),
-                                  off_twist(q.wrist, l.twist_axis, l.twist),
-                                  off_box(q.shoulder, l.shoulder_box),
-                                  off_box(q.wrist, l.wrist_box)};  // of kLimitFields
-            static_assert(std::size(off) == std::size(kLimitFields));
             const std::size_t violates = text.find("Its pose violates");
             REQUIRE((violates != std::string::npos) == ((flags[n] & SWIVEL_INFEASIBLE) != 0));
-            for (std::size_t k = 0; k < std::size(off); ++k) {
-                const swivel_features limit = describe(kLimitFields[k]).needs;
-                const std::string name = describe(kLimitFields[k]).name;
+            for (const Limit& limit : l.each) {
+                const bool has_limit = limits & limit.feature;
+                const std::string name = describe(limit.field).name;
                 if (violates == std::string::npos) {
-                    CHECK((text.find(name) != std::string::npos) == ((flags[n] & flag_of(kLimitFields[k])) != 0));
+                    CHECK((text.find(name) != std::string::npos) == ((flags[n] & flag_of(limit.field)) != 0));
                     continue;
                 }
-                const double degrees_off = off[k] / degrees(1);
+                const double degrees_off = off_limit(limit, q) / degrees(1);
                 const std::string pose = text.substr(violates);
                 const bool is_named = pose.find(name + " by") != std::string::npos;
-                if (!(limits & limit) || degrees_off < -0.03) CHECK_FALSE(is_named);
-                if ((limits & limit) && degrees_off > 0.03) {
+                if (!has_limit || degrees_off < -0.03) CHECK_FALSE(is_named);
+                if (has_limit && degrees_off > 0.03) {
                     REQUIRE(is_named);
                     CHECK(number_after(pose, name + " by") == Approx(degrees_off).margin(0.03));
                     ++named;

@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "simd/fields.h"
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;
@@ -23,12 +24,12 @@ Quaterniond mirrored(const Quaterniond& q) { return {q.w(), q.x(), -q.y(), -q.z(
 TEST_CASE("the tests' limits of the swivel are all that the library has a flag for")
 {
     for (const swivel_field field : every_field())
-        CHECK((flag_of(field) != 0) == (std::ranges::find(kLimitFields, field) != std::end(kLimitFields)));
+        CHECK((flag_of(field) != 0) == (std::ranges::find(kOpenLimits, field, &Limit::field) != kOpenLimits.end()));
     std::set<std::string_view> others;  // flags of limits that are no field of the swivel's
     for (std::uint32_t flag = 1; flag != 0; flag <<= 1) {
         const char* const name = swivel_flag_name(flag);
         if (!name || !std::string_view(name).starts_with("LIMITED_")) continue;
-        if (std::ranges::none_of(kLimitFields, [&](swivel_field field) { return flag_of(field) == flag; }))
+        if (std::ranges::none_of(kOpenLimits, [&](const Limit& limit) { return flag_of(limit.field) == flag; }))
             others.insert(name);
     }
     CHECK(others == std::set<std::string_view>{"LIMITED_FLEXION", "LIMITED_LOOK", "LIMITED_REGION", "LIMITED_STEP"});
@@ -47,38 +48,57 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     std::vector<LimbLimits> limits;
     for (std::uint32_t n = 0; n < count; ++n) {
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
-        LimbLimits& l = limits.emplace_back(random);
+        LimbLimits& l = limits.emplace_back(random, def.shoulder_order, def.wrist_order);
         // Each limb has one kind of limit that is narrow; the others are wide open.
-        const std::uint32_t kind = n % 7;
-        const auto range = [&](std::uint32_t mine) {
-            return kind == mine ? AngleRange{random.between(-kPi, kPi), random.between(0.5, 2.5)} : AngleRange{};
-        };
-        if (kind == 0) l.shoulder = random.between(0.3, 2);
-        if (kind == 1) l.hand = random.between(0.3, 2);
-        l.humeral = range(2), l.forearm = range(3), l.twist = range(4);
-        l.shoulder_box = {{1, 2, 0}, {range(5), range(5), range(5)}};
-        l.wrist_box = {{2, 1, 0}, {range(6), range(6), range(6)}};
+        const swivel_field narrow = kOpenLimits[n % kOpenLimits.size()].field;
+        l.draw([&](const Limit& limit) { return limit.field == narrow ? random.between(0.3, 2) : kPi; },
+               [&](const Limit& limit) {
+                   return limit.field == narrow ? AngleRange{random.between(-kPi, kPi), random.between(0.5, 2.5)}
+                                                : AngleRange{};
+               });
         each_limit(l, [&](swivel_field field, const auto& value) { put(crowd, field, n, value); });
     }
     crowd.solve();
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    std::map<std::uint32_t, int> seen;
+    std::map<swivel_field, int> seen;
     for (std::uint32_t n = 0; n < count; ++n) {
-        const auto [shoulder, elbow, wrist] = added_to_rest(local_pose(crowd, n), limb.bound);
-        const double by = violation_of(limits[n], kLimits, shoulder, wrist);
-        INFO("limb " << n << ", kind " << n % 7 << ", flags " << flags[n]);
+        const double by = violation_of(limits[n], kLimits, added_to_rest(local_pose(crowd, n), limb.bound));
+        INFO("limb " << n << ", kind " << n % kOpenLimits.size() << ", flags " << flags[n]);
         if (!(flags[n] & SWIVEL_INFEASIBLE)) CHECK(by <= 2e-6);
         CHECK((flags[n] & (SWIVEL_REACHED)) != 0);
-        for (std::uint32_t bit = 6; bit < 14; ++bit)
-            if (flags[n] >> bit & 1) ++seen[bit];
+        for (const Limit& each : kOpenLimits) seen[each.field] += (flags[n] & flag_of(each.field)) != 0;
     }
-    for (std::uint32_t bit = 7; bit < 14; ++bit) CHECK(seen[bit] > 20);
+    for (const Limit& each : kOpenLimits) CHECK(seen[each.field] > 20);
+}
+
+TEST_CASE("the other side's value of an input that is no limit and no turn is the same")
+{
+    int same = 0;
+    for (const FieldRow& row : kFields) {
+        const bool has_turn = std::ranges::find(row.value.parts, ValuePart::turn) != std::end(row.value.parts);
+        if (row.kind != kInput || has_turn || flag_of(row.field)) continue;
+        INFO(row.name);
+        std::array<float, kMaxComponents> value, other = {};
+        value.fill(0.5f);
+        CHECK(swivel_mirror(row.field, SWIVEL_XYZ, value.data(), other.data()) == SWIVEL_OK);
+        CHECK(std::ranges::count(other, 0.5f) == row.component_count);
+        ++same;
+    }
+    CHECK(same > 20);
 }
 
 TEST_CASE("the body's other side is the mirror image")
 {
     constexpr std::uint32_t count = 300;
-    const swivel_features features = kWorldJointsHand | SWIVEL_WITH_ANGLE | kLimits;
+    // Besides limits, swivel_mirror() changes turns.
+    std::vector<swivel_field> turns;
+    swivel_features features = kWorldJointsHand | kLimits;
+    for (const FieldRow& row : kFields) {
+        if (std::ranges::find(row.value.parts, ValuePart::turn) == std::end(row.value.parts)) continue;
+        REQUIRE(row.component_count == 2);  // nothing but the turn
+        turns.push_back(row.field), features |= row.needs;
+    }
+    REQUIRE(!turns.empty());
     Random random{5};
     const ThreeJoints right = skewed_joints(random);
     ThreeJoints left = right;
@@ -100,15 +120,15 @@ TEST_CASE("the body's other side is the mirror image")
         for (Float4* const q : {&other.rotation, &other.hand}) mirror_turn(*q);
         write_limb(r, 0, n, limb);
         write_limb(l, 0, n, other);
-        Float2 turn;
-        swivel_cos_sin(random.between(-2, 2), turn.data());
-        both(SWIVEL_ANGLE, n, turn);
+        for (const swivel_field turn : turns) both(turn, n, cos_sin(random.between(-2, 2)));
         LimbLimits limits(random);
-        const auto range = [&] { return AngleRange{random.between(-1, 1), random.between(1, 3)}; };
-        limits.shoulder = random.between(1, 2.5), limits.hand = random.between(1.5, 3);
-        limits.humeral = range(), limits.forearm = range(), limits.twist = range();
-        for (AngleBox* const box : {&limits.shoulder_box, &limits.wrist_box})
-            for (AngleRange& each : box->range) each = range();
+        limits.draw(
+            [&](const Limit& limit) {
+                return limit.shape == LimitShape::axis_in_cone ? random.between(1.5, 3) : random.between(1, 2.5);
+            },
+            [&](const Limit&) {
+                return AngleRange{random.between(-1, 1), random.between(1, 3)};
+            });
         each_limit(limits, [&](swivel_field field, const auto& value) { both(field, n, value); });
     }
     r.solve();

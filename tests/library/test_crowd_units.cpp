@@ -56,13 +56,13 @@ double any_angle(Random& random, double max)
 Float12 made_value(Random& random, swivel_field field)
 {
     const Vector3d axis = any_axis(random);
-    const auto any_range = [&] { return AngleRange{4 * any_angle(random, kPi) - 2 * kPi, any_angle(random, kPi)}; };
+    const auto any_range = [&](const Limit&) {
+        return AngleRange{4 * any_angle(random, kPi) - 2 * kPi, any_angle(random, kPi)};
+    };
     LimbLimits limits(random);
-    limits.shoulder_axis = limits.hand_axis = limits.twist_axis = axis;
-    limits.shoulder = limits.hand = any_angle(random, kPi);
-    limits.humeral = limits.forearm = limits.twist = any_range();
-    for (AngleBox* const box : {&limits.shoulder_box, &limits.wrist_box})
-        for (AngleRange& range : box->range) range = any_range();
+    for (Limit& limit : limits.each)
+        if (limit.has_own_axis()) limit.axis = axis;
+    limits.draw([&](const Limit&) { return any_angle(random, kPi); }, any_range);
     std::vector<float> value;
     const auto take = [&](swivel_field made, const auto& numbers) {
         if (made == field) value.assign(numbers.begin(), numbers.end());

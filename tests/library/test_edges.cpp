@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simd/fields.h"
 #include "tests/test_whole_limb.h"
 
 namespace {
@@ -293,36 +294,46 @@ struct Spoilt {
     std::uint32_t first, count;  // the numbers that are changed
     float bad;
 };
-// Every way to spoil a limb: a number that is none, and what is out of the range that swivel.h gives.
+// Numbers of a part that are out of the range that swivel.h gives.
+struct BadPart {
+    ValuePart part;
+    std::uint32_t first, count;  // the numbers that are changed
+    std::vector<float> all;
+};
+const BadPart bad_parts[] = {
+    {ValuePart::position, 0, 3, {0.6e15f}},  // no component is too long, the vector is
+    {ValuePart::point, 0, 3, {0.6e15f}},
+    {ValuePart::quaternion, 0, 4, {0.0f, 0.45e-9f, 1e-30f, 0.55e9f}},  // half of its length
+    {ValuePart::turn, 0, 2, {0, 0.7e-9f, 0.8e9f}},
+    {ValuePart::axis, 0, 3, {0, 0.5f, 1}},
+    {ValuePart::half_turn, 1, 1, {-1}},
+    {ValuePart::right_turn, 0, 1, {-1}},
+    {ValuePart::range, 0, 2, {0, 0.5f, 1}},
+    {ValuePart::range, 2, 2, {0, 0.5f, 1}},
+    {ValuePart::cosine, 0, 1, {-1.1f, 1.1f}},
+    {ValuePart::flexion, 0, 1, {-0.1f, 1.1f}},
+    {ValuePart::flexion, 1, 1, {-0.1f, 1.1f}},
+    {ValuePart::length, 0, 1, {-1, 0.9e-15f, -1e-15f, 1e-40f, 1.001e15f}},
+    {ValuePart::scale, 0, 1, {0.0f, -0.0f, -1, 0.9e-15f, 1.001e15f}},
+    {ValuePart::stretch, 0, 1, {0.9f, 1001}},
+    {ValuePart::share, 0, 1, {-0.1f, 1.1f}},
+};
+// Every way to spoil a limb: a number that is none, and a bad part.
 std::vector<Spoilt> every_spoilt(const Crowd& crowd)
 {
     std::vector<Spoilt> ways;
-    const auto add = [&](swivel_field field, std::uint32_t first, std::uint32_t count,
-                         std::initializer_list<float> all) {
-        for (const float bad : all)
-            if (swivel_field_row_count(crowd.get(), 0, field)) ways.push_back({field, first, count, bad});
-    };
-    for (int f = 0; f < SWIVEL_INPUT_END; ++f) {
-        const auto field = static_cast<swivel_field>(f);
-        for (std::uint32_t c = 0; c < swivel_field_row_count(crowd.get(), 0, field); ++c)
-            add(field, c, 1, {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f});
+    for (const FieldRow& row : kFields) {
+        if (row.kind != kInput) continue;
+        const std::uint32_t row_count = swivel_field_row_count(crowd.get(), 0, row.field);
+        for (std::uint32_t c = 0; c < row_count; ++c)
+            for (const float bad : {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f})
+                ways.push_back({row.field, c, 1, bad});
+        for_each_part(row, row_count, [&](ValuePart part, std::uint32_t number) {
+            for (const BadPart& each : bad_parts)
+                for (const float bad : each.all)
+                    if (each.part == part) ways.push_back({row.field, number + each.first, each.count, bad});
+        });
     }
-    for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_LENGTHS, c, 1, {-1, 0.9e-15f, -1e-15f, 1e-40f, 1.001e15f});
-    for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION, SWIVEL_EFFECTOR})
-        add(field, 0, 3, {0.6e15f});  // no component is too long, the vector is
-    add(SWIVEL_PARENT_SCALE, 0, 1, {0.0f, -0.0f, -1, 0.9e-15f, 1.001e15f});
-    for (const swivel_field field :
-         {SWIVEL_PARENT_ROTATION, SWIVEL_HAND, SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
-        add(field, 0, 4, {0.0f, 0.45e-9f, 1e-30f, 0.55e9f});  // half of its length
-    add(SWIVEL_ANGLE, 0, 2, {0, 0.7e-9f, 0.8e9f});
-    for (const std::uint32_t c : {0u, 1u, 2u}) add(SWIVEL_WEIGHTS, c, 1, {-0.1f, 1.1f});
-    for (const std::uint32_t c : {0u, 1u, 3u}) add(SWIVEL_REACH, c, 1, {-0.1f, 1.1f});
-    add(SWIVEL_REACH, 2, 1, {0.9f, 1001});
-    add(SWIVEL_CLAVICLE, 3, 1, {-0.1f, 1.1f});
-    for (const swivel_field field : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) add(field, 3, 1, {-1.1f, 1.1f});
-    for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_FLEXION_LIMIT, c, 1, {-0.1f, 1.1f});
-    add(SWIVEL_AIM, 3, 1, {-1});
-    add(SWIVEL_MAX_SWIVEL, 1, 1, {-1});
     return ways;
 }
 

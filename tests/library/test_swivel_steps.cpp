@@ -222,7 +222,7 @@ struct Kind {
 std::vector<Kind> every_kind()
 {
     std::vector<Kind> kinds = {{"region", SWIVEL_WITH_REGION}};
-    for (const swivel_field limit : kLimitFields) kinds.push_back({describe(limit).name, describe(limit).needs});
+    for (const Limit& limit : kOpenLimits) kinds.push_back({describe(limit.field).name, limit.feature});
     return kinds;
 }
 
