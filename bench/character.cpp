@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Character C: 512 of them, in cache, from pose to pose. Beside all of it are its legs, look and arms alone, and the
-// same on glm, one character at a time.
+// Character C: 512 of them, in cache, from pose to pose. Beside all of it are its legs, look and arms alone, what
+// saving and loading its state takes, and the same on glm, one character at a time.
 #include "bench/body_look.h"
 #include "bench/rivals/level.h"
 #include "bench/rivals/rifle.h"
@@ -37,6 +37,7 @@ public:
         if (parts.look) write(SWIVEL_LOOK_TARGET, group, given[0].look);
     }
     void solve() { crowd_.solve({.on_this_thread = true, .pose = &pose_}); }
+    swivel::Crowd& crowd() { return crowd_; }
     // How many rifles' elbows the region holds back.
     double limited_share() const
     {
@@ -116,6 +117,23 @@ void add_swivel(const std::string& isa, const Parts& parts)
         std::move(notes));
 }
 
+// Saves and loads what all of them carry.
+void add_state()
+{
+    const auto played = std::make_shared<Played>(kParts[3]);
+    for (int frame = 0; frame < 30; ++frame) played->solve();
+    const std::size_t body_bytes = swivel_state_bytes(played->crowd().get());
+    const auto state = std::make_shared<std::vector<std::byte>>(kCharacters * body_bytes);
+    played->crowd().save(*state);
+    const Notes notes = {{"bytes", static_cast<double>(body_bytes)}};
+    add(
+        "character_state/save", kCharacters, Clock::cpu,
+        [=]() -> Work { return [=] { played->crowd().save(*state); }; }, notes);
+    add(
+        "character_state/load", kCharacters, Clock::cpu,
+        [=]() -> Work { return [=] { played->crowd().load(*state); }; }, notes);
+}
+
 void add_glm()
 {
     struct Rival {
@@ -140,6 +158,7 @@ void add_character(Suite& suite)
 {
     for (const std::string& isa : suite.isas)
         for (const Parts& parts : kParts) add_swivel(isa, parts);
+    add_state();
     add_glm();
 }
 

@@ -1,4 +1,3 @@
-#pragma once
 // SPDX-License-Identifier: MIT
 //
 // Conformal geometric algebra G(4,1) with all 32 coefficients of a multivector, in double: slow and obviously right.
@@ -6,6 +5,7 @@
 // D. Hildenbrand, "Inverse Kinematics of a Virtual Character" (TU Darmstadt, 2019); numbers (3.9) are its equations.
 // Coefficients stand on the orthonormal basis e1 e2 e3 e+ e-. Bit n of an index says that the n-th of these is a
 // factor of the blade, so c[0b00011] belongs to e1 e2. Degenerate input (a zero inverse) gives inf or NaN.
+#pragma once
 
 #include <cmath>
 

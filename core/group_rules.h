@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The constants of groups that plant, stand on ground or look: as their definition gives them, and what formulas need
-// besides. The constants of the springs that ease shifts and lifts.
+// The constants that formulas take: of plants and grounds as their definition gives them, with what is made of these
+// once, of looks, of the half-lines by which elbows point, and of springs.
 #pragma once
 
 #include <cstdint>
@@ -69,6 +69,12 @@ struct LookRules {
     LookFade fade;
     float eye[3], axis[3];  // in the last joint's frame; axis: unit
     float rate;             // radians a second; 0: not eased
+};
+
+// Where elbows with SWIVEL_POLE_HALF_LINE point: along `side`, as seen in the mirror that turns `behind` into the line
+// to the wrist. Both are unit vectors of the arm frame, at right angles.
+struct HalfLine {
+    float behind[3], side[3];
 };
 
 }  // namespace swivel

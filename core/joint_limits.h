@@ -63,6 +63,7 @@ struct Twisting {
     Rotor<T> at_0, at_pi;  // the rotor that twists, at phi = 0 and at pi
     T per_size;
 
+    // axis: of the twist, unit.
     template <class Axis>
     SWIVEL_INLINE constexpr OnCircle<T> limit(const Axis& axis, const Range<T>& range) const
     {
@@ -117,13 +118,13 @@ SWIVEL_INLINE constexpr auto turning_matrix(const SwivellingArm<T, Lift>& arm, c
                                             const auto& e3, const Turning& turning)
 {
     const Vector<T> rows[3] = {in_line(arm, e1), in_line(arm, e2), in_line(arm, e3)};  // in the line's frame
-    const T size = per_size(arm);
+    const T per = per_size(arm);
     const auto column1 = sandwich(turning, unit<T, kE1>());
     const auto column2 = sandwich(turning, unit<T, kE2>());
     const auto column3 = sandwich(turning, unit<T, kE3>());
     return [=](int row, int column) SWIVEL_INLINE_LAMBDA {
-        if (column == 0) return size * inner(rows[row], column1);
-        return column == 1 ? size * inner(rows[row], column2) : size * inner(rows[row], column3);
+        if (column == 0) return per * inner(rows[row], column1);
+        return column == 1 ? per * inner(rows[row], column2) : per * inner(rows[row], column3);
     };
 }
 template <class T, class Lift>

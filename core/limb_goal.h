@@ -41,7 +41,7 @@ struct AimGoal {
 
 template <class T>
 struct LimbGoal {
-    ArmGoal<T> arm;  // without the pole; wrist: the effector's target
+    ArmGoal<T> arm;  // its pole is not used; wrist: the effector's target
     Rotor<T> hand;   // orientation, the identity at rest; with aim the wrist's rotation from the forearm; of any length
     Vector<T> effector;  // in the hand's frame
     IncomingPose<T> incoming;

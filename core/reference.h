@@ -1,9 +1,9 @@
-#pragma once
 // SPDX-License-Identifier: MIT
 //
 // The oracle: the five steps of D. Hildenbrand, "Inverse Kinematics of a Virtual Character" (TU Darmstadt, 2019), to
 // the letter, in double, on 32-coefficient multivectors. It is slow and obviously right, and shares no code with the
 // solvers that are checked against it. The caller must avoid degenerate poses: see ReferenceArm.
+#pragma once
 
 namespace swivel {
 

@@ -71,7 +71,7 @@ SWIVEL_INLINE constexpr T room(const RegionOnCircle<T>& on, const Turned<T>& swi
 
 // Calls take(swivel, exist) for the two places where a line crosses zero.
 template <class T, class Take>
-SWIVEL_INLINE constexpr void for_crossings(const OnCircle<T>& x, const Take& take)
+SWIVEL_INLINE constexpr void for_each_crossing(const OnCircle<T>& x, const Take& take)
 {
     const Crossings<T> both = crossings(x);
     take(both.first, both.exist);
@@ -83,7 +83,7 @@ SWIVEL_INLINE constexpr void for_each_end(const RegionOnCircle<T>& on, const Tak
 {
     const std::uint32_t count = on.region->first[on.region->part_count];
     for (std::uint32_t n = 0; n < count; ++n)
-        if (on.region->half_space[n].is_edge != 0) for_crossings(on.line(n), take);
+        if (on.region->half_space[n].is_edge != 0) for_each_crossing(on.line(n), take);
 }
 // The same for all places where the region's room can peak: where a half-space's line peaks, or where two lines are
 // equal, of one part, of two cuts, or of a part and a cut.
@@ -97,8 +97,9 @@ SWIVEL_INLINE constexpr void for_each_peak(const RegionOnCircle<T>& on, const Ta
         const Mask<T> peaks = r2 > T(kFlat2);
         const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
         take(Turned<T>{per_r * line.a, per_r * line.b}, peaks);
-        for (std::uint32_t cut = 0; cut < n && cut < region.cut_count; ++cut) for_crossings(line - on.line(cut), take);
-        for (std::uint32_t m = part_first; m < n; ++m) for_crossings(line - on.line(m), take);
+        for (std::uint32_t cut = 0; cut < n && cut < region.cut_count; ++cut)
+            for_each_crossing(line - on.line(cut), take);
+        for (std::uint32_t m = part_first; m < n; ++m) for_each_crossing(line - on.line(m), take);
     };
     for (std::uint32_t n = 0; n < region.cut_count; ++n) take_peaks(n, n);
     for (std::uint32_t part = 0; part < region.part_count; ++part)
@@ -148,8 +149,8 @@ SWIVEL_INLINE constexpr void for_each_peak(const LimitsInRegion<T, Boxes>& both,
                 take(swivel, exists & edge[m].live());
             };
             const OnCircle<T> other = edge[m].line();
-            if (edge[m].front > 0 || edge[m].back > 0) for_crossings(line - other, take_live);
-            if (edge[m].front < 0 || edge[m].back < 0) for_crossings(line + other, take_live);
+            if (edge[m].front > 0 || edge[m].back > 0) for_each_crossing(line - other, take_live);
+            if (edge[m].front < 0 || edge[m].back < 0) for_each_crossing(line + other, take_live);
         }
     }
 }

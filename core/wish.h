@@ -42,6 +42,23 @@ SWIVEL_INLINE constexpr Vector<T> blend_with_incoming(const Vector<T>& by_hand, 
     return by_hand + select(exists, lacks / sqrt(select(exists, len2(incoming_normal), T(1))), T(0)) * incoming_normal;
 }
 
+// The normal that needs no pole. It jumps where the line is `behind`, and nowhere else; no normal that the line alone
+// decides jumps in less than one direction. Its length is 1 less the cosine of the angle from `behind`. Source: the
+// stereographic angle of A. Elias and J. Wen, Redundancy parameterization and inverse kinematics of 7-DOF revolute
+// manipulators, arXiv 2307.13122.
+template <class T>
+struct HalfLineNormal {
+    Vector<T> normal;
+    Mask<T> is_defined;
+};
+template <class T>
+SWIVEL_INLINE constexpr HalfLineNormal<T> half_line_normal(const Vector<T>& behind, const Vector<T>& side,
+                                                           const Vector<T>& line)
+{
+    const Vector<T> from_behind = line - behind;
+    return {across(cross(from_behind, side), line), len2(from_behind) > T(kPoleOff * kPoleOff)};
+}
+
 // How an elbow goes on from solve to solve.
 template <class T>
 struct Continuity {
@@ -56,14 +73,15 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const Continuity<T>& continuity)
            is_unit2(max.cos * max.cos + max.sin * max.sin);
 }
 
-// What a limb's goal gives the wish. Parts that the group's features do not use may hold anything.
+// The parts of a limb's goal that the wish is made of. Parts that the group's features do not use may hold anything.
 template <class T>
 struct WishGoal {
-    Vector<T> pole;     // or the swivel plane's normal
-    Rotor<T> hand;      // as blended, where it says where the elbow goes
-    Turned<T> angle;    // turns the wish about the line from shoulder to wrist; of any length
-    Rotor<T> incoming;  // the shoulder's
-    T weight;           // of the pole, 0 to 1
+    Vector<T> pole;          // or the swivel plane's normal
+    Vector<T> behind, side;  // where nobody gives a pole: see HalfLine
+    Rotor<T> hand;           // with SWIVEL_POLE_HAND: as blended
+    Turned<T> angle;         // turns the wish about the line from shoulder to wrist; of any length
+    Rotor<T> incoming;       // with SWIVEL_WITH_INCOMING: the shoulder's rotation
+    T weight;                // of the pole, 0 to 1
     Continuity<T> continuity;
 };
 
@@ -90,7 +108,11 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(swivel_features features, 
 
     Vector<T> normal = incoming_normal;  // of any length until the end
     Mask<T> is_defined = incoming_is_defined, keeps_incoming = incoming_is_defined;
-    if (!(features & SWIVEL_POLE_INCOMING)) {
+    if (features & SWIVEL_POLE_HALF_LINE) {
+        const HalfLineNormal<T> found = half_line_normal(goal.behind, goal.side, line);
+        normal = found.normal;
+        is_defined = found.is_defined;
+    } else if (!(features & SWIVEL_POLE_INCOMING)) {
         const Vector<T> given = features & SWIVEL_POLE_HAND ? pole_from_hand(goal.hand) : goal.pole,
                         pole = scaled(given);
         normal = across(features & SWIVEL_POLE_NORMAL ? pole : cross(line, pole), line);

@@ -20,7 +20,7 @@ typedef struct body {
     float root[3];                /* in the world, as are the targets */
     float pose[JOINT_COUNT][4];   /* local rotations x, y, z, w, as the animation has them */
     float solved[JOINT_COUNT][4]; /* a copy of pose, solved: draw this one, with shift[0] added to the root's height */
-    float joints[JOINT_COUNT][3]; /* where a solve has left them, from the shifted root */
+    float joints[JOINT_COUNT][3]; /* where a solve has left them, from the root */
     float shift[3];
     float down[2];   /* 1 while the clip has the left or right foot down, else 0 */
     float target[3]; /* of the hand and of the eyes */
@@ -104,8 +104,7 @@ static double distance_of(const body* b, int joint, const float place[3])
     double squares = 0;
     int c;
     for (c = 0; c < 3; ++c) {
-        const double off =
-            (double)b->root[c] + (c == 1 ? (double)b->shift[0] : 0) + (double)b->joints[joint][c] - (double)place[c];
+        const double off = (double)b->root[c] + (double)b->joints[joint][c] - (double)place[c];
         squares += off * off;
     }
     return sqrt(squares);

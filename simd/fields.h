@@ -52,11 +52,11 @@ inline constexpr swivel_features kHandLimits =
     SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 // These say where elbows go; a group has one of them, or a pole that is a point.
 inline constexpr swivel_features kPoles =
-    SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND;
+    SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_POLE_HALF_LINE;
 enum FeatureTrait : std::uint32_t {
-    kIsSpecial = 1,  // limbs with it need the stages `bones` and `wish`, because `place` does not ask for it (stages.h)
-    kBounds = 2,     // it may move a limb whose weights ask for nothing
-    kTurnsWish = 4   // it may turn an elbow that is wished as in the incoming pose
+    kSkipsPlace = 1,  // stages of their own stand in for the stage `place` in limbs with it (stages.h)
+    kBounds = 2,      // it may move a limb whose weights ask for nothing
+    kTurnsWish = 4    // it may turn an elbow that is wished as in the incoming pose
 };
 struct FeatureRow {
     swivel_features feature;
@@ -74,12 +74,12 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_EFFECTOR, "WITH_EFFECTOR", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_ANGLE, "WITH_ANGLE", 0, 0, kLimbs, kTurnsWish},
     {SWIVEL_POLE_NORMAL, "POLE_NORMAL", 0, kPoles & ~SWIVEL_POLE_NORMAL},
-    {SWIVEL_WITH_INCOMING, "WITH_INCOMING", 0, 0, kFreeLimbs, kIsSpecial},
+    {SWIVEL_WITH_INCOMING, "WITH_INCOMING", 0, 0, kFreeLimbs, kSkipsPlace},
     {SWIVEL_POLE_INCOMING, "POLE_INCOMING", SWIVEL_WITH_INCOMING, kPoles & ~SWIVEL_POLE_INCOMING},
     {SWIVEL_WITH_WEIGHTS, "WITH_WEIGHTS", SWIVEL_WITH_INCOMING},
-    {SWIVEL_WITH_REACH, "WITH_REACH", 0, 0, kLimbs, kIsSpecial | kBounds},
-    {SWIVEL_WITH_MAX_SWIVEL, "WITH_MAX_SWIVEL", 0, 0, kLimbs, kIsSpecial | kBounds},
-    {SWIVEL_WITH_FLEXION_LIMIT, "WITH_FLEXION_LIMIT", 0, 0, kLimbs, kIsSpecial | kBounds},
+    {SWIVEL_WITH_REACH, "WITH_REACH", 0, 0, kLimbs, kSkipsPlace | kBounds},
+    {SWIVEL_WITH_MAX_SWIVEL, "WITH_MAX_SWIVEL", 0, 0, kLimbs, kSkipsPlace | kBounds},
+    {SWIVEL_WITH_FLEXION_LIMIT, "WITH_FLEXION_LIMIT", 0, 0, kLimbs, kSkipsPlace | kBounds},
     {SWIVEL_WITH_SHOULDER_CONE, "WITH_SHOULDER_CONE"},
     {SWIVEL_WITH_HUMERAL_TWIST, "WITH_HUMERAL_TWIST"},
     {SWIVEL_WITH_SHOULDER_BOX, "WITH_SHOULDER_BOX"},
@@ -88,7 +88,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_HAND_TWIST, "WITH_HAND_TWIST", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_WRIST_BOX, "WITH_WRIST_BOX", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_AIM, "WITH_AIM", 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits,
-     kLimbs, kIsSpecial},
+     kLimbs, kSkipsPlace},
     {SWIVEL_WITH_CLAVICLE, "WITH_CLAVICLE", SWIVEL_WORLD},
     {SWIVEL_WITH_RECORD, "WITH_RECORD", 0, 0, kBodyLimbs},
     {SWIVEL_WITH_PLANT, "WITH_PLANT", 0, SWIVEL_WITH_AIM, kBodyLimbs},
@@ -105,7 +105,8 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_REGION, "WITH_REGION"},
     {SWIVEL_STEP_WINS, "STEP_WINS", SWIVEL_WITH_MAX_SWIVEL},
     {SWIVEL_POLE_HAND, "POLE_HAND", SWIVEL_WITH_HAND, (kPoles & ~SWIVEL_POLE_HAND) | SWIVEL_WITH_AIM, kLimbs,
-     kIsSpecial},
+     kSkipsPlace},
+    {SWIVEL_POLE_HALF_LINE, "POLE_HALF_LINE", 0, kPoles & ~SWIVEL_POLE_HALF_LINE, kLimbs, kSkipsPlace},
 };
 constexpr swivel_features features_with(FeatureTrait trait)
 {
@@ -203,6 +204,9 @@ enum RecordNumber : int {
     kRecordSize = kRecordIncoming + 12
 };
 static_assert(std::uint32_t{kRecordSize} <= kMaxComponents);
+// Those of SWIVEL_PLANT and SWIVEL_PLANT_ROTATION.
+enum PlantNumber : int { kPlantMark, kPlantOffset = 3, kPlantVelocity = 6, kPlantLeft = 9, kPlantState = 10 };
+enum PlantTurnNumber : int { kTurnMark, kTurnOffset = 4, kTurnVelocity = 7 };
 // Those of SWIVEL_LIFT behind the three of the height: the normal that the foot turns with, and its rate.
 enum LiftNumber : int { kSlope = 3, kSlopeRate = kSlope + 3 };
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
@@ -273,7 +277,8 @@ constexpr FieldRow but_not(swivel_features features, FieldRow row)
 constexpr FieldRow unless_posed(const FieldRow& row) { return but_not(kBody, row); }
 constexpr FieldRow kFields[] = {
     unknown(input(SWIVEL_TARGET, "target", 0, kPosition, {0, 0, 2})),
-    but_not(SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND, input(SWIVEL_POLE, "pole", 0, kPosition, {0, -1, 0})),
+    but_not(SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_POLE_HALF_LINE,
+            input(SWIVEL_POLE, "pole", 0, kPosition, {0, -1, 0})),
     unknown(input(SWIVEL_LENGTHS, "lengths", 0, {"0 or 1e-15 to 1e15 each", {ValuePart::length, ValuePart::length}})),
     unless_posed(unknown(input(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, kPosition))),
     unless_posed(input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion)),

@@ -41,6 +41,7 @@ struct SolveRun {
     const GroupPlan* plan;          // if the group is of bodies
     std::size_t body_block_floats;  // the same: from one block to the next in strip.bodies
     const swivel_region* region;    // with SWIVEL_WITH_REGION
+    const HalfLine* half_line;      // used with SWIVEL_POLE_HALF_LINE
 };
 
 // Bits of the lanes of a slice that are chosen. limb: the slice's first, in the run. All bits are set if there is no
@@ -103,7 +104,7 @@ struct BodyKernels {
     void (*move)(const BodyBlock& block, const GroupJoints& joints);
     // These fill in a block's rows for a joint to be written (OutRow), where the limbs have moved it to.
     // - carry: any joint that moves, as a pose in the body's space has it.
-    // - locate: a needed joint's rotation and position, in the body's space.
+    // - locate: a needed joint's rotation and position, in the body's space, from the root before its shift.
     void (*carry)(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint);
     void (*locate)(const BodyBlock& block, const BodyJoint& joint);
 };

@@ -54,7 +54,8 @@ enum class Stage : std::uint8_t {
     count
 };
 
-// The first may move a limb whose weights ask for nothing, the others also one whose goal is its incoming pose.
+// kBoundingFeatures may move a limb whose weights ask for nothing. kMovingFeatures may move a limb whose goal is its
+// incoming pose.
 inline constexpr swivel_features kBoundingFeatures = kSwivelLimits | features_with(kBounds),
                                  kMovingFeatures = kBoundingFeatures | features_with(kTurnsWish);
 
@@ -78,7 +79,7 @@ struct StageRow {
     swivel_features not_needed_by;  // but not those with any of these
     Pass pass = Pass::solve;
 };
-inline constexpr swivel_features kSpecial = features_with(kIsSpecial);
+inline constexpr swivel_features kSkippingPlace = features_with(kSkipsPlace);
 // All stages but those of lines.
 inline constexpr StageRow kOtherStages[] = {
     {Stage::probe, 0, SWIVEL_WITH_GROUND, 0, Pass::probe},
@@ -96,11 +97,11 @@ inline constexpr StageRow kOtherStages[] = {
     {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, kBody},
     {Stage::record, 0, SWIVEL_WITH_RECORD, 0},
     {Stage::goal, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
-    {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSpecial},
-    {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM | SWIVEL_WITH_CAP},
+    {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSkippingPlace},
+    {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSkippingPlace, SWIVEL_WITH_AIM | SWIVEL_WITH_CAP},
     {Stage::capped, 0, SWIVEL_WITH_CAP, 0},
     {Stage::aim, 0, SWIVEL_WITH_AIM, 0},
-    {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL, kSpecial, 0},
+    {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL, kSkippingPlace, 0},
     {Stage::yield, 0, SWIVEL_HAND_YIELDS, 0},
     {Stage::shoulder_box, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_BOX, 0},
     {Stage::wrist_box, 0, SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_AIM},

@@ -66,6 +66,7 @@ struct PosedBodies {
     PoseLayout layout;
     bool is_in_body = false;  // poses are in the body's space
     float time = 0.02f;
+    std::vector<std::array<double, 3>> far_roots;  // if any, the roots' positions, in doubles
 
     PosedBodies(Random& random, const SkeletonWish& wish, std::size_t body_count, const PoseLayout& of,
                 double max_bend = 3.1)
@@ -133,7 +134,7 @@ struct PosedBodies {
         std::vector<BodyGoal> goals;
         for (std::size_t n = 0; n < bodies.size(); ++n) goals.push_back(goal_of(n));
         give(group, SWIVEL_TARGET, [&](std::size_t n) { return goals[n].target; });
-        if (!has(group, SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND))
+        if (!has(group, SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_POLE_HALF_LINE))
             give(group, SWIVEL_POLE, [&](std::size_t n) { return goals[n].pole; });
         if (has(group, SWIVEL_WITH_HAND)) give(group, SWIVEL_HAND, [&](std::size_t n) { return goals[n].hand; });
     }
@@ -211,6 +212,10 @@ struct PosedBodies {
     {
         swivel_pose pose = poses.view();
         pose.time = {&time, 0};
+        if (far_roots.empty()) return pose;
+        pose.root_is_double = 1;
+        pose.root_position = {far_roots.data(), sizeof far_roots[0]};
+        pose.support_position = {far_roots.data(), 0};  // near all of them
         return pose;
     }
 };

@@ -47,7 +47,7 @@ inline std::vector<swivel_features> every_plain_set()
 
 // Features that say where elbows go.
 inline constexpr swivel_features kPoleFeatures =
-    SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND;
+    SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_POLE_HALF_LINE;
 // Whether a set of features has all that they need, and none that they exclude.
 inline bool is_whole(swivel_features features)
 {

@@ -2,7 +2,6 @@
 //
 // The C entry points: check the arguments, call in, turn outcomes into statuses.
 #include <cstdlib>
-#include <iterator>
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
@@ -11,6 +10,7 @@
 #include "batch/crowd/streams.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
+#include "batch/solve/rest.h"
 #include "batch/solve/solve.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
@@ -32,11 +32,19 @@ uint32_t swivel_version(void) { return SWIVEL_VERSION; }
 
 const char* swivel_status_text(swivel_status status)
 {
-    constexpr const char* texts[] = {"done", "invalid argument", "out of memory", "unknown instruction set",
-                                     "instruction set not available on this CPU"};
-    static_assert(std::size(texts) == SWIVEL_ISA_UNAVAILABLE + 1, "a text for each");
-    const std::uint32_t number = number_of(status);
-    return number < std::size(texts) ? texts[number] : "unknown status";
+    switch (status) {
+        case SWIVEL_OK:
+            return "done";
+        case SWIVEL_INVALID_ARGUMENT:
+            return "invalid argument";
+        case SWIVEL_OUT_OF_MEMORY:
+            return "out of memory";
+        case SWIVEL_UNKNOWN_ISA:
+            return "unknown instruction set";
+        case SWIVEL_ISA_UNAVAILABLE:
+            return "instruction set not available on this CPU";
+    }
+    return "unknown status";
 }
 
 const char* swivel_last_error(void) { return last_error(); }

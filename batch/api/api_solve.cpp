@@ -4,9 +4,11 @@
 #include <bit>
 
 #include "batch/api/check.h"
+#include "batch/api/doubts.h"
 #include "batch/api/use.h"
 #include "batch/api/workspace.h"
 #include "batch/refusal/sized.h"
+#include "batch/solve/budget.h"
 #include "batch/solve/solve.h"
 
 using namespace swivel;

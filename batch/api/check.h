@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The checks of arguments that the files of entry points share. Each fails with a line, or gives SWIVEL_OK. And what is
-// recorded of suspicious use, for swivel_explain().
+// The checks of arguments that the files of entry points share. Each fails with a line, or gives SWIVEL_OK.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +9,6 @@
 #include "simd/dispatch.h"
 
 namespace swivel {
-
-struct Work;
 
 // A range of limbs of a group.
 swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);
@@ -53,9 +50,5 @@ swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, sw
 // and what does not depend on groups.
 swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given);
 swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given);
-
-// doubts.cpp: records in the crowd, before a solve of poses, whether each frame resets all bodies, whether the time
-// step is odd, and what the pose has.
-void note_doubts(const Work& work);
 
 }  // namespace swivel

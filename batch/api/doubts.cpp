@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "batch/api/doubts.h"
+
 #include <bit>
 #include <optional>
 
-#include "batch/api/check.h"
 #include "batch/crowd/streams.h"
-#include "batch/solve/work.h"
 #include "simd/float_env.h"
 
 namespace swivel {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+//
+// The checks of a job, of a mask and of priorities.
+#include "batch/api/check.h"
+
 #include <cstdint>
 
-#include "batch/api/check.h"
 #include "batch/api/use.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"

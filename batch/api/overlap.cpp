@@ -3,11 +3,12 @@
 // Finds results of a job, in streams or in its pose, that overlap each other or inputs that are not their own, for
 // builds with SWIVEL_CHECK_USE. It knows strides of which one is a multiple of the other, and values that all limbs
 // share.
+#include "batch/api/check.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 
-#include "batch/api/check.h"
 #include "batch/api/pose_arrays.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/work.h"

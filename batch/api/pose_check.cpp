@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+//
+// The checks of the bodies' pose.
+#include "batch/api/check.h"
+
 #include <algorithm>
 
-#include "batch/api/check.h"
 #include "batch/api/pose_arrays.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
+//
+// The checks of a crowd of bodies: of its skeleton, and of its groups' constants, joints and links.
+#include "batch/crowd/group_def.h"
+
 #include <cstdio>
 #include <cstring>
 #include <string_view>
 
 #include "batch/crowd/body_joints.h"
+#include "batch/crowd/constants.h"
 #include "batch/refusal/status.h"
 #include "core/arm.h"
 
@@ -110,7 +115,7 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
         if (group.features & kLook) continue;  // a look is done before
         holders += group.features & SWIVEL_WITH_LINK && group.link == g;
         if (prop.joint < 0) continue;
-        for (const std::uint32_t joint : TurnedJoints(skeleton, group))
+        for (const std::uint32_t joint : turned_joints(skeleton, group))
             if (is_above(skeleton, joint, static_cast<std::uint32_t>(prop.joint)))
                 return refuse("group %u, prop.joint is %d, which group %u moves; link the limbs to that group instead",
                               g, prop.joint, other);
@@ -194,7 +199,8 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
             refuse("the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
                    joints.shoulder);
     if (status == SWIVEL_OK) {
-        if (group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group);
+        if (group.features & SWIVEL_POLE_HALF_LINE) status = check_pole_behind(g, group.pole_behind, &binding);
+        if (status == SWIVEL_OK && group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group);
         if (status == SWIVEL_OK && group.features & SWIVEL_WITH_GROUND) status = check_ground(g, group);
         return status;
     }
@@ -207,12 +213,12 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
 swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
     const GroupDef group = unlinked_group(def, g);
-    const TurnedJoints turned(skeleton, group);
+    const JointList turned = turned_joints(skeleton, group);
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         if (other == g) continue;
         const GroupDef below = unlinked_group(def, other);
         const bool may_be_above = group.features & kLook && (!(below.features & kLook) || g < other);
-        for (const std::uint32_t joint : TurnedJoints(skeleton, below))
+        for (const std::uint32_t joint : turned_joints(skeleton, below))
             for (const std::uint32_t above : turned)
                 if (is_above(skeleton, above, joint) && !(may_be_above && above != joint))
                     return refuse("group %u turns joint %u, which is %s joint %u of group %u; %s", g, above,
@@ -230,7 +236,7 @@ swivel_status check_needed(const swivel_crowd_def& def, const swivel_skeleton& s
     RestJoint rest;
     std::uint32_t bad = skeleton.joint_count;
     for (std::uint32_t g = 0; g < def.group_count; ++g)
-        for (const std::uint32_t end : NeededEnds(unlinked_group(def, g)))
+        for (const std::uint32_t end : needed_ends(unlinked_group(def, g)))
             for (auto at = static_cast<std::int32_t>(end); at >= 0;) {
                 const auto joint = static_cast<std::uint32_t>(at);
                 if (joint < bad && read_joint(skeleton, joint, rest) != SWIVEL_OK) bad = joint;

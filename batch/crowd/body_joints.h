@@ -26,26 +26,27 @@ struct JointList {
     std::uint32_t joint[kMaxTurned];
     std::uint32_t count = 0;
 
+    void add(std::uint32_t next) { joint[count++] = next; }
     const std::uint32_t* begin() const { return joint; }
     const std::uint32_t* end() const { return joint + count; }
 };
 
 // The joints that a group's limb or look turns, upper ones first.
-struct TurnedJoints : JointList {
-    TurnedJoints(const swivel_skeleton& skeleton, const GroupDef& group)
-    {
-        if (group.features & kLook)
-            for (; count < group.look.joint_count; ++count) joint[count] = group.look.joints[count];
-        if (!group.joints) return;  // no limb
-        const swivel_limb_joints limb = joints_of(group);
-        if (group.features & SWIVEL_WITH_CLAVICLE)
-            joint[count++] = static_cast<std::uint32_t>(parent_of(skeleton, limb.shoulder));
-        joint[count++] = limb.shoulder;
-        joint[count++] = limb.elbow;
-        if (group.features & SWIVEL_WITH_HAND) joint[count++] = limb.wrist;
-        for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) joint[count++] = limb.twist_bones[n];
-    }
-};
+inline JointList turned_joints(const swivel_skeleton& skeleton, const GroupDef& group)
+{
+    JointList turned;
+    if (group.features & kLook)
+        for (std::uint32_t n = 0; n < group.look.joint_count; ++n) turned.add(group.look.joints[n]);
+    if (!group.joints) return turned;  // no limb
+    const swivel_limb_joints limb = joints_of(group);
+    if (group.features & SWIVEL_WITH_CLAVICLE)
+        turned.add(static_cast<std::uint32_t>(parent_of(skeleton, limb.shoulder)));
+    turned.add(limb.shoulder);
+    turned.add(limb.elbow);
+    if (group.features & SWIVEL_WITH_HAND) turned.add(limb.wrist);
+    for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) turned.add(limb.twist_bones[n]);
+    return turned;
+}
 
 // Whether `joint` is `below` or above it. Both are in the skeleton, and parents lead to a root.
 inline bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::uint32_t below)
@@ -56,17 +57,16 @@ inline bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::
 }
 
 // The lowest joints that a group needs; it also needs all joints above them.
-struct NeededEnds : JointList {
-    explicit NeededEnds(const GroupDef& group)
-    {
-        if (group.features & kLook) joint[count++] = group.look.joints[group.look.joint_count - 1];
-        if (group.features & kProp && group.prop.joint >= 0)
-            joint[count++] = static_cast<std::uint32_t>(group.prop.joint);
-        if (!group.joints) return;  // no limb
-        const swivel_limb_joints limb = joints_of(group);
-        joint[count++] = limb.wrist;
-        for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) joint[count++] = limb.twist_bones[n];
-    }
-};
+inline JointList needed_ends(const GroupDef& group)
+{
+    JointList ends;
+    if (group.features & kLook) ends.add(group.look.joints[group.look.joint_count - 1]);
+    if (group.features & kProp && group.prop.joint >= 0) ends.add(static_cast<std::uint32_t>(group.prop.joint));
+    if (!group.joints) return ends;  // no limb
+    const swivel_limb_joints limb = joints_of(group);
+    ends.add(limb.wrist);
+    for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) ends.add(limb.twist_bones[n]);
+    return ends;
+}
 
 }  // namespace swivel

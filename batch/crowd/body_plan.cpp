@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+//
+// Plans the constants of a group's formulas, and the links between groups.
+#include "batch/crowd/plan.h"
 
-#include "batch/crowd/joint_plan.h"
+#include <algorithm>
 
 namespace swivel {
 

@@ -7,7 +7,8 @@
 #include <new>
 #include <span>
 
-#include "batch/crowd/joint_plan.h"
+#include "batch/crowd/plan.h"
+#include "batch/crowd/rig.h"
 #include "batch/crowd/streams.h"
 #include "batch/refusal/sized.h"
 #include "include/swivel/swivel_regions.h"
@@ -206,6 +207,10 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
             group.plan.limb = plan_limb(plan, group_def, group.binding);
             group.plan.joints = plan_moved(plan, g, group_def, moved, following);
             plan_group(def, group_def, group.plan);
+        }
+        if (group_def.features & SWIVEL_POLE_HALF_LINE) {
+            const bool is_bound = group_def.features & (SWIVEL_JOINTS | kBody);
+            group.half_line = half_line(behind_in_arm(group_def.pole_behind, is_bound ? &group.binding : nullptr));
         }
         moved = moved.subspan(group.plan.joints.moved_count);
         following = following.subspan(group.plan.joints.following_count);

@@ -29,6 +29,7 @@ struct Group {
     float *input, *results;                // rows
     swivel_binding binding;
     const swivel_region* region;    // with SWIVEL_WITH_REGION: in the arena
+    HalfLine half_line;             // with SWIVEL_POLE_HALF_LINE
     StageList stages[kPassCount];   // of each pass
     GroupPlan plan;                 // in a crowd of bodies
     std::size_t body_block_floats;  // floats of a block of bodies in a workspace
@@ -165,8 +166,8 @@ std::uint64_t crowd_bytes(const swivel_crowd_def& def);
 // Lays a crowd out in an arena of crowd_bytes(def), aligned to 64, with swivel_crowd_create()'s inputs.
 // Results are zeros until rest() gives them a pose.
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena);
-// Makes a group whose rows begin at `rows`, block_bytes() for each block. It gets neither its region nor its part in a
-// body, and its results stay as they are.
+// Makes a group whose rows begin at `rows`, block_bytes() for each block. It gets neither its region and half-line nor
+// its part in a body, and its results stay as they are.
 void place_group(const GroupDef& def, std::uint32_t first_block, char* rows, Group& group);
 
 }  // namespace swivel

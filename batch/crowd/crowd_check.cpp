@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+//
+// The checks of a crowd's definition and of its groups: features, binding, region and half-line. Those of skeletons are
+// in body_check.cpp.
+#include "batch/crowd/group_def.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -7,7 +12,6 @@
 #include <utility>
 
 #include "batch/crowd/crowd.h"
-#include "batch/crowd/group_def.h"
 #include "batch/crowd/rig.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
@@ -121,6 +125,17 @@ swivel_status check_group_region(std::uint32_t g, const GroupDef& group)
     return SWIVEL_OK;
 }
 
+// A body's limb with the feature is checked with its joints (body_check.cpp).
+swivel_status check_half_line(std::uint32_t g, const GroupDef& group)
+{
+    const auto& behind = group.pole_behind;
+    const bool has = group.features & SWIVEL_POLE_HALF_LINE;
+    if (!has && !std::all_of(std::begin(behind), std::end(behind), is_zero))
+        return refuse("group %u has a pole_behind, but not SWIVEL_POLE_HALF_LINE; add it", g);
+    if (!has || group.features & kBody) return SWIVEL_OK;
+    return check_pole_behind(g, behind, group.features & SWIVEL_JOINTS ? &group.binding : nullptr);
+}
+
 swivel_status check_group(std::uint32_t g, const GroupDef& group)
 {
     if (group.limb_count == 0) return refuse("group %u has no limbs; give at least one", g);
@@ -134,8 +149,11 @@ swivel_status check_group(std::uint32_t g, const GroupDef& group)
             return refuse("group %u: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", g, name,
                           static_cast<int>(order));
     if (const swivel_status status = check_group_region(g, group); status != SWIVEL_OK) return status;
-    return group.features & SWIVEL_JOINTS ? check_binding(g, group.binding, twist_bone_count(group.features))
-                                          : SWIVEL_OK;
+    if (group.features & SWIVEL_JOINTS)
+        if (const swivel_status status = check_binding(g, group.binding, twist_bone_count(group.features));
+            status != SWIVEL_OK)
+            return status;
+    return check_half_line(g, group);
 }
 
 }  // namespace

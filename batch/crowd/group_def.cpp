@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "batch/crowd/body_joints.h"
 #include "batch/refusal/sized.h"
@@ -32,6 +33,7 @@ void take_limb(const Limb& limb, GroupDef& group)
     group.shoulder_order = limb.shoulder_order;
     group.wrist_order = limb.wrist_order;
     group.region = limb.region;
+    std::copy(std::begin(limb.pole_behind), std::end(limb.pole_behind), group.pole_behind);
 }
 
 bool is_linked_to(const swivel_crowd_def& def, std::uint32_t g)

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "batch/crowd/joint_plan.h"
+//
+// Plans a crowd's joints: those that groups need, parents first, those that groups turn, those that move with them, and
+// their rows.
+#include "batch/crowd/plan.h"
 
 #include <algorithm>
 #include <iterator>
@@ -48,11 +51,11 @@ std::uint32_t needed_count(const swivel_crowd_def& def, const swivel_skeleton& s
 {
     std::uint32_t count = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
-        const NeededEnds ends(unlinked_group(def, g));
+        const JointList ends = needed_ends(unlinked_group(def, g));
         std::uint32_t added[kMaxTurned];
         for (std::uint32_t n = 0; n < ends.count; ++n) added[n] = depth_of(skeleton, ends.joint[n]) + 1;
         for (std::uint32_t other = 0; other <= g; ++other) {
-            const NeededEnds others(unlinked_group(def, other));
+            const JointList others = needed_ends(unlinked_group(def, other));
             for (std::uint32_t n = 0; n < ends.count; ++n)
                 for (std::uint32_t m = 0; m < (other == g ? n : others.count); ++m)
                     added[n] = std::min(added[n], steps_apart(skeleton, ends.joint[n], others.joint[m]));
@@ -75,12 +78,12 @@ void mark_joints(const swivel_crowd_def& def, const JointPlan& plan, std::span<B
     std::size_t count = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const GroupDef group = unlinked_group(def, g);
-        for (const std::uint32_t joint : TurnedJoints(plan.skeleton, group)) {
+        for (const std::uint32_t joint : turned_joints(plan.skeleton, group)) {
             plan.joints[joint].mover = static_cast<std::int32_t>(joint);
             plan.joints[joint].group = g;
             plan.joints[joint].is_of_look = (group.features & kLook) != 0;
         }
-        for (const std::uint32_t end : NeededEnds(group))
+        for (const std::uint32_t end : needed_ends(group))
             for (auto at = static_cast<std::int32_t>(end); at >= 0 && !plan.joints[at].is_needed;
                  at = parent_of(plan.skeleton, static_cast<std::uint32_t>(at))) {
                 plan.joints[at].is_needed = true;
@@ -132,7 +135,7 @@ BodySize body_size(const swivel_crowd_def& def)
     GroupPlan ignored{};
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const GroupDef group = group_at(def, g);
-        turned += TurnedJoints(skeleton, group).count;  // groups turn joints of their own, which are all needed
+        turned += turned_joints(skeleton, group).count;  // groups turn joints of their own, which are all needed
         looks += group.features & kLook ? 1 : 0;
         own_rows = plan_own_rows(group.features, own_rows, ignored);
     }
@@ -180,7 +183,7 @@ BodyLimb plan_limb(const JointPlan& plan, const GroupDef& group, const swivel_bi
     BodyLimb limb{};
     if (!group.joints) return limb;
     const swivel_limb_joints joints = joints_of(group);
-    const TurnedJoints turned(plan.skeleton, group);
+    const JointList turned = turned_joints(plan.skeleton, group);
     const float(&q)[4] = binding.upper_from_arm;
     const Vector<float> hinge = swivel::turned(rotor(q[0], q[1], q[2], q[3]), vector(1.0f, 0.0f, 0.0f));
     limb.parent = plan.parent_first_row_of(joints.shoulder), limb.shoulder = plan.first_row_of(joints.shoulder);
@@ -200,7 +203,7 @@ BodyLimb plan_limb(const JointPlan& plan, const GroupDef& group, const swivel_bi
 GroupJoints plan_moved(const JointPlan& plan, std::uint32_t g, const GroupDef& group, std::span<MovedJoint> moved,
                        std::span<FollowingJoint> following)
 {
-    const TurnedJoints turned(plan.skeleton, group);
+    const JointList turned = turned_joints(plan.skeleton, group);
     GroupJoints joints{};
     if (turned.count == 0) return joints;
     for (const std::uint32_t joint : turned) {

@@ -17,6 +17,9 @@ namespace {
 
 Rotor<double> rotor_of(const float (&q)[4]) { return rotor<double>(q[0], q[1], q[2], q[3]); }
 
+// In the arm frame: a limb at rest, and where flexion carries its forearm. The elbow points the other way.
+constexpr Vector<double> kLineAtRest = vector(0.0, 0.0, 1.0), kBendAtRest = vector(0.0, 1.0, 0.0);
+
 bool is_usable_bone(const Vector<double>& v) { return len2(v) >= kTiny2 && len2(v) <= kHuge2; }
 
 void store_unit(const Rotor<double>& q, float (&to)[4]) { store(hemisphere(normalise(q)), to); }
@@ -119,6 +122,40 @@ bool is_binding(const swivel_binding& b)
            is_unit(b.fore_from_arm) && is_unit(b.wrist_parent_from_arm) && is_unit(b.shoulder_rest) &&
            is_unit(b.elbow_rest) && is_unit(b.wrist_rest) && b.twist_bone_count <= SWIVEL_MAX_TWIST_BONES &&
            are_unit(b.twist_parent_from_arm) && are_unit(b.twist_from_arm);
+}
+
+Vector<double> behind_in_arm(const float (&pole_behind)[3], const swivel_binding* binding)
+{
+    const Vector<double> given = vector<double>(pole_behind[0], pole_behind[1], pole_behind[2]);
+    if (!(len2(given) > 0)) return -kBendAtRest;
+    return normalise(binding ? sandwich(~rotor_of(binding->parent_from_arm), given) : given);
+}
+
+HalfLine half_line(const Vector<double>& behind)
+{
+    // The mirror that turns `behind` into the limb at rest turns `side` into where the elbow points at rest. It is its
+    // own inverse, so it turns that into `side`.
+    const Vector<double> mirror = kLineAtRest - behind;
+    const Vector<double> side = 2 * scalar_product(mirror, kBendAtRest) / len2(mirror) * mirror - kBendAtRest;
+    HalfLine made;
+    for (std::size_t c = 0; c < 3; ++c) {
+        made.behind[c] = static_cast<float>(behind.c[c]);
+        made.side[c] = static_cast<float>(side.c[c]);
+    }
+    return made;
+}
+
+swivel_status check_pole_behind(std::uint32_t group, const float (&pole_behind)[3], const swivel_binding* binding)
+{
+    const double x = pole_behind[0], y = pole_behind[1], z = pole_behind[2], length2 = x * x + y * y + z * z;
+    if (!(length2 <= kHuge2) || (length2 > 0 && length2 < kTiny2))
+        return refuse("group %u: pole_behind is %g, %g, %g; give a direction 1e-15 to 1e15 long, or zeros", group, x, y,
+                      z);
+    const Vector<double> behind = behind_in_arm(pole_behind, binding);
+    if (is_along(behind, kLineAtRest) && scalar_product(behind, kLineAtRest) > 0)
+        return refuse("group %u: pole_behind lies along the limb at rest; give a direction where its wrist does not go",
+                      group);
+    return SWIVEL_OK;
 }
 
 swivel_status arm_axis(const swivel_binding& binding, const float* parent_rotation, const double* direction,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/conformal.h"
+#include "core/group_rules.h"
 #include "include/swivel/swivel_bodies.h"
 
 namespace swivel {
@@ -26,8 +27,7 @@ struct RestLimb {
     RestJoint twist_bones[SWIVEL_MAX_TWIST_BONES];  // below the elbow
 };
 
-// skeleton.cpp, which knows no arm frame. Gives the limb of these joints as swivel_bind_joints() promises, or a
-// refusal.
+// skeleton.cpp: gives the limb of these joints as swivel_bind_joints() promises, or a refusal.
 swivel_status rest_limb(const swivel_skeleton& skeleton, const swivel_limb_joints& joints, RestLimb& limb);
 
 // Refuses a joint that is not in the skeleton or whose parents lead to no root. name: of the joint, in the message.
@@ -49,6 +49,14 @@ inline void store(const Rotor<double>& q, float (&numbers)[4])
 
 // rig.cpp: does what swivel_bind_joints() promises, for a limb whose rotations are usable.
 swivel_status bind(const RestLimb& limb, swivel_binding& binding);
+
+// A limb's pole_behind in the arm frame, of unit length; zeros: where the elbow points at rest. binding: null if its
+// joints have no frames of their own.
+Vector<double> behind_in_arm(const float (&pole_behind)[3], const swivel_binding* binding);
+// The half-line by which the elbow of a limb at rest lies where the limb bends from.
+HalfLine half_line(const Vector<double>& behind);
+// Refuses a pole_behind that is no direction, or that lies along the limb at rest, for which the elbow is known.
+swivel_status check_pole_behind(std::uint32_t group, const float (&pole_behind)[3], const swivel_binding* binding);
 
 // Does what swivel_arm_axis() promises; arguments are already checked for null.
 swivel_status arm_axis(const swivel_binding& binding, const float* parent_rotation, const double* direction,

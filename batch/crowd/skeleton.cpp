@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+//
+// Makes a limb at rest from joints of a skeleton, named by index. It knows no arm frame.
+#include "batch/crowd/rig.h"
+
 #include <array>
 #include <cstdio>
 #include <span>
 
-#include "batch/crowd/rig.h"
 #include "batch/crowd/streams.h"
 #include "batch/refusal/status.h"
 #include "core/arm.h"

@@ -9,7 +9,7 @@
 
 namespace swivel {
 
-// Value n of the caller's.
+// The nth value of an array of the caller's, which may lie at any address.
 template <class Value>
 Value value_at(const swivel_in& values, std::size_t n)
 {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// The C entry points that describe poses to people, in words.
+// The C entry points that describe poses to people, in words and lines.
 #include <cstring>
 #include <tuple>
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
 #include "batch/explain/compare.h"
+#include "batch/explain/draw.h"
 #include "batch/explain/explain.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/work.h"
@@ -79,5 +80,28 @@ swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t
     if (!text || size == 0) return refuse("swivel_compare: text is null or of no size");
     const bool agree = compare(*crowd, group, body, full_pose(pose), places, {text, size});
     if (agrees) *agrees = agree;
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_draw(const swivel_crowd* crowd, uint32_t group, uint32_t limb, const swivel_pose* pose,
+                          swivel_shape* shapes, uint32_t capacity, uint32_t* shape_count)
+{
+    const FloatEnv env;
+    const Use use(crowd, Sharing::shared);
+    const bool is_whole = group == SWIVEL_EVERY_GROUP;
+    if (const swivel_status status = use.for_limbs(is_whole ? 0 : group, limb, 1); status != SWIVEL_OK) return status;
+    const bool has_bodies = crowd->joint_count > 0;
+    if (is_whole && !has_bodies)
+        return refuse("swivel_draw: this crowd has no bodies; name one of its %u groups", crowd->group_count);
+    if (has_bodies && !pose) return refuse("swivel_draw: pose is null; give the one of the last solve");
+    if (!has_bodies && pose) return refuse("swivel_draw: this crowd has no bodies, so it has no pose; give null");
+    if (has_bodies)
+        if (const swivel_status status = check_pose(*crowd, pose); status != SWIVEL_OK) return status;
+    if (!shape_count) return refuse("swivel_draw: shape_count is null");
+    if (!shapes && capacity > 0) return refuse("swivel_draw: shapes is null");
+    Drawing to{shapes, capacity};
+    const swivel_pose full = full_pose(pose);
+    draw(*crowd, group, limb, has_bodies ? &full : nullptr, to);
+    *shape_count = to.count;
     return SWIVEL_OK;
 }

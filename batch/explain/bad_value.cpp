@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "batch/explain/bad_value.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "batch/explain/explain.h"
 #include "batch/query/limb_value.h"
 
 namespace swivel {

@@ -104,8 +104,7 @@ struct Causes {
 
 inline bool has_quaternions(const ComparedLimb& limb) { return limb.pose.form == SWIVEL_ROTATIONS; }
 
-// compare_rotations.cpp: quaternions in another order or the other way round, rows for columns, and rotations to the
-// root for those to the parent.
+// compare_rotations.cpp: adds wrong rotations to the causes.
 void guess_rotations(Causes& causes);
 // In the body's space, places do not follow from rotations. But if bones are as long as at rest, rotations must carry
 // the joints to their places. Returns whether they fail to, for a known reason.
@@ -113,19 +112,18 @@ bool guess_turns_in_body(Causes& causes);
 // Whether a quaternion's length is far from 1, as with wrong strides or offsets.
 bool guess_strides(Causes& causes);
 
-// compare_joints.cpp: places of another limb's joints, or of joints one too high or too low.
+// compare_joints.cpp: adds confused joints to the causes.
 void guess_joints(Causes& causes);
 
-// compare_lengths.cpp: lengths in other units, and translations or scales that do not count.
+// compare_lengths.cpp: adds wrong lengths to the causes.
 void guess_lengths(Causes& causes);
 
-// compare_root.cpp: a root that is ignored or counted twice, floats read as doubles or the reverse, and a root not
-// given.
+// compare_root.cpp: adds to the causes a root that does not count once, one in other numbers, and one not given.
 void guess_root(Causes& causes);
 void guess_root_numbers(Causes& causes);
 void guess_no_root(Causes& causes);
 
-// compare_doubts.cpp: mistakes that spoil a solve though the places agree. Returns whether there is one.
+// compare_doubts.cpp: names mistakes that spoil a solve though the places agree. Returns whether there is one.
 bool doubt(Causes& causes);
 
 }  // namespace swivel

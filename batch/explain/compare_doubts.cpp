@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+//
+// Names mistakes that spoil a solve though the places agree.
+#include "batch/explain/compare.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "batch/explain/compare.h"
-#include "batch/explain/explain.h"
 
 namespace swivel {
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+//
+// Guesses that the places are those of another limb's joints, or of joints one too high or too low.
+#include "batch/explain/compare.h"
+
 #include <algorithm>
 #include <limits>
-
-#include "batch/explain/compare.h"
 
 namespace swivel {
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
+//
+// Guesses that lengths are in other units, or that translations or scales do not count.
 #include "batch/explain/compare.h"
+
+#include <cmath>
 
 namespace swivel {
 

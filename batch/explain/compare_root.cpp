@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
+//
+// Guesses that a root is ignored, counted twice or not given, or that its floats are read as doubles or the reverse.
 #include "batch/explain/compare.h"
+
+#include <cmath>
 
 namespace swivel {
 

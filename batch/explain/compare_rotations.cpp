@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
+//
+// Guesses that quaternions are in another order or the other way round, that rows are taken for columns, and that
+// rotations to the root are given for those to the parent.
 #include "batch/explain/compare.h"
+
+#include <cmath>
 
 namespace swivel {
 

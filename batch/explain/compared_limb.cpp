@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+//
+// Compares a limb of a body's pose with the caller's places of it. It knows no causes.
+#include "batch/explain/compare.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "batch/explain/compare.h"
 
 namespace swivel {
 

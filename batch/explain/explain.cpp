@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "batch/explain/bad_value.h"
 #include "batch/explain/explain_probe.h"
 #include "batch/query/limb_value.h"
 #include "core/limb_goal.h"
@@ -165,6 +166,8 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
         text.add(solved.has(SWIVEL_POLE_HAND)
                      ? " The hand does not say where the elbow goes: it points along the target's line, or that has no "
                        "length."
+                 : solved.has(SWIVEL_POLE_HALF_LINE)
+                     ? " The target's line has no length or points along pole_behind, where the elbow may go anywhere."
                      : " The pole does not say where the elbow goes: it is of no length or on the target's line.");
     if (solved.is_of_body()) return;
     for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Explains a limb's result, in words and numbers, for people. Each part of a limb's solve has its own file. They read
-// the rows of the last solve and solve single limbs only.
+// Explains a limb's result, in words and numbers, for people. Each part of a limb's solve has its own file. These
+// files read the rows of the last solve, and solve single limbs only.
 #pragma once
 
 #include <cstdint>
@@ -17,42 +17,16 @@ class Probe;
 // Adds what swivel_explain() promises. group: one of the crowd's; limb: counted within it.
 void explain(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t limb, Text& text);
 
-// explain_doubts.cpp: warnings of valid input that hardly anybody intends: another unit, another origin, a pose solved
-// twice. A warning comes before the explanation of the limb.
-
-// Lengths that differ by more than this factor, nearly 2, are suspected to be in different units.
-inline constexpr double kOtherUnit = 1.9;
-// Adds a warning of the crowd's last solve. Returns whether there is one.
+// explain_doubts.cpp: adds a warning of the crowd's last solve. Returns whether there is one. A warning comes before
+// the explanation of the limb.
 bool doubt_solve(const swivel_crowd& crowd, Text& text);
 // Adds warnings of a body's limb that has a record. solved: the limb, solved.
 void doubt_limb(const Group& group, std::uint32_t limb, const Probe& solved, Text& text);
 
-// bad_value.cpp: bad inputs that only stages of bodies read, by the bounds in the table of fields. Other fields, and
-// those that the group lacks, count as good.
-bool is_bad_in_body(const Group& group, std::uint32_t limb, swivel_field field);
-// Whether any such input is bad.
-bool is_bad_in_body(const Group& group, std::uint32_t limb);
-// Names all bad inputs with their values and ranges. Returns whether there are any.
-bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text);
-
-// Adds an input's name and its numbers, up to the closing bracket. Returns how many are not a number.
-std::uint32_t add_numbers(const Group& group, std::uint32_t limb, swivel_field field, Text& text);
-
-// The parts of a pose.
-enum PosePart : unsigned {
-    kTimeOfPose = 1,
-    kRootOfPose = 2,
-    kSupportOfPose = 4,
-    kWeightOfPose = 8,
-    kJointsOfPose = 16
-};
-// Says which of these parts of the body's pose was bad in the last solve, or may have been if several are left. Crowds
-// keep no poses, so it goes by what is known of that one: a time that all bodies share, and values that it did not
-// have. Nothing is known after a job that left out bodies or groups. joints: words for kJointsOfPose.
-void explain_bad_pose(const swivel_crowd& crowd, unsigned parts, const char* joints, Text& text);
-
 // explain_plant.cpp: why a planted point stands or slides. flags: of the last solve.
 void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text);
+// Whether the limb's point is locked to its support.
+bool is_locked(const Group& group, std::uint32_t limb);
 
 // explain_ground.cpp: how the ground lifts the foot of a limb WITH_GROUND, and how it turns it.
 void explain_ground(const Group& group, std::uint32_t limb, Text& text);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+//
+// Warns of valid input that hardly anybody intends: another unit, another origin, a pose solved twice.
+#include "batch/explain/explain.h"
+
 #include <cmath>
 #include <limits>
 
-#include "batch/explain/explain.h"
 #include "batch/explain/explain_probe.h"
 #include "batch/query/limb_value.h"
 

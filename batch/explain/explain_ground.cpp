@@ -2,10 +2,11 @@
 //
 // To find a rule's effect, it places the foot again without that rule. Slopes are as if the root stood upright, because
 // no result says how it is turned. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
+#include "batch/explain/explain.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "batch/explain/explain.h"
 #include "batch/query/limb_value.h"
 #include "batch/query/one_limb.h"
 #include "core/ground.h"

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+//
+// Explains a linked limb's hold and a prop's place.
 #include "batch/explain/explain.h"
+
+#include "batch/explain/bad_value.h"
 #include "batch/query/forward.h"
 #include "batch/query/limb_value.h"
 #include "batch/query/one_limb.h"

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+//
+// Explains what joint limits and the step did to an elbow, in degrees.
+#include "batch/explain/explain.h"
+
 #include <cmath>
 
-#include "batch/explain/explain.h"
 #include "batch/explain/explain_probe.h"
 
 namespace swivel {
@@ -9,14 +12,6 @@ namespace swivel {
 namespace {
 
 const char* limit_name(const FlagRow& row) { return row.flag == SWIVEL_LIMITED_REGION ? "region" : name_of(row.limit); }
-
-// Calls act(row) for each limit of the swivel.
-template <class Act>
-void for_each_limit(const Act& act)
-{
-    for (const FlagRow& row : kFlags)
-        if (row.limit != SWIVEL_INPUT_END || row.flag == SWIVEL_LIMITED_REGION) act(row);
-}
 
 // Whether this limit alone leaves the elbow no place.
 bool forbids_all(Probe& probe, const FlagRow& limit)

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// Explains why a planted point stands or slides. It solves nothing.
 #include "batch/explain/explain.h"
+
 #include "batch/query/limb_value.h"
 #include "core/group_rules.h"
 
@@ -17,10 +20,10 @@ struct CarriedPlant {
     CarriedPlant(const Group& group, std::uint32_t limb)
     {
         const LimbValue plant(group, limb, SWIVEL_PLANT);
-        offset = plant.length(3, 3);
-        left = plant[9];
-        is_moving = is_fading() && plant.length(3, 6) > 0;
-        const double number = plant[10];  // anybody may have written it
+        offset = plant.length(kPlantOffset, 3);
+        left = plant[kPlantLeft];
+        is_moving = is_fading() && plant.length(kPlantOffset, 6) > 0;  // with its velocity
+        const double number = plant[kPlantState];                      // anybody may have written it
         bits = number >= 0 && number < 16 ? static_cast<unsigned>(number) : 0;
     }
     bool is(Bit bit) const { return bits & bit; }
@@ -111,6 +114,8 @@ struct PlantedLimb {
 };
 
 }  // namespace
+
+bool is_locked(const Group& group, std::uint32_t limb) { return CarriedPlant(group, limb).is(CarriedPlant::locked); }
 
 void explain_plant(const Group& group, std::uint32_t limb, std::uint32_t flags, Text& text)
 {

@@ -27,7 +27,7 @@ void Probe::take()
 std::uint32_t Probe::solve()
 {
     alignas(64) float strip[kStripBlockFloats];
-    solve_group(single_limb_kernels(), group(), {0, 1}, {strip, 1});
+    run_kernels(single_limb_kernels(), group(), {0, 1}, {strip, 1});
     return flags();
 }
 

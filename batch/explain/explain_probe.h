@@ -12,6 +12,14 @@
 
 namespace swivel {
 
+// Calls act(row) for each limit of the swivel.
+template <class Act>
+void for_each_limit(const Act& act)
+{
+    for (const FlagRow& row : kFlags)
+        if (row.limit != SWIVEL_INPUT_END || row.flag == SWIVEL_LIMITED_REGION) act(row);
+}
+
 // A probe takes nearly half of the stack that a call may use. So there is only one, which takes the limb anew for each
 // question.
 class Probe {
@@ -60,10 +68,8 @@ private:
     OneLimb one_;
 };
 
-// outside_limit.cpp: how far a pose is outside of its joint limits.
-
-// By how many radians a pose is outside of a limit on the swivel; 0 or less where it keeps it. value: as the limit's
-// rows hold it. order: a box's.
+// outside_limit.cpp: by how many radians a pose is outside of a limit on the swivel; 0 or less where it keeps it.
+// value: as the limit's rows hold it. order: a box's.
 double outside_limit(const ArmRotors& arm, swivel_field limit, const float* value, swivel_euler_order order);
 
 // The same of the upper arm's region.

@@ -2,10 +2,12 @@
 //
 // No row has the shift that a spring seeks. So it is computed again, from the records of the limbs that fit, unless the
 // root is turned or joints have scales of their own, which no row has, either.
+#include "batch/explain/explain.h"
+
 #include <cmath>
 #include <optional>
 
-#include "batch/explain/explain.h"
+#include "batch/explain/bad_value.h"
 #include "batch/query/limb_value.h"
 #include "batch/query/one_limb.h"
 #include "core/fit.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Text in a buffer, always with a 0 at its end. A text that does not fit ends in three dots.
+// Text in a buffer, always with a 0 at its end. A text that does not fit ends in three dots. It also owns degrees,
+// and the ratio of lengths that hints at another unit.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 namespace swivel {
 
 inline double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
+// Lengths that differ by more than this factor, nearly 2, are suspected to be in different units.
+inline constexpr double kOtherUnit = 1.9;
 
 class Text {
 public:

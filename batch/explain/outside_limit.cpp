@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+//
+// How far a pose is outside of its joint limits, for people. Trigonometry is allowed here, because no solve sees it.
+#include "batch/explain/explain_probe.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "batch/explain/explain_probe.h"
 #include "core/region.h"
 
 namespace swivel {

@@ -74,6 +74,19 @@ Vector<double> PosedBody::rest(std::uint32_t joint) const
     return vector<double>(v[0], v[1], v[2]);
 }
 
+bool PosedBody::is_result(std::uint32_t joint, const Reading& how) const
+{
+    if (!how.solved || !pose.results.data) return false;
+    const auto is_it = [&](const auto& written) { return written.skeleton_joint == skeleton_joint(joint); };
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+        const GroupJoints& joints = crowd.groups[g].plan.joints;
+        if (how.space == SWIVEL_LOCAL ? std::any_of(joints.turned, joints.turned + joints.turned_count, is_it)
+                                      : std::any_of(joints.moved, joints.moved + joints.moved_count, is_it))
+            return true;
+    }
+    return false;
+}
+
 bool PosedBody::has_translations(const Reading& how) const
 {
     return !how.at_rest && (how.form != SWIVEL_ROTATIONS || pose.translations.data);
@@ -81,7 +94,7 @@ bool PosedBody::has_translations(const Reading& how) const
 
 PosedBody::Given PosedBody::given_matrix(std::uint32_t joint, const Reading& how) const
 {
-    const char* const from = value_of(pose.rotations, joint);
+    const char* const from = rotation_of(joint, how);
     const auto column = [&](std::size_t c) {
         std::array<double, 3> v;
         for (std::size_t r = 0; r < 3; ++r) {
@@ -101,8 +114,11 @@ PosedBody::Given PosedBody::given_matrix(std::uint32_t joint, const Reading& how
 PosedBody::Given PosedBody::given(std::uint32_t joint, const Reading& how) const
 {
     if (how.form != SWIVEL_ROTATIONS) return given_matrix(joint, how);
-    Given given{load_rotation(value_of(pose.rotations, joint), how.joints_w_first, how.joints_inverse), rest(joint), 1};
-    if (has_translations(how)) given.translation = vector_of(load<float, 3>(value_of(pose.translations, joint)));
+    Given given{load_rotation(rotation_of(joint, how), how.joints_w_first, how.joints_inverse), rest(joint), 1};
+    const bool is_moved = pose.translation_results.data && is_result(joint, how);
+    if (has_translations(how))
+        given.translation =
+            vector_of(load<float, 3>(value_of(is_moved ? pose.translation_results : pose.translations, joint)));
     if (pose.scales.data && !how.unscaled) {
         const auto scale = load<float, 3>(value_of(pose.scales, joint));
         given.scale = uniform_scale(scale[0], scale[1], scale[2]);
@@ -121,8 +137,27 @@ Rotor<double> PosedBody::rotation(std::uint32_t joint, const Reading& how) const
 {
     Rotor<double> turn = given(joint, how).rotation;
     while (how.space == SWIVEL_LOCAL && (joint = parent(joint)) != 0) turn = given(joint, how).rotation * turn;
-    if (!pose.root_rotation.data) return turn;
-    return load_rotation(swivel::value_of(pose.root_rotation, body), how.root_w_first, how.root_inverse) * turn;
+    return pose.root_rotation.data ? root_rotation(how) * turn : turn;
+}
+Rotor<double> PosedBody::root_rotation(const Reading& how) const
+{
+    if (!pose.root_rotation.data) return rotor(0.0, 0.0, 0.0, 1.0);
+    return load_rotation(swivel::value_of(pose.root_rotation, body), how.root_w_first, how.root_inverse);
+}
+double PosedBody::root_scale() const
+{
+    return pose.root_scale.data ? double{value_at<float>(pose.root_scale, body)} : 1;
+}
+Vector<double> PosedBody::support_place() const
+{
+    if (!pose.support_position.data) return vector(0.0, 0.0, 0.0);
+    const char* const from = swivel::value_of(pose.support_position, body);
+    return vector_of(pose.root_is_double ? load<double, 3>(from) : load<float, 3>(from));
+}
+Rotor<double> PosedBody::support_rotation() const
+{
+    if (!pose.support_rotation.data) return rotor(0.0, 0.0, 0.0, 1.0);
+    return load_rotation(swivel::value_of(pose.support_rotation, body), false, false);
 }
 double PosedBody::rotation_length(std::uint32_t joint) const
 {
@@ -163,13 +198,9 @@ Vector<double> PosedBody::place_in_body(std::uint32_t joint, const Reading& how)
 Vector<double> PosedBody::place(std::uint32_t joint, const Reading& how) const
 {
     Vector<double> place = how.space == SWIVEL_IN_BODY ? place_in_body(joint, how) : place_along(joint, how);
-    const double scale = pose.root_scale.data ? double{value_at<float>(pose.root_scale, body)} : 1;
-    for (int n = 0; n < how.root_scale; ++n) place = scale * place;
-    if (pose.root_rotation.data) {
-        const char* const from = swivel::value_of(pose.root_rotation, body);
-        const Rotor<double> turn = load_rotation(from, how.root_w_first, how.root_inverse);
-        for (int n = 0; n < how.root_turn; ++n) place = turned(turn, place);
-    }
+    for (int n = 0; n < how.root_scale; ++n) place = root_scale() * place;
+    if (pose.root_rotation.data)
+        for (int n = 0; n < how.root_turn; ++n) place = turned(root_rotation(how), place);
     return place + static_cast<double>(how.root_place) * root_place(how);
 }
 

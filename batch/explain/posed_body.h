@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One body of a pose in double: where a solve has its joints, or where a common mistake in reading the pose would put
-// them. Knows no limbs and no goals.
+// One body of a pose in double: where a solve has its joints before or after it, or where a common mistake in reading
+// the pose would put them. Knows no limbs and no goals.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,7 @@ struct Reading {
     bool joints_inverse = false, root_inverse = false;  // rotations are those of the parent to the joint
     bool at_rest = false;                               // translations are the skeleton's
     bool unscaled = false;                              // joints have no scales of their own
+    bool solved = false;                                // joints that a solve writes are as its results have them
     bool root_in_other_numbers = false;                 // floats for doubles, or doubles for floats
     int root_place = 1, root_turn = 1, root_scale = 1;  // how many times each counts: 0, 1 or 2
 
@@ -27,6 +28,7 @@ struct Reading {
 };
 
 // Joint numbers are places in the crowd's list of needed joints. 0 is the root, and parents come before joints.
+// Crowd and pose must outlive this.
 struct PosedBody {
     const swivel_crowd& crowd;
     const swivel_pose& pose;  // valid and of full size
@@ -44,6 +46,11 @@ struct PosedBody {
     bool may_have_double_root() const;
     Vector<double> root_place(const Reading& how) const;
     Vector<double> root_place() const { return root_place(Reading(pose)); }
+    Rotor<double> root_rotation(const Reading& how) const;  // of unit length
+    double root_scale() const;
+    // The frame that planted points stand in, in the world.
+    Vector<double> support_place() const;
+    Rotor<double> support_rotation() const;
     double time() const;  // 0 without
 
     std::uint32_t parent(std::uint32_t joint) const { return joint_at(crowd, crowd.joints[joint].parent); }
@@ -67,6 +74,12 @@ private:
     Vector<double> place_along(std::uint32_t joint, const Reading& how) const;
     Vector<double> place_in_body(std::uint32_t joint, const Reading& how) const;
     const char* value_of(const swivel_joint_values& values, std::uint32_t joint) const;
+    // Whether the reading has the joint from the pose's results.
+    bool is_result(std::uint32_t joint, const Reading& how) const;
+    const char* rotation_of(std::uint32_t joint, const Reading& how) const
+    {
+        return value_of(is_result(joint, how) ? pose.results : pose.rotations, joint);
+    }
 };
 
 }  // namespace swivel

@@ -78,16 +78,16 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
         };
         const std::uint32_t limb = first + n;
         const LimbValue plant(planted, limb, SWIVEL_PLANT);
-        if (plant[10] == 0) continue;  // it was not solved, so it carries no state
+        if (plant[kPlantState] == 0) continue;  // it was not solved, so it carries no state
         move_place(plant);
-        turn_vector(plant, 3);
-        turn_vector(plant, 6);
+        turn_vector(plant, kPlantOffset);
+        turn_vector(plant, kPlantVelocity);
         if (planted.features & SWIVEL_PLANT_BY_MOTION) move_place({planted, limb, SWIVEL_CONTACT_STATE});
         if (!(planted.features & SWIVEL_WITH_PLANT_ROTATION)) continue;
         const LimbValue rotation(planted, limb, SWIVEL_PLANT_ROTATION);
         store(turn * rotor_of(rotation), rotation);
-        turn_vector(rotation, 4);
-        turn_vector(rotation, 7);
+        turn_vector(rotation, kTurnOffset);
+        turn_vector(rotation, kTurnVelocity);
     }
     return SWIVEL_OK;
 }

@@ -9,7 +9,6 @@
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
-#include "batch/crowd/streams.h"
 #include "batch/query/forward.h"
 #include "batch/query/one_limb.h"
 #include "batch/refusal/status.h"
@@ -60,19 +59,6 @@ void for_each_free_limb(const Group& group, std::uint32_t first, std::uint32_t l
 }
 
 }  // namespace
-
-swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
-{
-    const Use use(crowd, Sharing::alone);
-    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
-    const Group& limbs = crowd->groups[group];
-    constexpr float zeros[kMaxComponents] = {};
-    for (const FieldRow& row : kFields)
-        if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(limbs.features, row.field) > 0)
-            copy_in(rows_of(limbs, row.field), first, limb_count, {zeros, 0});
-    crowd->reset_limbs.fetch_add(limb_count, std::memory_order_relaxed);
-    return SWIVEL_OK;
-}
 
 swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
                                   uint32_t capacity, uint32_t* arc_count)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// One number for a crowd's results, which machines compare instead of the results themselves.
+// One number for a crowd's results, and one for what its next solve starts from. Machines compare these instead of the
+// results themselves.
 #include <algorithm>
 #include <array>
 
-#include "batch/crowd/crowd.h"
+#include "batch/query/state.h"
 #include "core/num.h"
 
 namespace {
@@ -26,25 +27,44 @@ void add(std::uint64_t& hash, std::uint64_t word)
 // One hash for each lane, so that sixteen products run at once.
 using Hashes = std::array<std::uint64_t, kLanes>;
 
-void add(Hashes& hashes, const Group& group)
+// A row of one block.
+void add(Hashes& hashes, const float* row, std::uint32_t lane_count)
+{
+    for (std::uint32_t lane = 0; lane < lane_count; ++lane) add(hashes[lane], bit_cast<std::uint32_t>(row[lane]));
+}
+
+void add_results(Hashes& hashes, const Group& group)
 {
     const float* rows = group.results;
     for (std::uint32_t first = 0; first < group.limb_count; first += kLanes) {
         const std::uint32_t lane_count = std::min(group.limb_count - first, kLanes);
-        for (std::uint32_t row = 0; row < group.result_row_count; ++row, rows += kLanes)
-            for (std::uint32_t lane = 0; lane < lane_count; ++lane)
-                add(hashes[lane], bit_cast<std::uint32_t>(rows[lane]));
+        for (std::uint32_t row = 0; row < group.result_row_count; ++row, rows += kLanes) add(hashes, rows, lane_count);
     }
 }
 
-}  // namespace
+void add_state(Hashes& hashes, const Group& group)
+{
+    for (std::uint32_t block = 0; block < group.block_count; ++block)
+        for_each_state_result(group, [&](const FieldRow&, std::uint32_t first_row, std::uint32_t count) {
+            const float* const rows =
+                group.results + row_offset(std::size_t{block} * kLanes, group.result_row_count, first_row);
+            for (std::uint32_t n = 0; n < count; ++n) add(hashes, rows + n * kLanes, limb_count_of(group, block));
+        });
+}
 
-uint64_t swivel_digest(const swivel_crowd* crowd)
+// The digest of a crowd: `add_group` adds a group's rows to the hashes.
+std::uint64_t digest_of(const swivel_crowd* crowd, void (*add_group)(Hashes&, const Group&))
 {
     if (!crowd) return 0;
     Hashes hashes{};
-    for (const Group* group = crowd->groups; group != crowd->groups + crowd->group_count; ++group) add(hashes, *group);
+    for (const Group* group = crowd->groups; group != crowd->groups + crowd->group_count; ++group)
+        add_group(hashes, *group);
     std::uint64_t whole = 0;
     for (const std::uint64_t hash : hashes) add(whole, hash);
     return whole;
 }
+
+}  // namespace
+
+uint64_t swivel_digest(const swivel_crowd* crowd) { return digest_of(crowd, add_results); }
+uint64_t swivel_state_digest(const swivel_crowd* crowd) { return digest_of(crowd, add_state); }

@@ -34,7 +34,8 @@ Bones bones_of(const Group& group, std::size_t limb)
     return {size * read(SWIVEL_LENGTHS, 0), size * read(SWIVEL_LENGTHS, 1)};
 }
 
-// The hand's ray of an aim, in the space of the targets.
+}  // namespace
+
 Vector<double> aim_axis(const Group& group, std::size_t limb, const Rotor<double>& hand)
 {
     // A hand that is not solved stays at rest.
@@ -43,9 +44,7 @@ Vector<double> aim_axis(const Group& group, std::size_t limb, const Rotor<double
                     Reader{group, limb}.vector_of(SWIVEL_AIM));
 }
 
-}  // namespace
-
-LimbPose forward(const Group& group, std::size_t limb)
+ArmFrame arm_frame(const Group& group, std::size_t limb)
 {
     const Reader read{group, limb};
     const bool world = group.features & SWIVEL_WORLD, joints = group.features & SWIVEL_JOINTS;
@@ -61,18 +60,26 @@ LimbPose forward(const Group& group, std::size_t limb)
         parent = parent * turn;
     }
     // Without SWIVEL_WORLD, targets are in the arm frame itself.
-    const Rotor<double> arm_w = joints && world ? parent * rotor_of(group.binding.parent_from_arm) : parent;
+    return {shoulder, joints && world ? parent * rotor_of(group.binding.parent_from_arm) : parent, scale};
+}
+
+LimbPose forward(const Group& group, std::size_t limb)
+{
+    const Reader read{group, limb};
+    const bool joints = group.features & SWIVEL_JOINTS;
+    const ArmFrame frame = arm_frame(group, limb);
 
     // The arm frame's axes, turned with upper arm and forearm. Joints in between move with their bone.
     const ArmRotors arm = arm_rotors(group, limb);
-    const Rotor<double> upper_w = arm_w * arm.shoulder, fore_w = upper_w * arm.elbow;
+    const Rotor<double> upper_w = frame.rotation * arm.shoulder, fore_w = upper_w * arm.elbow;
     const Rotor<double> wrist_parent_w = joints ? fore_w * ~rotor_of(group.binding.wrist_parent_from_arm) : fore_w;
     const Vector<double> e3 = vector(0.0, 0.0, 1.0);
     const Bones bones = bones_of(group, limb);
-    const Vector<double> elbow_w = shoulder + bones.upper * sandwich(upper_w, e3);
+    const Vector<double> elbow_w = frame.shoulder + bones.upper * sandwich(upper_w, e3);
     const Vector<double> wrist_w = elbow_w + bones.fore * sandwich(fore_w, e3);
     const bool with_hand = group.features & SWIVEL_WITH_HAND;
-    return {shoulder, elbow_w, wrist_w, with_hand ? wrist_parent_w * read.rotor_of(SWIVEL_WRIST) : wrist_parent_w};
+    return {frame.shoulder, elbow_w, wrist_w,
+            with_hand ? wrist_parent_w * read.rotor_of(SWIVEL_WRIST) : wrist_parent_w};
 }
 
 ArmRotors arm_rotors(const Group& group, std::size_t limb)

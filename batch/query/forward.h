@@ -21,6 +21,16 @@ struct LimbPose {
 
 LimbPose forward(const Group& group, std::size_t limb);
 
+// The arm frame in the space of the targets, as the clavicle has it, and the scale of the bones' unit there.
+struct ArmFrame {
+    Vector<double> shoulder;
+    Rotor<double> rotation;
+    double scale;
+};
+ArmFrame arm_frame(const Group& group, std::size_t limb);
+// The direction of an aiming hand's ray, likewise; of any length. hand: as solved.
+Vector<double> aim_axis(const Group& group, std::size_t limb, const Rotor<double>& hand);
+
 // The rotations that the joints add to the rest pose, in the arm frame: unit; elbow and wrist with w >= 0.
 struct ArmRotors {
     Rotor<double> shoulder, elbow, wrist;
@@ -36,7 +46,7 @@ double distance_missed(const Group& group, std::size_t limb);
 // That distance over length_of(); 0 for a limb of no length.
 double residual(const Group& group, std::size_t limb);
 
-// joint_angles.cpp: a pose as joint angles, for people and files.
+// joint_angles.cpp: a pose as joint angles, in radians.
 struct JointAngles {
     double shoulder[3], flexion, wrist[3];
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+//
+// A pose as joint angles, for people and files. Trigonometry is allowed here, because no solve sees it.
+#include "batch/query/forward.h"
+
 #include <cmath>
 #include <numbers>
-
-#include "batch/query/forward.h"
 
 namespace swivel {
 

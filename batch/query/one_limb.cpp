@@ -5,7 +5,7 @@
 
 #include "batch/query/forward.h"
 #include "batch/query/limb_value.h"
-#include "batch/solve/solve.h"
+#include "batch/solve/rest.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -59,6 +59,7 @@ OneLimb::OneLimb(const Group& group) : source_(group)
     alone.binding = group.binding;
     place_group(alone, 0, rows_, group_);
     group_.region = group.region;
+    group_.half_line = group.half_line;
     rest(group_);
 }
 

@@ -17,7 +17,7 @@ Rotor<double> incoming_hand(const Group& group, std::uint32_t limb);
 // The hand that was written for it, of any length, or else the incoming one.
 Rotor<double> wanted_hand(const Group& group, std::uint32_t limb);
 
-// What no free limb has.
+// The features that no free limb has.
 inline constexpr swivel_features kBodyFeatures = [] {
     swivel_features found = kBody | kLibraryGoal;
     for (const FeatureRow& row : kFeatures)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Structures that begin with their size, so that the library can read the shorter ones of older headers. And what else
-// callers of C may have put into them.
+// Structures that begin with their size, so that the library can read the shorter ones of older headers. And
+// enumerators, which C lets be any number.
 #pragma once
 
 #include <algorithm>

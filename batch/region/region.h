@@ -55,7 +55,8 @@ swivel_status read_direction(const char* function, const char* noun, std::uint32
 // Keeps what was built, or says that it does not fit.
 swivel_status keep(const char* function, const RegionBuilder& builder, swivel_region* region);
 
-// The first of cones in order that is opposite to its next neighbour, so that no bridge is between them; count: none.
+// region_cones.cpp: the first of cones in order that is opposite to its next neighbour, so that no bridge is between
+// them; count: none.
 std::uint32_t first_opposite(const RegionCone* cones, std::uint32_t count, bool closed);
 // Cones in order, with bridges between neighbours. None are opposite.
 void add_cones(RegionBuilder& builder, const RegionCone* cones, std::uint32_t count, bool closed);

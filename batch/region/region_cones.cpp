@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Cones in order with bridges between neighbours.
+#include "batch/region/region.h"
+
 #include <cmath>
 #include <numbers>
 
 #include "batch/refusal/status.h"
-#include "batch/region/region.h"
 #include "simd/float_env.h"
 
 using namespace swivel;

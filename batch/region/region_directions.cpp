@@ -6,12 +6,13 @@
 //
 // Sources: centres, S. Lloyd, Least squares quantization in PCM (1982); smallest cone, M. Badoiu, K. Clarkson, Smaller
 // core-sets for balls (2003).
+#include "batch/region/region.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "batch/refusal/status.h"
-#include "batch/region/region.h"
 #include "simd/float_env.h"
 
 using namespace swivel;
@@ -21,7 +22,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kMaxCones = 6;
 constexpr int kRounds = 20;        // of moving centres; more change little
-constexpr int kSteps = 200;        // that bring a cone within 1 % of the smallest
+constexpr int kSteps = 200;        // a cone is then at most 1.3 % too wide: measured, about 3 to 12 random directions
 constexpr int kAreaPoints = 4096;  // an area is told to 2 % of the sphere's sixteenth
 
 // Directions are read as they are needed, so their number is not bound.

@@ -2,12 +2,13 @@
 //
 // The poses of a strip of bodies are copied into a workspace, and forward kinematics finds their limbs. Then every
 // group's limbs are solved, and the joints go back. All of it stays in a near cache.
+#include "batch/solve/solve.h"
+
 #include <algorithm>
 #include <bit>
 
 #include "batch/crowd/streams.h"
 #include "batch/solve/group_copies.h"
-#include "batch/solve/solve.h"
 #include "simd/float_env.h"
 
 namespace swivel {
@@ -53,7 +54,7 @@ struct BodyStrips {
         look(strip, plan);
         for (const Pass pass : {Pass::grasp, Pass::hold}) prepare(strip, pass);
         for_each_named(strip, [&](const Group& group, std::uint32_t n) {
-            solve_group(work.kernels, group, strip, memory, work.exceeds_cache, work.mask);
+            run_kernels(work.kernels, group, strip, memory, work.exceeds_cache, work.mask);
             if (work.streams)
                 with_copies(group, strip, n, [&](const GroupCopies& copies) { copies.copy_out(work.mask, strip); });
             if (group.features & kLook) return;

@@ -61,12 +61,14 @@ Stream* add_input(const Group& group, const swivel_streams& given, const swivel_
 }
 void copy_chosen(const Group& group, const Stream* from, const Stream* end, const std::uint32_t* mask, GroupBlocks some)
 {
-    if (mask)
-        return for_some_limbs(
+    if (mask) {
+        for_some_limbs(
             some, [&](std::uint32_t block) { return chosen_limbs(group, block, mask); },
             [&](std::size_t limb, std::size_t limb_count) { copy(from, end, limb, limb_count); });
-    const std::size_t limb = std::size_t{some.first} * SWIVEL_LANES, room = std::size_t{some.count} * SWIVEL_LANES;
-    copy(from, end, limb, std::min(room, group.limb_count - limb));
+    } else {
+        const std::size_t limb = std::size_t{some.first} * SWIVEL_LANES, room = std::size_t{some.count} * SWIVEL_LANES;
+        copy(from, end, limb, std::min(room, group.limb_count - limb));
+    }
 }
 
 // Calls copy(part) for a few of some blocks at a time.

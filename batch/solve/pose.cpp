@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+//
+// The way of solved joints back into the bodies' poses.
+#include "batch/solve/solve.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-#include "batch/solve/solve.h"
 #include "simd/transpose.h"
 
 namespace swivel {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "batch/solve/rest.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -24,7 +26,7 @@ void spread(float* rows, std::uint32_t row_count, std::uint32_t block_count)
 [[gnu::noinline]] void solve_block(const Kernels& kernels, const Group& group)
 {
     alignas(64) float strip[kStripBlockFloats];
-    solve_group(kernels, group, {0, 1}, {strip, 1});
+    run_kernels(kernels, group, {0, 1}, {strip, 1});
 }
 
 // Puts all limbs of a group of bodies into the arm frame's rest pose, without flags.
@@ -49,7 +51,7 @@ void rest(Group& group)
     if (group.features & kLimbFeatures)
         solve_block(kernels, group);
     else
-        solve_group(kernels, group, {0, 1}, {});
+        run_kernels(kernels, group, {0, 1}, {});
     group.keeps_pose = keeps;
     group.results[std::size_t{group.first_row[index_of(SWIVEL_FLAGS)]} * SWIVEL_LANES] = 0;
     spread(group.results, group.result_row_count, group.block_count);

@@ -2,11 +2,11 @@
 //
 // A round has a run of blocks of each of a few groups. A run is copied in, solved and copied out, while its rows are in
 // a near cache. If limbs are chosen, only these are.
+#include "batch/solve/solve.h"
+
 #include <algorithm>
 
 #include "batch/solve/group_copies.h"
-#include "batch/solve/solve.h"
-#include "batch/solve/work.h"
 #include "simd/float_env.h"
 
 namespace swivel {
@@ -68,7 +68,7 @@ struct Bundle {
             if (first >= copies->blocks.count) continue;
             const GroupBlocks run{copies->blocks.first + first, std::min(run_blocks, copies->blocks.count - first)};
             copies->copy_in(work.mask, run);
-            solve_chosen_group(work.kernels, *copies->group, work.mask, run, work.strip);
+            solve_group(work.kernels, *copies->group, work.mask, run, work.strip);
             copies->copy_out(work.mask, run);
         }
     }

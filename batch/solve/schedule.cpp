@@ -5,9 +5,10 @@
 //
 // oneTBB throws where it finds no memory or cannot start a thread. So this file is compiled with exceptions, unlike the
 // rest of the library, and lets none out. The calling thread then solves what oneTBB left.
+#include "batch/solve/solve.h"
+
 #include <algorithm>
 
-#include "batch/solve/solve.h"
 #include "simd/float_env.h"
 
 #ifdef SWIVEL_WITH_TBB

@@ -24,12 +24,12 @@ void solve_blocks(const Work& work, std::uint32_t first, std::uint32_t end)
     const FloatEnv env;
     const swivel_blocks blocks{work.blocks.first + first, end - first};
     for_each_group(work.crowd, work.groups, blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
-        solve_chosen_group(work.kernels, group, work.mask, part, work.strip, work.exceeds_cache);
+        solve_group(work.kernels, group, work.mask, part, work.strip, work.exceeds_cache);
     });
 }
 
 // Plain arms are solved in simd/kernels/arm_kernels.cpp, whole limbs in simd/kernels/limb_kernels.cpp.
-void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip, bool exceeds_cache,
+void run_kernels(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip, bool exceeds_cache,
                  const std::uint32_t* mask)
 {
     const SolveRun run = run_of(group, blocks, strip, exceeds_cache, mask);
@@ -39,10 +39,10 @@ void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks,
         kernels.arms.solve_arms[run.features & kFormulaFeatures](run);
 }
 
-void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
-                        StripMemory strip, bool exceeds_cache)
+void solve_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
+                 StripMemory strip, bool exceeds_cache)
 {
-    if (!mask || group.features & kLimbFeatures) return solve_group(kernels, group, blocks, strip, exceeds_cache, mask);
+    if (!mask || group.features & kLimbFeatures) return run_kernels(kernels, group, blocks, strip, exceeds_cache, mask);
     const std::uint32_t end = blocks.first + blocks.count;
     // How many blocks from one on are all chosen whole, or all not.
     const auto count_from = [&](std::uint32_t block, bool whole) {
@@ -53,10 +53,10 @@ void solve_chosen_group(const Kernels& kernels, const Group& group, const std::u
     };
     for (std::uint32_t block = blocks.first; block < end;) {
         const std::uint32_t whole = count_from(block, true);
-        if (whole > 0) solve_group(kernels, group, {block, whole}, strip, exceeds_cache);
+        if (whole > 0) run_kernels(kernels, group, {block, whole}, strip, exceeds_cache);
         block += whole;
         const std::uint32_t part = count_from(block, false);
-        if (part > 0) solve_group(kernels, group, {block, part}, strip, exceeds_cache, mask);
+        if (part > 0) run_kernels(kernels, group, {block, part}, strip, exceeds_cache, mask);
         block += part;
     }
 }
@@ -94,7 +94,8 @@ SolveRun run_of(const Group& group, GroupBlocks blocks, StripMemory strip, bool 
             .strip = strip,
             .plan = &group.plan,
             .body_block_floats = group.body_block_floats,
-            .region = group.region};
+            .region = group.region,
+            .half_line = &group.half_line};
 }
 
 bool exceeds_cache(const swivel_crowd& crowd, std::uint32_t block_count)

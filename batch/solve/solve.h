@@ -21,13 +21,14 @@ void solve_blocks(const Work& work, std::uint32_t first, std::uint32_t end);
 
 // These solve blocks of one group. The caller has set the floating-point environment (FloatEnv).
 //
-// Solves every limb, or those whose bits are set in mask, which has one bit for each lane of the crowd. Other limbs
-// keep their results. strip: of a workspace, which plain arms do not need.
-void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
+// Solves the limbs whose bits are set in mask, which has one bit for each lane of the crowd. Other limbs keep their
+// results. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is faster. mask: null:
+// all limbs. strip: of a workspace, which plain arms do not need.
+void solve_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
+                 StripMemory strip, bool exceeds_cache = false);
+// The same in one run of the group's kernels.
+void run_kernels(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
                  bool exceeds_cache = false, const std::uint32_t* mask = nullptr);
-// The same. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is faster.
-void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
-                        StripMemory strip, bool exceeds_cache = false);
 // Runs the stages of one pass of a group of bodies, before any limb of these bodies is solved.
 void prepare_group(const Kernels& kernels, const Group& group, Pass pass, GroupBlocks blocks, StripMemory strip,
                    const std::uint32_t* mask);
@@ -44,10 +45,8 @@ std::uint32_t strip_count(const Work& work);
 // Solves strips first ... end - 1 of a job on this thread.
 void solve_strips(const Work& work, std::uint32_t first, std::uint32_t end);
 
-// pose.cpp: the way of solved joints back into the bodies' poses.
-//
-// These write a block's bodies to the caller's memory: the joints that a group moves; and, once all groups are solved,
-// where all needed joints are.
+// pose.cpp: these write a block's bodies to the caller's memory: the joints that a group moves; and, once all groups
+// are solved, where all needed joints are.
 void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const Group& group, const BodyBlock& block);
 // The same of a pose in the body's space, where the group's own motion is known.
 void carry_out(const BodyKernels& kernels, const BodyPlan& plan, const Group& group, const BodyBlock& block);
@@ -68,18 +67,5 @@ bool solve_on_threads(const Work& work);
 // A crowd remembers which thread solved which chunk, from its creation to its end.
 void begin_schedule(swivel_crowd& crowd);
 void end_schedule(swivel_crowd& crowd);
-
-// rest.cpp: puts all limbs of a new crowd, or of a new group of free limbs, into their rest pose, without flags.
-void rest(const swivel_crowd& crowd);
-void rest(Group& group);
-
-// budget.cpp: chooses the blocks that are solved within a budget. Blocks gather urgency while they wait, and the most
-// urgent are picked. Does what swivel_choose() promises; arguments are already checked: an entry of priorities for each
-// group, words for every block, urgency or null. Returns how many limbs were picked.
-//
-// The magnitude of a block's urgency is what it has gathered. The sign says whether the block is wanted now, so that no
-// second array is needed: above 0 if it is, else negative or 0.
-std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, float* urgency, std::uint32_t max_blocks,
-                     std::uint32_t* words);
 
 }  // namespace swivel

@@ -2,8 +2,7 @@
 #include "bench/rivals/rifle.h"
 
 #include <algorithm>
-#include <iterator>
-#include <vector>
+#include <array>
 
 #include "bench/rivals/character.h"
 #include "swivel/swivel_regions.hpp"
@@ -13,7 +12,7 @@ namespace bench {
 const swivel_region& rifle_region()
 {
     static const swivel::Region region = [] {
-        std::vector<swivel_region_cone> cones(std::size(kArmCones));
+        std::array<swivel_region_cone, std::size(kArmCones)> cones;
         for (std::size_t n = 0; n < cones.size(); ++n) {
             std::ranges::copy(kArmCones[n].axis, cones[n].axis);
             cones[n].angle = kArmCones[n].angle;

@@ -137,6 +137,7 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_LINK (UINT64_C(1) << 33)            // the goal is a grip on another limb's hand, or on a prop
 #define SWIVEL_WITH_HAND_TRANSFORM (UINT64_C(1) << 34)  // where the hand or foot is after a solve
 #define SWIVEL_WITH_RECORD (UINT64_C(1) << 35)          // keeps what the pose gave, for explanations
+#define SWIVEL_POLE_HALF_LINE (UINT64_C(1) << 36)       // no poles: elbows follow wrists, but for a jump at pole_behind
 
 // The inputs and results of a limb: how many floats, and what they are. docs/fields.md has ranges and formulas. A share
 // is 0..1; a range is four numbers, which swivel_range() makes.
@@ -356,8 +357,11 @@ typedef struct swivel_limb_def {
     swivel_on_bad_input on_bad_input;
     swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
     uint32_t twist_bone_count;                       // 0 to 7; more than 0 needs WITH_HAND
-    swivel_binding binding;                          // JOINTS: every limb uses it, and starts with its lengths
-    const struct swivel_region* region;              // WITH_REGION; copied. Null without the feature
+    // POLE_HALF_LINE: where no wrist goes, in the frame of the shoulder's parent, else in the arm frame; of any length.
+    // Zeros: where the elbow points at rest. That is behind the back for an arm; for a leg give it.
+    float pole_behind[3];
+    swivel_binding binding;              // JOINTS: every limb uses it, and starts with its lengths
+    const struct swivel_region* region;  // WITH_REGION; copied. Null without the feature
 } swivel_limb_def;
 
 // Plain limbs in the arm frame.
@@ -570,6 +574,28 @@ SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* pri
 
 // Clears the carried fields of these limbs, so that they start anew, such as after a teleport.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
+
+// The state of a body is all that its next solve starts from besides its inputs: the carried fields of all groups. Free
+// limbs with SWIVEL_KEEP_POSE have their results in it, too, because bad input keeps these. In a crowd of free limbs
+// body n is limb n of each group, and groups must have the same limb count. Inputs, among them each body's time since
+// its last solve, are the caller's. docs/howto/bodies.md explains rollback.
+//
+// Bytes of one body's state; 0 for free limbs in groups of unequal counts.
+SWIVEL_API size_t swivel_state_bytes(const swivel_crowd* crowd);
+// Saves the state of bodies, one body after the other, in bytes that are the same on every CPU. size: of the caller's
+// memory, swivel_state_bytes() a body or more, of any alignment.
+SWIVEL_API swivel_status swivel_save(const swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, void* bytes,
+                                     size_t size);
+// Loads what swivel_save() saved of any bodies, of this crowd or of another whose groups carry the same fields. Inputs
+// and other results stay as they are. Nothing is loaded if any of the bytes are of another kind of crowd.
+SWIVEL_API swivel_status swivel_load(swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, const void* bytes,
+                                     size_t size);
+// Clears the carried fields of all groups of these bodies, such as for a teleport. In their next solve feet land where
+// the animation has them, and looks and shifts are at their goals at once.
+SWIVEL_API swivel_status swivel_reset_body(swivel_crowd* crowd, uint32_t first_body, uint32_t body_count);
+// A digest of the state of all bodies, or of free limbs in any groups. Unlike swivel_digest() it leaves out what a
+// solve does not start from: after swivel_load() of all bodies it is the saved crowd's.
+SWIVEL_API uint64_t swivel_state_digest(const swivel_crowd* crowd);
 
 // Values of fields from angles in radians. For twists and boxes, the range from min to max, no wider than 2 pi.
 SWIVEL_API swivel_status swivel_range(double min, double max, float range[4]);

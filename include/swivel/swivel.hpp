@@ -22,7 +22,6 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -36,7 +35,7 @@
 #include "swivel_bodies.h"
 
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-#define SWIVEL_HAS_EXCEPTIONS
+#define SWIVEL_HAS_EXCEPTIONS 1
 #define SWIVEL_NAMESPACE swivel
 #else
 // A name of its own. Otherwise a linker could give these functions to a file that expects an exception.
@@ -52,9 +51,7 @@ struct Error : std::runtime_error {
     Error(swivel_status failed, const std::string& text) : std::runtime_error(text), status(failed) {}
     swivel_status status;
 };
-
-[[noreturn]] inline void fail([[maybe_unused]] const std::string& text,
-                              [[maybe_unused]] swivel_status status = SWIVEL_INVALID_ARGUMENT)
+[[noreturn]] inline void fail([[maybe_unused]] swivel_status status, [[maybe_unused]] const std::string& text)
 {
 #ifdef SWIVEL_HAS_EXCEPTIONS
     throw Error(status, text);
@@ -63,9 +60,10 @@ struct Error : std::runtime_error {
     std::abort();
 #endif
 }
+[[noreturn]] inline void fail(const std::string& text) { fail(SWIVEL_INVALID_ARGUMENT, text); }
 inline void check(swivel_status status)
 {
-    if (status != SWIVEL_OK) fail(swivel_last_error(), status);
+    if (status != SWIVEL_OK) fail(status, swivel_last_error());
 }
 inline std::uint32_t count_of(const auto& values) { return static_cast<std::uint32_t>(std::ranges::size(values)); }
 
@@ -80,7 +78,6 @@ inline swivel_limb_def limbs(std::uint32_t limb_count, swivel_features features 
     made.features = features;
     return made;
 }
-
 // The limb of each body that has these joints, which must live until the crowd is made.
 inline swivel_body_limb_def body_limb(const swivel_limb_joints& joints, swivel_features features = 0)
 {
@@ -89,15 +86,15 @@ inline swivel_body_limb_def body_limb(const swivel_limb_joints& joints, swivel_f
     return made;
 }
 swivel_body_limb_def body_limb(const swivel_limb_joints&& joints, swivel_features features = 0) = delete;
-
 // A chain of joints of each body that looks, from the first to the last, such as spine, neck and head: 1 to 8 of them.
-inline swivel_look_def look(const std::vector<std::uint32_t>& joints)
+inline swivel_look_def look(std::span<const std::uint32_t> joints)
 {
     swivel_look_def made = swivel_default_look_def();
     made.joint_count = count_of(joints);
     for (std::size_t n = 0; n < joints.size() && n < SWIVEL_MAX_LOOK_JOINTS; ++n) made.joints[n] = joints[n];
     return made;
 }
+inline swivel_look_def look(std::initializer_list<std::uint32_t> joints) { return look(std::span(joints)); }
 
 // A limb's alignments and bone lengths from its rest pose: swivel_bind_joints().
 inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_joints& joints)
@@ -109,7 +106,7 @@ inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_jo
 
 // The numbers that a function of swivel.h writes to its last argument.
 template <std::size_t size, class Number = float, class Make, class... Arguments>
-std::array<Number, size> made(Make make, Arguments... arguments)
+std::array<Number, size> written_by(Make make, Arguments... arguments)
 {
     std::array<Number, size> value;
     check(make(arguments..., value.data()));
@@ -119,20 +116,23 @@ using Axis = std::array<double, 3>;  // of any length but zero
 // A direction of the character at rest in the arm frame: swivel_arm_axis().
 inline Axis arm_axis(const swivel_binding& binding, const std::array<float, 4>& parent_rotation, const Axis& direction)
 {
-    return made<3, double>(swivel_arm_axis, &binding, parent_rotation.data(), direction.data());
+    return written_by<3, double>(swivel_arm_axis, &binding, parent_rotation.data(), direction.data());
 }
 // Values of fields from angles in radians, as swivel_range(), swivel_cone() and so on make them.
-inline std::array<float, 4> range(double min, double max) { return made<4>(swivel_range, min, max); }
-inline std::array<float, 4> cone(const Axis& axis, double max) { return made<4>(swivel_cone, axis.data(), max); }
-inline std::array<float, 2> flexion(double min, double max) { return made<2>(swivel_flexion, min, max); }
-inline std::array<float, 5> aim(const Axis& axis, double flexion) { return made<5>(swivel_aim, axis.data(), flexion); }
+inline std::array<float, 4> range(double min, double max) { return written_by<4>(swivel_range, min, max); }
+inline std::array<float, 4> cone(const Axis& axis, double max) { return written_by<4>(swivel_cone, axis.data(), max); }
+inline std::array<float, 2> flexion(double min, double max) { return written_by<2>(swivel_flexion, min, max); }
+inline std::array<float, 5> aim(const Axis& axis, double flexion)
+{
+    return written_by<5>(swivel_aim, axis.data(), flexion);
+}
 inline std::array<float, 2> cos_sin(double angle)
 {
     std::array<float, 2> value;
     swivel_cos_sin(angle, value.data());
     return value;
 }
-constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }  // in radians
+constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }  // of degrees, in radians
 
 // Whether a limb's value is made of one of these numbers: an arithmetic type itself, an array, a container with a
 // value_type, or a plain structure that starts with a number. Other classes are taken at their word.
@@ -154,7 +154,6 @@ constexpr bool is_made_of()
 }
 template <class Value, class... Numbers>
 concept MadeOf = std::is_trivially_copyable_v<std::remove_cv_t<Value>> && is_made_of<Value, Numbers...>();
-
 // A field's value is of floats, or a uint32_t (flags). Positions and forward kinematics may be of doubles.
 template <class Value>
 concept FieldValue = MadeOf<Value, float, std::uint32_t>;
@@ -172,7 +171,6 @@ inline swivel_field_info describe(swivel_field field)
         if (info.field == field) return info;
     fail("there is no field " + std::to_string(field));
 }
-
 // Refuses flags in floats, and an array of more than four floats for a field of at most four: a matrix is no rotation.
 template <class Value>
 void check_value(swivel_field field)
@@ -195,8 +193,8 @@ struct Stream {
     operator swivel_in() const { return {data, stride}; }
     operator swivel_out() const requires(!std::is_const_v<Value>) { return {data, stride}; }
 };
-// A member of each structure: swivel::stream(characters, &Character::grip). In place of a member it takes a function
-// that returns a reference. No characters: null data. Doubles are for positions, int32_t for skeletons' parents.
+// A member of each structure: swivel::stream(characters, &Character::grip), or a function that returns a reference.
+// Without characters it is null, which leaves the field out. Doubles are for positions, int32_t for skeletons' parents.
 template <std::ranges::contiguous_range Range, class Member = std::identity>
 requires std::ranges::borrowed_range<Range>
 auto stream(Range&& values, Member member = {})
@@ -207,8 +205,8 @@ auto stream(Range&& values, Member member = {})
     return Stream<Value>{std::ranges::empty(values) ? nullptr : &std::invoke(member, *first), sizeof *first};
 }
 
-// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_streams, which views it until
-// it moves or ends, with fields that are added later, but not with a later origin(). Keep it from solve to solve.
+// A group's values in the caller's arrays, which must outlive it and stay where they are. It becomes a swivel_streams,
+// which views it until it moves or ends, with fields added later but not a later origin(). Keep it from solve to solve.
 class Streams {
 public:
     Streams& in(swivel_field field, const swivel_in& values) &
@@ -249,8 +247,7 @@ public:
     operator swivel_streams() const&
     {
         swivel_streams view = view_;
-        view.fields = fields_.data();
-        view.field_count = count_of(fields_);
+        view.fields = fields_.data(), view.field_count = count_of(fields_);
         return view;
     }
     operator swivel_streams() const&& = delete;  // which would view what ends with its line
@@ -266,15 +263,14 @@ private:
     swivel_streams view_ = swivel_default_streams();  // views start from it; it counts the fields added
 };
 
-// Samples the ground, on several threads at a time. A copy of over two pointers may allocate; std::ref(ask) does not.
+// Samples the ground, and is called by several threads at a time. To copy a capture of more than two pointers may
+// allocate; std::ref(ask) does not.
 using Sample = std::function<void(const swivel_probes&)>;
-
 // Samples for one solve. An exception waits here until the solve is over, because none may cross C.
 struct Sampling {
     const Sample& ask;
     std::atomic<std::uint32_t> failures = 0;  // a word: some CPUs exchange no single byte
     std::exception_ptr exception = {};
-
     static void answer(const swivel_probes* asked, void* user)
     {
         auto& self = *static_cast<Sampling*>(user);
@@ -311,7 +307,6 @@ struct Job {
 class Crowd {
 public:
     using First = std::optional<std::uint32_t>;
-
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
     explicit Crowd(const std::vector<Definition>& groups) { create(swivel_default_crowd_def(), groups); }
     Crowd(std::initializer_list<Definition> groups) : Crowd(std::vector(groups)) {}
@@ -321,17 +316,12 @@ public:
           const std::array<float, 3>& up = {0, 1, 0})
     {
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.skeleton = &skeleton;
-        def.body_count = body_count;
+        def.skeleton = &skeleton, def.body_count = body_count;
         for (std::size_t c = 0; c < 3; ++c) def.up[c] = up[c];
         create(def, groups);
     }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
-    Crowd& operator=(Crowd&& other) noexcept
-    {
-        std::swap(crowd_, other.crowd_);
-        return *this;
-    }
+    Crowd& operator=(Crowd&& other) noexcept { return std::swap(crowd_, other.crowd_), *this; }
     ~Crowd() { swivel_crowd_destroy(crowd_); }
     swivel_crowd* get() const { return crowd_; }
 
@@ -377,8 +367,9 @@ public:
             job.group_word_count = count_of(named);
         }
         if (wanted.mask) {
+            static constexpr std::uint32_t no_words = 0;  // the library refuses it; a null mask would be none
+            job.mask = wanted.mask->empty() ? &no_words : wanted.mask->data();
             job.mask_word_count = count_of(*wanted.mask);
-            job.mask = wanted.mask->empty() ? &job.mask_word_count : wanted.mask->data();  // null would be no mask
         }
         if (!wanted.streams.empty()) {
             check_count(wanted.streams.size(), "streams",
@@ -410,6 +401,11 @@ public:
     }
 
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
+    // The state of bodies: swivel_reset_body() of some, swivel_save() and swivel_load() of all.
+    void reset_bodies(std::uint32_t first, std::uint32_t count) { check(swivel_reset_body(crowd_, first, count)); }
+    void save(std::span<std::byte> out) const { check(swivel_save(crowd_, 0, body_count(), out.data(), out.size())); }
+    void load(std::span<const std::byte> in) { check(swivel_load(crowd_, 0, body_count(), in.data(), in.size())); }
+    std::uint64_t state_digest() const { return swivel_state_digest(crowd_); }
     std::vector<swivel_arc> allowed_arcs(std::uint32_t group, std::uint32_t limb) const
     {
         std::uint32_t arc_count = 0;
@@ -418,7 +414,6 @@ public:
         check(swivel_allowed_arcs(crowd_, group, limb, arcs.data(), arc_count, &arc_count));
         return arcs;
     }
-
     // swivel_forward(), of one joint; swivel_joint_angles(); swivel_residuals().
     void elbows(std::uint32_t group, DoubleRange auto&& values, First first = {}) const
     {
@@ -454,18 +449,22 @@ public:
     std::uint64_t digest() const { return swivel_digest(crowd_); }
 
 private:
+    std::uint32_t body_count() const { return swivel_group_limb_count(crowd_, 0); }
     void create(swivel_crowd_def def, const std::vector<Definition>& groups)
     {
         std::vector<swivel_group_def> defs;
-        for (const Definition& group : groups)
-            defs.push_back({sizeof(swivel_group_def), std::get_if<swivel_limb_def>(&group),
-                            std::get_if<swivel_body_limb_def>(&group), std::get_if<swivel_look_def>(&group),
-                            std::get_if<swivel_prop_def>(&group), std::get_if<swivel_shift_def>(&group)});
+        for (const Definition& group : groups) {
+            swivel_group_def& each = defs.emplace_back(swivel_default_group_def());
+            each.limb = std::get_if<swivel_limb_def>(&group);
+            each.body_limb = std::get_if<swivel_body_limb_def>(&group);
+            each.look = std::get_if<swivel_look_def>(&group);
+            each.prop = std::get_if<swivel_prop_def>(&group);
+            each.shift = std::get_if<swivel_shift_def>(&group);
+        }
         def.groups = defs.data();
         def.group_count = count_of(defs);
         check(swivel_crowd_create(&def, &crowd_));
     }
-
     // How many values there are for limbs from `first` on: without it one for each limb of the group.
     std::uint32_t checked(std::uint32_t group, const auto& values, First first) const
     {
@@ -481,7 +480,6 @@ private:
             fail(std::to_string(given) + " " + what + " for " + std::to_string(wanted) + " " + of_what +
                  "; give one for each" + or_else);
     }
-
     // A bit for each group, set for these.
     std::vector<std::uint32_t> bits_of(std::span<const std::uint32_t> groups) const
     {
@@ -495,7 +493,6 @@ private:
         }
         return words;
     }
-
     swivel_crowd* crowd_ = nullptr;
 };
 

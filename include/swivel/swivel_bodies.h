@@ -60,6 +60,7 @@ typedef struct swivel_body_limb_def {
     const struct swivel_region* region;  // WITH_REGION; copied. Null without the feature
     swivel_plant plant;                  // WITH_PLANT
     swivel_ground ground;                // WITH_GROUND
+    float pole_behind[3];                // POLE_HALF_LINE: as swivel_limb_def's
 } swivel_body_limb_def;
 
 // A limb without features.
@@ -78,8 +79,9 @@ static inline swivel_body_limb_def swivel_default_body_limb_def(const swivel_lim
 
 // The shift of each body along the crowd's `up`, so that its limbs WITH_PELVIS_FIT reach: the shift nearest to
 // SWIVEL_SHIFT_WISH from which all reach, else the middle of the conflict. A spring delays it: limbs at the edge of
-// their reach miss for a while, and a wish below 0 gives them room. Add SWIVEL_SHIFT to the root's position. Flags:
-// REACHED if some shift within drop and rise lets all limbs reach, else CLAMPED_FAR.
+// their reach miss for a while, and a wish below 0 gives them room. Draw the pose with SWIVEL_SHIFT added to the root's
+// position; positions that a solve tells have it already. Flags: REACHED if some shift within drop and rise lets all
+// limbs reach, else CLAMPED_FAR.
 typedef struct swivel_shift_def {
     size_t size;
     float drop, rise;  // max shift down and up, in limb lengths of the first group WITH_PELVIS_FIT
@@ -188,13 +190,14 @@ typedef struct swivel_joint_values {
 typedef struct swivel_pose {
     size_t size;
     swivel_pose_form form;
-    // Not 0: root positions and those in the job's streams are doubles, and those in rows are relative to the root.
+    // Not 0: root positions and those that streams give are doubles; those in rows and results are from the root.
     uint32_t root_is_double;
     swivel_joint_values rotations;     // or matrices, as form says; must be given
     swivel_joint_values translations;  // 3 floats; none: as at rest
     swivel_joint_values scales;        // 3 floats; none: 1
     swivel_joint_values results;       // where changed joints go, in the same form; none: back to rotations
-    // The root of each body. Null data: at the origin, not turned, scale 1.
+    // The root of each body before its shift: all positions that a job takes or tells hold for it. Null data: at the
+    // origin, not turned, scale 1.
     swivel_in root_position;  // 3 floats in the world, or doubles
     swivel_in root_rotation;  // x, y, z, w
     swivel_in root_scale;     // 1 float
@@ -202,7 +205,7 @@ typedef struct swivel_pose {
     uint32_t reserved;  // 0
     // SWIVEL_IN_BODY with translations and results: where those of moved joints go; none: back to translations.
     swivel_joint_values translation_results;
-    // If given, where the joints that limbs and looks need are after the solve, from the shifted root.
+    // If given, where the joints that limbs and looks need are after the solve, in the root's frame.
     swivel_joint_values joint_rotations, joint_positions;
     // Seconds since each body's last solve, 1 float. Groups WITH_PLANT, shifts, and looks with a rate need it.
     swivel_in time;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Answers about single limbs in words, for tools, and for binding a skeleton. They link apart from the solver: the
-// target swivel::explain, or the shared library.
+// Answers about single limbs and bodies in words and lines, for tools, and for binding a skeleton. They link apart from
+// the solver: the target swivel::explain, or the shared library.
 #pragma once
 
 #include "swivel_bodies.h"
@@ -27,6 +27,52 @@ SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body,
                                         const swivel_pose* pose, const double shoulder[3], const double elbow[3],
                                         const double wrist[3], char* text, size_t size, int* agrees);
+
+// The kinds of swivel_draw()'s shapes, with their colours.
+typedef enum swivel_shape_kind {
+    SWIVEL_SHAPE_BONE,       // white: as solved
+    SWIVEL_SHAPE_INCOMING,   // grey: a bone as it came
+    SWIVEL_SHAPE_BEND,       // salmon: from the elbow as it came to where flexion carries the forearm
+    SWIVEL_SHAPE_AXIS_X,     // red; these three show how a root, a wanted hand or a prop is turned
+    SWIVEL_SHAPE_AXIS_Y,     // green
+    SWIVEL_SHAPE_AXIS_Z,     // blue
+    SWIVEL_SHAPE_TARGET,     // yellow: a point that was written for a limb, look or prop
+    SWIVEL_SHAPE_GOAL,       // orange: the point to which a plant or grip sends its limb
+    SWIVEL_SHAPE_MISS,       // red: from the wrist or effector to where it should be
+    SWIVEL_SHAPE_EFFECTOR,   // light grey: from the wrist
+    SWIVEL_SHAPE_POLE,       // magenta: from the elbow to its pole or along its direction; pole_behind
+    SWIVEL_SHAPE_NORMAL,     // violet: the wished normal of the swivel plane
+    SWIVEL_SHAPE_WISH,       // pink: the elbow without limits
+    SWIVEL_SHAPE_ALLOWED,    // light green: arcs where limits allow the elbow
+    SWIVEL_SHAPE_CONE,       // cyan: a limit of the upper arm or hand
+    SWIVEL_SHAPE_REGION,     // teal: the border of the upper arm's region
+    SWIVEL_SHAPE_ANCHOR,     // gold: a locked point, and a circle of unlock_radius
+    SWIVEL_SHAPE_PROBE,      // sky blue: where ground is sampled, and the way to the sample
+    SWIVEL_SHAPE_GROUND,     // brown: a square of the plane below a foot, and its normal
+    SWIVEL_SHAPE_SIGHT,      // lime: a line of sight, or an aiming hand's ray
+    SWIVEL_SHAPE_SHIFT,      // purple: of the root
+    SWIVEL_SHAPE_PROP,       // beige: from a prop to the grips on it
+    SWIVEL_SHAPE_BAD_INPUT,  // crimson: the shoulder or root of a limb or group that has some
+    SWIVEL_SHAPE_END
+} swivel_shape_kind;
+
+// A line, or a point, whose ends are equal.
+typedef struct swivel_shape {
+    double from[3], to[3];  // in the space of the targets, without the pose's origin: the world or the arm frame
+    const char* name;       // of its kind, such as "bone"; a constant
+    swivel_shape_kind kind;
+    uint32_t color;  // 0xRRGGBBAA
+    uint32_t group;  // SWIVEL_EVERY_GROUP: of the body itself
+} swivel_shape;
+
+// Shows a free limb, or a body and one of its groups or with SWIVEL_EVERY_GROUP all, as lines and points for a
+// debug renderer. Arcs are lines of at most 10 degrees. Shapes whose numbers are not finite are left out.
+//
+// pose: of a body, the last solve's, with the root as it went in. Its bones as they came need results apart from
+// rotations, or WITH_RECORD; so do a body limb's misses, poles and limits.
+// shapes: gets at most capacity of them. *shape_count: how many there are, always in the same order.
+SWIVEL_API swivel_status swivel_draw(const swivel_crowd* crowd, uint32_t group, uint32_t limb, const swivel_pose* pose,
+                                     swivel_shape* shapes, uint32_t capacity, uint32_t* shape_count);
 
 #ifdef __cplusplus
 }

@@ -14,7 +14,7 @@ inline std::string explain(const Crowd& crowd, std::uint32_t group, std::uint32_
 {
     std::string text(SWIVEL_EXPLANATION_BYTES, '\0');
     check(swivel_explain(crowd.get(), group, limb, text.data(), text.size()));
-    return text.c_str();
+    return text.c_str();  // up to its end
 }
 
 // swivel_compare(): which input of a body's pose disagrees with where the caller has its limb, in words.

@@ -13,9 +13,13 @@ namespace SWIVEL_NAMESPACE {
 // which must live until the crowd is made: arms.region = &region.get().
 class Region {
 public:
-    Region& add_cones(const std::vector<swivel_region_cone>& cones, bool closed = false)
+    Region& add_cones(std::span<const swivel_region_cone> cones, bool closed = false)
     {
         return changed_by(swivel_region_add_cones, cones.data(), count_of(cones), closed);
+    }
+    Region& add_cones(std::initializer_list<swivel_region_cone> cones, bool closed = false)
+    {
+        return add_cones(std::span(cones), closed);
     }
     Region& add_polygon(std::span<const std::array<float, 3>> corners)
     {
@@ -35,7 +39,7 @@ public:
     }
     float room(const std::array<float, 3>& direction) const
     {
-        return made<1>(swivel_region_room, &region_, direction.data())[0];
+        return written_by<1>(swivel_region_room, &region_, direction.data())[0];
     }
     const swivel_region& get() const { return region_; }
 
@@ -43,8 +47,7 @@ private:
     template <class Call, class... Arguments>
     Region& changed_by(Call call, Arguments... arguments)
     {
-        check(call(&region_, arguments...));
-        return *this;
+        return check(call(&region_, arguments...)), *this;
     }
     swivel_region region_ = swivel_default_region();
 };

@@ -46,10 +46,8 @@ struct IntoBody {
     {
     }
     SWIVEL_INLINE Rotor<T> rotation(const RowView<T>& joint) const { return back * joint.rotor(kTurnRow); }
-    SWIVEL_INLINE Vector<T> place(const RowView<T>& joint) const
-    {
-        return turned(back, shrink * joint.vector(kPlaceRow));
-    }
+    SWIVEL_INLINE Vector<T> offset(const Vector<T>& v) const { return turned(back, shrink * v); }
+    SWIVEL_INLINE Vector<T> place(const RowView<T>& joint) const { return offset(joint.vector(kPlaceRow)); }
 };
 
 SWIVEL_FLATTEN void move(const BodyBlock& block, const GroupJoints& joints)
@@ -134,14 +132,17 @@ void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint
     }
 }
 
+// Positions count from the root before its shift, as all that a solve tells does.
 SWIVEL_FLATTEN void locate(const BodyBlock& block, const BodyJoint& joint)
 {
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const IntoBody body(block, lane);
         const Motion motion = Motion::at(block, joint.mover, lane);
         const RowView<T> at = rows_of(block, joint.row, lane), out = rows_of(block, 0, lane);
+        const Vector<T> place = motion(body.place(at)), shifted = out.vector(kShiftedRow);
         out.set(kOutTurnRow, with_one_nan(hemisphere(motion.turn * body.rotation(at))));
-        out.set(kOutPlaceRow, with_one_nan(motion(body.place(at))));
+        // Adding a shift of 0 would turn -0 to +0.
+        out.set(kOutPlaceRow, with_one_nan(select(len2(shifted) == T(0), place, place + body.offset(shifted))));
     }
 }
 

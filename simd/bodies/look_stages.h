@@ -92,6 +92,8 @@ SWIVEL_INLINE Rotor<T> turn_seen_by(const Rotor<T>& frame, const Rotor<T>& turn)
 {
     return rotor(turned(frame, vector_part(turn)), turn.template at<kScalar>());
 }
+// Holds the turns back where they would change by more than the rate lets them. All go the same part of their ways, so
+// what they add up to turns by no more, either.
 template <class S>
 SWIVEL_INLINE void limit_rate(const S& s, const LookGoal<S>& goal, LookChain<typename S::T>& chain,
                               Rotor<typename S::T> (&goals)[kMaxLookJoints])
@@ -121,8 +123,7 @@ SWIVEL_INLINE void limit_rate(const S& s, const LookGoal<S>& goal, LookChain<typ
         chain.carried[n] = select(stands, carried[n], quarter_tangent(goals[n]));
     }
 }
-// Holds the turns back where they would change by more than the rate lets them. All go the same part of their ways, so
-// what they add up to turns by no more, either. Then the body's weight takes its part of each.
+// Holds the turns back by the rate. Then the body's weight takes its part of each.
 template <class S>
 SWIVEL_INLINE void ease_look(const S& s, const LookGoal<S>& goal, LookChain<typename S::T>& chain)
 {

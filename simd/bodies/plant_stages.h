@@ -10,14 +10,12 @@ namespace swivel::inline SWIVEL_ISA {
 
 // A planted state in its row, besides its vectors: kBegun plus a bit each.
 constexpr float kBegun = 8, kIsWaiting = 4, kIsArmed = 2, kIsLocked = 1;
-enum PlantNumber : int { kMark, kOffset = 3, kVelocity = 6, kLeft = 9, kState = 10 };
-enum TurnNumber : int { kTurnMark, kTurnOffset = 4, kTurnVelocity = 7 };
 
 template <class S>
 SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
 {
     using T = typename S::T;
-    T rest = s.io.load(SWIVEL_PLANT, kState);
+    T rest = s.io.load(SWIVEL_PLANT, kPlantState);
     const auto next = [&](float bit) SWIVEL_INLINE_LAMBDA {
         const Mask<T> is_set = rest >= T(bit);
         rest = select(is_set, rest - T(bit), rest);
@@ -28,10 +26,10 @@ SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
     state.waiting = next(kIsWaiting);
     state.armed = next(kIsArmed);
     state.locked = next(kIsLocked);
-    state.mark = s.io.load_vector(SWIVEL_PLANT, kMark);
-    state.offset = s.io.load_vector(SWIVEL_PLANT, kOffset);
-    state.velocity = s.io.load_vector(SWIVEL_PLANT, kVelocity);
-    state.left = s.io.load(SWIVEL_PLANT, kLeft);
+    state.mark = s.io.load_vector(SWIVEL_PLANT, kPlantMark);
+    state.offset = s.io.load_vector(SWIVEL_PLANT, kPlantOffset);
+    state.velocity = s.io.load_vector(SWIVEL_PLANT, kPlantVelocity);
+    state.left = s.io.load(SWIVEL_PLANT, kPlantLeft);
     return state;
 }
 template <class S>
@@ -40,11 +38,11 @@ SWIVEL_INLINE void hold_back_plant(const S& s, const PlantState<typename S::T>& 
     using T = typename S::T;
     const auto bit = [](const Mask<T>& is_set, float value)
                          SWIVEL_INLINE_LAMBDA { return select(is_set, T(value), T(0)); };
-    hold_back(s, SWIVEL_PLANT, kMark, state.mark);
-    hold_back(s, SWIVEL_PLANT, kOffset, state.offset);
-    hold_back(s, SWIVEL_PLANT, kVelocity, state.velocity);
-    hold_back(s, SWIVEL_PLANT, kLeft, state.left);
-    hold_back(s, SWIVEL_PLANT, kState,
+    hold_back(s, SWIVEL_PLANT, kPlantMark, state.mark);
+    hold_back(s, SWIVEL_PLANT, kPlantOffset, state.offset);
+    hold_back(s, SWIVEL_PLANT, kPlantVelocity, state.velocity);
+    hold_back(s, SWIVEL_PLANT, kPlantLeft, state.left);
+    hold_back(s, SWIVEL_PLANT, kPlantState,
               T(kBegun) + bit(state.waiting, kIsWaiting) + bit(state.armed, kIsArmed) + bit(state.locked, kIsLocked));
 }
 

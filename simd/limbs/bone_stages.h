@@ -124,6 +124,11 @@ SWIVEL_INLINE void wish_for_normal(const S& s, swivel_features features, const L
         s.require(len2(goal.pole) <= T(kHuge2));
     }
     if (features & SWIVEL_POLE_HAND) goal.hand = s.rows.rotor(kHandRow);
+    if (features & SWIVEL_POLE_HALF_LINE) {
+        const auto constant = [](const float(&v)[3]) SWIVEL_INLINE_LAMBDA { return vector(T(v[0]), T(v[1]), T(v[2])); };
+        goal.behind = constant(s.strip.run.half_line->behind);
+        goal.side = constant(s.strip.run.half_line->side);
+    }
     if (features & SWIVEL_WITH_ANGLE) {
         goal.angle = s.io.load_turned(SWIVEL_ANGLE);
         s.require(is_valid(goal.angle));
@@ -147,7 +152,7 @@ SWIVEL_INLINE void advance(AtStage<Stage::wish>, const S& s)
 template <class S>
 SWIVEL_INLINE void advance(AtStage<Stage::place>, const S& s)
 {
-    // These are all that such limbs have of the features that the formulas ask for. The mask makes them constants.
+    // The formulas ask for no other feature that such limbs can have. The mask makes all others constants.
     const swivel_features features = s.features() & row_of(Stage::place).knows;
     wish_for_normal(s, features, lay_reaching_bones(s, features));
 }

@@ -18,7 +18,7 @@ struct AtStage {
 template <class S>
 SWIVEL_INLINE bool has_pole(const S& s)
 {
-    return !s.has(SWIVEL_POLE_INCOMING) && !s.has(SWIVEL_POLE_HAND);
+    return !s.has(SWIVEL_POLE_INCOMING) && !s.has(SWIVEL_POLE_HAND) && !s.has(SWIVEL_POLE_HALF_LINE);
 }
 template <class S>
 SWIVEL_INLINE bool pole_is_point(const S& s)

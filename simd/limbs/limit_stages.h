@@ -52,7 +52,7 @@ SWIVEL_INLINE auto load_limit(const S& s)
         return Twist<typename S::T>{s.io.load_vector(limit), s.io.load_range(limit, 3)};
     }
 }
-// Its line comes after those of the features before its own.
+// A limit's line comes after those of the features before its own.
 template <Stage stage, class S>
 requires(is_line(stage)) SWIVEL_INLINE void advance(AtStage<stage>, const S& s)
 {

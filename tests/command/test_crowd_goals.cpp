@@ -150,6 +150,7 @@ TEST_CASE("crowd file: kinds of poles")
                       normal = stage.motion(pole + "\"normal\"" + vector),
                       point = stage.motion(pole + "\"point\"" + vector),
                       incoming = stage.motion(pole + "\"incoming\"\n"), by_hand = stage.motion(pole + "\"hand\"\n"),
+                      half_line = stage.motion(pole + "\"half_line\"\n"),
                       turned = stage.motion("[limb.left_arm.pole]\nangle_deg = 40\n");
     const Vector3d hinge = stage.axes(0).in_joint.col(0);
     for_bent(stage, left, [&](std::size_t frame) {
@@ -170,7 +171,33 @@ TEST_CASE("crowd file: kinds of poles")
         const Vector3d hand = pose_of(stage.clip, frame)[static_cast<std::size_t>(left.wrist)].rotation *
                               stage.clip.joint(left.wrist).offset.normalized();
         if (angle_between(line, hand) > 20.1) CHECK(off(plane(by_hand), hand.cross(line)) < 0.02);
+        // The half-line is behind the elbow at rest, -y of the arm frame; the formula's other direction is then z.
+        const Matrix3d arm = from.parent * stage.axes(0).in_joint;
+        const Vector3d behind = -arm.col(1);
+        if (angle_between(line, behind) > 10) CHECK(off(plane(half_line), (line - behind).cross(arm.col(2))) < 0.05);
         CHECK(angle_about(line, plane_normal(from), plane(turned)) == Approx(40).margin(0.02));
+    });
+}
+
+TEST_CASE("crowd file: a leg's half-line is where its knee bends to")
+{
+    const CrowdStage stage;
+    const PlainArm& left = stage.legs[0];
+    const PlainMotion solved =
+        stage.motion("[crowd]\nlimbs = \"legs\"\n[limb.left_leg]\nbend = [0, 0, -1]\npole.kind = \"half_line\"\n");
+    const Vector3d behind(0, 0, -1), z = stage.clip.joint(left.elbow).offset.normalized(),
+                                     y = (behind - behind.dot(z) * z).normalized();
+    const auto normal_by = [&](const Vector3d& side, const Vector3d& line) {
+        return (line - behind).cross(side).eval();
+    };
+    // Across the half-line, and such that the leg at rest bends about its hinge.
+    Vector3d side = behind.cross(y.cross(z - behind)).normalized();
+    if (normal_by(side, z).dot(y.cross(z)) < 0) side = -side;
+    for_bent(stage, left, [&](std::size_t frame) {
+        const PlainArmPose from = arm_pose(stage.clip, left, frame);
+        const Vector3d line = (from.wrist - from.shoulder).normalized(),
+                       want = from.parent * normal_by(side, from.parent.transpose() * line);
+        CHECK(std::abs(angle_about(line, want, plane_normal(arm_pose(solved, left, frame)))) < 0.05);
     });
 }
 

@@ -213,6 +213,7 @@ std::vector<swivel_limb_def> limb_defs_of(Bytes& bytes, std::uint32_t max_limbs)
         if (bytes.one_in(2)) group.on_bad_input = SWIVEL_KEEP_POSE;
         group.binding = binding_of({bytes.take<std::uint16_t>()});
         group.region = region_of(bytes, group.features);
+        if (group.features & SWIVEL_POLE_HALF_LINE && bytes.one_in(2)) group.pole_behind[bytes.below(2)] = 1;
     }
     return groups;
 }

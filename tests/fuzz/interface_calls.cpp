@@ -177,6 +177,21 @@ void call_bind(Bytes& bytes)
     if (bytes.one_in(2)) call_bind_joints(bytes);
 }
 
+// What is saved of all bodies and loaded again is the state that was there.
+void check_state(const Session& session)
+{
+    const std::size_t body_bytes = swivel_state_bytes(session.crowd);
+    const std::uint32_t count = swivel_group_limb_count(session.crowd, 0);
+    std::vector<std::byte> state(body_bytes * count), again(state.size());
+    const std::uint64_t digest = swivel_state_digest(session.crowd);
+    const swivel_status status = swivel_save(session.crowd, 0, count, state.data(), state.size());
+    SWIVEL_REQUIRE((status == SWIVEL_OK) == (body_bytes > 0));
+    if (status != SWIVEL_OK) return;
+    SWIVEL_REQUIRE(swivel_load(session.crowd, 0, count, state.data(), state.size()) == SWIVEL_OK);
+    SWIVEL_REQUIRE(swivel_save(session.crowd, 0, count, again.data(), again.size()) == SWIVEL_OK);
+    SWIVEL_REQUIRE(again == state && swivel_state_digest(session.crowd) == digest);
+}
+
 void call_unpack(Bytes& bytes)
 {
     const auto stride = 1 + bytes.below(20);
@@ -277,6 +292,7 @@ void call_reset(Session& session)
         session.is_solved[limbs.group][limbs.first + n] = false;  // their normal is none
     for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count; ++n)
         session.is_overwritten[limbs.group][limbs.first + n] = false;
+    check_state(session);
 }
 
 void call_change_support(Session& session)

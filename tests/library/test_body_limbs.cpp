@@ -238,9 +238,10 @@ struct Twins : PosedBodies {
     Random& random;
     const swivel_features features = random_features(random);
     const RandomRegion region = random_region(random);
+    const Float3 behind = features & SWIVEL_POLE_HALF_LINE ? floats(random.direction()) : Float3{};
     const bool has_time = random.below(4);
     std::vector<float> times = std::vector<float>(kPosedBodies);
-    Crowd posed = posed_crowd(), free = Crowd({free_group(), free_group()});
+    Crowd posed = posed_crowd(), free = Crowd({free_group(0), free_group(1)});
     std::vector<bool> is_between;  // limbs that are neither straight nor bent, or against nothing
 
     explicit Twins(Random& from)
@@ -252,14 +253,19 @@ struct Twins : PosedBodies {
     Crowd posed_crowd()
     {
         add_limbs(features & ~kPosed);
-        for (std::uint32_t g = 0; g < groups.size(); ++g)
+        for (std::uint32_t g = 0; g < groups.size(); ++g) {
             if (has(g, SWIVEL_WITH_REGION)) limb_def(g).region = &region.region;
+            std::ranges::copy(behind, limb_def(g).pole_behind);
+        }
         return crowd();
     }
-    swivel_limb_def free_group() const
+    // Free limbs have their arm frame as the parent's.
+    swivel_limb_def free_group(std::uint32_t g) const
     {
         swivel_limb_def made = limbs(kPosedBodies * kTwins, free_features(features));
         if (features & SWIVEL_WITH_REGION) made.region = &region.region;
+        const swivel_binding bound = bind(skeleton.view(), joints[g]);
+        std::ranges::copy(floats(Vector3d(quat(bound.parent_from_arm).conjugate() * vec(behind))), made.pole_behind);
         return made;
     }
     void write(int frame)

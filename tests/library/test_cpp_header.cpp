@@ -147,11 +147,11 @@ concept TakesStreams = requires(Frame&& frame)
     Job{.streams = {std::forward<Frame>(frame), std::forward<Frame>(frame)}};
 };
 static_assert(TakesStreams<Streams&> && TakesStreams<const Streams&> && TakesStreams<const swivel_streams&>);
-// A job would view what ends with its line. So a temporary takes no fields either, whose result would have no name.
+// A job would view what ends with its line. So a temporary becomes no streams, and takes no fields.
 static_assert(!TakesStreams<Streams>);
 static_assert(!TakesIn<Streams, swivel_in> && !TakesIn<Streams, Stream<Floats>>);
 static_assert(!TakesOut<Streams, swivel_out> && !TakesOut<Streams, Stream<Floats>>);
-static_assert(!TakesStreams<decltype(Streams().origin(swivel_in{}))>);
+static_assert(std::is_void_v<decltype(std::declval<Streams&>().origin(swivel_in{}))>);
 template <class Range>
 concept Streamable = requires(Range&& range)
 {

@@ -300,7 +300,7 @@ struct BadPart {
     std::uint32_t first, count;  // the numbers that are changed
     std::vector<float> all;
 };
-const BadPart bad_parts[] = {
+const BadPart kBadParts[] = {
     {ValuePart::position, 0, 3, {0.6e15f}},  // no component is too long, the vector is
     {ValuePart::point, 0, 3, {0.6e15f}},
     {ValuePart::quaternion, 0, 4, {0.0f, 0.45e-9f, 1e-30f, 0.55e9f}},  // half of its length
@@ -329,7 +329,7 @@ std::vector<Spoilt> every_spoilt(const Crowd& crowd)
             for (const float bad : {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f})
                 ways.push_back({row.field, c, 1, bad});
         for_each_part(row, row_count, [&](ValuePart part, std::uint32_t number) {
-            for (const BadPart& each : bad_parts)
+            for (const BadPart& each : kBadParts)
                 for (const float bad : each.all)
                     if (each.part == part) ways.push_back({row.field, number + each.first, each.count, bad});
         });

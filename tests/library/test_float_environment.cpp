@@ -241,6 +241,10 @@ void stand(const CallInputs& in, Record& record)
         int agrees = -1;
         record.add(swivel_compare(crowd, 0, 0, &pose, places[0], places[1], places[2], text, sizeof text, &agrees));
         record.add(text), record.add(agrees);
+        std::vector<swivel_shape> shapes(200);
+        std::uint32_t count = 0;
+        record.add(swivel_draw(crowd, SWIVEL_EVERY_GROUP, 0, &pose, shapes.data(), 200, &count)), record.add(count);
+        for (std::uint32_t n = 0; n < std::min(count, 200u); ++n) record.add(shapes[n].from), record.add(shapes[n].to);
     }
     swivel_crowd_destroy(crowd);
 }

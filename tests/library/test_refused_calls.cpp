@@ -39,6 +39,7 @@ struct Outputs {
     std::uint32_t words[16], count;
     std::uint16_t halves[16 * SWIVEL_LANES];
     swivel_arc arc;
+    swivel_shape shape;
     char text[8];
     int agrees;
 };
@@ -87,6 +88,10 @@ struct Called : Outputs {
                           const double* elbow, char* room, std::size_t size)
     {
         return swivel_compare(asked, group, body, with, up, elbow, up, room, size, &agrees);
+    }
+    swivel_status draw(const swivel_crowd* asked, std::uint32_t group, std::uint32_t limb, const swivel_pose* with)
+    {
+        return swivel_draw(asked, group, limb, with, &shape, 1, &count);
     }
 };
 
@@ -149,6 +154,28 @@ TEST_CASE("reads and writes with wrong arguments are refused")
     refused(swivel_reset(nullptr, 0, 0, 1), "crowd is null");
     refused(swivel_reset(crowd, 1, 3, 3), "3 limbs from limb 3 on are not all in group 1, which has 5");
     refused(swivel_pack(crowd, 0, {1, ~0u}, c.halves), "blocks 1 + 4294967295 are out of range; group 0 has 2");
+
+    const char* const unequal = ": group 1 has 5 limbs, group 0 has 20; a body has a limb of each";
+    refused(swivel_save(nullptr, 0, 1, c.halves, sizeof c.halves), "crowd is null");
+    refused(swivel_load(nullptr, 0, 1, c.halves, sizeof c.halves), "crowd is null");
+    refused(swivel_reset_body(nullptr, 0, 1), "crowd is null");
+    refused(swivel_save(crowd, 0, 1, c.halves, sizeof c.halves), ("swivel_save" + std::string(unequal)).c_str());
+    refused(swivel_load(crowd, 0, 1, c.halves, sizeof c.halves), ("swivel_load" + std::string(unequal)).c_str());
+    refused(swivel_reset_body(crowd, 0, 1), ("swivel_reset_body" + std::string(unequal)).c_str());
+    refused(swivel_save(bodies, 1, 3, c.halves, sizeof c.halves),
+            "swivel_save: 3 bodies from body 1 on are not all in this crowd, which has 3");
+    refused(swivel_load(bodies, 4, 0, c.halves, sizeof c.halves),
+            "swivel_load: 0 bodies from body 4 on are not all in this crowd, which has 3");
+    refused(swivel_reset_body(bodies, 2, ~0u), "swivel_reset_body: 4294967295 bodies from body 2 on are not all in");
+    refused(swivel_save(bodies, 0, 1, nullptr, 512), "swivel_save: bytes is null");
+    refused(swivel_load(bodies, 0, 1, nullptr, 512), "swivel_load: bytes is null");
+    const std::size_t each = swivel_state_bytes(bodies);
+    REQUIRE(each <= sizeof c.halves);
+    const std::string sizes = "size is " + std::to_string(each - 1) + ", but 1 bodies have " + std::to_string(each);
+    refused(swivel_save(bodies, 0, 1, c.halves, each - 1), ("swivel_save: " + sizes).c_str());
+    refused(swivel_load(bodies, 0, 1, c.halves, each - 1), ("swivel_load: " + sizes).c_str());
+    refused(swivel_load(bodies, 0, 1, c.halves, each), "swivel_load: state 0 is of another kind of crowd");
+
     refused(swivel_read(crowd, SWIVEL_ELBOW, 0, 0, 1, c.out(0)),
             "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
     refused(swivel_read(crowd, SWIVEL_WRIST, 0, 0, 1, c.out(16)),
@@ -216,6 +243,17 @@ TEST_CASE("questions about limbs are refused where nothing answers them")
     refused(c.compare(bodies, H::free, 0, &c.pose, c.far, c.text, 8), "elbow is not finite or further than 1e15");
     refused(c.compare(bodies, H::free, 0, &c.pose, c.up, nullptr, 8), no_text);
     refused(c.compare(bodies, H::free, 0, &c.pose, c.up, c.text, 0), no_text);
+
+    refused(c.draw(nullptr, 0, 0, nullptr), "crowd is null");
+    refused(c.draw(crowd, 2, 0, nullptr), "group 2 does not exist; this crowd has 2");
+    refused(c.draw(crowd, 0, 20, nullptr), "limb 20 on are not all in group 0, which has 20");
+    refused(c.draw(bodies, SWIVEL_EVERY_GROUP, 3, &c.pose), "limb 3 on are not all in group 0, which has 3");
+    refused(c.draw(crowd, SWIVEL_EVERY_GROUP, 0, nullptr), "this crowd has no bodies; name one of its 2 groups");
+    refused(c.draw(crowd, 0, 0, &c.pose), "this crowd has no bodies, so it has no pose; give null");
+    refused(c.draw(bodies, H::free, 0, nullptr), "swivel_draw: pose is null; give the one of the last solve");
+    refused(c.draw(bodies, H::free, 0, &none), "the pose has no rotations; give them");
+    refused(swivel_draw(crowd, 0, 0, nullptr, nullptr, 1, &c.count), "swivel_draw: shapes is null");
+    refused(swivel_draw(crowd, 0, 0, nullptr, &c.shape, 1, nullptr), "swivel_draw: shape_count is null");
 
     refused(swivel_residuals(bodies, H::shift, 0, 1, c.out(8)),
             "swivel_residuals: group 7 is a body's shift; name a group of limbs");

@@ -62,6 +62,14 @@ TEST_CASE("a crowd of free limbs that cannot be is refused")
          [](auto& d) { d.limbs[1].features = SWIVEL_WITH_REGION; }},
         {"group 0 has a region, but not SWIVEL_WITH_REGION; add it", [](auto& d) { d.limbs[0].features = 0; }},
         {"group 0: the region allows nothing", [](auto& d) { d.region = swivel_default_region(); }},
+        {"group 1 has a pole_behind, but not SWIVEL_POLE_HALF_LINE; add it",
+         [](auto& d) { d.limbs[1].pole_behind[1] = kNan; }},
+        {"group 1: pole_behind is 0, nan, 0; give a direction 1e-15 to 1e15 long, or zeros",
+         [](auto& d) { d.limbs[1].features = SWIVEL_POLE_HALF_LINE, d.limbs[1].pole_behind[1] = kNan; }},
+        {"group 1: pole_behind is 0, 1e-16, 0; give a direction",
+         [](auto& d) { d.limbs[1].features = SWIVEL_POLE_HALF_LINE, d.limbs[1].pole_behind[1] = 1e-16f; }},
+        {"group 1: pole_behind lies along the limb at rest; give a direction where its wrist does not go",
+         [](auto& d) { d.limbs[1].features = SWIVEL_POLE_HALF_LINE, d.limbs[1].pole_behind[2] = 3; }},
         {"group 0: half-space 0 of the region needs a unit axis",
          [](auto& d) { d.region.half_space[0].axis[2] = 1.1f; }},
         {"group 0: the region's size is 8", [](auto& d) { d.region.size = 8; }},
@@ -104,7 +112,7 @@ TEST_CASE("features that no group has, that lack another or that exclude each ot
                   "group 0: SWIVEL_WITH_GROUND needs SWIVEL_WITH_HAND, SWIVEL_WITH_EFFECTOR and SWIVEL_WITH_PLANT; "
                   "add them");
     constexpr swivel_features kPoles[] = {SWIVEL_POLE_DIRECTION, SWIVEL_POLE_NORMAL, SWIVEL_POLE_INCOMING,
-                                          SWIVEL_POLE_HAND};
+                                          SWIVEL_POLE_HAND, SWIVEL_POLE_HALF_LINE};
     for (const swivel_features a : kPoles)
         for (const swivel_features b : kPoles)
             if (a != b) refuse(a | b | SWIVEL_WORLD | SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND, "excludes SWIVEL_POLE_");
@@ -157,6 +165,12 @@ TEST_CASE("a crowd of bodies that cannot be is refused")
              static const swivel_region region = swivel_default_region();
              d.limbs[0].region = &region;
          }},
+        {"group 0 has a pole_behind, but not SWIVEL_POLE_HALF_LINE; add it",
+         [](auto& d) { d.limbs[0].pole_behind[1] = 1; }},
+        {"group 0: pole_behind is 1e+16, 0, 0; give a direction 1e-15 to 1e15 long, or zeros",
+         [](auto& d) { d.limbs[0].features = SWIVEL_POLE_HALF_LINE, d.limbs[0].pole_behind[0] = 1e16f; }},
+        {"group 0: pole_behind lies along the limb at rest; give a direction where its wrist does not go",
+         [](auto& d) { d.limbs[0].features = SWIVEL_POLE_HALF_LINE, d.limbs[0].pole_behind[2] = 1; }},
         {"group 0 names no joints; give it those of the body's limb", [](auto& d) { d.limbs[0].joints = nullptr; }},
         {"group 0 turns joint 1, which is also joint 1 of group 1",
          [](auto& d) { d.joints[1] = d.joints[0], d.def.group_count = 2; }},

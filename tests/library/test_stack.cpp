@@ -132,15 +132,20 @@ void run_questions(const Crowd& crowd, const swivel_pose* pose, const std::strin
     constexpr double shoulder[3] = {0.3, 1.2, 0.1}, elbow[3] = {0.5, 1, 0.3}, wrist[3] = {0.7, 1.1, 0.5};
     char text[4096];
     swivel_arc arcs[200];
+    std::vector<swivel_shape> shapes(4096);
     std::uint32_t count;
     double three[3], seven[7];
     const swivel_crowd* const c = crowd.get();
+    std::vector<std::byte> state(swivel_state_bytes(c));
+    max.take(name + ", save", [&] { swivel_save(c, 0, 1, state.data(), state.size()); });
+    max.take(name + ", load", [&] { swivel_load(crowd.get(), 0, 1, state.data(), state.size()); });
     if (pose)
         max.take(name + ", compare",
                  [&] { swivel_compare(c, 0, 0, pose, shoulder, elbow, wrist, text, sizeof text, nullptr); });
     for (std::uint32_t g = 0; g < swivel_group_count(c); ++g)
         for (std::uint32_t limb = 0; limb < swivel_group_limb_count(c, g); limb += 7) {
             max.take(name + ", explain", [&] { swivel_explain(c, g, limb, text, sizeof text); });
+            max.take(name + ", draw", [&] { swivel_draw(c, g, limb, pose, shapes.data(), 4096, &count); });
             max.take(name + ", allowed arcs", [&] { swivel_allowed_arcs(c, g, limb, arcs, std::size(arcs), &count); });
             max.take(name + ", residuals", [&] { swivel_residuals(c, g, limb, 1, {three, sizeof three}); });
             max.take(name + ", forward", [&] {

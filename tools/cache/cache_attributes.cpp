@@ -227,6 +227,7 @@ Json json_of(const CachedLimb& limb)
               {"goals", json_of(setup.goals, kGoals)},
               {"fixed", std::move(fixed)}};
     if (setup.region) json["region"] = json_of(*setup.region);
+    if (setup.has(SWIVEL_POLE_HALF_LINE)) json["pole_behind"] = setup.pole_behind;
     if (setup.has(SWIVEL_WITH_GROUND)) json["clearances"] = {setup.ground.toe_clearance, setup.ground.heel_clearance};
     return json;
 }
@@ -253,6 +254,7 @@ CachedLimb limb_of(const Json& json)
         each.at("value").get_to(fixed.value);
     }
     if (json.contains("region")) setup.region = region_of(json.at("region"));
+    if (json.contains("pole_behind")) json.at("pole_behind").get_to(setup.pole_behind);
     if (json.contains("clearances")) {
         float clearances[2];
         get(json.at("clearances"), clearances);

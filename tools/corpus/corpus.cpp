@@ -168,7 +168,7 @@ Poses poses_of(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
     for (std::uint32_t group = 0; (recipe.pose & kFar) && group < kGroupCount; ++group) {
         const std::vector<Arm> arms = arms_of(recipe, group, good_arms(recipe, group, body_count, frame), frame);
         poses.far_targets[group] = far_from(poses.far_roots, arms, &Arm::target);
-        if (!(recipe.features & (SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND)))
+        if (!(recipe.features & (SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | SWIVEL_POLE_HALF_LINE)))
             poses.far_poles[group] = far_from(poses.far_roots, arms, &Arm::pole);
     }
     return poses;

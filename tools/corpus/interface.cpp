@@ -193,6 +193,9 @@ void put_limb(const Recipe& recipe, std::uint32_t group, Limb& limb)
     limb.shoulder_order = recipe.shoulder_order;
     limb.wrist_order = recipe.wrist_order;
     if (limb.features & SWIVEL_WITH_REGION) limb.region = &kUpperArms;
+    constexpr float kBehind[kGroupCount][3] = {{0.25f, -1, 0.5f}, {-0.75f, 0.5f, -1}};
+    if (limb.features & SWIVEL_POLE_HALF_LINE)
+        std::copy(std::begin(kBehind[group]), std::end(kBehind[group]), limb.pole_behind);
 }
 
 void define_free_limbs(const Recipe& recipe, const LimbCounts& limb_counts, const TakeDefinition& take)

@@ -155,6 +155,8 @@ std::vector<Recipe> limb_recipes()
                                     SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_SHOULDER_CONE),
         limb("set-pole-hand", SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_POLE_HAND | SWIVEL_WITH_EFFECTOR |
                                   SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_MAX_SWIVEL),
+        limb("set-pole-half-line", SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_POLE_HALF_LINE | SWIVEL_WITH_ANGLE |
+                                       SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_MAX_SWIVEL),
         limb("set-pole-normal",
              SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE | SWIVEL_WITH_MAX_SWIVEL),
         limb("set-pole-incoming",
@@ -199,6 +201,7 @@ std::vector<Recipe> body_recipes()
         body("pole-direction", SWIVEL_POLE_DIRECTION, kRoots, SWIVEL_MATRIX_ROWS),
         body("pole-hand", SWIVEL_POLE_HAND | SWIVEL_WITH_ANGLE | SWIVEL_WITH_CLAVICLE,
              kTranslations | kRoots | kBetween | kFar),
+        body("pole-half-line", SWIVEL_POLE_HALF_LINE | SWIVEL_WITH_CLAVICLE, kTranslations | kRoots | kBetween | kFar),
         body("weights", SWIVEL_WITH_WEIGHTS, kTranslations | kRoots),
         body("weights-hand-pole-incoming", SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS | SWIVEL_POLE_INCOMING,
              kRoots | kBetween, SWIVEL_MATRIX_COLUMNS3),

@@ -90,6 +90,8 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
     const bool by_hand = s.pole_kind && s.pole_kind->value == PoleKind::hand;
     if (by_hand) refuse_beside(s.pole_kind, " = \"hand\"", s.pole_fixed, s.aim);
     if (by_hand && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.pole_kind);
+    if (s.pole_kind && s.pole_kind->value == PoleKind::half_line)
+        refuse_beside(s.pole_kind, " = \"half_line\"", s.pole_fixed);
     if (s.hold) refuse_beside(s.hold, "", s.aim, s.target_point, s.target_offset);
     if (s.hold && s.hand && !s.hand->value) refuse_beside(s.hand, " = false", s.hold);
     if (s.aim) refuse_beside(s.aim, "", s.weights, s.reach, s.limits[0], hand_limits(s));

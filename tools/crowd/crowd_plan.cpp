@@ -195,11 +195,24 @@ struct Planner {
         if (plan.pole == PoleKind::normal) plan.features |= SWIVEL_POLE_NORMAL;
         if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING;
         if (plan.pole == PoleKind::hand) plan.features |= SWIVEL_POLE_HAND;
+        if (plan.pole == PoleKind::half_line) half_line();
         if (from.pole_angle_deg)
             put(SWIVEL_ANGLE, cos_sin(kRadians * from.pole_angle_deg->value), from.pole_angle_deg->mirrored);
-        plan.holds_pole = from.pole_angle_deg || plan.pole == PoleKind::hand;
-        plan.follows_pole = !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg &&
-                            plan.pole != PoleKind::hand;
+        const bool is_by_rule = plan.pole == PoleKind::hand || plan.pole == PoleKind::half_line;
+        plan.holds_pole = from.pole_angle_deg || is_by_rule;
+        plan.follows_pole =
+            !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg && !is_by_rule;
+    }
+
+    // No wrist goes behind the back, where an elbow points at rest, and no ankle, where a knee bends to.
+    void half_line()
+    {
+        plan.features |= SWIVEL_POLE_HALF_LINE;
+        if (limb.name.kind != formats::LimbKind::leg) return;
+        const formats::LimbRest& rest = limb.rest;
+        const Eigen::Vector3d behind = quaternion(rest.shoulder_rotation) * Eigen::Vector3f(rest.bend).cast<double>();
+        for (Eigen::Index n = 0; n < 3; ++n)
+            plan.pole_behind[static_cast<std::size_t>(n)] = static_cast<float>(behind[n]);
     }
 
     void aim()
@@ -372,6 +385,7 @@ std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan&
                           limb.region,
                           limb.ground,
                           limbs[n].mirrored,
+                          limb.pole_behind,
                           {}});
     }
     if (plan.look) setups.push_back(plan.look->setup);

@@ -35,6 +35,7 @@ struct LimbPlan {
     std::optional<Eigen::Vector3d> clavicle;                  // with one: the shoulder's place in its frame
     formats::PoleKind pole = formats::PoleKind::point;        // of poles that are given
     std::optional<Eigen::Vector3d> pole_fixed;                // world axes; a point is counted from the upper joint
+    std::array<float, 3> pole_behind{};                       // with SWIVEL_POLE_HALF_LINE
     std::array<float, 3> weights{1, 1, 1};                    // of position, hand, and a pole that is given
     bool holds_pole = false;                                  // the pole counts though it is the clip's own
     bool follows_pole = true;                                 // elbows go where the clip's go, unless limits forbid

@@ -41,6 +41,7 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         if (limbs[n].region) limb.region = &*limbs[n].region;
         limb.plant = limbs[n].standing_plant();
         limb.ground = limbs[n].standing_ground();
+        std::ranges::copy(limbs[n].pole_behind, limb.pole_behind);
         if (limbs[n].goals.holds) limb.link = limbs[n].goals.holds - 1;
         groups.emplace_back(limb);
     }

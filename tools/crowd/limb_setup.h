@@ -33,6 +33,7 @@ struct LimbSetup {
     std::optional<swivel_region> region;             // with SWIVEL_WITH_REGION
     swivel_ground ground = swivel_default_ground();  // with SWIVEL_WITH_GROUND
     bool mirrored = false;                           // the joints' axes, as solved, have x turned over
+    std::array<float, 3> pole_behind{};              // with SWIVEL_POLE_HALF_LINE: as swivel_body_limb_def's
     // Given for neck and head, which are no limb: the look. Joints are counted from the limb's first, its shoulder.
     std::optional<swivel_look_def> look;
 

@@ -114,8 +114,7 @@ constexpr float kMargin = 0.125f;
 Region region_of_calls()
 {
     Region region;
-    region.add_cones({std::begin(kCones), std::end(kCones)}, true);
-    region.add_polygon(kCorners).add_directions(kWays, kMargin, 2).forbid(kForbidden);
+    region.add_cones(kCones, true).add_polygon(kCorners).add_directions(kWays, kMargin, 2).forbid(kForbidden);
     return region.mirrored();
 }
 Json json_of(const Region& region)
@@ -146,6 +145,7 @@ Json json_of_limb(const Limb& limb, const Region& region)
               {"shoulder_order", limb.shoulder_order},
               {"wrist_order", limb.wrist_order}};
     if (limb.features & SWIVEL_WITH_REGION) made["region"] = json_of(region);
+    if (limb.features & SWIVEL_POLE_HALF_LINE) made["pole_behind"] = limb.pole_behind;
     return made;
 }
 // A group of a scene. Constants of features that it lacks are left out, as they count for nothing.

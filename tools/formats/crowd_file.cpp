@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kSelectors = {"all",      "arms",      "legs",     "left",     "right",
                                                         "left_arm", "right_arm", "left_leg", "right_leg"};
-constexpr std::array<std::string_view, 5> kPoleKinds = {"point", "direction", "normal", "incoming", "hand"};
+constexpr std::array<std::string_view, 6> kPoleKinds = {"point",    "direction", "normal",
+                                                        "incoming", "hand",      "half_line"};
 constexpr std::array<std::string_view, 6> kOrders = {"XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX"};
 constexpr std::array<std::string_view, 3> kLimbKinds = {"arms", "legs", "all"};
 constexpr NumberRange kFree = {-180, 180};
@@ -167,6 +168,7 @@ Maybe<Limit> read_limit(TomlTable& limits, std::string_view key)
     };
     if (key.ends_with("_cone")) return as_limit(read_cone(limits.table(key)));
     if (key.ends_with("_box")) return as_limit(read_box(limits.table(key)));
+    // A key without a unit has a table, which is no cone and no box: a twist about an axis.
     if (!key.ends_with("_deg")) return as_limit(read_twist(limits.table(key)));
     return as_limit(key == "flexion_deg" ? limits.range(key, 0, 180, 180) : angles(limits, key));
 }

@@ -18,7 +18,7 @@
 
 namespace swivel::formats {
 
-enum class PoleKind : std::uint8_t { point, direction, normal, incoming, hand };
+enum class PoleKind : std::uint8_t { point, direction, normal, incoming, hand, half_line };
 enum class EulerOrder : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
 
 struct ConeLimit {

@@ -66,7 +66,7 @@ using CrowdClass = pybind11::class_<HeldCrowd>;
 void add_creation(CrowdClass& crowd);
 void add_shape(CrowdClass& crowd);    // counts, rows
 void add_copies(CrowdClass& crowd);   // write, read
-void add_solving(CrowdClass& crowd);  // solve, choose, reset
+void add_solving(CrowdClass& crowd);  // solve, choose, reset, save
 void add_answers(CrowdClass& crowd);  // positions, residuals, angles, arcs
 
 }  // namespace swivel::python

@@ -102,6 +102,37 @@ std::pair<bool, std::string> compare(HeldCrowd& held, const py::object& pose, st
     return {said.agrees, said.text};
 }
 
+// Names, lines and colours.
+py::tuple draw(HeldCrowd& held, std::int64_t limb, const Count& group, const py::object& pose)
+{
+    const Limbs one = limbs_of(held, group.value_or(0), limb, 1);
+    const std::uint32_t g = group || held.joint_count == 0 ? one.group : SWIVEL_EVERY_GROUP;
+    std::optional<PoseArrays> poses;
+    if (!pose.is_none()) poses = pose_of(held, pose);
+    const auto shapes = run(held, Way::kReading, [&] {
+        const auto fill = [&](swivel_shape* to, std::uint32_t capacity) {
+            std::uint32_t count = 0;
+            check(swivel_draw(held.crowd.get(), g, one.first, poses ? &poses->view : nullptr, to, capacity, &count));
+            return count;
+        };
+        std::vector<swivel_shape> found(fill(nullptr, 0));
+        fill(found.data(), static_cast<std::uint32_t>(found.size()));
+        return found;
+    });
+    const auto count = static_cast<py::ssize_t>(shapes.size());
+    py::list names;
+    py::array_t<double> lines(std::vector<py::ssize_t>{count, 2, 3});
+    py::array_t<std::uint8_t> colors(std::vector<py::ssize_t>{count, 4});
+    for (std::size_t n = 0; n < shapes.size(); ++n) {
+        names.append(shapes[n].name);
+        std::memcpy(lines.mutable_data() + 6 * n, shapes[n].from, sizeof shapes[n].from);
+        std::memcpy(lines.mutable_data() + 6 * n + 3, shapes[n].to, sizeof shapes[n].to);
+        for (std::size_t c = 0; c < 4; ++c)
+            colors.mutable_data()[4 * n + c] = static_cast<std::uint8_t>(shapes[n].color >> (24 - 8 * c));
+    }
+    return py::make_tuple(names, lines, colors);
+}
+
 // Positions, rotations, distances and angles of the results.
 void add_kinematics(CrowdClass& crowd)
 {
@@ -151,8 +182,8 @@ void add_kinematics(CrowdClass& crowd)
               "-pi/2..pi/2, family 1 the other.");
 }
 
-// Explanations and comparisons in words.
-void add_texts(CrowdClass& crowd)
+// Explanations and comparisons in words, and drawings.
+void add_explanations(CrowdClass& crowd)
 {
     crowd.def(
         "explain",
@@ -169,6 +200,13 @@ void add_texts(CrowdClass& crowd)
               "Compares a Pose with where your engine has a limb of a body: (agrees, text). The text names the input\n"
               "that disagrees, such as quaternions in another order, and what to do.\n\n"
               "shoulder, elbow and wrist (3,): places of these joints in the world, in the pose as it goes in.");
+    crowd.def("draw", &draw, py::kw_only(), py::arg("limb"), py::arg("group") = py::none(),
+              py::arg("pose") = py::none(),
+              "What a limb or body does, as lines: (names, lines, colors). names says of each what it is, such as\n"
+              "'bone' or 'miss'; lines (count, 2, 3) float64 are in the space of the targets, and points have equal\n"
+              "ends; colors (count, 4) uint8 are red, green, blue, alpha.\n\n"
+              "pose: of bodies, the one of the last solve. group None: all groups of body `limb`, or group 0 of free\n"
+              "limbs.");
 }
 
 }  // namespace
@@ -203,11 +241,15 @@ void add_copies(CrowdClass& crowd)
 void add_answers(CrowdClass& crowd)
 {
     add_kinematics(crowd);
-    add_texts(crowd);
+    add_explanations(crowd);
     crowd.def(
         "digest", [](HeldCrowd& held) { return run(held, Way::kReading, [&] { return held.crowd.digest(); }); },
         "A number for all results, to compare crowds across machines. Equal results give equal digests on every\n"
         "CPU, and other results almost surely another one.");
+    crowd.def(
+        "state_digest",
+        [](HeldCrowd& held) { return run(held, Way::kReading, [&] { return held.crowd.state_digest(); }); },
+        "The same for what save() has: a crowd that has loaded all bodies of another has its number.");
     crowd.def("allowed_arcs", &allowed_arcs, py::arg("limb"), py::arg("group") = 0,
               "The swivels that one limb's limits allow for its inputs as they are: (arcs, 2, 2) float32.\n\n"
               "For each arc its two ends, for each end cos and sin of the angle about the line from shoulder to\n"

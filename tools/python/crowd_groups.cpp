@@ -63,7 +63,7 @@ struct Usual {
 // what is no number.
 template <class Limb>
 void set_options(Limb& def, const Usual& usual, py::handle features, py::handle on_bad_input, py::handle shoulder_order,
-                 py::handle wrist_order, py::handle region)
+                 py::handle wrist_order, py::handle region, const py::object& pole_behind)
 {
     using Number = std::optional<std::int64_t>;
     def.features = usual.features;
@@ -74,6 +74,7 @@ void set_options(Limb& def, const Usual& usual, py::handle features, py::handle 
     if (const auto given = on_bad_input.cast<Number>()) def.on_bad_input = on_bad_input_of(*given);
     if (const auto given = shoulder_order.cast<Number>()) def.shoulder_order = order_of(*given);
     if (const auto given = wrist_order.cast<Number>()) def.wrist_order = order_of(*given);
+    if (!pole_behind.is_none()) copy("pole_behind", pole_behind, def.pole_behind);
     if (region.is_none()) return;
     if (!py::isinstance<Region>(region))
         throw py::type_error("region: expected a Region, got " + std::string(py::repr(region)));
@@ -90,7 +91,7 @@ void set_options(Limb& def, const Usual& usual, py::handle features, py::handle 
 swivel_limb_def group_of(py::handle entry, const Usual& usual)
 {
     constexpr const char kExpected[] = "a number of limbs, (number of limbs, binding) or a Group";
-    constexpr std::size_t kMemberCount = 8;
+    constexpr std::size_t kMemberCount = 9;
     const bool is_tuple = py::isinstance<py::tuple>(entry);
     const auto given = is_tuple ? py::reinterpret_borrow<py::tuple>(entry) : py::make_tuple(entry);
     if (given.size() < 1 || given.size() > kMemberCount || !is_number(given[0])) refuse(kExpected, entry);
@@ -98,7 +99,7 @@ swivel_limb_def group_of(py::handle entry, const Usual& usual)
     swivel_limb_def def = swivel_default_limb_def(count_of("limb count", given[0].cast<std::int64_t>()));
     try {
         if (!member(1).is_none()) def.binding = member(1).cast<swivel_binding>();
-        set_options(def, usual, member(2), member(3), member(4), member(5), member(6));
+        set_options(def, usual, member(2), member(3), member(4), member(5), member(6), member(8));
         if (!member(7).is_none()) def.twist_bone_count = count_of("twist_bone_count", member(7).cast<std::int64_t>());
     } catch (const py::cast_error&) {
         refuse(kExpected, entry);
@@ -117,7 +118,7 @@ swivel_body_limb_def body_group_of(py::handle entry, const Usual& usual, LimbJoi
         if (const py::object link = entry.attr("link"); !link.is_none())
             def.link = count_of("link", link.cast<std::int64_t>());
         set_options(def, usual, entry.attr("features"), entry.attr("on_bad_input"), entry.attr("shoulder_order"),
-                    entry.attr("wrist_order"), entry.attr("region"));
+                    entry.attr("wrist_order"), entry.attr("region"), entry.attr("pole_behind"));
     } catch (const py::cast_error&) {
         refuse("whole numbers in a BodyGroup", entry);
     }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "swivel/swivel_bodies.hpp"
 #include "tools/python/crowd.h"
@@ -193,6 +194,39 @@ void reset(HeldCrowd& held, std::int64_t group, std::int64_t first, std::optiona
     run(held, Way::kAlone, [&] { check(swivel_reset(held.crowd.get(), limbs.group, limbs.first, limbs.count)); });
 }
 
+// Bodies, or in a crowd of free limbs what is limb n of each group. count None is to the end.
+Limbs bodies_of(const HeldCrowd& held, std::int64_t first, std::optional<std::int64_t> count)
+{
+    return limbs_of(held, 0, first, count);
+}
+
+void reset_bodies(HeldCrowd& held, std::int64_t first, std::optional<std::int64_t> count)
+{
+    const Limbs bodies = bodies_of(held, first, count);
+    run(held, Way::kAlone, [&] { held.crowd.reset_bodies(bodies.first, bodies.count); });
+}
+
+py::bytes save(HeldCrowd& held, std::int64_t first, std::optional<std::int64_t> count)
+{
+    const Limbs bodies = bodies_of(held, first, count);
+    std::string bytes(bodies.count * swivel_state_bytes(held.crowd.get()), '\0');
+    run(held, Way::kReading,
+        [&] { check(swivel_save(held.crowd.get(), bodies.first, bodies.count, bytes.data(), bytes.size())); });
+    return bytes;
+}
+
+void load(HeldCrowd& held, const py::bytes& state, std::int64_t first, std::optional<std::int64_t> count)
+{
+    const Limbs bodies = bodies_of(held, first, count);
+    const std::string_view bytes = state;
+    const std::size_t wanted = bodies.count * swivel_state_bytes(held.crowd.get());
+    if (wanted > 0 && bytes.size() != wanted)
+        throw py::value_error("state: expected " + std::to_string(wanted) + " bytes for " +
+                              std::to_string(bodies.count) + " bodies, got " + std::to_string(bytes.size()));
+    run(held, Way::kAlone,
+        [&] { check(swivel_load(held.crowd.get(), bodies.first, bodies.count, bytes.data(), bytes.size())); });
+}
+
 void change_support(HeldCrowd& held, const py::object& was, const py::object& is, std::int64_t group,
                     std::int64_t first, std::optional<std::int64_t> count)
 {
@@ -243,6 +277,16 @@ void add_solving(CrowdClass& crowd)
     crowd.def(
         "reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
         "Forgets what is carried from solve to solve: swivels, planted points, shifts and lifts. After a teleport.");
+    crowd.def("reset_bodies", &reset_bodies, py::arg("first") = 0, py::arg("count") = py::none(),
+              "reset() of all groups of `count` bodies from `first` on. After a teleport.");
+    crowd.def("save", &save, py::arg("first") = 0, py::arg("count") = py::none(),
+              "The state of `count` bodies from `first` on, as bytes: all that their next solve starts from besides\n"
+              "its inputs. The bytes are the same on every CPU. In a crowd of free limbs body n is limb n of each\n"
+              "group, and groups must have the same number of limbs.");
+    crowd.def(
+        "load", &load, py::arg("state"), py::arg("first") = 0, py::arg("count") = py::none(),
+        "Loads what save() gave, of as many bodies of this crowd or of another with the same groups. Inputs stay\n"
+        "as they are. ValueError for bytes of another kind of crowd.");
     crowd.def("change_support", &change_support, py::arg("was"), py::arg("now"), py::arg("group") = 0,
               py::arg("first") = 0, py::arg("count") = py::none(),
               "Changes what planted points of `count` bodies from `first` on stand on, without a jump.\n\n"

@@ -134,7 +134,7 @@ void add_limits(py::module_& module)
                "parent joint there, x, y, z, w. cone(arm_axis(binding, rotation, (0, -1, 1)), math.radians(80)) keeps\n"
                "an arm within 80 degrees of forwards and down.");
     module.def("cone", &cone_array, py::arg("axis"), py::arg("max"),
-               "A cone about an axis (3,) of any length, open by `most` radians from it, 0 to pi: (4,) float32.");
+               "A cone about an axis (3,) of any length, open by `max` radians from it, 0 to pi: (4,) float32.");
     module.def(
         "flexion", [](double min, double max) { return array_of(flexion(min, max)); }, py::arg("min"), py::arg("max"),
         "The elbow's min and max flexion in radians, 0 <= min <= max <= pi: (2,) float32.");

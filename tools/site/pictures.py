@@ -166,8 +166,7 @@ def stepping(features, animated, ahead):
     crowd = swivel.Crowd([leg(1, features), leg(4, features), *shifts], skeleton=SKELETON, body_count=1)
     for group, place in enumerate(((0.1, ANKLE, -0.2), (-0.1, *ahead))):
         crowd.write(Field.TARGET, place, group), crowd.write(Field.CONTACT, 1.0, group)
-    pose, places = solved(crowd, animated, 0.01)
-    return pose, places + ((0, crowd.read(Field.SHIFT, 2)[0, 0], 0) if shifts else 0)
+    return solved(crowd, animated, 0.01)
 
 
 def draw_leg(axes, middle, places, thigh, colour, width=6, style="-"):

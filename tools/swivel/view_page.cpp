@@ -61,6 +61,7 @@ Json json_of_limb(const CachedLimb& limb, const LimbSkeleton::OfLimb& joints)
              {"shoulder", joints.shoulder},
              {"twist_bones", joints.twist_bones},
              {"bend", joints.bend},
+             {"pole_behind", setup.pole_behind},
              {"plan", base64_of(std::span(&setup.goals, 1))},
              {"sources", base64_of(std::span<const goal_source>(limb.sources))},
              {"weights", setup.goals.weights},

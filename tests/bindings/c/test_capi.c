@@ -51,6 +51,8 @@ static void bodies(void)
     swivel_pose pose = swivel_default_pose();
     swivel_job job = swivel_default_job();
     swivel_crowd* crowd = NULL;
+    unsigned char state[256];
+    uint64_t digest;
     uint32_t flags[3], solved = 0, n, joint, group;
 
     arm_joints.bend[2] = 1, leg_joints.bend[2] = -1;
@@ -86,6 +88,12 @@ static void bodies(void)
         for (n = 0; n < 3; ++n) check(!(flags[n] & SWIVEL_BAD_INPUT), "no bad input");
     }
     check(rotations[2][1][3] != 1 && rotations[2][7][3] != 1, "arm and head are turned");
+    digest = swivel_state_digest(crowd);
+    check(swivel_state_bytes(crowd) * 3 <= sizeof state, "bytes of a state");
+    check(swivel_save(crowd, 0, 3, state, sizeof state) == SWIVEL_OK, "bodies are saved");
+    check(swivel_reset_body(crowd, 0, 3) == SWIVEL_OK && swivel_state_digest(crowd) != digest, "bodies begin anew");
+    check(swivel_load(crowd, 0, 3, state, sizeof state) == SWIVEL_OK, "bodies are loaded");
+    check(swivel_state_digest(crowd) == digest, "they are as they were");
     swivel_crowd_destroy(crowd);
     arm.link = UINT32_MAX;
     check(swivel_crowd_create(&def, &crowd) == SWIVEL_INVALID_ARGUMENT, "a hand that holds nothing is refused");

@@ -88,7 +88,7 @@ test('what is wrong with bodies is refused in one line', () => {
   refuses(() => bodies({ space: 2 }), 'space is 2; give one of PoseSpace');
   refuses(() => bodies({ bodyCount: 1.5 }), 'bodyCount is 1.5');
   refuses(() => bodies({ groups: 8 }), 'groups is 8; give a list, such as [{ joints: ');
-  refuses(() => bodies({ groups: [{ limbCount: 3 }] }), 'a group of bodies takes joints, features, shoulderOrder, wristOrder, onBadInput, plant, ground, link, region, not limbCount');
+  refuses(() => bodies({ groups: [{ limbCount: 3 }] }), 'a group of bodies takes joints, features, shoulderOrder, wristOrder, onBadInput, plant, ground, link, region, poleBehind, not limbCount');
   refuses(() => bodies({ groups: [{}] }), "a limb's joints takes shoulder");
   refuses(() => bodies({ groups: [{ joints: { ...arm, wrist: 9 } }] }), 'group 0: ');
   refuses(() => bodies({ groups: [{ joints: arm, features: Feature.WORLD }] }), "SWIVEL_WORLD is not for a body's limb");
@@ -107,6 +107,22 @@ test('what is wrong with bodies is refused in one line', () => {
   refuses(() => bodies({ skeleton: { parents: chain, translations: chain.flatMap(() => [1, 0, 0]) }, bodyCount: 2 ** 18, groups: [groups[0]] }), 'give load() more megabytes');
 });
 
+test('a body is drawn as lines', () => {
+  const crowd = swivel.bodies({ skeleton, bodyCount: 2, groups });
+  limbs.forEach((_, group) => crowd.write(Field.TARGET, [0.5, 0.7, 0.3, 0.5, 0.7, 0.3], { group })), crowd.solve();
+  const shapes = crowd.draw(1), targets = shapes.filter(({ name }) => name === 'target');
+  assert.deepEqual(targets.map(({ group }) => group), limbs.map((_, group) => group));
+  for (const { from, to, color } of targets) close(from, [0.5, 0.7, 0.3], 1e-6), assert.deepEqual(from, to), assert.equal(color, 0xffff00ff);
+  assert.ok(shapes.some(({ name, group }) => name === 'bone' && group === -1));
+  assert.deepEqual(crowd.draw(1, 1).filter(({ group }) => group >= 0), shapes.filter(({ group }) => group === 1));
+  refuses(() => crowd.draw(2), 'body is 2; give a whole number from 0 to 1');
+  crowd.dispose();
+  const arm = swivel.crowd([1]);
+  arm.write(Field.TARGET, [0.3, 0.1, 1]), arm.write(Field.LENGTHS, [1, 1]), arm.solve();
+  assert.deepEqual(arm.draw(0).map(({ name }) => name), ['target', 'bone', 'bone', 'miss', 'pole']);
+  arm.dispose();
+});
+
 test('a pose is compared with where an engine has a limb', () => {
   const crowd = swivel.bodies({ skeleton, bodyCount: 1, groups }), all = crowd.pose('jointPositions');
   crowd.pose('weight').fill(0);  // so the places after the solve are those of the pose as it comes
@@ -120,4 +136,41 @@ test('a pose is compared with where an engine has a limb', () => {
   refuses(() => crowd.compare(1, places()), 'body is 1; give a whole number from 0 to 0');
   refuses(() => crowd.compare(0, { shoulder: [0, 0, 0], elbow: [0, 0, 0], wrist: [0, 0] }), 'wrist');
   crowd.dispose();
+});
+
+test('frames are played again from what was saved', () => {
+  const made = () => {
+    const crowd = swivel.bodies({ skeleton, bodyCount, groups: limbs.map((joints) => ({ joints, features: Feature.WITH_PLANT | Feature.POLE_INCOMING })) });
+    crowd.pose('rotations'), crowd.pose('time').fill(1 / 60);
+    return crowd;
+  };
+  const crowd = made(), other = made(), plants = other.values(Field.PLANT, 1);
+  const play = (each, frame) => {
+    each.pose('rootPosition').forEach((_, n, places) => { places[n] = 0.01 * frame * (n % 3) + n; });
+    limbs.forEach((_, group) => each.write(Field.CONTACT, Array.from({ length: bodyCount }, (__, n) => Number((n + frame) % 5 < 3)), { group }));
+    each.solve();
+    return [each.stateDigest(), bitsOf(each.pose('rotations')).join()];
+  };
+  const ten = (each, first) => Array.from({ length: 10 }, (_, n) => play(each, first + n));
+  ten(crowd, 0);
+  const standing = crowd.read(Field.PLANT, { group: 1 }), state = crowd.save(), digest = crowd.stateDigest(), size = state.length / bodyCount, rotations = crowd.pose('rotations').slice();
+  assert.equal(size, 4 * (1 + 2 * 11));
+  const wanted = ten(crowd, 10);
+  assert.notEqual(crowd.stateDigest(), digest);
+  for (const each of [crowd, other]) {
+    each.load(state), each.pose('rotations').set(rotations);
+    assert.deepEqual([each.stateDigest(), each.save()], [digest, state]);
+    if (each === other) assert.deepEqual(plants, standing);  // views see it at once
+    assert.deepEqual(ten(each, 10), wanted);
+  }
+  const later = crowd.save();
+  crowd.load(state.slice(0, 3 * size), { first: 7, count: 3 }), crowd.resetBodies({ first: 8, count: 1 });
+  assert.deepEqual([crowd.save({ first: 7, count: 1 }), crowd.save({ first: 9, count: 1 })], [state.slice(0, size), state.slice(2 * size, 3 * size)]);
+  assert.ok(crowd.save({ first: 8, count: 1 }).slice(4).every((byte) => byte === 0));
+  assert.deepEqual([crowd.save({ count: 7 }), crowd.save({ first: 10 })], [later.slice(0, 7 * size), later.slice(10 * size)]);
+  refuses(() => crowd.load([...state]), 'state is no Uint8Array; give what save() gave');
+  refuses(() => crowd.load(state.slice(1)), `state has ${state.length - 1} bytes; ${bodyCount} bodies have ${state.length}`);
+  refuses(() => crowd.load(new Uint8Array(state.length)), 'state 0 is of another kind of crowd');
+  refuses(() => crowd.save({ group: 1 }), 'group');
+  crowd.dispose(), other.dispose();
 });

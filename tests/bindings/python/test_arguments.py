@@ -87,8 +87,9 @@ METHODS = {
                       {"field": Field.POLE, "values": (1e9, 2, 4), "origins": (1e9, 1, 0), **OTHERS}),
     "reset": (SOME, OTHERS),
 }
-# These are in test_numbers and test_scenes, below, test_bodies, test_numbers again, and, what comes out, in test_arrays.
-ELSEWHERE = {"solve", "change_support", "kind", "compare", "choose", "digest", "version", "isa_name", "isas", "use_isa", "fill_cache"}
+# These are in test_numbers and test_scenes, below, test_bodies, test_numbers again, and, what comes out, in test_arrays. The last are in test_bodies.
+ELSEWHERE = {"solve", "change_support", "kind", "compare", "choose", "digest", "version", "isa_name", "isas", "use_isa", "fill_cache",
+             "save", "load", "reset_bodies", "state_digest"}
 
 
 def same_of(answer):
@@ -181,6 +182,9 @@ REFUSED = [
     (ValueError, "direction 0, (0, 0, 0), has no direction", lambda: Region().room((0, 0, 0))),
     (ValueError, "axes: expected shape (n, 3), got (3,)", lambda: cones(axes=(1, 0, 0), angles=0.1)),
     (ValueError, "the region allows nothing", lambda: swivel.Crowd(Group(1, region=Region()))),
+    (ValueError, "pole_behind: expected shape (3,)", lambda: swivel.Crowd(Group(1, pole_behind=(0, 1)))),
+    (ValueError, "pole_behind lies along the limb at rest", lambda: swivel.Crowd(Group(1, features=Feature.POLE_HALF_LINE, pole_behind=(0, 0, 1)))),
+    (ValueError, "group 0 has a pole_behind, but not Feature.POLE_HALF_LINE", lambda: make(ARM._replace(pole_behind=(0, 1, 0)))),
     (TypeError, "region: expected a Region, got 3", lambda: swivel.Crowd(Group(1, region=3))),
     (TypeError, "unexpected keyword argument 'contact'", lambda: swivel.solve((0, 0, 1), None, (1, 1), contact=1)),
 ]

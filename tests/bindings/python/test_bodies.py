@@ -87,6 +87,39 @@ class Ground(unittest.TestCase):
         self.assertTrue(np.all(crowd.read(Field.FLAGS) & Flag.PLANTED))
 
 
+class State(Refusals):
+    def setUp(self):
+        self.bodies = Bodies(N)
+
+    def play(self, crowd, frame):
+        rotations, contact = self.bodies.rotations.copy(), np.float32((np.arange(N) + frame) % 5 < 3)
+        members = {**self.bodies.members(), "root_position": self.bodies.root_position + np.float32((0, 0, 0.01 * frame))}
+        crowd.solve(streams=[{"contact": contact}] * 2, pose=Pose(rotations, time=1 / 60, **members))
+        return rotations
+
+    def test_frames_are_played_again_from_what_was_saved(self):
+        crowd, other = (crowd_of(N, Feature.WITH_PLANT | Feature.POLE_INCOMING) for _ in range(2))
+        for frame in range(10):
+            self.play(crowd, frame)
+        state, digest = crowd.save(), crowd.state_digest()
+        wanted = [self.play(crowd, frame) for frame in range(10, 20)]
+        self.assertNotEqual(crowd.state_digest(), digest)
+        for each in (crowd, other):
+            each.load(state)
+            self.assertEqual((each.save(), each.state_digest()), (state, digest))
+            np.testing.assert_array_equal([self.play(each, frame) for frame in range(10, 20)], wanted)
+
+        size, later = len(state) // N, crowd.save()
+        crowd.load(state[:3 * size], first=7, count=3)
+        crowd.reset_bodies(first=8, count=1)
+        self.assertEqual(crowd.save(first=7, count=1) + crowd.save(9, 1), state[:size] + state[2 * size:3 * size])
+        self.assertEqual(crowd.save(8, 1)[4:], bytes(size - 4))
+        self.assertEqual(crowd.save(0, 7) + crowd.save(10), later[:7 * size] + later[10 * size:])
+        self.refuses(ValueError, f"state: expected {size} bytes for 1 bodies, got {size - 1}", crowd.load, state[1:size], 3, 1)
+        self.refuses(ValueError, "state 0 is of another kind of crowd", crowd.load, bytes(len(state)))
+        self.refuses(ValueError, "group 1 has 3 limbs, group 0 has 2", swivel.Crowd([swivel.Group(2), swivel.Group(3)]).save, 0, 1)
+
+
 class Compared(unittest.TestCase):
     def setUp(self):
         self.bodies, self.crowd = Bodies(N), crowd_of(N, Feature.POLE_INCOMING)
@@ -166,6 +199,30 @@ class Mistakes(Refusals):
         self.refuses(ValueError, "give the job their pose", crowd.solve)
         self.refuses(ValueError, "this crowd has no bodies, so it takes no pose", swivel.Crowd(2).solve, pose=Pose())
         self.refuses(ValueError, "priorities: expected one entry for the bodies, got 2", crowd.choose, [1, 1], 1)
+
+
+class Drawn(Refusals):
+    def test_lines_of_a_body(self):
+        crowd, pose = crowd_of(2, Feature.POLE_INCOMING | Feature.WITH_RECORD), Pose(np.tile(np.float32((0, 0, 0, 1)), (2, 8, 1)))
+        self.refuses(ValueError, "swivel_draw: pose is null; give the one of the last solve", crowd.draw, limb=0)
+        crowd.solve(streams=[{"target": np.tile(np.float32(target), (2, 1))} for target in ((0.6, 1.4, 0.2), (0.1, 0.2, 0.1))], pose=pose)
+        names, lines, colors = crowd.draw(limb=1, pose=pose)
+        self.assertEqual((lines.shape, colors.shape), ((len(names), 2, 3), (len(names), 4)))
+        self.assertEqual(set(names), {"axis_x", "axis_y", "axis_z", "bone", "incoming", "bend", "target", "miss"})
+        ends = np.array([line[1] for name, line in zip(names, lines) if name == "bone"])
+        for group in range(2):
+            self.assertLess(np.min(np.linalg.norm(ends - crowd.wrists(group)[1], axis=1)), 1e-5)
+        self.assertEqual(colors[names.index("target")].tolist(), [255, 255, 0, 255])
+        self.assertEqual(crowd.draw(limb=1, group=0, pose=pose)[0].count("target"), 1)
+
+    def test_lines_of_an_arm(self):
+        arm = swivel.Crowd(1)
+        arm.write(Field.TARGET, (0.3, 0.1, 1)), arm.write(Field.LENGTHS, (1, 1))
+        arm.solve()
+        names, lines, _ = arm.draw(limb=0)
+        self.assertEqual(names, ["target", "bone", "bone", "miss", "pole"])
+        np.testing.assert_array_equal(lines[0], np.tile(np.float32((0.3, 0.1, 1)), (2, 1)))
+        self.refuses(ValueError, "this crowd has no bodies, so it has no pose", arm.draw, limb=0, pose=Pose())
 
 
 if __name__ == "__main__":

@@ -39,6 +39,7 @@ class BodyGroup(NamedTuple):
     ground          for Feature.WITH_GROUND
     link            for Feature.WITH_LINK: the number of the group that it holds, a PropGroup or an earlier BodyGroup
     region          where the upper limb may point; it brings Feature.WITH_REGION
+    pole_behind     as Group's
     """
 
     shoulder: int
@@ -54,6 +55,7 @@ class BodyGroup(NamedTuple):
     ground: Ground = Ground()
     link: Optional[int] = None
     region: Optional[Region] = None
+    pole_behind: npt.ArrayLike = (0, 0, 0)
 
 
 class Support(NamedTuple):
@@ -81,7 +83,7 @@ class Pose(NamedTuple):
     space             PoseSpace.IN_BODY: rotations, translations, scales and matrices are relative to the root, not to parents
     out_translations  in the body's space: where translations of moved joints go; None: back to translations
     joint_rotations   (bodies, joints, 4) to write: how joints are turned after the solve, relative to the root
-    joint_positions      (bodies, joints, 3) to write: where they are then
+    joint_positions   (bodies, joints, 3) to write: where they are then, in the frame of the root before its shift
     time              (bodies,) seconds since the body's last solve; planted limbs, shifts and looks with a rate need it
     support_position  (bodies, 3) of what planted points stand on, in the world; None: the origin
     support_rotation  (bodies, 4) None: not turned
@@ -96,7 +98,10 @@ class Pose(NamedTuple):
     and joint_positions get the joints that some limb needs: its own, those in between, and all above. Others keep their numbers.
 
     A root_position that is an array of float64 makes support_position and all positions in streams float64. The root is subtracted in double, for
-    crowds kilometres from the origin. Positions that streams leave out, and places among results, are then counted from the root.
+    crowds kilometres from the origin. Positions that streams leave out, and all positions among results, are then relative to the root.
+
+    All positions hold for the root before its shift, so results have Field.SHIFT in them already. Draw the pose with it added to the root's
+    position.
     """
 
     rotations: Optional[npt.ArrayLike] = None

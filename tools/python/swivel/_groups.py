@@ -2,6 +2,8 @@
 """What a crowd is made of."""
 from typing import NamedTuple, Optional
 
+import numpy.typing as npt
+
 from ._core import Binding, EulerOrder, OnBadInput, Region
 
 
@@ -16,6 +18,8 @@ class Group(NamedTuple):
     wrist_order       of Field.WRIST_BOX
     region            where the upper arms may point; it brings Feature.WITH_REGION
     twist_bone_count  bones that share the hand's twist, 0 to 7; more than 0 with Feature.WITH_HAND
+    pole_behind       (3,) for Feature.POLE_HALF_LINE: where no wrist goes, in the frame of the shoulder's parent; zeros: where
+                      elbows point at rest
     """
 
     limb_count: int
@@ -26,3 +30,4 @@ class Group(NamedTuple):
     wrist_order: Optional[EulerOrder] = None
     region: Optional[Region] = None
     twist_bone_count: int = 0
+    pole_behind: npt.ArrayLike = (0, 0, 0)

@@ -42,7 +42,11 @@ export function floatsOf(base64) {
 export function constantsOf(base64, defaults) {
     const floats = floatsOf(base64);
     let at = 0;
-    const next = (usual) => (typeof usual === "number" ? floats[at++] : floats.slice(at, at += usual.length));
+    const next = (usual) => {
+        if (typeof usual === "number") return floats[at++];
+        at += usual.length;
+        return floats.slice(at - usual.length, at);
+    };
     return Object.fromEntries(Object.entries(defaults).map(([name, usual]) => [name, next(usual)]));
 }
 

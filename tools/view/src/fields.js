@@ -47,8 +47,8 @@ export function writeFields(crowd, limb) {
 /** Makes the crowd of these limbs, with their fields. look: how heads look, or null. */
 export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
     const groups = limbs.map((limb) => {
-        const { chain: joints, shoulderOrder, wristOrder, region, plant, ground, held } = limb;
-        const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
+        const { chain: joints, shoulderOrder, wristOrder, poleBehind, region, plant, ground, held } = limb;
+        const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, poleBehind, onBadInput: OnBadInput.REST_POSE };
         return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { plant, ground }) };
     });
     if (look) groups.push({ look });

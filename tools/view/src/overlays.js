@@ -40,15 +40,15 @@ function circleOf({ wrist, along, upper, fore }) {
     const distance = Math.max(wrist.length(), 1e-9), at = (upper ** 2 - fore ** 2 + distance ** 2) / (2 * distance);
     return { centre: along.clone().multiplyScalar(at), radius: Math.sqrt(Math.max(0, upper ** 2 - at ** 2)) };
 }
-const followsHand = (stage, limb) => (stage.featuresOf(limb) & Feature.POLE_HAND) !== 0n;
-/** Whether it is known where the elbow would go. By the hand that is so if the elbow is there. */
+const followsRule = (stage, limb) => (stage.featuresOf(limb) & (Feature.POLE_HAND | Feature.POLE_HALF_LINE)) !== 0n;
+/** Whether it is known where the elbow would go. Where the hand or the wrist's place says it, that is so if the elbow is there. */
 function isWishKnown(stage, { limb, character }) {
-    return !followsHand(stage, limb) || !flagNames(stage.flags(limb, character)).some((name) => /^(LIMITED_(?!FLEXION)|INFEASIBLE)/.test(name));
+    return !followsRule(stage, limb) || !flagNames(stage.flags(limb, character)).some((name) => /^(LIMITED_(?!FLEXION)|INFEASIBLE)/.test(name));
 }
 /** Where the elbow would go by the pole alone, or without one as in the clip, or else where it is: at right angles to the line. */
 export function wishOf(stage, { limb, character }, { pole, normal, elbow, along }) {
     const counts = stage.poleCounts(limb, character), isNormal = (stage.featuresOf(limb) & Feature.POLE_NORMAL) !== 0n;
-    const wish = followsHand(stage, limb) ? elbow.clone() : counts && !isNormal ? pole.clone() : (counts ? pole : normal).clone().cross(along);
+    const wish = followsRule(stage, limb) ? elbow.clone() : counts && !isNormal ? pole.clone() : (counts ? pole : normal).clone().cross(along);
     return wish.addScaledVector(along, -wish.dot(along)).normalize();
 }
 

@@ -16,6 +16,7 @@ import { dragMound, putMounds } from "./mounds.js";
 
 const KEPT = 64;  // frames from one state that is kept to the next, at least
 const MAX_KEPT = 2 ** 28;  // bytes of them
+const NO_POLES = Feature.POLE_INCOMING | Feature.POLE_HAND | Feature.POLE_HALF_LINE;
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
@@ -78,7 +79,7 @@ export class Stage {
         const plan = (member) => memberOf(this.memory.buffer, this.plansAt + index * sizeOf("goal_plan"), "goal_plan", member);
         return {
             index, name: limb.name, joints: limb.joints, features: BigInt(limb.features), region: limb.region && bytesOf(limb.region),
-            shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order,
+            shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, poleBehind: limb.pole_behind,
             plant: limb.ground && constantsOf(limb.plant, defaultPlant), ground: limb.ground && constantsOf(limb.ground, defaultGround),
             chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
             fixed: fixedOf(limb),
@@ -255,10 +256,10 @@ export class Stage {
     /** Poles may be points or directions; a direction is shown at the end of the limb. */
     poleIsPoint(limb) { return (this.featuresOf(limb) & Feature.POLE_DIRECTION) === 0n; }
     isPoint(limb, part) { return part === "target" || this.poleIsPoint(limb); }
-    hasPole(limb) { return (this.featuresOf(limb) & (Feature.POLE_NORMAL | Feature.POLE_INCOMING | Feature.POLE_HAND)) === 0n; }
-    /** Whether the elbow goes by a pole. Without one it goes as in the clip, or as the hand says. */
+    hasPole(limb) { return (this.featuresOf(limb) & (Feature.POLE_NORMAL | NO_POLES)) === 0n; }
+    /** Whether the elbow goes by a pole. Without one it goes as in the clip, or as the hand or the wrist's place says. */
     poleCounts(limb, character) {
-        if ((this.featuresOf(limb) & (Feature.POLE_INCOMING | Feature.POLE_HAND)) !== 0n) return false;
+        if ((this.featuresOf(limb) & NO_POLES) !== 0n) return false;
         return !this.has(limb, "WEIGHTS") || this.input(limb, character, "weights")[2] > 0;
     }
     /** The goal that a place in the world stands for. */

@@ -2,7 +2,7 @@
 //
 // Crowds of bodies. Their poses lie in swivel's own memory, where solves read and write them.
 import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
-import { Crowd } from "./crowd.js";
+import { Crowd, Shape } from "./crowd.js";
 import { BodiesGroup, bodyGroups, SharedSkeleton } from "./groups.js";
 import { carried, EXPLANATION_BYTES, layout, PoseForm, PoseSpace } from "./layout.js";
 import { Borrowed, Memory, Structure } from "./memory.js";
@@ -68,8 +68,8 @@ const parts = named({
  * A part of poses, as swivel_pose. Each joint has a rotation relative to its parent: x, y, z, w, or by the form 12 numbers of a matrix, of
  * MATRIX_COLUMNS 16; three numbers of translation; three of scale. The root has a position, a rotation and one number of scale.
  *
- * Solves write jointRotations, x, y, z, w, and jointPositions: where the joints that some limb needs are then, relative to the root. Those of
- * others stay NaN. In the body's space they also write translations, or translationResults if these are asked for.
+ * Solves write jointRotations, x, y, z, w, and jointPositions: where the joints that some limb needs are then, relative to the root before its
+ * shift. Those of others stay NaN. In the body's space they also write translations, or translationResults if these are asked for.
  *
  * Planted limbs, shifts and looks with a rate need time: the seconds since each body's last solve. supportPosition and supportRotation are of what planted
  * points stand on, in the world. weight, 0 to 1, is how much of all corrections counts.
@@ -167,6 +167,13 @@ export class Bodies<Positions extends Float32Array | Float64Array = Float32Array
             memory.check(memory.calls.swivel_compare(this.crowd, group, first, this.posed, shoulder, elbow, wrist, text, EXPLANATION_BYTES, agrees));
             return { agrees: memory.words(agrees, 1)[0] !== 0, text: memory.text(text) };
         });
+    }
+
+    /** What a body of the pose's parts does, as lines and points: its skeleton, and one of its groups or all. Call it after a solve. */
+    draw(body: number, group?: number): Shape[] {
+        const { first } = this.place({ group, first: whole("body", body, this.limbCount(group) - 1), count: 1 });
+        for (let g = 0; g < this.groupCount; ++g) this.settle(g);
+        return this.shapes(first, group ?? -1, this.posed);
     }
 
     /**

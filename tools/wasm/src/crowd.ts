@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
-import { carried, EXPLANATION_BYTES } from "./layout.js";
+import { carried, EXPLANATION_BYTES, Field, layout } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
@@ -20,6 +20,23 @@ export interface Job {
 export interface Arc {
     from: [number, number];
     to: [number, number];
+}
+
+/** Some bodies: `count` of them from `first` on. Left out: all. In a crowd of free limbs body n is limb n of each group. */
+export interface SomeBodies {
+    first?: number;
+    count?: number;
+}
+
+/** A line that draw() gives, or a point, whose ends are equal. Its place is in the space of the targets, its colour 0xRRGGBBAA. */
+export interface Shape {
+    /** What it shows, such as "bone" or "miss". */
+    name: string;
+    from: [number, number, number];
+    to: [number, number, number];
+    color: number;
+    /** -1: it belongs to no group, but to the body itself. */
+    group: number;
 }
 
 /** How joint angles are wanted: orders from Order, and the family of Euler angles, 0 or 1. Left out: XYZ, 0. */
@@ -103,6 +120,44 @@ export class Crowd extends CrowdRows {
         for (const field of carried) this.refresh(field, group);
     }
 
+    /** reset() of all groups of these bodies, such as for a teleport. */
+    resetBodies(bodies: SomeBodies = {}): void {
+        const { first, count } = this.choice(bodies);
+        this.memory.check(this.memory.calls.swivel_reset_body(this.crowd, first, count));
+        this.refreshResults();
+    }
+    /** The state of bodies: all that their next solve starts from besides its inputs. The bytes are the same on every machine. */
+    save(bodies: SomeBodies = {}): Uint8Array {
+        const { memory } = this, { first, count } = this.choice(bodies), size = count * memory.calls.swivel_state_bytes(this.crowd);
+        return memory.borrow((borrowed) => {
+            const at = borrowed.bytes(size);
+            memory.check(memory.calls.swivel_save(this.crowd, first, count, at, size));
+            return memory.bytes(at, size).slice();
+        });
+    }
+    /** Loads what save() gave, of as many bodies of this crowd or of another with the same groups. Inputs stay as they are. */
+    load(state: Uint8Array, bodies: SomeBodies = {}): void {
+        const { memory } = this, { first, count } = this.choice(bodies), size = count * memory.calls.swivel_state_bytes(this.crowd);
+        if (!(state instanceof Uint8Array)) refuse("state is no Uint8Array; give what save() gave");
+        if (size > 0 && state.length !== size) refuse(`state has ${state.length} bytes; ${count} bodies have ${size}`);
+        memory.borrow((borrowed) => {
+            const at = borrowed.bytes(state.length);
+            memory.bytes(at, state.length).set(state);
+            memory.check(memory.calls.swivel_load(this.crowd, first, count, at, state.length));
+        });
+        this.refreshResults();
+    }
+    /** A number for what save() has: a crowd that has loaded all bodies of another has its number. */
+    stateDigest(): bigint { return BigInt.asUintN(64, this.memory.calls.swivel_state_digest(this.crowd)); }
+    private choice(bodies: SomeBodies): Required<Limbs> {
+        return this.place({ group: 0, ...options("a choice of bodies", bodies, "first", "count") });
+    }
+    private refreshResults(): void {
+        this.held.forEach((fields, group) => {
+            for (const field of fields.keys()) if (field >= Field.SHOULDER) this.refresh(field, group);
+        });
+    }
+
     /** Why a limb is as it is, from its present inputs, in a sentence or two. */
     explain(limb: number, group = 0): string {
         const { first } = this.one(limb, group);
@@ -110,6 +165,25 @@ export class Crowd extends CrowdRows {
             const at = borrowed.bytes(EXPLANATION_BYTES);
             this.memory.check(this.memory.calls.swivel_explain(this.crowd, group, first, at, EXPLANATION_BYTES));
             return this.memory.text(at);
+        });
+    }
+
+    /** What a free limb does, as lines and points. Bodies have a draw() of their own. */
+    draw(limb: number, group = 0): Shape[] { return this.shapes(this.one(limb, group).first, group, 0); }
+    protected shapes(limb: number, group: number, pose: number): Shape[] {
+        const { memory } = this, { bytes, name, color, group: groupOf } = layout.swivel_shape;
+        return memory.borrow((borrowed) => {
+            const count = borrowed.bytes(4);
+            const fill = (at: number, capacity: number): void =>
+                memory.check(memory.calls.swivel_draw(this.crowd, group, limb, pose, at, capacity, count));
+            fill(0, 0);
+            const [capacity] = memory.words(count, 1), at = borrowed.bytes(bytes * capacity);
+            fill(at, capacity);
+            return Array.from({ length: capacity }, (_, n): Shape => {
+                const shape = at + bytes * n, word = (member: number): number => memory.words(shape + member, 1)[0];
+                const [a, b, c, d, e, f] = memory.doubles(shape, 6);
+                return { name: memory.text(word(name)), from: [a, b, c], to: [d, e, f], color: word(color), group: word(groupOf) | 0 };
+            });
         });
     }
 

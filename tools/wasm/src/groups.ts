@@ -19,6 +19,8 @@ interface LimbOptions {
     wristOrder?: number;
     /** Where the upper arms may point. It brings Feature.WITH_REGION. */
     region?: Region;
+    /** With Feature.POLE_HALF_LINE: where no wrist goes, in the frame of the shoulder's parent. Left out: where elbows point at rest. */
+    poleBehind?: Numbers;
 }
 /** Free limbs that share features and a binding, as swivel_limb_def. */
 export interface GroupOptions extends LimbOptions {
@@ -118,6 +120,13 @@ function featuresOf({ features: own, region }: LimbOptions, features: bigint): b
     if (!(region instanceof Region)) refuse(`region is ${shown(region)}; give what region() made`);
     return asked | Feature.WITH_REGION;
 }
+/** Puts what both kinds of limbs have into a definition. */
+function putLimb(def: Structure<"swivel_limb_def"> | Structure<"swivel_body_limb_def">, given: LimbOptions, borrowed: Borrowed): void {
+    const { region, poleBehind, shoulderOrder = Order.XYZ, wristOrder = Order.XYZ } = given;
+    def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
+    if (poleBehind !== undefined) def.floats("pole_behind", numbers("poleBehind", poleBehind, 3));
+    if (region) def.words("region", region.put(borrowed));
+}
 function checkedList<Each>(groups: readonly Each[], features: bigint, such: string, check: (group: Each) => CheckedGroup): CheckedGroup[] {
     checkedFeatures(features);
     if (!Array.isArray(groups)) refuse(`groups is ${shown(groups)}; give a list, such as ${such}`);
@@ -128,17 +137,17 @@ function checkedList<Each>(groups: readonly Each[], features: bigint, such: stri
 export function freeGroups(groups: readonly Group[], features: bigint): CheckedGroup[] {
     return checkedList(groups, features, "[1000]", (group) => {
         const given: GroupOptions = typeof group === "number" ? { limbCount: group } :
-            options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput", "region", "twistBoneCount");
+            options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput", "region", "twistBoneCount",
+                "poleBehind");
         const limbCount = whole("limbCount", given.limbCount), asked = featuresOf(given, features);
-        const { binding, region, shoulderOrder = Order.XYZ, wristOrder = Order.XYZ, onBadInput = OnBadInput.REST_POSE, twistBoneCount = 0 } = given;
+        const { binding, onBadInput = OnBadInput.REST_POSE, twistBoneCount = 0 } = given;
         return {
             kind: Kind.LIMB, limbCount, features: asked,
             put: (borrowed) => {
                 const def = borrowed.structure("swivel_limb_def").wide("features", asked).words("limb_count", limbCount);
                 def.words("on_bad_input", whole("onBadInput", onBadInput)).words("twist_bone_count", whole("twistBoneCount", twistBoneCount));
-                def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
                 if (binding) def.copy("binding", binding.bytes);
-                if (region) def.words("region", region.put(borrowed));
+                putLimb(def, given, borrowed);
                 return def.at;
             },
         };
@@ -146,17 +155,17 @@ export function freeGroups(groups: readonly Group[], features: bigint): CheckedG
 }
 
 function bodyLimb(group: BodyGroup, features: bigint, limbCount: number): CheckedGroup {
-    const given = options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link", "region");
-    const { joints, region, shoulderOrder = Order.XYZ, wristOrder = Order.XYZ, onBadInput = OnBadInput.KEEP_POSE, plant = {}, ground = {}, link = 0xffffffff } = given;
+    const given = options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant", "ground", "link", "region",
+        "poleBehind");
+    const { joints, onBadInput = OnBadInput.KEEP_POSE, plant = {}, ground = {}, link = 0xffffffff } = given;
     const asked = featuresOf(given, features);
     return {
         kind: Kind.BODY_LIMB, limbCount, features: asked,
         put: (borrowed) => {
             const def = borrowed.structure("swivel_body_limb_def").wide("features", asked).words("joints", putJoints(joints, borrowed).at);
             def.words("on_bad_input", whole("onBadInput", onBadInput)).words("link", whole("link", link));
-            def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
             def.floats("plant", constants("plant", plant, defaultPlant)).floats("ground", constants("ground", ground, defaultGround));
-            if (region) def.words("region", region.put(borrowed));
+            putLimb(def, given, borrowed);
             return def.at;
         },
     };

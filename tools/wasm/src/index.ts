@@ -9,7 +9,8 @@ export type { FieldNumber, Numbers } from "./arguments.js";
 export type { Binding, LimbJoints, Skeleton } from "./binding.js";
 export type { Bodies, BodiesOptions, Comparison, LimbPlaces, PosePart, Support } from "./bodies.js";
 export type {
-    Arc, BodiesGroup, BodyGroup, Crowd, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Plant, Prop, PropGroup, Shift, ShiftGroup,
+    Arc, BodiesGroup, BodyGroup, Crowd, Ground, Group, GroupOptions, JointAngles, Job, Limbs, Look, LookGroup, Plant, Prop, PropGroup, Shape, Shift,
+    ShiftGroup, SomeBodies,
 } from "./crowd.js";
 export {
     defaultGround, defaultLook, defaultPlant, defaultProp, defaultShift, Feature, featureRules, Field, Flag, Kind, LANES, MAX_TWIST_BONES, OnBadInput, Order,

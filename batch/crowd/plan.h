@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Plans a crowd of bodies once. joint_plan.cpp plans its joints: those that groups need, parents first, those that
-// groups turn, those that move with them, and their rows. body_plan.cpp plans the constants of formulas, and the links
-// between groups.
+// Plans a crowd of bodies once: its joints and their rows, the constants of formulas, and the links between groups.
 #pragma once
 
 #include <span>
@@ -31,13 +29,13 @@ struct JointPlan {
     std::uint32_t parent_first_row_of(std::uint32_t joint) const { return first_row_of(parent_of(skeleton, joint)); }
 };
 
-// The functions below take a valid def.
 struct BodySize {
     std::uint32_t joint_count, row_count;  // needed joints, the root among them; rows of a block
     std::uint32_t first_own_row;           // the first row behind those of joints
     std::uint32_t skeleton_joint_count;    // an upper bound of the joints that move with groups
     std::uint64_t following_count;         // an upper bound of the joints that follow looks, all looks together
 };
+// joint_plan.cpp: how much the joints' plan needs. The def must be valid, here and in all functions below.
 BodySize body_size(const swivel_crowd_def& def);
 // Plans the joints of all groups. size: body_size(def); a plan that needs more ends the program. joints: room for each
 // joint of the skeleton. root: room for the root and the needed joints behind it, which come depth after depth, so that
@@ -52,7 +50,7 @@ GroupJoints plan_moved(const JointPlan& plan, std::uint32_t g, const GroupDef& g
 // Gives a group its rows after the joints', from `first` on. Returns the next free row.
 std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, GroupPlan& group);
 
-// Adds the constants of plants, shifts, grounds, props and looks to a group's plan.
+// body_plan.cpp: adds the constants of plants, shifts, grounds, props and looks to a group's plan.
 void plan_group(const swivel_crowd_def& def, const GroupDef& group, GroupPlan& plan);
 // Connects linked limbs to the limbs and props that they hold. Call it when all groups are planned.
 void plan_links(const swivel_crowd_def& def, const JointPlan& plan, swivel_crowd& crowd);
