@@ -15,7 +15,7 @@ struct Pose {
 Pose solved(const Arm& arm)
 {
     // [solve]
-    const std::int32_t parents[] = {-1, 0, 1};  // of shoulder, elbow and wrist
+    const std::int32_t parents[] = {-1, 0, 1};
     const Float3 translations[] = {arm.shoulder, arm.elbow, arm.wrist};
     swivel_skeleton skeleton = swivel_default_skeleton();
     skeleton.joint_count = 3;
@@ -66,8 +66,8 @@ Arm unity()
                   .elbow = {0.3f, 0, 0},  // bones along x
                   .wrist = {0.4f, 0, 0},
                   .bend = {0, 0, 1},
-                  .target = {0.2f, 1.4f, 0.5f},  // half a metre in front
-                  .pole = {0.2f, 0.4f, 0.2f}};   // below
+                  .target = {0.2f, 1.4f, 0.5f},
+                  .pole = {0.2f, 0.4f, 0.2f}};
     // [end]
     return arm;
 }
@@ -93,8 +93,8 @@ Arm unreal_mesh()
                   .elbow = {-30, 0, 0},  // bones along -x
                   .wrist = {-40, 0, 0},
                   .bend = {0, 1, 0},
-                  .target = {-20, 50, 140},  // half a metre in front
-                  .pole = {-20, 20, 40}};    // below
+                  .target = {-20, 50, 140},
+                  .pole = {-20, 20, 40}};
     // [end]
     return arm;
 }
@@ -106,8 +106,8 @@ Arm godot()
                   .elbow = {0.3f, 0, 0},  // bones along x
                   .wrist = {0.4f, 0, 0},
                   .bend = {0, 0, -1},
-                  .target = {0.2f, 1.4f, -0.5f},  // half a metre in front
-                  .pole = {0.2f, 0.4f, -0.2f}};   // below
+                  .target = {0.2f, 1.4f, -0.5f},
+                  .pole = {0.2f, 0.4f, -0.2f}};
     // [end]
     return arm;
 }
@@ -119,8 +119,8 @@ Arm blender()
                   .elbow = {-0.3f, 0, 0},  // bones along -x
                   .wrist = {-0.4f, 0, 0},
                   .bend = {0, -1, 0},
-                  .target = {-0.2f, -0.5f, 1.4f},  // half a metre in front
-                  .pole = {-0.2f, -0.2f, 0.4f}};   // below
+                  .target = {-0.2f, -0.5f, 1.4f},
+                  .pole = {-0.2f, -0.2f, 0.4f}};
     // [end]
     return arm;
 }
@@ -135,33 +135,21 @@ Arm gltf()
             .pole = {-0.2f, 0.4f, 0.2f}};
 }
 
-// [to_unity]
+// [convert]
 Float3 point_to_unity(const Float3& p) { return {-p[0], p[1], p[2]}; }
 Float4 turn_to_unity(const Float4& q) { return {q[0], -q[1], -q[2], q[3]}; }
-// [end]
-
-// [to_unreal]
 Float3 point_to_unreal(const Float3& p)
 {
     return {100 * p[2], -100 * p[0], 100 * p[1]};
 }
 Float4 turn_to_unreal(const Float4& q) { return {-q[2], q[0], -q[1], q[3]}; }
-// [end]
-
-// [to_unreal_mesh]
 Float3 point_to_unreal_mesh(const Float3& p)
 {
     return {100 * p[0], 100 * p[2], 100 * p[1]};
 }
 Float4 turn_to_unreal_mesh(const Float4& q) { return {-q[0], -q[2], -q[1], q[3]}; }
-// [end]
-
-// [to_godot]
 Float3 point_to_godot(const Float3& p) { return {-p[0], p[1], -p[2]}; }
 Float4 turn_to_godot(const Float4& q) { return {-q[0], q[1], -q[2], q[3]}; }
-// [end]
-
-// [to_blender]
 Float3 point_to_blender(const Float3& p) { return {p[0], -p[2], p[1]}; }
 Float4 turn_to_blender(const Float4& q) { return {q[0], -q[2], q[1], q[3]}; }
 // [end]

@@ -19,7 +19,6 @@ const std::array<Float3, kJoints> kOffsets = {{{0, 1, 0},
                                                {-0.3f, 0, 0},
                                                {-0.26f, 0, 0}}};
 
-// [character]
 struct Character {
     Float3 place;  // of the root, in the world
     Float4 rotation;
@@ -27,7 +26,6 @@ struct Character {
     std::array<Float4, kJoints> solved;  // a copy with the limbs solved: draw this one
     Float3 hand_target, foot_target;
 };
-// [end]
 
 // Where a joint is in the world: the skeleton's own forward kinematics.
 Eigen::Vector3d place_of(const Character& character, int joint)
@@ -50,7 +48,6 @@ TEST_CASE("docs: bodies")
     std::vector<Character> characters(40, stands);
     characters[7].hand_target[0] = std::nanf("");
     const Character before = characters[7];
-    // [crowd]
     swivel_skeleton skeleton = swivel_default_skeleton();
     skeleton.parents = swivel::stream(kParents);
     skeleton.translations = swivel::stream(kOffsets);
@@ -62,8 +59,6 @@ TEST_CASE("docs: bodies")
     swivel::Crowd crowd(skeleton, 40,
                         {swivel::body_limb(arm, SWIVEL_POLE_INCOMING),
                          swivel::body_limb(leg, SWIVEL_POLE_INCOMING)});
-    // [end]
-    // [frame]
     for (Character& each : characters) each.solved = each.pose;
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
@@ -76,7 +71,6 @@ TEST_CASE("docs: bodies")
     arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::hand_target));
     legs.in(SWIVEL_TARGET, swivel::stream(characters, &Character::foot_target));
     crowd.solve({.streams = {arms, legs}, .pose = &pose});
-    // [end]
     for (const Character& character : characters) {
         if (&character == &characters[7]) continue;
         CHECK((place_of(character, kHand) - vec(character.hand_target)).norm() < 2e-6);
@@ -93,11 +87,9 @@ TEST_CASE("docs: bodies")
     CHECK((foot - vec(stands.foot_target)).norm() < 2e-6);
     const std::vector<Character> still = characters;
     for (Character& character : characters) character.hand_target[1] += 0.1f;
-    // [some]
     std::vector<std::uint32_t> mask((swivel_block_count(crowd.get()) + 1) / 2);
     for (const std::uint32_t body : {3u, 5u}) mask[body / 32] |= 1u << (body % 32);
     crowd.solve({.mask = mask, .streams = {arms, legs}, .pose = &pose});
-    // [end]
     CHECK((place_of(characters[5], kHand) - vec(characters[5].hand_target)).norm() <
           2e-6);
     CHECK(characters[4].solved == still[4].solved);
@@ -142,7 +134,6 @@ TEST_CASE("docs: bodies in the body's space")
     skeleton.parents = swivel::stream(parents);
     skeleton.translations = swivel::stream(offsets);
     skeleton.joint_count = 5;
-    // [twist]
     const std::uint32_t twist_bones[] = {4};  // between elbow and wrist
     swivel_limb_joints arm = swivel_default_limb_joints(0, 1, 2);
     arm.bend[2] = 1;
@@ -150,14 +141,11 @@ TEST_CASE("docs: bodies in the body's space")
     arm.twist_bone_count = 1;
     const swivel_body_limb_def twisted = swivel::body_limb(
         arm, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_RECORD);
-    // [end]
     swivel::Crowd crowd(skeleton, 10, {twisted});
-    // [model]
     struct Model {  // each joint relative to the root
         std::array<Float4, 5> rotations;
         std::array<Float3, 5> places;
     };
-    // [end]
     Model rests{{},
                 {{{0, 1.4f, 0},
                   {0.3f, 1.4f, 0},

@@ -7,17 +7,16 @@ TEST_CASE("docs: clavicle")
     swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE)});
     // The shoulder, as the clavicle's joint has it, and a third of the way.
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.15f, 0, 0, 0.33f});
-    // The shoulder's place and the clavicle's rotation as they are without this.
+    // As they are without this turn.
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.2f, 1.4f, 0});
     crowd.write_all(SWIVEL_PARENT_ROTATION, 0, Float4{0, 0, 0, 1});
+    // [end]
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 1.8f, 0.2f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0.5f, 1, -1});
     crowd.solve();
-    std::array<Float4, 1>
-        turn;  // the clavicle's local rotation becomes rotation * turn
+    std::array<Float4, 1> turn;
     crowd.read(SWIVEL_CLAVICLE_ROTATION, 0, turn);
-    // [end]
     std::array<Double3, 1> elbow, wrist;
     crowd.elbows(0, elbow);
     crowd.wrists(0, wrist);

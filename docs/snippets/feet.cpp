@@ -27,16 +27,15 @@ const std::array<Float3, kJoints> kOffsets = {{{0, 0.85f, 0},
                                                {0, -0.45f, 0}}};
 constexpr float kFrame = 1 / 60.0f;
 
-// [character]
 struct Character {
-    Float3 place;  // of the root, in the world
+    Float3 place;
     Float4 rotation;
-    std::array<Float4, kJoints> pose;    // local rotations, as the animation has them
-    std::array<Float4, kJoints> solved;  // a copy with the legs solved: draw this one
-    float left_down, right_down;         // 1 while the clip has the foot down, else 0
-    float time;                          // seconds since this character's last solve
+    std::array<Float4, kJoints> pose, solved;
+    // [character]
+    float left_down, right_down;  // 1 while the clip has the foot down, else 0
+    float time;                   // seconds since this character's last solve
+    // [end]
 };
-// [end]
 
 swivel_skeleton legs()
 {
@@ -126,7 +125,6 @@ TEST_CASE("docs: feet that stand")
         for (Character& each : characters)
             each.place[2] +=
                 0.3f * kFrame;  // in two thirds of a step the root glides on
-        // [frame]
         swivel_pose pose = swivel_default_pose();
         pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                           nullptr};
@@ -134,6 +132,7 @@ TEST_CASE("docs: feet that stand")
                         nullptr};
         pose.root_position = swivel::stream(characters, &Character::place);
         pose.root_rotation = swivel::stream(characters, &Character::rotation);
+        // [frame]
         pose.time = swivel::stream(characters, &Character::time);
         swivel::Streams left_leg, right_leg;
         left_leg.in(SWIVEL_CONTACT, swivel::stream(characters, &Character::left_down));
@@ -158,13 +157,11 @@ TEST_CASE("docs: feet by motion")
 {
     const swivel_skeleton skeleton = legs();
     const swivel_limb_joints left = leg(kLeftThigh);
-    // [motion]
     swivel_body_limb_def left_leg = swivel::body_limb(
         left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_PLANT_BY_MOTION);
     // In limb lengths, of 0.9 m here. To begin a contact, then to go on with it:
     left_leg.plant.speed[0] = 0.4f, left_leg.plant.speed[1] = 0.6f;    // a second
     left_leg.plant.height[0] = 0.1f, left_leg.plant.height[1] = 0.2f;  // over the root
-    // [end]
     swivel::Crowd crowd(skeleton, 1, {left_leg});
     std::vector<Character> one(1, standing());
     swivel_pose pose = swivel_default_pose();
@@ -185,15 +182,15 @@ TEST_CASE("docs: feet by motion")
 
 TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
 {
-    // [walker]
     struct Walker {
+        // [walker]
         Double3 place;    // in a large world
         Double3 support;  // what it stands on: a tile's origin, a lift's place
         Float4 support_rotation;
+        // [end]
         std::array<Float4, kJoints> pose, solved;
         float time;
     };
-    // [end]
     const Walker first{{4e6 + 1, 0, 2}, {4e6, 0, 0},       {0, 0, 0, 1},
                        standing().pose, standing().solved, kFrame};
     std::vector<Walker> walkers(2, first);
@@ -201,15 +198,15 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
     swivel::Crowd crowd(
         legs(), 2, {swivel::body_limb(left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT)});
     crowd.write_all(SWIVEL_CONTACT, 0, std::array{1.0f});
-    // [double]
     swivel_pose pose = swivel_default_pose();
-    pose.root_is_double = 1;
     pose.rotations = {walkers[0].pose.data(), sizeof(Walker), sizeof(Float4), nullptr};
     pose.results = {walkers[0].solved.data(), sizeof(Walker), sizeof(Float4), nullptr};
+    pose.time = swivel::stream(walkers, &Walker::time);
+    // [double]
+    pose.root_is_double = 1;
     pose.root_position = swivel::stream(walkers, &Walker::place);
     pose.support_position = swivel::stream(walkers, &Walker::support);
     pose.support_rotation = swivel::stream(walkers, &Walker::support_rotation);
-    pose.time = swivel::stream(walkers, &Walker::time);
     // [end]
     const auto foot = [&] {
         Character as = standing();
@@ -266,13 +263,11 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
          swivel_default_shift_def()});
     // [end]
     std::vector<Character> characters(40, standing());
-    // [steps]
     struct Steps {
         Float3 left_next, right_next;  // where each foot lands next, in the world
         float left_in, right_in;       // in how many seconds
         Float3 shift;                  // of the body: a result
     };
-    // [end]
     std::vector<Steps> steps(40, Steps{{}, {}, 9, 9, {}});
     std::vector<Float3> shown(40);
     for (const std::uint32_t group : {0u, 1u}) {
@@ -322,14 +317,12 @@ TEST_CASE("docs: palms and standing feet keep their rotation")
 {
     const swivel_skeleton skeleton = legs();
     const swivel_limb_joints left = leg(kLeftThigh);
-    // [turn]
     const swivel_body_limb_def left_leg = swivel::body_limb(
         left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND |
                   SWIVEL_WITH_PLANT_ROTATION | SWIVEL_WITH_EFFECTOR);
     swivel::Crowd crowd(skeleton, 40, {left_leg});
     crowd.write_all(SWIVEL_EFFECTOR, 0,
                     Float3{0, -0.07f, 0.1f});  // the ball of the foot
-    // [end]
     std::vector<Character> characters(40, standing());
     crowd.write_all(SWIVEL_CONTACT, 0, std::array{1.0f});
     swivel_pose pose = swivel_default_pose();
@@ -368,11 +361,9 @@ TEST_CASE("docs: feet that are not solved in every frame")
     for (Character& each : characters) each.time = 0;
     const std::vector<std::uint32_t> chosen = {0, 2}, mask = {0b101};
     for (int n = 0; n < 3; ++n) {
-        // [detail]
         for (Character& each : characters) each.time += dt;  // of every character
         crowd.solve({.mask = mask, .pose = &pose});
         for (const std::uint32_t body : chosen) characters[body].time = 0;
-        // [end]
     }
     CHECK(characters[0].time == 0);
     CHECK(characters[1].time == Approx(3 * dt));
@@ -410,7 +401,6 @@ TEST_CASE("docs: why a foot slid")
     std::vector<std::string> log;
     for (int n = 0; n < 30; ++n) {
         scene.glide(0.7f);
-        // [why]
         std::vector<std::uint32_t> flags(characters.size());
         for (const std::uint32_t leg : {0u, 1u}) {  // groups
             crowd.read(SWIVEL_FLAGS, leg, flags);
@@ -418,7 +408,6 @@ TEST_CASE("docs: why a foot slid")
                 if (flags[body] & (SWIVEL_BROKE_AWAY | SWIVEL_CUT))
                     log.push_back(swivel::explain(crowd, leg, body));
         }
-        // [end]
     }
     REQUIRE(log.size() == 6);  // both feet of three
     CHECK(log[0].starts_with(

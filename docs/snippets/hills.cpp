@@ -221,13 +221,14 @@ TEST_CASE("docs: feet on hills")
         contacts[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
     reset();
     for (int n = 0; n < 30; ++n) {
-        // [far]
         const auto sample = [&](const swivel_probes& probes) {
             for (std::size_t foot = 0; foot < probes.count; ++foot) {
+                // [far]
                 const auto& at = probes.places[foot];              // from the root
                 const Double3& root = roots[probes.bodies[foot]];  // in the world
                 const double x = root[0] + double{at[0]}, z = root[2] + double{at[2]};
                 const double height = double{terrain.height(x, z)} - root[1];
+                // [end]
                 probes.grounds[foot][0] = at[0];
                 probes.grounds[foot][1] = static_cast<float>(height);
                 probes.grounds[foot][2] = at[2];
@@ -238,7 +239,6 @@ TEST_CASE("docs: feet on hills")
         crowd.solve({.streams = {contacts[0], contacts[1], pelvis},
                      .pose = &far,
                      .sample = sample});
-        // [end]
     }
     check_same();
 }

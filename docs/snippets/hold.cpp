@@ -161,9 +161,7 @@ TEST_CASE("docs: a rifle in both hands")
               1e-6);
     }
 
-    // [share]
     crowd.write_all(SWIVEL_HAND_BLEND, 2, std::array{0.5f});
-    // [end]
     crowd.solve({.pose = &pose});
     CHECK(scene.worst({0.1f, 0, 0.25f}) < 3e-6);
     CHECK(characters[3].solved[kRightArm] != animated[3].pose[kRightArm]);
@@ -187,11 +185,9 @@ TEST_CASE("docs: a wheel, and a thing on a joint")
     crowd.write_all(SWIVEL_GRIP, 0, Grip{-0.2f, 0, 0, 0, 0, 0, 1});
     crowd.write_all(SWIVEL_GRIP, 1, Grip{0.2f, 0, 0, 0, 0, 0, 1});
     const float angle = 0.4f;
-    // [turn]
     const Float4 turned = {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
     crowd.write_all(SWIVEL_PROP_POSITION, 2, Float3{0, 0.4f, 0});
     crowd.write_all(SWIVEL_PROP_ROTATION, 2, turned);
-    // [end]
     crowd.solve({.pose = &scene.pose});
     for (const Character& each : scene.characters) {
         const Frame seat = frame_of(each, kSeat);

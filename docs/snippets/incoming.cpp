@@ -28,15 +28,15 @@ TEST_CASE("docs: incoming pose and weights")
     // [shown]
     swivel::Crowd crowd({swivel::limbs(
         1, SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS)});
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     // The clip's pose: whole quaternions, x, y, z, w.
     crowd.write_all(SWIVEL_INCOMING_SHOULDER, 0, shoulder);
     crowd.write_all(SWIVEL_INCOMING_ELBOW, 0, elbow);
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.9f, 0.5f, 1.1f});
     // Half way from the clip's wrist to the target.
     crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 1, 1});
-    crowd.solve();
     // [end]
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.9f, 0.5f, 1.1f});
+    crowd.solve();
     std::array<Double3, 1> wrist;
     crowd.wrists(0, wrist);
     CHECK(distance(wrist[0], Float3{0.7f, 0.35f, 1.15f}) < 1e-5);

@@ -22,7 +22,7 @@ Eigen::Vector3d wrist_of(const Character& character)
 }
 
 // The upper arm's twist about its bone, in degrees, from -180 to 180. A bend with the
-// wrong sign adds half a turn, here and in start.cpp.
+// wrong sign adds half a turn.
 double twist_of(const Character& character)
 {
     const Eigen::Quaterniond upper = quat(character.upper_arm);
@@ -40,7 +40,6 @@ TEST_CASE("docs: streams in place")
     limbs.binding = bound_arm();
     swivel::Crowd crowd({limbs});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
-    // [streams]
     swivel::Streams arms;  // what is not listed keeps its rows, or is not written
     arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
     arms.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
@@ -48,7 +47,6 @@ TEST_CASE("docs: streams in place")
     arms.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
     arms.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm));
     crowd.solve({.streams = {arms}});  // one for each group
-    // [end]
     for (const Character& character : characters) {
         CHECK((wrist_of(character) - vec(character.grip)).norm() < 1e-6);
         CHECK(std::abs(twist_of(character)) < 90);
@@ -110,7 +108,6 @@ TEST_CASE("docs: own memory")
     const swivel_limb_def arms = swivel::limbs(100);
     swivel_group_def group = swivel_default_group_def();
     group.limb = &arms;
-    // [memory]
     swivel_crowd_def def = swivel_default_crowd_def();
     def.group_count = 1;
     def.groups = &group;
@@ -122,7 +119,6 @@ TEST_CASE("docs: own memory")
         crowd.solve();
     }
     std::free(def.memory);
-    // [end]
     CHECK(def.memory_bytes % 64 == 0);
 }
 

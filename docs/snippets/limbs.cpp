@@ -17,18 +17,16 @@ TEST_CASE("docs: legs")
     swivel_limb_def left_leg = swivel::limbs(1, SWIVEL_WORLD | SWIVEL_JOINTS);
     left_leg.binding = swivel::bind(skeleton, leg);
     swivel::Crowd crowd({left_leg});
-    // [end]
-    // [leg_solve]
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.1f, 0.95f, 0});  // the hip
     // The ankle, on a step.
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.1f, 0.25f, 0.1f});
     // In front: where the knee points.
     crowd.write_all(SWIVEL_POLE, 0, Float3{0.1f, 0.5f, 2});
     crowd.solve();
-    // [end]
-    std::array<Float4, 1> thigh, shin;
+    std::array<Float4, 1> thigh, shin;  // local rotations, x, y, z, w
     crowd.read(SWIVEL_SHOULDER, 0, thigh);
     crowd.read(SWIVEL_ELBOW, 0, shin);
+    // [end]
     const Eigen::Vector3d hip(0.1, 0.95, 0),
         knee = hip + quat(thigh[0]) * Eigen::Vector3d(0, -0.45, 0);
     const Eigen::Vector3d ankle =
@@ -49,7 +47,7 @@ TEST_CASE("docs: joints of a skeleton")
     const std::vector<Joint> joints = {
         {-1, {0, 1.4f, 0}, none},  // 0: chest
         {0, {0.2f, 0, 0}, none},   // 1: upper arm
-        {1, {0.15f, 0, 0}, none},  // 2: a roll joint in it, which stays at rest
+        {1, {0.15f, 0, 0}, none},  // 2: a roll joint in it
         {2, {0.15f, 0, 0}, none},  // 3: forearm
         {3, {0.13f, 0, 0}, none},  // 4: its twist bone
         {3, {0.26f, 0, 0}, none},  // 5: hand

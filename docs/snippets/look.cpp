@@ -74,13 +74,13 @@ TEST_CASE("docs: a head that looks")
     look.axis[2] = 1;                         // ahead
     swivel::Crowd crowd(skeleton, 40, {look});
     // [end]
-    // [frame]
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
                       nullptr};
     pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
                     nullptr};
     pose.root_position = swivel::stream(characters, &Character::place);
+    // [frame]
     pose.time = swivel::stream(characters, &Character::time);
     swivel::Streams head;
     head.in(SWIVEL_LOOK_TARGET, swivel::stream(characters, &Character::looks_at));

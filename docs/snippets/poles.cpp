@@ -31,11 +31,9 @@ void check_side(const Eigen::Vector3d& elbow, const Eigen::Vector3d& pole)
 
 TEST_CASE("docs: pole directions")
 {
-    // [direction]
     swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WORLD | SWIVEL_POLE_DIRECTION)});
     // Downwards, wherever the character stands.
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
-    // [end]
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     give_arm(crowd);
     crowd.solve();
@@ -44,11 +42,9 @@ TEST_CASE("docs: pole directions")
 
 TEST_CASE("docs: pole normals")
 {
-    // [normal]
     swivel::Crowd crowd({swivel::limbs(1, SWIVEL_POLE_NORMAL)});
     // Across shoulder, elbow and wrist: the elbow's axis.
     crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, -1});
-    // [end]
     give_arm(crowd);
     crowd.solve();
     check_side(elbow_of(crowd), Eigen::Vector3d(1, 0, -1).cross(vec(target)));

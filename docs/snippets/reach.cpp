@@ -5,19 +5,18 @@ TEST_CASE("docs: soft reach and stretch")
 {
     // [shown]
     swivel::Crowd crowd({swivel::limbs(3, SWIVEL_WITH_REACH)});
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.5f, 0.5f});
     // Shares of both bones' length: eased 0.1 before the far end, not at the near one;
     // stretched up to 1.05; no wrist nearer than 0.2.
     crowd.write_all(SWIVEL_REACH, 0, Float4{0.1f, 0, 1.05f, 0.2f});
+    // [end]
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.5f, 0.5f});
     crowd.write(SWIVEL_TARGET, 0,
                 std::array<Float3, 3>{{{0, 0, 0.98f}, {0, 0, 2}, {0, 0, 0.1f}}});
     crowd.solve();
-
-    std::array<std::array<float, 1>, 3> stretch;  // scale both bones by it
+    std::array<std::array<float, 1>, 3> stretch;
     std::array<std::uint32_t, 3> flags;
     crowd.read(SWIVEL_STRETCH, 0, stretch);
     crowd.read(SWIVEL_FLAGS, 0, flags);
-    // [end]
     std::array<Double3, 3> wrists;
     crowd.wrists(0, wrists);
     // Eased, and stretched by what that took.

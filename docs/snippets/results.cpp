@@ -99,10 +99,12 @@ TEST_CASE("docs: rows")
     const swivel_rows in = swivel_input_rows(crowd.get(), 0);  // group 0
     const std::uint32_t row = swivel_field_first_row(crowd.get(), 0, SWIVEL_TARGET);
     const std::uint32_t limb = 1;  // of the group
-    float* const block = in.base + (limb / SWIVEL_LANES) * in.row_count * SWIVEL_LANES;
-    block[(row + 0) * SWIVEL_LANES + limb % SWIVEL_LANES] = 0.1f;  // x
-    block[(row + 1) * SWIVEL_LANES + limb % SWIVEL_LANES] = 0.2f;  // y
-    block[(row + 2) * SWIVEL_LANES + limb % SWIVEL_LANES] = 0.3f;  // z
+    float* const x = in.base +
+                     (limb / SWIVEL_LANES * in.row_count + row) * SWIVEL_LANES +
+                     limb % SWIVEL_LANES;
+    x[0] = 0.1f;
+    x[SWIVEL_LANES] = 0.2f;      // y
+    x[2 * SWIVEL_LANES] = 0.3f;  // z
     crowd.solve();
     // [end]
     std::array<Double3, 2> wrists;

@@ -7,18 +7,16 @@ TEST_CASE("docs: step limit")
     std::array<Double3, 1> before, after;
     // [shown]
     swivel::Crowd crowd({swivel::limbs(1, SWIVEL_WITH_MAX_SWIVEL)});
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-    crowd.write_all(SWIVEL_TARGET, 0, target);
     // Radians for each solve: 0.1 at 60 a second is 6 a second.
     crowd.write_all(SWIVEL_MAX_SWIVEL, 0, swivel::cos_sin(0.1));
+    // [end]
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    crowd.write_all(SWIVEL_TARGET, 0, target);
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.solve();
-    // [end]
     crowd.elbows(0, before);
-    // [jump]
     crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, 0});  // a quarter turn away
     crowd.solve();  // the elbow starts towards it: SWIVEL_LIMITED_STEP
-    // [end]
     crowd.elbows(0, after);
     const Eigen::Vector3d line = vec(target).normalized();
     const auto side = [&](const Double3& elbow) {

@@ -7,6 +7,7 @@ TEST_CASE("docs: twist bones")
     swivel_limb_def arm = swivel::limbs(1, SWIVEL_WITH_HAND);
     arm.twist_bone_count = 3;
     swivel::Crowd crowd({arm});
+    // [end]
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.1f, 1.6f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
@@ -15,7 +16,6 @@ TEST_CASE("docs: twist bones")
     // Children of the forearm, from elbow to wrist.
     std::array<std::array<Float4, 3>, 1> twist;
     crowd.read(SWIVEL_TWIST_BONES, 0, twist);
-    // [end]
     std::array<Float4, 1> wrist;
     crowd.read(SWIVEL_WRIST, 0, wrist);
     const auto about_forearm = [](const Float4& q) {

@@ -71,7 +71,7 @@ const std::vector<Enum>& enums()
          feature_table()},
         {"IntEnum", "Field",
          "A field of a group's limbs: an input up to SHOULDER, from there on a result.\n\n"
-         "Crowd.component_count() tells how many numbers its values have; docs/python.md lists units and meanings.",
+         "Crowd.component_count() tells how many numbers its values have; docs/fields.md lists units and meanings.",
          field_table()},
         {"IntFlag", "Flag", "Bits of a limb's flag word, the result Field.FLAGS. Hard poses are results, not errors.",
          flag_table()},
@@ -152,11 +152,9 @@ void add_arms(py::module_& module)
         py::module_::import("collections")
             .attr("namedtuple")("Arms", names + more, py::arg("defaults") = nones, py::arg("module") = "swivel");
     made.attr("__doc__") =
-        "What solve() gives for n arms: the results of docs/python.md, with their shapes; None: the arms were not "
-        "asked\n"
-        "for it. elbow_position and wrist_position are (n, 3) float64, in the space and unit of the targets. residual "
-        "is\n"
-        "(n,) float64, from target to wrist, or effector, in arm lengths.";
+        "What solve() gives for n arms: the results of docs/fields.md, shaped as docs/python.md says.\n\n"
+        "None: the arms were not asked for it. elbow_position and wrist_position are (n, 3) float64, in the space and\n"
+        "unit of the targets. residual is (n,) float64, from target to wrist, or effector, in arm lengths.";
     module.attr("Arms") = made;
 }
 

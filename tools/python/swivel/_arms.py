@@ -42,8 +42,8 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     seen from the shoulder, or in the world with shoulder_position=. Anything that NumPy makes an array of will do.
 
     Further keywords are the input fields' lower-case names, and bring the features they need: hand=, parent_rotation=, reach=,
-    shoulder_cone=, ...; docs/python.md lists them with their shapes. features adds those without a field, such as
-    Feature.POLE_DIRECTION. binding, from bind_joints(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): all
+    shoulder_cone=, ...; docs/fields.md lists them, and docs/python.md says how they are shaped. features adds those without a field,
+    such as Feature.POLE_DIRECTION. binding, from bind_joints(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): all
     positions are taken from there in double precision. twist_bone_count, with hand=, is how many bones share the hand's twist.
 
     No arms, arrays of length 0, give none. ValueError for shapes that do not go together, for lengths that nobody gave and for a
