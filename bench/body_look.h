@@ -10,7 +10,7 @@ namespace bench {
 
 inline swivel_look_def body_look()
 {
-    swivel_look_def look = swivel::look(kLookChain);
+    swivel_look_def look = swivel::look({std::begin(kLookChain), std::end(kLookChain)});
     std::ranges::copy(kLookShares, look.share);
     std::ranges::copy(kLookMax, look.cos_max);
     std::ranges::copy(kEye, look.eye);

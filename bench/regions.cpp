@@ -2,8 +2,6 @@
 //
 // The production limb, with a reach region of four cones in order in place of its shoulder cone. Of none, 10 and 100 %
 // of the limbs the region forbids the swivel that is wished for (limited), or every swivel (infeasible).
-#include <array>
-
 #include "bench/rivals/production_limb.h"
 #include "bench/shares.h"
 #include "swivel/swivel_regions.hpp"
@@ -12,9 +10,8 @@ namespace bench {
 
 void add_regions(Suite& suite)
 {
-    constexpr std::array<swivel_region_cone, 4> cones = {
-        {{{0, 0.2f, 1}, 1.1f}, {{0, 1, 0.3f}, 0.8f}, {{1, 0.3f, 0.2f}, 0.9f}, {{0.5f, -0.6f, 0.8f}, 0.7f}}};
-    static const swivel::Region region = swivel::Region().add_cones(cones);
+    static const swivel::Region region = swivel::Region().add_cones(
+        {{{0, 0.2f, 1}, 1.1f}, {{0, 1, 0.3f}, 0.8f}, {{1, 0.3f, 0.2f}, 0.9f}, {{0.5f, -0.6f, 0.8f}, 0.7f}});
     const swivel_features features = (kProduction & ~SWIVEL_WITH_SHOULDER_CONE) | SWIVEL_WITH_REGION;
     const Pool pool = make_pool(features, suite.best_isa(), &region.get());
     const auto add_row = [&](const std::string& isa, Held kind, int percent) {

@@ -30,18 +30,18 @@ SWIVEL_INLINE constexpr Rotor<T> line_from_arm(const Vector<T>& point)
 
 // wanted: the distance from the shoulder to the target. hand: the wrist's rotation from the forearm, unit.
 template <class T>
-SWIVEL_INLINE constexpr PlacedBones<T, Rotor<T>> aimed_bones(const LimbUse& use, const LimbGoal<T>& goal,
+SWIVEL_INLINE constexpr PlacedBones<T, Rotor<T>> aimed_bones(swivel_features features, const LimbGoal<T>& goal,
                                                              const Rotor<T>& hand, const T& wanted)
 {
     // Scaled to about 1 and less; the ratios stay the same to the last bit.
     T size = goal.arm.upper + goal.arm.fore;
-    if (use.effector) size = size + length1(goal.effector);
+    if (features & SWIVEL_WITH_EFFECTOR) size = size + length1(goal.effector);
     const T shrink = per_power_of_two(hi(size, T(kTiny)));
     const T distance = lo(wanted * shrink, T(kAimFar));
 
     const Hinge<T> elbow = normalise(hinge(goal.aim.cos_half, -goal.aim.sin_half));
     Vector<T> tip = vector(T(0), T(0), goal.arm.fore * shrink);
-    if (use.effector) tip = tip + sandwich(hand, shrink * goal.effector);
+    if (features & SWIVEL_WITH_EFFECTOR) tip = tip + sandwich(hand, shrink * goal.effector);
     tip = sandwich(elbow, tip) + vector(T(0), T(0), goal.arm.upper * shrink);
     const Vector<T> axis = normalise(sandwich(elbow, sandwich(hand, goal.aim.axis)));
 

@@ -15,13 +15,15 @@ namespace swivel::inline SWIVEL_ISA {
 template <class T>
 ArmPose<T> solve_as_limb(const ArmGoal<T>& arm)
 {
-    const LimbUse no_features;
+    constexpr swivel_features no_features = 0;
     LimbGoal<T> goal{};
     goal.arm = arm;
+    WishGoal<T> wish_goal{};
+    wish_goal.pole = arm.pole;
     const Mask<T> valid = is_valid(arm);
     const WristLine<T> target = wrist_line(arm.wrist);
     const PlacedBones<T, Hinge<T>> bones = place_bones(no_features, goal, target.wanted);
-    const LimbNormal<T> wish = limb_normal(no_features, goal, one<T>(), target.line);
+    const LimbNormal<T> wish = limb_normal(no_features, wish_goal, target.line);
     const Word<T> flags = bones.flags | wish.flags | word_where(target.on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
     return {select(valid, lifted(target.line, wish.normal, bones.lift), one<T>()), select(valid, bones.cos_half, T(1)),
             select(valid, bones.sin_half, T(0)), select(valid, flags, word<T>(SWIVEL_BAD_INPUT)), valid};

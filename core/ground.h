@@ -104,13 +104,13 @@ SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, con
                                                const Vector<T>& up, const Foot<T>& foot, const Vector<T>& heel_from_toe,
                                                const T& scale, const T& share, const GroundRules& rules)
 {
-    const Vector<T> toe = foot.toe + hi(ground.way_up(foot.toe, T(rules.toe_clearance) * scale), T(0)) * up;
+    const Vector<T> toe = foot.toe + hi(ground.way_up(foot.toe, T(rules.given.toe_clearance) * scale), T(0)) * up;
     const Rotor<T> with_ground =
         no_further(clavicle_rotation(up, slope.normal, share), T(rules.cos_half_max), T(rules.sin_half_max)) *
         foot.rotation;
     const Rotor<T> on_slope = unit_rotation(with_ground);
 
-    const T wanted = T(rules.heel_clearance) * scale - slope.distance(toe);
+    const T wanted = T(rules.given.heel_clearance) * scale - slope.distance(toe);
     const Rotor<T> lift = lifting_turn(ground.exists, slope.normal, turned(on_slope, heel_from_toe), wanted);
     // Beyond the ground's end, a foot's turn fades until its slope is up again.
     const Mask<T> turns = ground.exists | (len2(slope.normal - up) > T(kUpright2));

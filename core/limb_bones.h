@@ -54,7 +54,7 @@ SWIVEL_INLINE constexpr CappedReach<T> capped_reach(const Cap<T>& cap, const T& 
 
 // wanted: the distance from shoulder to wrist, 0 or more.
 template <class T>
-SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use, const LimbGoal<T>& goal,
+SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(swivel_features features, const LimbGoal<T>& goal,
                                                              const T& wanted)
 {
     // Scaled to about 1; the ratios stay the same to the last bit.
@@ -63,30 +63,31 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
             near = abs(upper - fore), distance = wanted * shrink;
 
     ReachRange<T> range{near, far, T(0), T(0), T(1)};
-    if (use.flexion) range = flexion_range(goal.flexion, upper, fore, near, far);
-    if (use.reach) {
+    if (features & SWIVEL_WITH_FLEXION_LIMIT) range = flexion_range(goal.flexion, upper, fore, near, far);
+    if (features & SWIVEL_WITH_REACH) {
         range.near = lo(hi(goal.reach.min_distance * far, range.near), range.far);
         range.soft_far = goal.reach.soft_far * far;
         range.soft_near = goal.reach.soft_near * far;
         range.max_stretch = goal.reach.max_stretch;
     }
     const T uncapped = range.far;
-    if (use.cap) {
+    if (features & SWIVEL_WITH_CAP) {
         Cap<T> cap = goal.cap;
         cap.incoming = cap.incoming * shrink;
         const CappedReach<T> capped = capped_reach(cap, range.far, far);
         range.far = hi(capped.far, range.near);
         range.soft_far = capped.zone;
     }
-    const SoftReach<T> reach =
-        use.reach || use.cap ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
+    const SoftReach<T> reach = features & (SWIVEL_WITH_REACH | SWIVEL_WITH_CAP)
+                                   ? soft_reach(distance, range)
+                                   : hard_reach(distance, range.near, range.far);
     const Mask<T> missed = reach.too_far | reach.too_near | reach.softened;
     // At most one of the three holds. clang 19 did not finish AVX-512's stage of bones where their words were joined.
     Word<T> flags = select(reach.too_far, word<T>(SWIVEL_CLAMPED_FAR),
                            select(reach.too_near, word<T>(SWIVEL_CLAMPED_NEAR),
                                   select(reach.softened, word<T>(SWIVEL_SOFTENED), word<T>(SWIVEL_REACHED)))) |
                     word_where(reach.stretch > T(1), SWIVEL_STRETCHED);
-    if (use.flexion) {
+    if (features & SWIVEL_WITH_FLEXION_LIMIT) {
         const Mask<T> too_straight = (distance > range.far) & (range.far < far) & (range.far >= uncapped),
                       too_bent = (distance < range.near) & (range.near > near);
         flags = flags | word_where(missed & (too_straight | too_bent), SWIVEL_LIMITED_FLEXION);

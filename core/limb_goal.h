@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The goal of a whole limb, and which of its parts a group uses. Everything is in the arm frame. Parts that a group
-// does not use may hold anything.
+// The goal of a whole limb, but for the wish for its elbow (wish.h). Everything is in the arm frame. Formulas take the
+// group's features with it: parts of the goal that these do not use may hold anything.
 #pragma once
 
 #include "core/joint_limits.h"
 
 namespace swivel::inline SWIVEL_ISA {
-
-enum class Wish { pole, normal, incoming, hand };  // where the elbow's pole comes from
-
-// The parts that a group uses.
-struct LimbUse {
-    bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false, cap = false,
-         continuity = false, step_wins = false, aim = false, yields = false, flexion = false;
-    Wish wish = Wish::pole;
-};
 
 template <class T>
 struct IncomingPose {
@@ -41,12 +32,6 @@ struct Cap {
     T margin, min, zone, incoming;
 };
 
-template <class T>
-struct Continuity {
-    Vector<T> previous_normal;  // zero: none
-    Turned<T> max;              // swivel in a frame, 0 to pi
-};
-
 // The hand's axis, whose ray from the effector must go through the target, and half the elbow's flexion.
 template <class T>
 struct AimGoal {
@@ -56,15 +41,13 @@ struct AimGoal {
 
 template <class T>
 struct LimbGoal {
-    ArmGoal<T> arm;  // wrist: the effector's target; pole: a pole, or the swivel plane's normal
+    ArmGoal<T> arm;  // without the pole; wrist: the effector's target
     Rotor<T> hand;   // orientation, the identity at rest; with aim the wrist's rotation from the forearm; of any length
     Vector<T> effector;  // in the hand's frame
-    Turned<T> angle;     // turns the wish about the line from shoulder to wrist; of any length
     IncomingPose<T> incoming;
     Weights<T> weights;
     ReachGoal<T> reach;
     Cap<T> cap;
-    Continuity<T> continuity;
     AimGoal<T> aim;
     FlexionLimit<T> flexion;
 };
@@ -147,13 +130,6 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ReachGoal<T>& reach)
 {
     return is_share(reach.soft_far) & is_share(reach.soft_near) & is_share(reach.min_distance) &
            (reach.max_stretch >= T(1)) & (reach.max_stretch <= T(1e3));
-}
-template <class T>
-SWIVEL_INLINE constexpr Mask<T> is_valid(const Continuity<T>& continuity)
-{
-    const Turned<T>& max = continuity.max;
-    return (len2(continuity.previous_normal) <= T(1.01)) & (max.sin >= T(-1e-6)) &
-           is_unit2(max.cos * max.cos + max.sin * max.sin);
 }
 // A product of two rotors as is_orientation() allows them.
 template <class T>

@@ -8,9 +8,17 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/bit_cast.h"
+#include "core/isa.h"
 
 namespace swivel::inline SWIVEL_ISA {
+
+// The same bits as a value of another type of the same size, as by std::bit_cast, which standard libraries older than
+// C++20's lack, such as that of emscripten 3.1.
+template <class To, class From>
+SWIVEL_ALWAYS_INLINE constexpr To bit_cast(const From& from)
+{
+    return __builtin_bit_cast(To, from);
+}
 
 // Mask<T> holds the truth of a comparison, Word<T> a 32-bit word, one for each lane of T.
 template <class T>

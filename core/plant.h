@@ -69,7 +69,8 @@ SWIVEL_INLINE constexpr void fade(Vector<T>& offset, Vector<T>& velocity, const 
 template <class T>
 SWIVEL_INLINE constexpr void forget_old(PlantState<T>& s, const T& time, const PlantRules& rules)
 {
-    if (rules.reset_time > 0) s.fresh = s.fresh | (time > T(rules.reset_time));
+    const float reset_time = rules.given.reset_time;
+    if (reset_time > 0) s.fresh = s.fresh | (time > T(reset_time));
 }
 
 // One step. State and input must be finite, the input within kHuge.
@@ -77,8 +78,8 @@ template <class T>
 SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& in, const PlantRules& rules)
 {
     const Vector<T> none = vector(T(0), T(0), T(0)), x = in.point;
-    const T lock = T(rules.lock_radius) * in.length, unlock = T(rules.unlock_radius) * in.length,
-            again = T(rules.relock_speed) * in.length;
+    const T lock = T(rules.given.lock_radius) * in.length, unlock = T(rules.given.unlock_radius) * in.length,
+            again = T(rules.given.relock_speed) * in.length;
     Planted<T> out;
     out.cut = no_lanes<T>();
     const Mask<T> fresh = s.fresh;
@@ -97,7 +98,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     const Vector<T> speed = select(was_locked, none, per_time * (x - mark));
     const Mask<T> fades = waiting & moves;
     velocity = select(fades, at_most(velocity - speed, T(rules.fastest_out) * in.length, fades, out.cut), velocity);
-    left = select(fades, T(rules.release_time), left);
+    left = select(fades, T(rules.given.release_time), left);
     waiting = waiting & !moves;
 
     const Mask<T> is_left = left > T(kShortestTime);
@@ -119,7 +120,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     s.mark = select(locks, anchor, select(acts & (releases | !was_locked), x, mark));
     s.offset = select(locks, out.target - anchor, select(releases, out.target - x, offset));
     s.velocity = select(locks, entry, velocity);
-    s.left = select(locks, T(rules.stop_time), left);
+    s.left = select(locks, T(rules.given.stop_time), left);
     s.fresh = no_lanes<T>();
     s.locked = (was_locked & !releases) | locks;
     s.armed = armed & !locks;
@@ -143,11 +144,11 @@ SWIVEL_INLINE constexpr Mask<T> contact_by_motion(MotionState<T>& s, const Mask<
                                                   const T& height, const PlantRules& rules)
 {
     const Mask<T> moves = (in.time > T(0)) & !fresh, was_in_contact = s.contact & !fresh;
-    const auto bar = [&](float on, float off)
-                         SWIVEL_INLINE_LAMBDA { return select(was_in_contact, T(off), T(on)) * in.length; };
-    const T way = bar(rules.speed_on, rules.speed_off) * in.time;
-    const Mask<T> is_at_rest =
-        (len2(in.point - s.place) <= way * way) & (height <= bar(rules.height_on, rules.height_off));
+    const auto bar = [&](const float(&bounds)[2]) SWIVEL_INLINE_LAMBDA {
+        return select(was_in_contact, T(bounds[1]), T(bounds[0])) * in.length;
+    };
+    const T way = bar(rules.given.speed) * in.time;
+    const Mask<T> is_at_rest = (len2(in.point - s.place) <= way * way) & (height <= bar(rules.given.height));
     s.contact = (moves & is_at_rest) | (was_in_contact & !moves);
     s.place = select(moves | fresh, in.point, s.place);
     return s.contact;

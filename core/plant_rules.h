@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: MIT
 //
-// The constants of a group that plants, made from its swivel_plant, and of the springs that ease shifts and lifts.
+// The constants of groups that plant, and of those that stand on ground: as their definition gives them, and what
+// formulas need besides. The constants of the springs that ease shifts and lifts.
 #pragma once
 
+#include "include/swivel/swivel_bodies.h"
+
 namespace swivel {
+
+inline constexpr double kShortestTime = 1e-6;  // s: shorter times to stop or to fade count as 0
 
 // Lengths are in limb lengths, speeds in limb lengths a second. Speeds are bounded so that no change moves a point by
 // more than `lock_radius`.
 struct PlantRules {
-    float lock_radius, unlock_radius, relock_speed, reset_time, stop_time, release_time;
+    swivel_plant given;
     float ahead;                    // s: a point locks as far ahead as it goes in this time
     float fastest_in, fastest_out;  // at a lock, and at a release
     float turn_in, turn_out;        // the same for half-tangents, 1/s
-    float speed_on, speed_off, height_on, height_off;
 };
-inline constexpr double kShortestTime = 1e-6;  // s: shorter times to stop or to fade count as 0
+constexpr PlantRules plant_rules(const swivel_plant& given)
+{
+    const auto per = [](float time) { return 1 / (time > kShortestTime ? double(time) : kShortestTime); };
+    const double lock = given.lock_radius;
+    return {.given = given,
+            .ahead = static_cast<float>(double(given.anchor_lead) * given.stop_time / 3),
+            .fastest_in = static_cast<float>(3 * lock * per(given.stop_time)),
+            // An offset swings out by at most 4/27 of speed times time.
+            .fastest_out = static_cast<float>(6.75 * lock * per(given.release_time)),
+            .turn_in = static_cast<float>(per(given.stop_time)),
+            .turn_out = static_cast<float>(2 * per(given.release_time))};
+}
 
 inline constexpr double kShortestHalf = 1e-4;  // s
 inline constexpr double kSettled = 60;         // stiffness times time after which a spring is at rest within rounding
@@ -31,8 +46,7 @@ constexpr SpringRule spring_rule(float half)
 
 // How the feet of a group stand on ground. Lengths are in the bones' unit.
 struct GroundRules {
-    float heel[3];  // in the wrist joint's frame
-    float toe_clearance, heel_clearance;
+    swivel_ground given;
     float cos_half_max, sin_half_max;  // of half the max angle that a foot turns
     SpringRule lift;
 };

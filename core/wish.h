@@ -42,15 +42,39 @@ SWIVEL_INLINE constexpr Vector<T> blend_with_incoming(const Vector<T>& by_hand, 
     return by_hand + select(exists, lacks / sqrt(select(exists, len2(incoming_normal), T(1))), T(0)) * incoming_normal;
 }
 
+// How an elbow goes on from solve to solve.
+template <class T>
+struct Continuity {
+    Vector<T> previous_normal;  // zero: none
+    Turned<T> max;              // swivel in a frame, 0 to pi
+};
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const Continuity<T>& continuity)
+{
+    const Turned<T>& max = continuity.max;
+    return (len2(continuity.previous_normal) <= T(1.01)) & (max.sin >= T(-1e-6)) &
+           is_unit2(max.cos * max.cos + max.sin * max.sin);
+}
+
+// What a limb's goal gives the wish. Parts that the group's features do not use may hold anything.
+template <class T>
+struct WishGoal {
+    Vector<T> pole;     // or the swivel plane's normal
+    Rotor<T> hand;      // as blended, where it says where the elbow goes
+    Turned<T> angle;    // turns the wish about the line from shoulder to wrist; of any length
+    Rotor<T> incoming;  // the shoulder's
+    T weight;           // of the pole, 0 to 1
+    Continuity<T> continuity;
+};
+
 // The normal of the swivel plane that the goal asks for, across the line.
 template <class T>
 struct WishedNormal {
     Vector<T> normal;  // unit
     Mask<T> undefined;
 };
-// hand: as blended, for Wish::hand.
 template <class T>
-SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
+SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(swivel_features features, const WishGoal<T>& goal,
                                                       const Vector<T>& line)
 {
     // Whether a pole of this squared length is defined. normal: its part across the line.
@@ -58,18 +82,19 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
     Vector<T> incoming_normal = vector(T(0), T(0), T(0));
     Mask<T> incoming_is_defined = no_lanes<T>();
-    if (use.incoming) {
-        const T length2 = len2(goal.incoming.shoulder);
-        incoming_normal = across(sandwich(goal.incoming.shoulder, unit<T, kE1>()), line);
+    if (features & SWIVEL_WITH_INCOMING) {
+        const T length2 = len2(goal.incoming);
+        incoming_normal = across(sandwich(goal.incoming, unit<T, kE1>()), line);
         incoming_is_defined = is_off(incoming_normal, length2 * length2);
     }
 
     Vector<T> normal = incoming_normal;  // of any length until the end
     Mask<T> is_defined = incoming_is_defined, keeps_incoming = incoming_is_defined;
-    if (use.wish != Wish::incoming) {
-        const Vector<T> given = use.wish == Wish::hand ? pole_from_hand(hand) : goal.arm.pole, pole = scaled(given);
-        normal = across(use.wish == Wish::normal ? pole : cross(line, pole), line);
-        if (use.wish == Wish::hand && use.incoming)
+    if (!(features & SWIVEL_POLE_INCOMING)) {
+        const Vector<T> given = features & SWIVEL_POLE_HAND ? pole_from_hand(goal.hand) : goal.pole,
+                        pole = scaled(given);
+        normal = across(features & SWIVEL_POLE_NORMAL ? pole : cross(line, pole), line);
+        if (features & SWIVEL_POLE_HAND && features & SWIVEL_WITH_INCOMING)
             normal = blend_with_incoming(normal, incoming_normal, incoming_is_defined, sqrt(len2(pole)));
         is_defined = is_off(normal, len2(pole)) & (len2(given) >= T(kTiny2));
     }
@@ -77,8 +102,8 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
     if (any(undefined)) {  // the substitutes, the best one last
         const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
         Vector<T> instead = select(is_off(across(hinge, line), T(1)), across(hinge, line), across(other, line));
-        if (use.incoming) instead = select(incoming_is_defined, incoming_normal, instead);
-        if (use.continuity) {
+        if (features & SWIVEL_WITH_INCOMING) instead = select(incoming_is_defined, incoming_normal, instead);
+        if (features & SWIVEL_WITH_MAX_SWIVEL) {
             const Vector<T> previous = across(goal.continuity.previous_normal, line);
             const Mask<T> off = is_off(previous, T(1));
             keeps_incoming = keeps_incoming | off;
@@ -86,14 +111,14 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
         }
         normal = select(undefined, across(instead, line), normal);
     }
-    if (use.angle) {  // a kept elbow has the angle in it already
+    if (features & SWIVEL_WITH_ANGLE) {  // a kept elbow has the angle in it already
         const Vector<T> turned = scaled(goal.angle.cos * normal + goal.angle.sin * cross(line, normal));
         normal = select(undefined & keeps_incoming, normal, turned);
     }
-    if (use.weights) {
+    if (features & SWIVEL_WITH_WEIGHTS) {
         const Vector<T> from = select(incoming_is_defined, incoming_normal, normal);
         const T from2 = len2(from);
-        const Vector<T> wish = sqrt(from2 / len2(normal)) * normal, between = from + goal.weights.pole * (wish - from);
+        const Vector<T> wish = sqrt(from2 / len2(normal)) * normal, between = from + goal.weight * (wish - from);
         normal = select(is_off(between, from2), between, from);
     }
     return {normalise(normal), undefined};
@@ -171,19 +196,19 @@ SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T
 }
 
 // The normal that limits start from: the wish, within the frame's max swivel of the previous one. Where the step wins,
-// limits come before it, so this is the wish alone. hand: as blended, for Wish::hand.
+// limits come before it, so this is the wish alone.
 template <class T>
 struct LimbNormal {
     Vector<T> normal;  // unit
     Word<T> flags;
 };
 template <class T>
-SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
+SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(swivel_features features, const WishGoal<T>& goal,
                                                   const Vector<T>& line)
 {
-    const WishedNormal<T> wish = wished_normal(use, goal, hand, line);
+    const WishedNormal<T> wish = wished_normal(features, goal, line);
     LimbNormal<T> limb{wish.normal, word_where(wish.undefined, SWIVEL_SWIVEL_UNDEFINED)};
-    if (use.continuity && !use.step_wins) {
+    if (features & SWIVEL_WITH_MAX_SWIVEL && !(features & SWIVEL_STEP_WINS)) {
         const SteppedNormal<T> step = stepped_normal(goal.continuity, limb.normal, line);
         limb = {step.normal, limb.flags | word_where(step.limited, SWIVEL_LIMITED_STEP)};
     }

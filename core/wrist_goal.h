@@ -24,15 +24,16 @@ struct WristGoal {
     Vector<T> place;
 };
 template <class T>
-SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGoal<T>& goal)
+SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(swivel_features features, const LimbGoal<T>& goal)
 {
     WristGoal<T> wrist{one<T>(), goal.arm.wrist};
-    if (use.hand) wrist.hand = normalise(goal.hand);
+    if (features & SWIVEL_WITH_HAND) wrist.hand = normalise(goal.hand);
     const auto& [shoulder, elbow, hand] = goal.incoming;
-    if (use.hand && use.weights)
+    if (features & SWIVEL_WITH_HAND && features & SWIVEL_WITH_WEIGHTS)
         wrist.hand = blended(normalise(shoulder * elbow * hand), wrist.hand, goal.weights.hand);
-    if (use.effector && !use.aim) wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
-    if (use.weights) {
+    if (features & SWIVEL_WITH_EFFECTOR && !(features & SWIVEL_WITH_AIM))
+        wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
+    if (features & SWIVEL_WITH_WEIGHTS) {
         // Each rotor also scales a bone by the square of its length.
         const auto e3 = unit<T, kE3>();
         const T shoulder2 = len2(shoulder), elbow2 = len2(elbow);

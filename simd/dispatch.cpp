@@ -9,31 +9,18 @@
 namespace swivel {
 
 // Three tables for each instruction set, in its namespace.
-inline namespace scalar {
-extern const ArmKernels arm_kernels;
-extern const LimbKernels limb_kernels;
-extern const BodyKernels body_kernels;
-}
-inline namespace sse2 {
-extern const ArmKernels arm_kernels;
-extern const LimbKernels limb_kernels;
-extern const BodyKernels body_kernels;
-}
-inline namespace avx2 {
-extern const ArmKernels arm_kernels;
-extern const LimbKernels limb_kernels;
-extern const BodyKernels body_kernels;
-}
-inline namespace avx512 {
-extern const ArmKernels arm_kernels;
-extern const LimbKernels limb_kernels;
-extern const BodyKernels body_kernels;
-}
-inline namespace neon64 {
-extern const ArmKernels arm_kernels;
-extern const LimbKernels limb_kernels;
-extern const BodyKernels body_kernels;
-}
+#define SWIVEL_TABLES(isa)                 \
+    inline namespace isa {                 \
+    extern const ArmKernels arm_kernels;   \
+    extern const LimbKernels limb_kernels; \
+    extern const BodyKernels body_kernels; \
+    }
+SWIVEL_TABLES(scalar)
+SWIVEL_TABLES(sse2)
+SWIVEL_TABLES(avx2)
+SWIVEL_TABLES(avx512)
+SWIVEL_TABLES(neon64)
+#undef SWIVEL_TABLES
 
 namespace {
 

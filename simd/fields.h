@@ -47,17 +47,22 @@ constexpr const char* text_of(swivel_kind kind)
 inline constexpr std::uint32_t kFreeLimbs = 1u << SWIVEL_KIND_LIMB, kBodyLimbs = 1u << SWIVEL_KIND_BODY_LIMB,
                                kLimbs = kFreeLimbs | kBodyLimbs;
 
-// ---- features: which kinds of groups may have each, which others it needs, and which it excludes
+// ---- features: which kinds of groups may have each, which others it needs and excludes, and what it does to a limb
 inline constexpr swivel_features kHandLimits =
     SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 // These say where elbows go; a group has one of them, or a pole that is a point.
 inline constexpr swivel_features kPoles =
     SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND;
+enum FeatureTrait : std::uint32_t {
+    kIsSpecial = 1,  // limbs with it need the stages `bones` and `wish`, because `place` does not ask for it (stages.h)
+    kBounds = 2,     // it may move a limb whose weights ask for nothing
+    kTurnsWish = 4   // it may turn an elbow that is wished as in the incoming pose
+};
 struct FeatureRow {
     swivel_features feature;
     const char* name;
     swivel_features needs = 0, excludes = 0;
-    std::uint32_t kinds = kLimbs;
+    std::uint32_t kinds = kLimbs, traits = 0;
 };
 // Bodies' limbs have the needs of WORLD and WITH_INCOMING without the features. A new feature comes last, because seeds
 // of the fuzzers name features by their place.
@@ -67,14 +72,14 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_HAND, "WITH_HAND"},
     {SWIVEL_POLE_DIRECTION, "POLE_DIRECTION", SWIVEL_WORLD, kPoles & ~SWIVEL_POLE_DIRECTION},
     {SWIVEL_WITH_EFFECTOR, "WITH_EFFECTOR", SWIVEL_WITH_HAND},
-    {SWIVEL_WITH_ANGLE, "WITH_ANGLE"},
+    {SWIVEL_WITH_ANGLE, "WITH_ANGLE", 0, 0, kLimbs, kTurnsWish},
     {SWIVEL_POLE_NORMAL, "POLE_NORMAL", 0, kPoles & ~SWIVEL_POLE_NORMAL},
-    {SWIVEL_WITH_INCOMING, "WITH_INCOMING", 0, 0, kFreeLimbs},
+    {SWIVEL_WITH_INCOMING, "WITH_INCOMING", 0, 0, kFreeLimbs, kIsSpecial},
     {SWIVEL_POLE_INCOMING, "POLE_INCOMING", SWIVEL_WITH_INCOMING, kPoles & ~SWIVEL_POLE_INCOMING},
     {SWIVEL_WITH_WEIGHTS, "WITH_WEIGHTS", SWIVEL_WITH_INCOMING},
-    {SWIVEL_WITH_REACH, "WITH_REACH"},
-    {SWIVEL_WITH_MAX_SWIVEL, "WITH_MAX_SWIVEL"},
-    {SWIVEL_WITH_FLEXION_LIMIT, "WITH_FLEXION_LIMIT"},
+    {SWIVEL_WITH_REACH, "WITH_REACH", 0, 0, kLimbs, kIsSpecial | kBounds},
+    {SWIVEL_WITH_MAX_SWIVEL, "WITH_MAX_SWIVEL", 0, 0, kLimbs, kIsSpecial | kBounds},
+    {SWIVEL_WITH_FLEXION_LIMIT, "WITH_FLEXION_LIMIT", 0, 0, kLimbs, kIsSpecial | kBounds},
     {SWIVEL_WITH_SHOULDER_CONE, "WITH_SHOULDER_CONE"},
     {SWIVEL_WITH_HUMERAL_TWIST, "WITH_HUMERAL_TWIST"},
     {SWIVEL_WITH_SHOULDER_BOX, "WITH_SHOULDER_BOX"},
@@ -82,13 +87,14 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_FOREARM_TWIST, "WITH_FOREARM_TWIST", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_HAND_TWIST, "WITH_HAND_TWIST", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_WRIST_BOX, "WITH_WRIST_BOX", SWIVEL_WITH_HAND},
-    {SWIVEL_WITH_AIM, "WITH_AIM", 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits},
+    {SWIVEL_WITH_AIM, "WITH_AIM", 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits,
+     kLimbs, kIsSpecial},
     {SWIVEL_WITH_CLAVICLE, "WITH_CLAVICLE", SWIVEL_WORLD},
     {SWIVEL_WITH_RECORD, "WITH_RECORD", 0, 0, kBodyLimbs},
     {SWIVEL_WITH_PLANT, "WITH_PLANT", 0, SWIVEL_WITH_AIM, kBodyLimbs},
     {SWIVEL_WITH_PLANT_ROTATION, "WITH_PLANT_ROTATION", SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND, 0, kBodyLimbs},
     {SWIVEL_PLANT_BY_MOTION, "PLANT_BY_MOTION", SWIVEL_WITH_PLANT, 0, kBodyLimbs},
-    {SWIVEL_WITH_CAP, "WITH_CAP", SWIVEL_WITH_INCOMING, SWIVEL_WITH_AIM | SWIVEL_WITH_REACH},
+    {SWIVEL_WITH_CAP, "WITH_CAP", SWIVEL_WITH_INCOMING, SWIVEL_WITH_AIM | SWIVEL_WITH_REACH, kLimbs, kBounds},
     {SWIVEL_WITH_PELVIS_FIT, "WITH_PELVIS_FIT", 0, SWIVEL_WITH_AIM, kBodyLimbs},
     {SWIVEL_WITH_NEXT_TARGET, "WITH_NEXT_TARGET", SWIVEL_WITH_PELVIS_FIT, 0, kBodyLimbs},
     {SWIVEL_HAND_YIELDS, "HAND_YIELDS", SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_AIM},
@@ -98,8 +104,16 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_GROUND, "WITH_GROUND", SWIVEL_WITH_PLANT | SWIVEL_WITH_EFFECTOR, 0, kBodyLimbs},
     {SWIVEL_WITH_REGION, "WITH_REGION"},
     {SWIVEL_STEP_WINS, "STEP_WINS", SWIVEL_WITH_MAX_SWIVEL},
-    {SWIVEL_POLE_HAND, "POLE_HAND", SWIVEL_WITH_HAND, (kPoles & ~SWIVEL_POLE_HAND) | SWIVEL_WITH_AIM},
+    {SWIVEL_POLE_HAND, "POLE_HAND", SWIVEL_WITH_HAND, (kPoles & ~SWIVEL_POLE_HAND) | SWIVEL_WITH_AIM, kLimbs,
+     kIsSpecial},
 };
+constexpr swivel_features features_with(FeatureTrait trait)
+{
+    swivel_features found = 0;
+    for (const FeatureRow& row : kFeatures)
+        if (row.traits & trait) found |= row.feature;
+    return found;
+}
 
 inline constexpr swivel_features kKnownFeatures = [] {
     swivel_features known = 0;

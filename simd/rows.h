@@ -81,9 +81,12 @@ struct RowPlan {
     }
 };
 
-// The features with the most rows that a block can have.
-inline constexpr swivel_features kEveryFeature =
-    ~(SWIVEL_POLE_INCOMING | SWIVEL_POLE_HAND | kBody | SWIVEL_PLANT_BY_MOTION | kNoLimb);
+// The features with the most rows that a block can have: none that takes a field away.
+inline constexpr swivel_features kEveryFeature = [] {
+    swivel_features features = ~kNoLimb;
+    for (const FieldRow& row : kFields) features &= ~row.excludes;
+    return features;
+}();
 static_assert([] {
     for (const FieldRow& row : kFields)
         if (field_row_count(kEveryFeature | row.needs, row.field) == 0) return false;

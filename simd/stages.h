@@ -54,9 +54,9 @@ enum class Stage : std::uint8_t {
     count
 };
 
-// These move a limb even where its weights ask for nothing.
-inline constexpr swivel_features kBoundingFeatures =
-    kSwivelLimits | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MAX_SWIVEL;
+// The first may move a limb whose weights ask for nothing, the others also one whose goal is its incoming pose.
+inline constexpr swivel_features kBoundingFeatures = kSwivelLimits | features_with(kBounds),
+                                 kMovingFeatures = kBoundingFeatures | features_with(kTurnsWish);
 
 // All groups of a body go through a pass before the first goes through the next one.
 enum class Pass : std::uint8_t {
@@ -78,9 +78,7 @@ struct StageRow {
     swivel_features not_needed_by;  // but not those with any of these
     Pass pass = Pass::solve;
 };
-inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_AIM,
-                                 kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL | SWIVEL_POLE_HAND,
-                                 kSpecial = kSpecialBones | kSpecialWish;
+inline constexpr swivel_features kSpecial = features_with(kIsSpecial);
 // All stages but those of lines.
 inline constexpr StageRow kOtherStages[] = {
     {Stage::probe, 0, SWIVEL_WITH_GROUND, 0, Pass::probe},

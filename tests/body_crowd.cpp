@@ -76,7 +76,11 @@ BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish)
         add_parts(s, wish, joints);
         const std::vector<JointAt> at = joints_at(s, s.rest());
         const Vector3d upper = at[joints.elbow].place - at[joints.shoulder].place;
-        joints.bend = floats(Vector3d(at[joints.shoulder].rotation.conjugate() * random.across(upper)));
+        const Vector3d fore = at[joints.wrist].place - at[joints.elbow].place;
+        Vector3d bend = random.across(upper);
+        // A binding whose forearm lies along the hinge is refused.
+        while (bend.cross(upper).normalized().cross(fore.normalized()).norm() < 0.01) bend = random.across(upper);
+        joints.bend = floats(Vector3d(at[joints.shoulder].rotation.conjugate() * bend));
         s.limbs.push_back(joints);
     }
     return s;

@@ -66,7 +66,7 @@ inline std::vector<std::uint32_t> way_down(const BodySkeleton& skeleton, std::ui
 
 inline swivel_look_def random_look(Random& random, std::span<const std::uint32_t> joints)
 {
-    swivel_look_def look = swivel::look(joints);
+    swivel_look_def look = swivel::look({joints.begin(), joints.end()});
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         look.share[n] = static_cast<float>(random.below(4) ? random.between(0.1, 3) : 0);
         look.cos_max[n] = static_cast<float>(random.below(2) ? -1 : std::cos(random.between(0.05, 2)));

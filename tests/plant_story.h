@@ -19,21 +19,12 @@ inline PlantRules rules_of(const swivel_plant& plant)
 {
     const double lock = plant.lock_radius, stop = std::max<double>(plant.stop_time, kShortestTime),
                  blend = std::max<double>(plant.release_time, kShortestTime);
-    return {plant.lock_radius,
-            plant.unlock_radius,
-            plant.relock_speed,
-            plant.reset_time,
-            plant.stop_time,
-            plant.release_time,
-            static_cast<float>(double{plant.anchor_lead} * plant.stop_time / 3),
-            static_cast<float>(3 * lock / stop),
-            static_cast<float>(6.75 * lock / blend),
-            static_cast<float>(1 / stop),
-            static_cast<float>(2 / blend),
-            plant.speed[0],
-            plant.speed[1],
-            plant.height[0],
-            plant.height[1]};
+    return {.given = plant,
+            .ahead = static_cast<float>(double{plant.anchor_lead} * plant.stop_time / 3),
+            .fastest_in = static_cast<float>(3 * lock / stop),
+            .fastest_out = static_cast<float>(6.75 * lock / blend),
+            .turn_in = static_cast<float>(1 / stop),
+            .turn_out = static_cast<float>(2 / blend)};
 }
 
 // A smooth way of a point that turns, with speeds to 1.5 m/s and accelerations to 15 m/s^2.
@@ -105,13 +96,13 @@ public:
     Vector3d step(const Vector3d& x, bool label, double time, double length)
     {
         is_cut = is_fresh = false;
-        if (rules_.reset_time > 0 && time > rules_.reset_time) stands = Stands::starts;
+        if (rules_.given.reset_time > 0 && time > rules_.given.reset_time) stands = Stands::starts;
         if (stands == Stands::starts) {
             is_fresh = true;
             transition = {};
             last_ = anchor = x;
             stands = label ? Stands::locked : Stands::follows;
-            transition.lasts = label ? rules_.stop_time : 0;
+            transition.lasts = label ? rules_.given.stop_time : 0;
             is_armed_ = !label;
             return x;
         }
@@ -120,14 +111,14 @@ public:
         const Vector3d speed = was_locked ? Vector3d(Vector3d::Zero()) : Vector3d((x - last_) / time);
         if (stands == Stands::releases) {
             begin(transition.place(), shortened(transition.speed() - speed, rules_.fastest_out * length),
-                  rules_.release_time);
+                  rules_.given.release_time);
             stands = Stands::follows;
         }
         transition.since += time;
         const Vector3d to = base(x) + transition.place();
         is_armed_ |= !label;
         if (was_locked) {
-            const bool is_far = is_over((x - anchor).norm(), rules_.unlock_radius * length);
+            const bool is_far = is_over((x - anchor).norm(), rules_.given.unlock_radius * length);
             if (label && !is_far) return to;
             stands = Stands::releases;
             begin(to - x, transition.speed(), 1);  // stands still until the speed is known
@@ -135,11 +126,12 @@ public:
             return to;
         }
         last_ = x;
-        if (!label || is_over(transition.place().norm(), rules_.lock_radius * length)) return to;
-        if (!is_armed_ && (rules_.relock_speed == 0 || is_over(speed.norm(), rules_.relock_speed * length))) return to;
+        if (!label || is_over(transition.place().norm(), rules_.given.lock_radius * length)) return to;
+        const double relock_speed = rules_.given.relock_speed * length;
+        if (!is_armed_ && (relock_speed == 0 || is_over(speed.norm(), relock_speed))) return to;
         const Vector3d entry = shortened(speed + transition.speed(), rules_.fastest_in * length);
         anchor = to + rules_.ahead * entry;
-        begin(to - anchor, entry, rules_.stop_time);
+        begin(to - anchor, entry, rules_.given.stop_time);
         stands = Stands::locked;
         is_armed_ = false;
         return to;
@@ -192,13 +184,13 @@ public:
             was_locked ? Vector3d(Vector3d::Zero()) : Vector3d(offset(now * mark_.conjugate()) / time);
         if (stood == Stands::releases)
             transition_ = {transition_.place(), shortened(transition_.speed() - speed, rules_.turn_out),
-                           rules_.release_time};
+                           rules_.given.release_time};
         transition_.since += time;
         const Quaterniond to = turn(transition_.place()) * (was_locked ? mark_ : now);
         if (is_locked && !was_locked) {
             const Vector3d entry = shortened(speed + transition_.speed(), rules_.turn_in), ahead = rules_.ahead * entry;
             mark_ = turn(ahead) * to;
-            transition_ = {-ahead, entry, rules_.stop_time};
+            transition_ = {-ahead, entry, rules_.given.stop_time};
         } else if (was_locked && !is_locked) {
             transition_ = {offset(to * now.conjugate()), transition_.speed(), 1};
         }

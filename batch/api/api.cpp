@@ -6,14 +6,12 @@
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
-#include "batch/crowd/crowd_check.h"
+#include "batch/crowd/group_def.h"
 #include "batch/crowd/rig.h"
-#include "batch/crowd/skeleton.h"
 #include "batch/crowd/streams.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/rest.h"
-#include "batch/solve/schedule.h"
+#include "batch/solve/solve.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
@@ -21,8 +19,6 @@
 using namespace swivel;
 
 namespace {
-
-constexpr std::size_t kArenaAlignment = 64;
 
 // A crowd's group; null if there is none.
 const Group* group_of(const swivel_crowd* crowd, std::uint32_t group)
@@ -60,7 +56,7 @@ size_t swivel_crowd_bytes(const swivel_crowd_def* def)
 
 swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd)
 {
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_crowd_create: crowd is null");
+    if (!crowd) return refuse("swivel_crowd_create: crowd is null");
     *crowd = nullptr;
     if (const swivel_status status = check_def(def); status != SWIVEL_OK) return status;
     const swivel_crowd_def full = full_def(def);
@@ -69,7 +65,7 @@ swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** cr
     void* arena = nullptr;
     if (full.memory) {
         if (reinterpret_cast<std::uintptr_t>(full.memory) % kArenaAlignment != 0)
-            return fail(SWIVEL_INVALID_ARGUMENT, "the caller's memory is not aligned to %zu bytes", kArenaAlignment);
+            return refuse("the caller's memory is not aligned to %zu bytes", kArenaAlignment);
         if (full.memory_bytes < bytes)
             return fail(SWIVEL_OUT_OF_MEMORY, "the caller's memory has %zu bytes, the crowd needs %zu",
                         full.memory_bytes, bytes);
@@ -107,8 +103,7 @@ swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_l
                                  swivel_binding* binding)
 {
     const FloatEnv env;
-    if (!skeleton || !joints || !binding)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: skeleton, joints or binding is null");
+    if (!skeleton || !joints || !binding) return refuse("swivel_bind_joints: skeleton, joints or binding is null");
     swivel_status status = check_size<swivel_skeleton>("skeleton", size_of(skeleton));
     if (status == SWIVEL_OK) status = check_size<swivel_limb_joints>("limb joints", size_of(joints));
     if (status != SWIVEL_OK) return status;
@@ -126,11 +121,10 @@ swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_
 {
     const FloatEnv env;
     if (!binding || !parent_rotation || !direction || !axis)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: %s is null",
-                    !binding           ? "binding"
-                    : !parent_rotation ? "parent_rotation"
-                    : !direction       ? "direction"
-                                       : "axis");
+        return refuse("swivel_arm_axis: %s is null", !binding           ? "binding"
+                                                     : !parent_rotation ? "parent_rotation"
+                                                     : !direction       ? "direction"
+                                                                        : "axis");
     const float parent[4] = {parent_rotation[0], parent_rotation[1], parent_rotation[2], parent_rotation[3]};
     const double wanted[3] = {direction[0], direction[1], direction[2]};
     double found[3];
@@ -205,11 +199,10 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     if (status != SWIVEL_OK) return status;
     const Group& target_group = crowd->groups[group];
     if (!is_position(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not a position; write it by swivel_write()", group,
-                    name_of(field));
+        return refuse("group %u, %s: not a position; write it by swivel_write()", group, name_of(field));
     if (origins.data && !has_origin(target_group, field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is %s here, which has no origin; give null", group,
-                    name_of(field), field == SWIVEL_POLE ? "a direction" : "in a joint's frame");
+        return refuse("group %u, %s: it is %s here, which has no origin; give null", group, name_of(field),
+                      field == SWIVEL_POLE ? "a direction" : "in a joint's frame");
     status = check_values(*crowd, group, field, limb_count, values.data, values.stride, true, sizeof(double));
     if (status == SWIVEL_OK && origins.data)
         status = check_stride(group, "origin", limb_count, origins.data, origins.stride, 3 * sizeof(double), true);

@@ -4,14 +4,9 @@
 #include <bit>
 
 #include "batch/api/check.h"
-#include "batch/api/doubts.h"
-#include "batch/api/job_check.h"
 #include "batch/api/use.h"
 #include "batch/api/workspace.h"
-#include "batch/crowd/lane_mask.h"
 #include "batch/refusal/sized.h"
-#include "batch/solve/budget.h"
-#include "batch/solve/schedule.h"
 #include "batch/solve/solve.h"
 
 using namespace swivel;

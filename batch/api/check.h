@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The checks of arguments that the files of entry points share. Each fails with a line, or gives SWIVEL_OK.
+// The checks of arguments that the files of entry points share. Each fails with a line, or gives SWIVEL_OK. And what is
+// recorded of suspicious use, for swivel_explain().
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,8 @@
 #include "simd/dispatch.h"
 
 namespace swivel {
+
+struct Work;
 
 // A range of limbs of a group.
 swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);
@@ -36,5 +39,26 @@ swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks);
 
 // The kernels to solve with; or null, with the reason in status and last_error().
 const Isa* usable_isa(swivel_status& status);
+
+// job_check.cpp: checks what swivel_solve() promises of a job whose members are all there: it can be solved, or is
+// refused. blocks: the job's, or all.
+swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks);
+
+// A mask of the crowd's lanes; and one entry of priorities for each group with lanes of its own.
+swivel_status check_mask(const swivel_crowd& crowd, const std::uint32_t* mask, std::uint32_t word_count);
+swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* priorities);
+
+// overlap.cpp: whether results of a job, whose streams and pose are right, overlap each other or inputs that are not
+// their own. For builds with SWIVEL_CHECK_USE.
+swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks);
+
+// pose_check.cpp: checks what swivel_solve() promises of a pose, which may be null, for the groups that a job names;
+// and what does not depend on groups.
+swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given);
+swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given);
+
+// doubts.cpp: records in the crowd, before a solve of poses, whether each frame resets all bodies, whether the time
+// step is odd, and what the pose has.
+void note_doubts(const Work& work);
 
 }  // namespace swivel

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "batch/api/doubts.h"
-
 #include <bit>
-#include <cstring>
 #include <optional>
 
-#include "batch/crowd/lane_mask.h"
+#include "batch/api/check.h"
+#include "batch/crowd/streams.h"
 #include "batch/solve/pose.h"
+#include "batch/solve/work.h"
 #include "simd/float_env.h"
 
 namespace swivel {
@@ -39,8 +38,7 @@ float doubted_time(const Work& work, const swivel_pose& pose)
 {
     const std::optional<std::uint32_t> body = first_body(work);
     if (!body || !pose.time.data) return kNoDoubt;
-    float time;
-    std::memcpy(&time, static_cast<const char*>(pose.time.data) + *body * pose.time.stride, sizeof time);
+    const auto time = value_at<float>(pose.time, *body);
     const bool is_in_place = !pose.results.data || pose.results.data == pose.rotations.data;
     return time > 1 || (time == 0 && is_in_place) ? time : kNoDoubt;
 }
@@ -61,8 +59,7 @@ std::uint32_t notes_of(const Work& work, const swivel_pose& pose)
     std::uint32_t notes = 0;
     const bool is_shared = pose.time.stride == 0 || work.crowd.groups[0].limb_count == 1;
     if (pose.time.data && is_shared) {
-        float time;
-        std::memcpy(&time, pose.time.data, sizeof time);
+        const auto time = value_at<float>(pose.time, 0);
         notes |= time >= 0 && time <= 1e15f ? kTimeIsGood : kTimeIsBad;
     }
     if (pose.support_position.data || pose.support_rotation.data) notes |= kHasSupport;

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "batch/api/job_check.h"
-
 #include <cstdint>
 
 #include "batch/api/check.h"
-#include "batch/api/pose_check.h"
 #include "batch/api/use.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/pose.h"
-#include "batch/solve/streams_of.h"
 #include "batch/solve/work.h"
 #include "simd/rows.h"
 
@@ -17,18 +13,17 @@ namespace swivel {
 
 swivel_status check_mask(const swivel_crowd& crowd, const std::uint32_t* mask, std::uint32_t word_count)
 {
-    if (!mask) return fail(SWIVEL_INVALID_ARGUMENT, "the mask is null");
+    if (!mask) return refuse("the mask is null");
     if (const std::uint32_t needed = mask_word_count(crowd.block_count); word_count != needed)
-        return fail(SWIVEL_INVALID_ARGUMENT, "a mask of %u words; this crowd of %u blocks has %u, a bit for each lane",
-                    word_count, crowd.block_count, needed);
+        return refuse("a mask of %u words; this crowd of %u blocks has %u, a bit for each lane", word_count,
+                      crowd.block_count, needed);
     return SWIVEL_OK;
 }
 
 swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* priorities)
 {
     if (!priorities)
-        return fail(SWIVEL_INVALID_ARGUMENT, "priorities are missing; give one for each of this crowd's %u groups",
-                    lane_group_count(crowd));
+        return refuse("priorities are missing; give one for each of this crowd's %u groups", lane_group_count(crowd));
     swivel_status status = SWIVEL_OK;
     for (std::uint32_t g = 0; g < lane_group_count(crowd) && status == SWIVEL_OK; ++g)
         status = check_stride(g, "priority", crowd.groups[g].limb_count, priorities[g].data, priorities[g].stride,
@@ -40,11 +35,11 @@ namespace {
 
 swivel_status check_groups(const swivel_crowd& crowd, const swivel_job& job)
 {
-    if (!job.groups && job.group_word_count > 0) return fail(SWIVEL_INVALID_ARGUMENT, "the job's groups are null");
+    if (!job.groups && job.group_word_count > 0) return refuse("the job's groups are null");
     const std::uint32_t needed = group_word_count(crowd.group_count);
     if (job.groups && job.group_word_count != needed)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%u words of groups; this crowd of %u groups has %u, a bit for each",
-                    job.group_word_count, crowd.group_count, needed);
+        return refuse("%u words of groups; this crowd of %u groups has %u, a bit for each", job.group_word_count,
+                      crowd.group_count, needed);
     return SWIVEL_OK;
 }
 // Limbs are solved together with what they are linked to.
@@ -55,8 +50,8 @@ swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
         const LinkPlan& link = crowd.groups[g].plan.limb.link;
         if (const bool is_named_here = is_named(job.groups, g);
             is_named_here != is_named(job.groups, link.group) && (is_named_here || link.is_prop))
-            return fail(SWIVEL_INVALID_ARGUMENT, "the job names group %u, but not group %u; they are linked, name both",
-                        is_named_here ? g : link.group, is_named_here ? link.group : g);
+            return refuse("the job names group %u, but not group %u; they are linked, name both",
+                          is_named_here ? g : link.group, is_named_here ? link.group : g);
     }
     return SWIVEL_OK;
 }
@@ -65,21 +60,20 @@ swivel_status check_links(const swivel_crowd& crowd, const swivel_job& job)
 swivel_status check_positions(std::uint32_t g, const swivel_streams& streams, const swivel_pose* pose)
 {
     if (streams.positions > SWIVEL_DOUBLES)
-        return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u: positions is %u; it is a swivel_numbers, 0 to 2", g,
-                    streams.positions);
+        return refuse("streams of group %u: positions is %u; it is a swivel_numbers, 0 to 2", g, streams.positions);
     const bool is_double = streams.origin.data != nullptr;
     if (streams.positions == SWIVEL_NUMBERS_UNSPECIFIED || is_double == (streams.positions == SWIVEL_DOUBLES))
         return SWIVEL_OK;
     for (const swivel_stream& each : fields_of(streams))
         if (each.data && is_input(each.field) && is_position(each.field))
-            return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u: %s is in %s, but %s; %s", g, name_of(each.field),
-                        is_double ? "floats" : "doubles",
-                        !is_double ? "floats are read without an origin"
-                        : pose     ? "the pose has root_is_double"
-                                   : "the streams have an origin",
-                        is_double ? "give doubles"
-                        : pose    ? "give floats, or a root in doubles and root_is_double"
-                                  : "give floats, or an origin");
+            return refuse("streams of group %u: %s is in %s, but %s; %s", g, name_of(each.field),
+                          is_double ? "floats" : "doubles",
+                          !is_double ? "floats are read without an origin"
+                          : pose     ? "the pose has root_is_double"
+                                     : "the streams have an origin",
+                          is_double ? "give doubles"
+                          : pose    ? "give floats, or a root in doubles and root_is_double"
+                                    : "give floats, or an origin");
     return SWIVEL_OK;
 }
 
@@ -87,11 +81,10 @@ swivel_status check_streams(const swivel_crowd& crowd, std::uint32_t g, swivel_s
 {
     const swivel_in origin = pose ? origin_of(full_pose(pose)) : streams.origin;
     if (streams.origin.data && (streams.origin.data != origin.data || streams.origin.stride != origin.stride))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "streams of group %u: a body's origin is its root in doubles; give that, or leave origin out", g);
+        return refuse("streams of group %u: a body's origin is its root in doubles; give that, or leave origin out", g);
     streams.origin = origin;
     if (!streams.fields && streams.field_count > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u: its %u fields are null", g, streams.field_count);
+        return refuse("streams of group %u: its %u fields are null", g, streams.field_count);
     swivel_status status = check_positions(g, streams, pose);
     if (status == SWIVEL_OK && streams.origin.data)
         status = check_stride(g, "origin", 1, streams.origin.data, streams.origin.stride, 3 * sizeof(double), true);
@@ -102,9 +95,7 @@ swivel_status check_streams(const swivel_crowd& crowd, std::uint32_t g, swivel_s
         if (status != SWIVEL_OK) return status;
         if (!each.data) continue;
         const std::uint64_t bit = std::uint64_t{1} << index_of(each.field);
-        if (seen & bit)
-            return fail(SWIVEL_INVALID_ARGUMENT, "streams of group %u list %s twice; list it once", g,
-                        name_of(each.field));
+        if (seen & bit) return refuse("streams of group %u list %s twice; list it once", g, name_of(each.field));
         seen |= bit;
         const bool is_double = streams.origin.data && is_position(each.field);
         status = check_values(crowd, g, each.field, 1, each.data, each.stride, is_input(each.field),

@@ -7,11 +7,10 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "batch/api/job_check.h"
+#include "batch/api/check.h"
 #include "batch/api/pose_arrays.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/pose.h"
-#include "batch/solve/streams_of.h"
 #include "batch/solve/work.h"
 #include "simd/rows.h"
 
@@ -144,19 +143,7 @@ void for_each_posed(const swivel_crowd& crowd, const swivel_job& job, const Take
             take(values);
         });
     });
-    const std::size_t place_bytes = 3 * (pose.root_is_double ? sizeof(double) : sizeof(float));
-    const struct {
-        const char* name;
-        swivel_in values;
-        std::size_t bytes;
-    } of_bodies[] = {{"root_position", pose.root_position, place_bytes},
-                     {"root_rotation", pose.root_rotation, 4 * sizeof(float)},
-                     {"root_scale", pose.root_scale, sizeof(float)},
-                     {"time", pose.time, sizeof(float)},
-                     {"support_position", pose.support_position, place_bytes},
-                     {"support_rotation", pose.support_rotation, 4 * sizeof(float)},
-                     {"weight", pose.weight, sizeof(float)}};
-    for (const auto& each : of_bodies)
+    for (const BodyValues& each : values_of_bodies(pose))
         if (each.values.data) take(values_of(each.values.data, each.values.stride, each.bytes, body_count, each.name));
 }
 template <class Take>
@@ -178,8 +165,8 @@ swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, sw
             char names[2][96];
             result.print(names[0]);
             other.print(names[1]);
-            status = fail(SWIVEL_INVALID_ARGUMENT, "%s overlaps %s, %s; give it a place of its own", names[0],
-                          other.is_result ? "another result" : "an input that is not its own", names[1]);
+            status = refuse("%s overlaps %s, %s; give it a place of its own", names[0],
+                            other.is_result ? "another result" : "an input that is not its own", names[1]);
         });
     });
     return status;

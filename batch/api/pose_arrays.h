@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The arrays of joints that a pose has: which of them a solve reads and writes, and of which joints. For the checks of
-// a pose.
+// The arrays that a pose has, of joints and of bodies: which of them a solve reads and writes, and of which joints. For
+// the checks of a pose.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,18 +26,13 @@ struct PoseArray {
     PoseUse use;
 };
 
-// Bytes of a pose's rotation or matrix, as far as they are touched.
-inline std::size_t rotation_bytes(swivel_pose_form form)
-{
-    return form == SWIVEL_ROTATIONS ? 4 * sizeof(float) : entry_offset(form, 2, 3) + sizeof(float);
-}
-
 // Calls take(array) for each array that the pose has. What is read and written in place is two arrays.
 template <class Take>
 void for_each_array(const swivel_pose& pose, const Take& take)
 {
-    const std::size_t bytes = rotation_bytes(pose.form);
     constexpr std::size_t float3 = 3 * sizeof(float), float4 = 4 * sizeof(float);
+    const std::size_t bytes =
+        pose.form == SWIVEL_ROTATIONS ? float4 : entry_offset(pose.form, 2, 3) + sizeof(float);  // of a matrix
     const auto take_given = [&](PoseKind kind, const char* name, const swivel_joint_values& values, std::size_t size,
                                 PoseUse use) {
         if (values.data) take(PoseArray{kind, name, values, size, use});
@@ -54,6 +50,24 @@ void for_each_array(const swivel_pose& pose, const Take& take)
         take_given(PoseKind::translations, "translations", pose.translations, float3, PoseUse::moved);
     take_given(PoseKind::joint_rotations, "joint_rotations", pose.joint_rotations, float4, PoseUse::needed);
     take_given(PoseKind::joint_positions, "joint_positions", pose.joint_positions, float3, PoseUse::needed);
+}
+
+// The values of bodies that a solve reads, as far as the pose has them.
+struct BodyValues {
+    const char* name;
+    swivel_in values;
+    std::size_t bytes;
+};
+inline std::array<BodyValues, 7> values_of_bodies(const swivel_pose& pose)
+{
+    const std::size_t place = 3 * (pose.root_is_double ? sizeof(double) : sizeof(float));
+    return {{{"root_position", pose.root_position, place},
+             {"root_rotation", pose.root_rotation, 4 * sizeof(float)},
+             {"root_scale", pose.root_scale, sizeof(float)},
+             {"time", pose.time, sizeof(float)},
+             {"weight", pose.weight, sizeof(float)},
+             {"support_position", pose.support_position, place},
+             {"support_rotation", pose.support_rotation, 4 * sizeof(float)}}};
 }
 
 // Calls take(joint) for the joints of an array, as the skeleton numbers them, in any order. groups: those that a job

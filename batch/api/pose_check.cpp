@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "batch/api/pose_check.h"
-
 #include <algorithm>
-#include <cstring>
 
+#include "batch/api/check.h"
 #include "batch/api/pose_arrays.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
@@ -17,31 +15,22 @@ namespace {
 swivel_status check_stride(const char* name, const char* what, std::size_t stride, std::size_t bytes, bool may_repeat)
 {
     if (stride >= bytes || (may_repeat && stride == 0)) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "the pose's %s: %s %zu is smaller than a value, %zu bytes", name, what, stride,
-                bytes);
+    return refuse("the pose's %s: %s %zu is smaller than a value, %zu bytes", name, what, stride, bytes);
 }
-// is_result: bodies must not share a value.
-swivel_status check_values(const swivel_crowd& crowd, const char* name, const swivel_joint_values& values,
-                           std::size_t bytes, bool is_result)
+// Bodies and joints must not share the value of a result.
+swivel_status check_strides(const swivel_crowd& crowd, const PoseArray& array)
 {
-    if (!values.data) return SWIVEL_OK;
-    const bool may_repeat = !is_result || crowd.groups[0].limb_count == 1;
-    const swivel_status status = check_stride(name, "body_stride", values.body_stride, bytes, may_repeat);
-    if (status != SWIVEL_OK || values.offsets) return status;
-    return check_stride(name, "joint_stride", values.joint_stride, bytes, !is_result);
-}
-swivel_status check_root(const char* name, const swivel_in& values, std::size_t bytes)
-{
-    return values.data ? check_stride(name, "stride", values.stride, bytes, true) : SWIVEL_OK;
+    const bool is_read = array.use == PoseUse::read, may_repeat = is_read || crowd.groups[0].limb_count == 1;
+    const swivel_status status =
+        check_stride(array.name, "body_stride", array.values.body_stride, array.bytes, may_repeat);
+    if (status != SWIVEL_OK || array.values.offsets) return status;
+    return check_stride(array.name, "joint_stride", array.values.joint_stride, array.bytes, is_read);
 }
 
 swivel_status check_space(const swivel_pose& pose)
 {
-    std::uint32_t space;  // C lets it be any number
-    static_assert(sizeof space == sizeof pose.space);
-    std::memcpy(&space, &pose.space, sizeof space);
-    if (space > SWIVEL_IN_BODY)
-        return fail(SWIVEL_INVALID_ARGUMENT, "the pose's space is %u; it is SWIVEL_LOCAL or SWIVEL_IN_BODY", space);
+    const std::uint32_t space = number_of(pose.space);
+    if (space > SWIVEL_IN_BODY) return refuse("the pose's space is %u; it is SWIVEL_LOCAL or SWIVEL_IN_BODY", space);
     return check_reserved("pose", pose);
 }
 bool needs_time(const swivel_crowd& crowd, const std::uint32_t* groups)
@@ -52,24 +41,17 @@ bool needs_time(const swivel_crowd& crowd, const std::uint32_t* groups)
             return true;
     return false;
 }
-// Where more than the turned joints' rotations go.
-swivel_status check_outputs(const swivel_crowd& crowd, const swivel_pose& pose)
+// Whether translations go where they must.
+swivel_status check_translation_results(const swivel_pose& pose)
 {
     const bool moves = pose.space == SWIVEL_IN_BODY && pose.translations.data;
     if (pose.translation_results.data && !moves)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "the pose has translation_results, but only translations in the body's space change; leave them "
-                    "out");
+        return refuse(
+            "the pose has translation_results, but only translations in the body's space change; leave them out");
     if (moves && pose.results.data && !pose.translation_results.data)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "the pose has results, but no translation_results, and in the body's space translations change; "
-                    "give them");
-    constexpr std::size_t float3 = 3 * sizeof(float), float4 = 4 * sizeof(float);
-    swivel_status status = check_values(crowd, "translation_results", pose.translation_results, float3, true);
-    if (status == SWIVEL_OK) status = check_values(crowd, "joint_rotations", pose.joint_rotations, float4, true);
-    if (status == SWIVEL_OK) status = check_values(crowd, "joint_positions", pose.joint_positions, float3, true);
-    if (status != SWIVEL_OK || !moves) return status;
-    return check_values(crowd, "translations", pose.translations, float3, !pose.translation_results.data);
+        return refuse(
+            "the pose has results, but no translation_results, and in the body's space translations change; give them");
+    return SWIVEL_OK;
 }
 
 // Refuses an array without offsets in which results of two bodies overlap.
@@ -105,12 +87,12 @@ swivel_status check_bodies_apart(const swivel_crowd& crowd, const std::uint32_t*
         for_each_joint(crowd, groups, pose, array.use, [&](std::uint32_t high) {
             const std::uint64_t body = high > low && status == SWIVEL_OK ? body_on(high - low) : 0;
             if (body == 0) return;
-            status = fail(SWIVEL_INVALID_ARGUMENT,
-                          "the pose's %s: by a body_stride of %zu and a joint_stride of %zu joint %u of body %llu "
-                          "overlaps joint %u of body 0; give the bytes from body to body, such as the size of your "
-                          "structure, and from joint to joint",
-                          array.name, array.values.body_stride, array.values.joint_stride, low,
-                          static_cast<unsigned long long>(body), high);
+            status = refuse(
+                "the pose's %s: by a body_stride of %zu and a joint_stride of %zu joint %u of body %llu overlaps joint "
+                "%u of body 0; give the bytes from body to body, such as the size of your structure, and from joint to "
+                "joint",
+                array.name, array.values.body_stride, array.values.joint_stride, low,
+                static_cast<unsigned long long>(body), high);
         });
     });
     return status;
@@ -121,40 +103,27 @@ swivel_status check_bodies_apart(const swivel_crowd& crowd, const std::uint32_t*
 swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
 {
     if (crowd.joint_count == 0)
-        return given ? fail(SWIVEL_INVALID_ARGUMENT,
-                            "this crowd has no bodies, so it takes no pose; create it with a skeleton")
-                     : SWIVEL_OK;
-    if (!given) return fail(SWIVEL_INVALID_ARGUMENT, "this crowd is of bodies; give the job their pose");
+        return given ? refuse("this crowd has no bodies, so it takes no pose; create it with a skeleton") : SWIVEL_OK;
+    if (!given) return refuse("this crowd is of bodies; give the job their pose");
     if (const swivel_status sized = check_size<swivel_pose>("pose", size_of(given)); sized != SWIVEL_OK) return sized;
     const swivel_pose pose = full_pose(given);
-    std::uint32_t form;  // C lets it be any number
-    static_assert(sizeof form == sizeof pose.form);
-    std::memcpy(&form, &pose.form, sizeof form);
+    const std::uint32_t form = number_of(pose.form);
     if (form > SWIVEL_MATRIX_COLUMNS3)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "the pose's form is %u; it is one of SWIVEL_ROTATIONS to SWIVEL_MATRIX_COLUMNS3", form);
+        return refuse("the pose's form is %u; it is one of SWIVEL_ROTATIONS to SWIVEL_MATRIX_COLUMNS3", form);
     if (const swivel_status status = check_space(pose); status != SWIVEL_OK) return status;
-    if (!pose.rotations.data) return fail(SWIVEL_INVALID_ARGUMENT, "the pose has no rotations; give them");
+    if (!pose.rotations.data) return refuse("the pose has no rotations; give them");
     if (pose.form != SWIVEL_ROTATIONS && (pose.translations.data || pose.scales.data))
-        return fail(SWIVEL_INVALID_ARGUMENT, "the pose has matrices and %s, which matrices hold; leave these out",
-                    pose.translations.data ? "translations" : "scales");
-    const std::size_t bytes = rotation_bytes(pose.form), float3 = 3 * sizeof(float);
-    swivel_status status = check_values(crowd, "rotations", pose.rotations, bytes, !pose.results.data);
-    if (status == SWIVEL_OK) status = check_values(crowd, "translations", pose.translations, float3, false);
-    if (status == SWIVEL_OK) status = check_values(crowd, "scales", pose.scales, float3, false);
-    if (status == SWIVEL_OK) status = check_values(crowd, "results", pose.results, bytes, true);
-    if (status == SWIVEL_OK) status = check_outputs(crowd, pose);
-    if (status == SWIVEL_OK)
-        status = check_root("root_position", pose.root_position, pose.root_is_double ? 3 * sizeof(double) : float3);
-    if (status == SWIVEL_OK) status = check_root("root_rotation", pose.root_rotation, 4 * sizeof(float));
-    if (status == SWIVEL_OK) status = check_root("root_scale", pose.root_scale, sizeof(float));
-    const std::size_t position = pose.root_is_double ? 3 * sizeof(double) : float3;
-    if (status == SWIVEL_OK) status = check_root("time", pose.time, sizeof(float));
-    if (status == SWIVEL_OK) status = check_root("weight", pose.weight, sizeof(float));
-    if (status == SWIVEL_OK) status = check_root("support_position", pose.support_position, position);
-    if (status == SWIVEL_OK) status = check_root("support_rotation", pose.support_rotation, 4 * sizeof(float));
+        return refuse("the pose has matrices and %s, which matrices hold; leave these out",
+                      pose.translations.data ? "translations" : "scales");
+    swivel_status status = check_translation_results(pose);
+    for_each_array(pose, [&](const PoseArray& array) {
+        if (status == SWIVEL_OK) status = check_strides(crowd, array);
+    });
+    for (const BodyValues& each : values_of_bodies(pose))
+        if (status == SWIVEL_OK && each.values.data)
+            status = check_stride(each.name, "stride", each.values.stride, each.bytes, true);
     if (status == SWIVEL_OK && pose.root_is_double && !pose.root_position.data)
-        status = fail(SWIVEL_INVALID_ARGUMENT, "the pose's root is in doubles, but has no position; give it");
+        status = refuse("the pose's root is in doubles, but has no position; give it");
     return status;
 }
 
@@ -167,9 +136,9 @@ swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups,
         if (status == SWIVEL_OK) status = check_bodies_apart(crowd, groups, pose, array);
     });
     if (status != SWIVEL_OK || pose.time.data || !needs_time(crowd, groups)) return status;
-    return fail(SWIVEL_INVALID_ARGUMENT,
-                "the pose has no time, which plants, shifts and looks with a rate need; give the seconds since each "
-                "body's last solve");
+    return refuse(
+        "the pose has no time, which plants, shifts and looks with a rate need; give the seconds since each body's "
+        "last solve");
 }
 
 }  // namespace swivel

@@ -23,7 +23,7 @@ class Use {
 public:
     Use(const swivel_crowd* crowd, Sharing sharing) : crowd_(crowd), weight_(sharing == Sharing::alone ? kAlone : 1)
     {
-        status = crowd ? enter() : fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
+        status = crowd ? enter() : refuse("crowd is null");
     }
     ~Use()
     {
@@ -46,13 +46,11 @@ private:
     swivel_status enter() const
     {
         if constexpr (!kChecksUse) return SWIVEL_OK;
-        if (crowd_->alive != swivel_crowd::kAlive)
-            return fail(SWIVEL_INVALID_ARGUMENT, "this crowd is destroyed, or is none");
+        if (crowd_->alive != swivel_crowd::kAlive) return refuse("this crowd is destroyed, or is none");
         const std::int32_t others = crowd_->users.fetch_add(weight_);
         if (others == 0 || (weight_ == 1 && others < kAlone)) return SWIVEL_OK;
         crowd_->users -= weight_;
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "another thread uses this crowd; use it on one thread at a time, but for jobs on_this_thread");
+        return refuse("another thread uses this crowd; use it on one thread at a time, but for jobs on_this_thread");
     }
 
     const swivel_crowd* crowd_;

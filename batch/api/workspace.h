@@ -13,13 +13,10 @@ namespace swivel {
 class Workspace {
 public:
     Workspace(swivel_crowd& crowd, void* of_job)
-        : status(SWIVEL_OK),
-          strip(strip_memory(static_cast<float*>(of_job), crowd.strip_blocks, crowd.body_row_count)),
-          crowd_(crowd)
+        : status(SWIVEL_OK), strip(strip_memory(crowd, static_cast<float*>(of_job))), crowd_(crowd)
     {
-        constexpr std::size_t alignment = 64;
-        if (reinterpret_cast<std::uintptr_t>(of_job) % alignment != 0)
-            status = fail(SWIVEL_INVALID_ARGUMENT, "job.workspace is not aligned to %zu", alignment);
+        if (reinterpret_cast<std::uintptr_t>(of_job) % kArenaAlignment != 0)
+            status = refuse("job.workspace is not aligned to %zu", kArenaAlignment);
         else if (!of_job && crowd.strip_blocks > 0)
             take_one();
     }
@@ -43,19 +40,18 @@ private:
             const std::uint64_t bit = std::uint64_t{1} << free;
             if (!crowd_.busy.compare_exchange_weak(busy, busy | bit)) continue;
             taken_ = bit;
-            strip =
-                strip_memory(crowd_.workspaces + free * workspace_floats(crowd_.strip_blocks, crowd_.body_row_count),
-                             crowd_.strip_blocks, crowd_.body_row_count);
+            const std::size_t floats = workspace_floats(crowd_.strip_blocks, crowd_.body_row_count);
+            strip = strip_memory(crowd_, crowd_.workspaces + free * floats);
             return;
         }
         const std::uint32_t count = crowd_.workspace_count;
-        status = count == 0
-                     ? fail(SWIVEL_INVALID_ARGUMENT,
-                            "this crowd has no workspace; create it with some (workspace_count), or give job.workspace")
-                     : fail(SWIVEL_INVALID_ARGUMENT,
-                            "other calls use all workspaces of this crowd, %u; create it with more (workspace_count), "
-                            "or give job.workspace",
-                            count);
+        status =
+            count == 0
+                ? refuse("this crowd has no workspace; create it with some (workspace_count), or give job.workspace")
+                : refuse(
+                      "other calls use all workspaces of this crowd, %u; create it with more (workspace_count), or "
+                      "give job.workspace",
+                      count);
     }
 
     swivel_crowd& crowd_;

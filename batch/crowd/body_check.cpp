@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "batch/crowd/body_joints.h"
-#include "batch/crowd/body_plan.h"
 #include "batch/crowd/constants.h"
 #include "batch/refusal/status.h"
 #include "core/arm.h"
@@ -28,9 +27,9 @@ swivel_status check_turned(const swivel_skeleton& skeleton, const GroupDef& grou
 {
     const swivel_limb_joints limb = joints_of(group);
     if (group.features & SWIVEL_WITH_CLAVICLE && parent_of(skeleton, limb.shoulder) < 0)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
-                    limb.shoulder);
+        return refuse(
+            "the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
+            limb.shoulder);
     return SWIVEL_OK;
 }
 
@@ -45,8 +44,8 @@ swivel_status check_constants(std::uint32_t g, const GroupDef& group, std::strin
             if (values[n] >= row.min && values[n] <= row.max) continue;
             char which[16] = "";
             if (row.count > 1) std::snprintf(which, sizeof which, "[%u]", n);
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s%s is %g; it is %g to %g", g, row.structure, row.name,
-                        which, double(values[n]), double(row.min), double(row.max));
+            return refuse("group %u, %s.%s%s is %g; it is %g to %g", g, row.structure, row.name, which,
+                          double(values[n]), double(row.min), double(row.max));
         }
     }
     return SWIVEL_OK;
@@ -55,9 +54,8 @@ swivel_status check_plant(std::uint32_t g, const GroupDef& group)
 {
     const swivel_status status = check_constants(g, group, "plant");
     if (status == SWIVEL_OK && group.plant.unlock_radius < group.plant.lock_radius)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, plant.unlock_radius is %g, less than plant.lock_radius, %g; let it be no less", g,
-                    double(group.plant.unlock_radius), double(group.plant.lock_radius));
+        return refuse("group %u, plant.unlock_radius is %g, less than plant.lock_radius, %g; let it be no less", g,
+                      double(group.plant.unlock_radius), double(group.plant.lock_radius));
     return status;
 }
 
@@ -70,19 +68,17 @@ swivel_status check_fits(const swivel_crowd_def& def)
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_features features = unlinked_group(def, g).features;
         if (features & kShift && ++shifts > 1)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u is a shift, and group %u too; a body has one", g, shift);
+            return refuse("group %u is a shift, and group %u too; a body has one", g, shift);
         if (features & kShift) shift = g;
         if (features & SWIVEL_WITH_PELVIS_FIT) limb = g, ++limbs;
     }
     if (shifts == 1 && limbs == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is a body's shift, but no limb is SWIVEL_WITH_PELVIS_FIT; add it to one", shift);
+        return refuse("group %u is a body's shift, but no limb is SWIVEL_WITH_PELVIS_FIT; add it to one", shift);
     if (shifts == 0 && limbs > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is SWIVEL_WITH_PELVIS_FIT, but no group is a body's shift; add one", limb);
+        return refuse("group %u is SWIVEL_WITH_PELVIS_FIT, but no group is a body's shift; add one", limb);
     if (const double length2 = length2_of(def.up); !(length2 >= kTiny2 && length2 <= kHuge2))
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's up is %g, %g, %g; give an axis", double(def.up[0]),
-                    double(def.up[1]), double(def.up[2]));
+        return refuse("crowd def's up is %g, %g, %g; give an axis", double(def.up[0]), double(def.up[1]),
+                      double(def.up[2]));
     return SWIVEL_OK;
 }
 
@@ -90,8 +86,8 @@ swivel_status check_ground(std::uint32_t g, const GroupDef& group)
 {
     const float(&heel)[3] = group.ground.heel;
     if (!(length2_of(heel) <= kHuge2))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, ground.heel is %g, %g, %g; give a place in the wrist's frame",
-                    g, double(heel[0]), double(heel[1]), double(heel[2]));
+        return refuse("group %u, ground.heel is %g, %g, %g; give a place in the wrist's frame", g, double(heel[0]),
+                      double(heel[1]), double(heel[2]));
     return check_constants(g, group, "ground");
 }
 
@@ -100,24 +96,20 @@ swivel_status check_link(const swivel_crowd_def& def, std::uint32_t g)
 {
     const GroupDef group = unlinked_group(def, g);
     if (group.link == UINT32_MAX)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is SWIVEL_WITH_LINK, but is linked to none; set its link to a group's number", g);
+        return refuse("group %u is SWIVEL_WITH_LINK, but is linked to none; set its link to a group's number", g);
     if (group.link >= def.group_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is linked to group %u, which does not exist; there are %u", g,
-                    group.link, def.group_count);
+        return refuse("group %u is linked to group %u, which does not exist; there are %u", g, group.link,
+                      def.group_count);
     const swivel_features to = unlinked_group(def, group.link).features;
     if (to & kProp) return SWIVEL_OK;
     if (to & kNoLimb)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is linked to group %u, which is %s and has no hand; link it to a limb or a prop", g,
-                    group.link, text_of(kind_of(to)));
+        return refuse("group %u is linked to group %u, which is %s and has no hand; link it to a limb or a prop", g,
+                      group.link, text_of(kind_of(to)));
     if (group.link >= g)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is linked to group %u, which is solved later; let a limb come after the one it holds", g,
-                    group.link);
+        return refuse("group %u is linked to group %u, which is solved later; let a limb come after the one it holds",
+                      g, group.link);
     if (!(to & SWIVEL_WITH_HAND))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is linked to group %u, which has no hand; add SWIVEL_WITH_HAND to that", g, group.link);
+        return refuse("group %u is linked to group %u, which has no hand; add SWIVEL_WITH_HAND to that", g, group.link);
     return SWIVEL_OK;
 }
 swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
@@ -132,13 +124,11 @@ swivel_status check_prop(const swivel_crowd_def& def, const swivel_skeleton& ske
         if (prop.joint < 0) continue;
         for (const std::uint32_t joint : TurnedJoints(skeleton, group))
             if (is_above(skeleton, joint, static_cast<std::uint32_t>(prop.joint)))
-                return fail(SWIVEL_INVALID_ARGUMENT,
-                            "group %u, prop.joint is %d, which group %u moves; link the limbs to that group instead", g,
-                            prop.joint, other);
+                return refuse("group %u, prop.joint is %d, which group %u moves; link the limbs to that group instead",
+                              g, prop.joint, other);
     }
     if (holders == 0 || holders > kMaxHolders)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is a prop, and %u limbs are linked to it; link one or %u", g,
-                    holders, kMaxHolders);
+        return refuse("group %u is a prop, and %u limbs are linked to it; link one or %u", g, holders, kMaxHolders);
     return check_constants(g, prop_group, "prop");
 }
 swivel_status check_held(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
@@ -156,38 +146,36 @@ swivel_status check_look_constants(std::uint32_t g, const GroupDef& group)
 {
     const swivel_look_def& look = group.look;
     if (const double length2 = length2_of(look.axis); !(length2 >= kTiny2 && length2 <= kHuge2))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.axis is %g, %g, %g; give an axis", g, double(look.axis[0]),
-                    double(look.axis[1]), double(look.axis[2]));
+        return refuse("group %u, look.axis is %g, %g, %g; give an axis", g, double(look.axis[0]), double(look.axis[1]),
+                      double(look.axis[2]));
     if (!(length2_of(look.eye) <= kHuge2))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.eye is %g, %g, %g; give a place in the last joint's frame",
-                    g, double(look.eye[0]), double(look.eye[1]), double(look.eye[2]));
+        return refuse("group %u, look.eye is %g, %g, %g; give a place in the last joint's frame", g,
+                      double(look.eye[0]), double(look.eye[1]), double(look.eye[2]));
     if (const swivel_status status = check_constants(g, group, "look"); status != SWIVEL_OK) return status;
     if (!(look.share[look.joint_count - 1] > 0))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.share of the last joint is 0; let it be more", g);
+        return refuse("group %u, look.share of the last joint is 0; let it be more", g);
     if (!(look.cos_full - look.cos_none >= 1e-3f))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, look.cos_full is %g, look.cos_none %g; they are -1 to 1, and cos_full is 0.001 more", g,
-                    double(look.cos_full), double(look.cos_none));
+        return refuse("group %u, look.cos_full is %g, look.cos_none %g; they are -1 to 1, and cos_full is 0.001 more",
+                      g, double(look.cos_full), double(look.cos_none));
     return SWIVEL_OK;
 }
 swivel_status check_look(const swivel_skeleton& skeleton, std::uint32_t g, const GroupDef& group)
 {
     const swivel_look_def& look = group.look;
     if (look.joint_count == 0 || look.joint_count > SWIVEL_MAX_LOOK_JOINTS)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
-                    int{SWIVEL_MAX_LOOK_JOINTS});
+        return refuse("group %u, look.joint_count is %u; it is 1 to %d", g, look.joint_count,
+                      int{SWIVEL_MAX_LOOK_JOINTS});
     for (std::uint32_t n = 0; n < look.joint_count; ++n) {
         const std::uint32_t joint = look.joints[n];
         if (joint >= skeleton.joint_count)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, look.joints[%u] is %u; the skeleton has %u joints", g, n,
-                        joint, skeleton.joint_count);
+            return refuse("group %u, look.joints[%u] is %u; the skeleton has %u joints", g, n, joint,
+                          skeleton.joint_count);
         if (const swivel_status status = check_parents(skeleton, "the chain", joint); status != SWIVEL_OK)
             return fail_in("the skeleton", status);
         if (n > 0 && (joint == look.joints[n - 1] || !is_above(skeleton, look.joints[n - 1], joint)))
-            return fail(
-                SWIVEL_INVALID_ARGUMENT,
-                "group %u, look.joints[%u], joint %u, is not below the one before, joint %u; name them from the "
-                "body outwards",
+            return refuse(
+                "group %u, look.joints[%u], joint %u, is not below the one before, joint %u; name them from the body "
+                "outwards",
                 g, n, joint, look.joints[n - 1]);
     }
     return check_look_constants(g, group);
@@ -197,12 +185,12 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
 {
     const GroupDef group = unlinked_group(def, g);
     if (!(group.features & kNoLimb) && !group.joints)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; give it those of the body's limb", g);
+        return refuse("group %u names no joints; give it those of the body's limb", g);
     if (const std::int32_t joint = group.prop.joint;
         group.features & kProp &&
         (joint < -1 || (joint >= 0 && static_cast<std::uint32_t>(joint) >= skeleton.joint_count)))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints",
-                    g, joint, skeleton.joint_count);
+        return refuse("group %u, prop.joint is %d; it is -1, or one of the skeleton's %u joints", g, joint,
+                      skeleton.joint_count);
     if (group.features & kShift) return check_constants(g, group, "shift");
     if (group.features & kLook) return check_look(skeleton, g, group);
     if (!group.joints) return SWIVEL_OK;
@@ -235,12 +223,11 @@ swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& sk
         for (const std::uint32_t joint : TurnedJoints(skeleton, below))
             for (const std::uint32_t above : turned)
                 if (is_above(skeleton, above, joint) && !(may_be_above && above != joint))
-                    return fail(SWIVEL_INVALID_ARGUMENT,
-                                "group %u turns joint %u, which is %s joint %u of group %u; %s", g, above,
-                                above == joint ? "also" : "above", joint, other,
-                                group.features & below.features & kLook && above != joint
-                                    ? "let the look that is above come first"
-                                    : "a body's limbs hang beside each other, and looks above them");
+                    return refuse("group %u turns joint %u, which is %s joint %u of group %u; %s", g, above,
+                                  above == joint ? "also" : "above", joint, other,
+                                  group.features & below.features & kLook && above != joint
+                                      ? "let the look that is above come first"
+                                      : "a body's limbs hang beside each other, and looks above them");
     }
     return SWIVEL_OK;
 }

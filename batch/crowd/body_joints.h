@@ -6,7 +6,7 @@
 
 #include "batch/crowd/crowd.h"
 #include "batch/crowd/group_def.h"
-#include "batch/crowd/skeleton.h"
+#include "batch/crowd/rig.h"
 #include "batch/refusal/sized.h"
 #include "simd/rows.h"
 
@@ -21,11 +21,17 @@ inline swivel_limb_joints joints_of(const GroupDef& group)
     return element(group.joints, 0, swivel_default_limb_joints(0, 0, 0));
 }
 
-// The joints that a group's limb or look turns, upper ones first.
-struct TurnedJoints {
+// Some joints of the skeleton.
+struct JointList {
     std::uint32_t joint[kMaxTurned];
     std::uint32_t count = 0;
 
+    const std::uint32_t* begin() const { return joint; }
+    const std::uint32_t* end() const { return joint + count; }
+};
+
+// The joints that a group's limb or look turns, upper ones first.
+struct TurnedJoints : JointList {
     TurnedJoints(const swivel_skeleton& skeleton, const GroupDef& group)
     {
         if (group.features & kLook)
@@ -39,8 +45,6 @@ struct TurnedJoints {
         if (group.features & SWIVEL_WITH_HAND) joint[count++] = limb.wrist;
         for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) joint[count++] = limb.twist_bones[n];
     }
-    const std::uint32_t* begin() const { return joint; }
-    const std::uint32_t* end() const { return joint + count; }
 };
 
 // Whether `joint` is `below` or above it. Both are in the skeleton, and parents lead to a root.
@@ -52,11 +56,7 @@ inline bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::
 }
 
 // The lowest joints that a group needs; it also needs all joints above them.
-inline constexpr std::uint32_t kMaxNeededEnds = 1 + SWIVEL_MAX_TWIST_BONES;
-struct NeededEnds {
-    std::uint32_t joint[kMaxNeededEnds];
-    std::uint32_t count = 0;
-
+struct NeededEnds : JointList {
     explicit NeededEnds(const GroupDef& group)
     {
         if (group.features & kLook) joint[count++] = group.look.joints[group.look.joint_count - 1];
@@ -67,8 +67,6 @@ struct NeededEnds {
         joint[count++] = limb.wrist;
         for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) joint[count++] = limb.twist_bones[n];
     }
-    const std::uint32_t* begin() const { return joint; }
-    const std::uint32_t* end() const { return joint + count; }
 };
 
 }  // namespace swivel

@@ -1,42 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "batch/crowd/body_plan.h"
-
 #include <algorithm>
 
-#include "batch/crowd/body_joints.h"
+#include "batch/crowd/joint_plan.h"
 
 namespace swivel {
 
 namespace {
 
-constexpr PlantRules plant_rules(const swivel_plant& plant)
-{
-    const auto per = [](float time) { return 1 / (time > kShortestTime ? double(time) : kShortestTime); };
-    const double lock = plant.lock_radius;
-    return {.lock_radius = plant.lock_radius,
-            .unlock_radius = plant.unlock_radius,
-            .relock_speed = plant.relock_speed,
-            .reset_time = plant.reset_time,
-            .stop_time = plant.stop_time,
-            .release_time = plant.release_time,
-            .ahead = static_cast<float>(double(plant.anchor_lead) * plant.stop_time / 3),
-            .fastest_in = static_cast<float>(3 * lock * per(plant.stop_time)),
-            // An offset swings out by at most 4/27 of speed times time.
-            .fastest_out = static_cast<float>(6.75 * lock * per(plant.release_time)),
-            .turn_in = static_cast<float>(per(plant.stop_time)),
-            .turn_out = static_cast<float>(2 * per(plant.release_time)),
-            .speed_on = plant.speed[0],
-            .speed_off = plant.speed[1],
-            .height_on = plant.height[0],
-            .height_off = plant.height[1]};
-}
-
 GroundRules ground_rules(const swivel_ground& ground)
 {
     const double cos = ground.cos_max;  // of the whole angle
-    return {.heel = {ground.heel[0], ground.heel[1], ground.heel[2]},
-            .toe_clearance = ground.toe_clearance,
-            .heel_clearance = ground.heel_clearance,
+    return {.given = ground,
             .cos_half_max = static_cast<float>(sqrt(0.5 + 0.5 * cos)),
             .sin_half_max = static_cast<float>(sqrt(0.5 - 0.5 * cos)),
             .lift = spring_rule(ground.half_life)};

@@ -7,9 +7,7 @@
 #include <new>
 #include <span>
 
-#include "batch/crowd/body_joints.h"
-#include "batch/crowd/body_plan.h"
-#include "batch/crowd/group_def.h"
+#include "batch/crowd/joint_plan.h"
 #include "batch/crowd/streams.h"
 #include "batch/refusal/sized.h"
 #include "include/swivel/swivel_regions.h"
@@ -20,9 +18,10 @@ namespace swivel {
 
 namespace {
 
-constexpr std::size_t kAlignment = 64;
-
-constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
+constexpr std::uint64_t aligned(std::uint64_t bytes)
+{
+    return (bytes + kArenaAlignment - 1) / kArenaAlignment * kArenaAlignment;
+}
 
 std::uint32_t blocks_in(const GroupDef& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
 

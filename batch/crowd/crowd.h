@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd in memory: one arena, laid out at creation, with the crowd itself, its groups and their rows.
+// A crowd in memory: one arena, laid out at creation, with the crowd itself, its groups and their rows. And masks of
+// its lanes.
 #pragma once
 
 #include <atomic>
@@ -93,22 +94,55 @@ inline constexpr std::uint32_t kUnknownPose =
 // A group with any of these features has whole limbs.
 inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);
 
+inline constexpr std::size_t kArenaAlignment = 64;   // of its memory, and of a workspace that the caller brings
 inline constexpr std::uint32_t kMaxWorkspaces = 64;  // of a crowd
 // The size of a workspace: a strip of this many blocks, and as many blocks of bodies if joints are needed.
 inline std::size_t workspace_floats(std::uint32_t strip_blocks, std::uint32_t body_row_count)
 {
     return strip_blocks * (kStripBlockFloats + std::size_t{body_row_count} * kLanes);
 }
-inline StripMemory strip_memory(float* workspace, std::uint32_t strip_blocks, std::uint32_t body_row_count)
+// A crowd's workspace, or null.
+inline StripMemory strip_memory(const swivel_crowd& crowd, float* workspace)
 {
-    return {workspace, strip_blocks,
-            body_row_count > 0 && workspace ? workspace + strip_blocks * kStripBlockFloats : nullptr};
+    return {workspace, crowd.strip_blocks,
+            crowd.body_row_count > 0 && workspace ? workspace + crowd.strip_blocks * kStripBlockFloats : nullptr};
 }
 
 // How many groups have lanes of their own. In a crowd of bodies all groups share the first one's.
 inline std::uint32_t lane_group_count(const swivel_crowd& crowd)
 {
     return crowd.joint_count > 0 ? 1 : crowd.group_count;
+}
+
+// Masks of a crowd's lanes have one bit for each lane. A word of 32 bits covers two blocks.
+using LaneMask = std::uint32_t;  // of one block: the low SWIVEL_LANES bits
+inline constexpr LaneMask kAllLanes = (1u << SWIVEL_LANES) - 1;
+
+inline LaneMask lanes_of(const std::uint32_t* words, std::uint32_t block)
+{
+    return words[block / 2] >> block % 2 * SWIVEL_LANES & kAllLanes;
+}
+
+inline void add_lanes(std::uint32_t* words, std::uint32_t block, LaneMask lanes)
+{
+    words[block / 2] |= lanes << block % 2 * SWIVEL_LANES;
+}
+
+// The number of limbs in a block of a group; the block's other lanes are padding. block: counted within the group.
+inline std::uint32_t limb_count_of(const Group& group, std::uint32_t block)
+{
+    const std::uint32_t left = group.limb_count - block * SWIVEL_LANES;
+    return left < SWIVEL_LANES ? left : std::uint32_t{SWIVEL_LANES};
+}
+// The lanes of those limbs.
+inline LaneMask lanes_of_limbs(const Group& group, std::uint32_t block)
+{
+    return kAllLanes >> (SWIVEL_LANES - limb_count_of(group, block));
+}
+// The lanes of those limbs that a mask of the crowd chooses.
+inline LaneMask chosen_limbs(const Group& group, std::uint32_t block, const std::uint32_t* mask)
+{
+    return lanes_of(mask, group.first_block + block) & lanes_of_limbs(group, block);
 }
 
 // Words of a mask with a bit for each lane.

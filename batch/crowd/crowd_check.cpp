@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "batch/crowd/crowd_check.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
-#include "batch/crowd/body_plan.h"
 #include "batch/crowd/crowd.h"
 #include "batch/crowd/group_def.h"
 #include "batch/crowd/rig.h"
@@ -30,24 +26,22 @@ bool is_zero(float x) { return x == 0; }
 swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, std::uint32_t twist_bones)
 {
     if (std::all_of(std::begin(binding.parent_from_arm), std::end(binding.parent_from_arm), is_zero))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no binding; make it with swivel_bind_joints()", group);
+        return refuse("group %u has no binding; make it with swivel_bind_joints()", group);
     if (const swivel_status status = check_size<swivel_binding>("the group's binding", size_of(&binding));
         status != SWIVEL_OK)
         return status;
     if (!is_binding(binding))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u's binding holds a quaternion not of unit length; make it with swivel_bind_joints()",
-                    group);
+        return refuse("group %u's binding holds a quaternion not of unit length; make it with swivel_bind_joints()",
+                      group);
     if (std::all_of(std::begin(binding.lengths), std::end(binding.lengths), is_zero))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u's binding has bones of length 0; make it with swivel_bind_joints(), or give NaN for "
-                    "lengths that are written later",
-                    group);
+        return refuse(
+            "group %u's binding has bones of length 0; make it with swivel_bind_joints(), or give NaN for lengths that "
+            "are written later",
+            group);
     if (twist_bones > 0 && binding.twist_bone_count > 0 && binding.twist_bone_count != twist_bones)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u's binding has %u twist bones, the group %u; bind that many, or give it as many as are "
-                    "bound",
-                    group, binding.twist_bone_count, twist_bones);
+        return refuse(
+            "group %u's binding has %u twist bones, the group %u; bind that many, or give it as many as are bound",
+            group, binding.twist_bone_count, twist_bones);
     return SWIVEL_OK;
 }
 
@@ -88,8 +82,8 @@ swivel_status check_needs(std::uint32_t group, swivel_features asked, swivel_fea
         const int length = std::snprintf(names + used, sizeof names - used, "%sSWIVEL_%s", separator, row.name);
         used = std::min(used + static_cast<std::size_t>(length), sizeof names - 1);
     }
-    return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s %s %s; add %s", group, first,
-                lacking_count > 1 ? "and others need" : "needs", names, std::has_single_bit(missing) ? "it" : "them");
+    return refuse("group %u: SWIVEL_%s %s %s; add %s", group, first, lacking_count > 1 ? "and others need" : "needs",
+                  names, std::has_single_bit(missing) ? "it" : "them");
 }
 
 // Features that the kind of group may have and that go together. features: those asked for, and what the
@@ -97,54 +91,48 @@ swivel_status check_needs(std::uint32_t group, swivel_features asked, swivel_fea
 swivel_status check_features(std::uint32_t group, swivel_features asked, swivel_features features)
 {
     if (const swivel_features unknown = asked & ~kKnownFeatures)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u asks for unknown features: bits 0x%llx", group,
-                    static_cast<unsigned long long>(unknown));
+        return refuse("group %u asks for unknown features: bits 0x%llx", group,
+                      static_cast<unsigned long long>(unknown));
     for (const FeatureRow& row : kFeatures) {
         if (!(asked & row.feature)) continue;
         if (const swivel_kind kind = kind_of(features); !(row.kinds >> kind & 1))
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s is not for %s; leave it out", group, row.name,
-                        text_of(kind));
+            return refuse("group %u: SWIVEL_%s is not for %s; leave it out", group, row.name, text_of(kind));
         if (const swivel_features excluded = row.excludes & features)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s excludes SWIVEL_%s; leave one out", group,
-                        row.name, feature_name(excluded));
+            return refuse("group %u: SWIVEL_%s excludes SWIVEL_%s; leave one out", group, row.name,
+                          feature_name(excluded));
     }
     if (const swivel_status status = check_needs(group, asked, features); status != SWIVEL_OK) return status;
     if (twist_bone_count(features) > 0 && !(features & SWIVEL_WITH_HAND))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: twist bones need SWIVEL_WITH_HAND; add it", group);
+        return refuse("group %u: twist bones need SWIVEL_WITH_HAND; add it", group);
     return SWIVEL_OK;
 }
 
 swivel_status check_group_region(std::uint32_t g, const GroupDef& group)
 {
     const bool has = group.features & SWIVEL_WITH_REGION;
-    if (has && !group.region)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_WITH_REGION needs a region; give it", g);
-    if (!has && group.region)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has a region, but not SWIVEL_WITH_REGION; add it", g);
+    if (has && !group.region) return refuse("group %u: SWIVEL_WITH_REGION needs a region; give it", g);
+    if (!has && group.region) return refuse("group %u has a region, but not SWIVEL_WITH_REGION; add it", g);
     if (!has) return SWIVEL_OK;
     char name[24];
     std::snprintf(name, sizeof name, "group %u", g);
     if (const swivel_status status = check_region(name, group.region); status != SWIVEL_OK) return status;
     if (group.region->part_count == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: the region allows nothing; add cones or a polygon to it", g);
+        return refuse("group %u: the region allows nothing; add cones or a polygon to it", g);
     return SWIVEL_OK;
 }
 
 swivel_status check_group(std::uint32_t g, const GroupDef& group)
 {
-    if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
+    if (group.limb_count == 0) return refuse("group %u has no limbs; give at least one", g);
     if (const swivel_status status = check_features(g, group.asked, group.features); status != SWIVEL_OK) return status;
-    std::uint32_t on_bad_input;  // C lets it be any number
-    static_assert(sizeof on_bad_input == sizeof group.on_bad_input);
-    std::memcpy(&on_bad_input, &group.on_bad_input, sizeof on_bad_input);
+    const std::uint32_t on_bad_input = number_of(group.on_bad_input);
     if (on_bad_input > SWIVEL_KEEP_POSE)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: on_bad_input is %u; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE",
-                    g, on_bad_input);
+        return refuse("group %u: on_bad_input is %u; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE", g, on_bad_input);
     for (const auto& [order, name] :
          {std::pair{group.shoulder_order, "shoulder_order"}, std::pair{group.wrist_order, "wrist_order"}})
         if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", g, name,
-                        static_cast<int>(order));
+            return refuse("group %u: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", g, name,
+                          static_cast<int>(order));
     if (const swivel_status status = check_group_region(g, group); status != SWIVEL_OK) return status;
     return group.features & SWIVEL_JOINTS ? check_binding(g, group.binding, twist_bone_count(group.features))
                                           : SWIVEL_OK;
@@ -157,21 +145,19 @@ swivel_crowd_def full_def(const swivel_crowd_def* def) { return element(def, 0, 
 swivel_status check_def(const swivel_crowd_def* given)
 {
     const FloatEnv env;  // bindings hold floats; the def's callbacks are called later, outside it
-    if (!given) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
+    if (!given) return refuse("crowd def is null; start from swivel_default_crowd_def()");
     if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
         return status;
     const swivel_crowd_def def = full_def(given);
     if (def.workspace_count > kMaxWorkspaces)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u workspaces, %u are the most; let jobs bring others",
-                    def.workspace_count, kMaxWorkspaces);
+        return refuse("crowd def has %u workspaces, %u are the most; let jobs bring others", def.workspace_count,
+                      kMaxWorkspaces);
     if (!def.skeleton && def.body_count > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u bodies, but no skeleton; give it", def.body_count);
+        return refuse("crowd def has %u bodies, but no skeleton; give it", def.body_count);
     if (def.skeleton && def.body_count == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has a skeleton, but no bodies; give at least one");
-    if (def.group_count == 0 || !def.groups)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
-    if (!def.allocate != !def.release)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
+        return refuse("crowd def has a skeleton, but no bodies; give at least one");
+    if (def.group_count == 0 || !def.groups) return refuse("crowd def has no groups; give at least one");
+    if (!def.allocate != !def.release) return refuse("crowd def has one of allocate and release; give both or none");
     if (const swivel_status status = check_group_defs(def); status != SWIVEL_OK) return status;
     std::uint64_t limb_count = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
@@ -179,14 +165,12 @@ swivel_status check_def(const swivel_crowd_def* given)
         if (const swivel_status status = check_group(g, group); status != SWIVEL_OK) return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
-    if (limb_count > kMaxLimbs)
-        return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");
+    if (limb_count > kMaxLimbs) return refuse("more than 2^31 limbs, padding included; use several crowds");
     if (def.skeleton)
         if (const swivel_status status = check_bodies(def); status != SWIVEL_OK) return status;
     if (const std::uint64_t bytes = crowd_bytes(def); bytes > std::uint64_t{PTRDIFF_MAX})  // where pointers are short
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "a crowd of %llu bytes is beyond what a pointer reaches; use several crowds",
-                    static_cast<unsigned long long>(bytes));
+        return refuse("a crowd of %llu bytes is beyond what a pointer reaches; use several crowds",
+                      static_cast<unsigned long long>(bytes));
     return SWIVEL_OK;
 }
 

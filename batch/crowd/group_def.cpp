@@ -43,6 +43,44 @@ bool is_linked_to(const swivel_crowd_def& def, std::uint32_t g)
     return false;
 }
 
+// The size of a group's definition, if it is given.
+template <class Def>
+swivel_status check_size_of(std::uint32_t g, const char* what, const Def* def)
+{
+    if (!def) return SWIVEL_OK;
+    char name[48];
+    std::snprintf(name, sizeof name, "group %u: %s def", g, what);
+    return check_size<Def>(name, size_of(def));
+}
+
+swivel_status check_group_def(const swivel_crowd_def& def, std::uint32_t g)
+{
+    const swivel_group_def group = def_at(def, g);
+    const bool is_of_bodies = group.body_limb || group.look || group.prop || group.shift;
+    const int given = (group.limb != nullptr) + (group.body_limb != nullptr) + (group.look != nullptr) +
+                      (group.prop != nullptr) + (group.shift != nullptr);
+    if (given != 1)
+        return refuse("group %u has %d definitions; give one: limb, body_limb, look, prop or shift", g, given);
+    if (is_of_bodies && !def.skeleton)
+        return refuse("group %u is of bodies, but the crowd def has no skeleton; give it", g);
+    if (!is_of_bodies && def.skeleton)
+        return refuse(
+            "group %u is of free limbs, but the crowd def has a skeleton; give a body_limb, or leave the skeleton out",
+            g);
+    swivel_status status = check_size_of(g, "limb", group.limb);
+    if (status == SWIVEL_OK && group.limb)
+        if (const std::uint32_t count = element(group.limb, 0, swivel_default_limb_def(0)).twist_bone_count;
+            count > SWIVEL_MAX_TWIST_BONES)
+            status = refuse("group %u: twist_bone_count is %u; it is 0 to %d", g, count, int{SWIVEL_MAX_TWIST_BONES});
+    if (status == SWIVEL_OK) status = check_size_of(g, "body limb", group.body_limb);
+    if (status == SWIVEL_OK) status = check_size_of(g, "look", group.look);
+    if (status == SWIVEL_OK && group.look)
+        status = check_reserved("look def", element(group.look, 0, swivel_default_look_def()));
+    if (status == SWIVEL_OK) status = check_size_of(g, "prop", group.prop);
+    if (status == SWIVEL_OK) status = check_size_of(g, "shift", group.shift);
+    return status;
+}
+
 }  // namespace
 
 GroupDef default_group()
@@ -96,51 +134,6 @@ GroupDef group_at(const swivel_crowd_def& def, std::uint32_t g)
         group.features |= SWIVEL_WITH_HAND_TRANSFORM;
     return group;
 }
-
-namespace {
-
-// The size of a group's definition, if it is given.
-template <class Def>
-swivel_status check_size_of(std::uint32_t g, const char* what, const Def* def)
-{
-    if (!def) return SWIVEL_OK;
-    char name[48];
-    std::snprintf(name, sizeof name, "group %u: %s def", g, what);
-    return check_size<Def>(name, size_of(def));
-}
-
-swivel_status check_group_def(const swivel_crowd_def& def, std::uint32_t g)
-{
-    const swivel_group_def group = def_at(def, g);
-    const bool is_of_bodies = group.body_limb || group.look || group.prop || group.shift;
-    const int given = (group.limb != nullptr) + (group.body_limb != nullptr) + (group.look != nullptr) +
-                      (group.prop != nullptr) + (group.shift != nullptr);
-    if (given != 1)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u has %d definitions; give one: limb, body_limb, look, prop or shift", g, given);
-    if (is_of_bodies && !def.skeleton)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is of bodies, but the crowd def has no skeleton; give it", g);
-    if (!is_of_bodies && def.skeleton)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u is of free limbs, but the crowd def has a skeleton; give a body_limb, or leave the "
-                    "skeleton out",
-                    g);
-    swivel_status status = check_size_of(g, "limb", group.limb);
-    if (status == SWIVEL_OK && group.limb)
-        if (const std::uint32_t count = element(group.limb, 0, swivel_default_limb_def(0)).twist_bone_count;
-            count > SWIVEL_MAX_TWIST_BONES)
-            status = fail(SWIVEL_INVALID_ARGUMENT, "group %u: twist_bone_count is %u; it is 0 to %d", g, count,
-                          int{SWIVEL_MAX_TWIST_BONES});
-    if (status == SWIVEL_OK) status = check_size_of(g, "body limb", group.body_limb);
-    if (status == SWIVEL_OK) status = check_size_of(g, "look", group.look);
-    if (status == SWIVEL_OK && group.look)
-        status = check_reserved("look def", element(group.look, 0, swivel_default_look_def()));
-    if (status == SWIVEL_OK) status = check_size_of(g, "prop", group.prop);
-    if (status == SWIVEL_OK) status = check_size_of(g, "shift", group.shift);
-    return status;
-}
-
-}  // namespace
 
 swivel_status check_group_defs(const swivel_crowd_def& def)
 {

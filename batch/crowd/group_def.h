@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A group of a def in one form for all kinds, with the features that the caller's imply.
+// A crowd's definition. Its groups have one form for all kinds, with the features that the caller's imply.
 #pragma once
 
 #include "include/swivel/swivel_bodies.h"
@@ -34,5 +34,12 @@ GroupDef group_at(const swivel_crowd_def& def, std::uint32_t g);
 GroupDef unlinked_group(const swivel_crowd_def& def, std::uint32_t g);
 // Refuses a def unless each group has exactly one definition, of a size that some header has.
 swivel_status check_group_defs(const swivel_crowd_def& def);
+
+// crowd_check.cpp: refuses a definition that no crowd can be made of.
+swivel_status check_def(const swivel_crowd_def* def);
+// body_check.cpp: checks the skeleton's part of a def, as swivel_crowd_create() promises. Groups are otherwise valid.
+swivel_status check_bodies(const swivel_crowd_def& def);
+// The definition with all members: those that an older, shorter structure lacks get defaults.
+swivel_crowd_def full_def(const swivel_crowd_def* def);
 
 }  // namespace swivel

@@ -49,7 +49,7 @@ std::uint32_t needed_count(const swivel_crowd_def& def, const swivel_skeleton& s
     std::uint32_t count = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const NeededEnds ends(unlinked_group(def, g));
-        std::uint32_t added[kMaxNeededEnds];
+        std::uint32_t added[kMaxTurned];
         for (std::uint32_t n = 0; n < ends.count; ++n) added[n] = depth_of(skeleton, ends.joint[n]) + 1;
         for (std::uint32_t other = 0; other <= g; ++other) {
             const NeededEnds others(unlinked_group(def, other));
@@ -115,14 +115,6 @@ std::int32_t mover_in_group(const JointPlan& plan, std::uint32_t g, std::int32_t
     return -1;
 }
 
-void store(const Rotor<double>& q, float (&numbers)[4])
-{
-    numbers[0] = static_cast<float>(q.at<kI>());
-    numbers[1] = static_cast<float>(q.at<kJ>());
-    numbers[2] = static_cast<float>(q.at<kK>());
-    numbers[3] = static_cast<float>(q.at<kScalar>());
-}
-
 RestJoint rest_of(const swivel_skeleton& skeleton, std::uint32_t joint)
 {
     RestJoint rest;
@@ -176,9 +168,7 @@ JointPlan plan_joints(const swivel_crowd_def& def, const BodySize& size, Skeleto
         each.parent = plan.parent_first_row_of(joint);
         each.mover = planned.mover < 0 || planned.is_of_look ? 0 : plan.first_row_of(planned.mover);
         each.is_turned = planned.mover == static_cast<std::int32_t>(joint);
-        each.translation[0] = static_cast<float>(rest.place.at<kE1>());
-        each.translation[1] = static_cast<float>(rest.place.at<kE2>());
-        each.translation[2] = static_cast<float>(rest.place.at<kE3>());
+        for (std::size_t c = 0; c < 3; ++c) each.translation[c] = static_cast<float>(rest.place.c[c]);
         row += joint_row_count(each.is_turned != 0);
     }
     check_size(row == size.first_own_row);

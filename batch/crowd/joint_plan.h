@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Plans the joints of a crowd of bodies once: those that groups need, parents first, those that groups turn, those that
-// move with them, and their rows. Knows no constants of groups.
+// Plans a crowd of bodies once. joint_plan.cpp plans its joints: those that groups need, parents first, those that
+// groups turn, those that move with them, and their rows. body_plan.cpp plans the constants of formulas, and the links
+// between groups.
 #pragma once
 
 #include <span>
@@ -50,5 +51,12 @@ GroupJoints plan_moved(const JointPlan& plan, std::uint32_t g, const GroupDef& g
                        std::span<FollowingJoint> following);
 // Gives a group its rows after the joints', from `first` on. Returns the next free row.
 std::uint32_t plan_own_rows(swivel_features features, std::uint32_t first, GroupPlan& group);
+
+// Adds the constants of plants, shifts, grounds, props and looks to a group's plan.
+void plan_group(const swivel_crowd_def& def, const GroupDef& group, GroupPlan& plan);
+// Connects linked limbs to the limbs and props that they hold. Call it when all groups are planned.
+void plan_links(const swivel_crowd_def& def, const JointPlan& plan, swivel_crowd& crowd);
+// The binding of a group's limb, from the skeleton at rest.
+swivel_binding body_binding(const swivel_crowd_def& def, const GroupDef& group);
 
 }  // namespace swivel

@@ -19,14 +19,7 @@ Rotor<double> rotor_of(const float (&q)[4]) { return rotor<double>(q[0], q[1], q
 
 bool is_usable_bone(const Vector<double>& v) { return len2(v) >= kTiny2 && len2(v) <= kHuge2; }
 
-void store_unit(const Rotor<double>& q, float (&to)[4])
-{
-    const Rotor<double> unit = hemisphere(normalise(q));
-    to[0] = static_cast<float>(unit.at<kI>());
-    to[1] = static_cast<float>(unit.at<kJ>());
-    to[2] = static_cast<float>(unit.at<kK>());
-    to[3] = static_cast<float>(unit.at<kScalar>());
-}
+void store_unit(const Rotor<double>& q, float (&to)[4]) { store(hemisphere(normalise(q)), to); }
 
 // cos 10 degrees. A rest pose with less bend shows noise instead of the bend's direction.
 constexpr double kBent = 0.984807753;
@@ -55,24 +48,23 @@ swivel_status find_hinge(const Vector<double>& upper, const Vector<double>& fore
                          Vector<double>& hinge)
 {
     if (!(len2(given) <= kHuge2))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind_joints: the bend is not finite or longer than 1e15; give a direction or zeros");
+        return refuse("swivel_bind_joints: the bend is not finite or longer than 1e15; give a direction or zeros");
     const bool is_given = len2(given) >= kTiny2;
     if (!is_given && scalar_product(upper, fore) >= kBent * std::sqrt(len2(upper) * len2(fore)))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind_joints: the rest pose is straight within 10 degrees, so it does not show where the "
-                    "limb bends to; give the bend");
+        return refuse(
+            "swivel_bind_joints: the rest pose is straight within 10 degrees, so it does not show where the limb bends "
+            "to; give the bend");
     const Vector<double> bend = is_given ? given : fore;
     if (is_along(bend, upper))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind_joints: the %s lies along the upper arm; give the direction that flexion carries the "
-                    "forearm towards",
-                    is_given ? "bend" : "forearm");
+        return refuse(
+            "swivel_bind_joints: the %s lies along the upper arm; give the direction that flexion carries the forearm "
+            "towards",
+            is_given ? "bend" : "forearm");
     hinge = cross(bend, upper);
     if (is_along(hinge, fore))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind_joints: the forearm at rest lies along the axis that the bend turns it about; give "
-                    "another bend");
+        return refuse(
+            "swivel_bind_joints: the forearm at rest lies along the axis that the bend turns it about; give another "
+            "bend");
     return SWIVEL_OK;
 }
 
@@ -85,9 +77,8 @@ swivel_status bind(const RestLimb& limb, swivel_binding& to)
     swivel_binding binding = swivel_default_binding();
     const Vector<double>&upper = limb.elbow.place, &fore = limb.wrist.place;
     if (!is_usable_bone(upper) || !is_usable_bone(fore))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind_joints: the %s has no direction; it must be 1e-15 to 1e15 long",
-                    is_usable_bone(upper) ? "forearm" : "upper arm");
+        return refuse("swivel_bind_joints: the %s has no direction; it must be 1e-15 to 1e15 long",
+                      is_usable_bone(upper) ? "forearm" : "upper arm");
     const Rotor<double> elbow_unit = normalise(limb.elbow.rotation);
     const Rotor<double> elbow_s = limb.elbow.between ? *limb.elbow.between * elbow_unit : elbow_unit;
     Vector<double> hinge;
@@ -136,15 +127,13 @@ swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotat
     const Rotor<double> parent = rotor_of(parent_rotation);
     const Vector<double> wanted = vector<double>(direction[0], direction[1], direction[2]);
     if (!is_binding(binding))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_arm_axis: the binding holds a quaternion not of unit length; make it with "
-                    "swivel_bind_joints()");
+        return refuse(
+            "swivel_arm_axis: the binding holds a quaternion not of unit length; make it with swivel_bind_joints()");
     if (!is_orientation(parent))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_arm_axis: the parent's rotation is zero or not finite; give a quaternion x, y, z, w");
+        return refuse("swivel_arm_axis: the parent's rotation is zero or not finite; give a quaternion x, y, z, w");
     if (!is_usable_bone(wanted))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: direction (%g, %g, %g) is not 1e-15..1e15 long",
-                    direction[0], direction[1], direction[2]);
+        return refuse("swivel_arm_axis: direction (%g, %g, %g) is not 1e-15..1e15 long", direction[0], direction[1],
+                      direction[2]);
     const Rotor<double> world_from_arm = normalise(parent) * normalise(rotor_of(binding.parent_from_arm));
     const Vector<double> in_arm = normalise(sandwich(~world_from_arm, wanted));
     std::copy(std::begin(in_arm.c), std::end(in_arm.c), axis);

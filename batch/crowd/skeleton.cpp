@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "batch/crowd/skeleton.h"
-
+#include <array>
 #include <cstdio>
-#include <cstring>
 #include <span>
 
+#include "batch/crowd/rig.h"
+#include "batch/crowd/streams.h"
 #include "batch/refusal/status.h"
 #include "core/arm.h"
 
@@ -33,29 +33,12 @@ const Part* find(std::span<const Part> parts, std::uint32_t joint)
     return nullptr;
 }
 
-template <class Value>
-Value value_of(const swivel_in& values, std::uint32_t joint)
-{
-    Value value;
-    std::memcpy(&value, static_cast<const char*>(values.data) + std::size_t{joint} * values.stride, sizeof value);
-    return value;
-}
-}  // namespace
-
-std::int32_t parent_of(const swivel_skeleton& skeleton, std::uint32_t joint)
-{
-    return value_of<std::int32_t>(skeleton.parents, joint);
-}
-
-namespace {
-
 swivel_status check_values(const char* name, const swivel_in& values, std::size_t bytes)
 {
-    if (!values.data) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: the skeleton's %s are null", name);
+    if (!values.data) return refuse("swivel_bind_joints: the skeleton's %s are null", name);
     if (values.stride < bytes)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind_joints: the skeleton's %s have stride %zu, which is smaller than a value, %zu bytes",
-                    name, values.stride, bytes);
+        return refuse("swivel_bind_joints: the skeleton's %s have stride %zu, which is smaller than a value, %zu bytes",
+                      name, values.stride, bytes);
     return SWIVEL_OK;
 }
 swivel_status check_skeleton(const swivel_skeleton& skeleton)
@@ -70,10 +53,9 @@ swivel_status check_skeleton(const swivel_skeleton& skeleton)
 swivel_status name_parts(const swivel_limb_joints& joints, Parts& parts)
 {
     if (joints.twist_bone_count > SWIVEL_MAX_TWIST_BONES)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: there are %u twist bones; a limb has at most %d",
-                    joints.twist_bone_count, SWIVEL_MAX_TWIST_BONES);
-    if (joints.twist_bone_count > 0 && !joints.twist_bones)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: twist_bones is null");
+        return refuse("swivel_bind_joints: there are %u twist bones; a limb has at most %d", joints.twist_bone_count,
+                      SWIVEL_MAX_TWIST_BONES);
+    if (joints.twist_bone_count > 0 && !joints.twist_bones) return refuse("swivel_bind_joints: twist_bones is null");
     parts.add({"the shoulder", joints.shoulder});
     parts.add({"the elbow", joints.elbow});
     parts.add({"the wrist", joints.wrist});
@@ -81,73 +63,30 @@ swivel_status name_parts(const swivel_limb_joints& joints, Parts& parts)
         Part bone{{}, joints.twist_bones[n]};
         std::snprintf(bone.name, sizeof bone.name, "twist bone %u", n);
         if (const Part* const same = find(parts.from(0), bone.joint))
-            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: %s and %s are both joint %u; name each once",
-                        same->name, bone.name, bone.joint);
+            return refuse("swivel_bind_joints: %s and %s are both joint %u; name each once", same->name, bone.name,
+                          bone.joint);
         parts.add(bone);
     }
     return SWIVEL_OK;
 }
 
-}  // namespace
-
-swivel_status check_parents(const swivel_skeleton& skeleton, const char* name, std::uint32_t first_joint)
-{
-    if (first_joint >= skeleton.joint_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: %s is joint %u, but the skeleton has %u joints", name,
-                    first_joint, skeleton.joint_count);
-    std::uint32_t joint = first_joint;
-    for (std::uint32_t seen = 0; seen < skeleton.joint_count; ++seen) {
-        const std::int32_t parent = parent_of(skeleton, joint);
-        if (parent == -1) return SWIVEL_OK;
-        if (parent < -1 || static_cast<std::uint32_t>(parent) >= skeleton.joint_count)
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "swivel_bind_joints: joint %u's parent is %d; give -1 for a root, or one of the %u joints",
-                        joint, parent, skeleton.joint_count);
-        joint = static_cast<std::uint32_t>(parent);
-    }
-    return fail(SWIVEL_INVALID_ARGUMENT,
-                "swivel_bind_joints: the parents of %s, joint %u, go round in a circle; a root's parent is -1", name,
-                first_joint);
-}
-
-namespace {
-
 swivel_status read_rotation(const swivel_skeleton& skeleton, std::uint32_t joint, Rotor<double>& rotation)
 {
     rotation = rotor(0.0, 0.0, 0.0, 1.0);
     if (!skeleton.rotations.data) return SWIVEL_OK;
-    struct Numbers {
-        float x, y, z, w;
-    };
-    const auto q = value_of<Numbers>(skeleton.rotations, joint);
-    rotation = rotor<double>(q.x, q.y, q.z, q.w);
+    const auto q = value_at<std::array<float, 4>>(skeleton.rotations, joint);
+    rotation = rotor<double>(q[0], q[1], q[2], q[3]);
     if (is_orientation(rotation)) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT,
-                "swivel_bind_joints: joint %u's rest rotation is zero or not finite; give a quaternion x, y, z, w",
-                joint);
+    return refuse("swivel_bind_joints: joint %u's rest rotation is zero or not finite; give a quaternion x, y, z, w",
+                  joint);
 }
 swivel_status read_place(const swivel_skeleton& skeleton, std::uint32_t joint, Vector<double>& place)
 {
-    struct Numbers {
-        float x, y, z;
-    };
-    const auto v = value_of<Numbers>(skeleton.translations, joint);
-    place = vector<double>(v.x, v.y, v.z);
+    const auto v = value_at<std::array<float, 3>>(skeleton.translations, joint);
+    place = vector<double>(v[0], v[1], v[2]);
     if (len2(place) <= kHuge2) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT,
-                "swivel_bind_joints: joint %u's translation is not finite or longer than 1e15; give 3 floats", joint);
+    return refuse("swivel_bind_joints: joint %u's translation is not finite or longer than 1e15; give 3 floats", joint);
 }
-
-}  // namespace
-
-swivel_status read_joint(const swivel_skeleton& skeleton, std::uint32_t joint, RestJoint& rest)
-{
-    rest = {};
-    const swivel_status status = read_rotation(skeleton, joint, rest.rotation);
-    return status == SWIVEL_OK ? read_place(skeleton, joint, rest.place) : status;
-}
-
-namespace {
 
 // Reads a part below another one, with the rigid joints between them, none of which may be a part.
 swivel_status rest_below(const swivel_skeleton& skeleton, const Part& part, const Part& above,
@@ -157,15 +96,15 @@ swivel_status rest_below(const swivel_skeleton& skeleton, const Part& part, cons
     for (std::uint32_t joint = part.joint;;) {
         const std::int32_t parent = parent_of(skeleton, joint);
         if (parent == -1)
-            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: %s, joint %u, is not below %s, joint %u",
-                        part.name, part.joint, above.name, above.joint);
+            return refuse("swivel_bind_joints: %s, joint %u, is not below %s, joint %u", part.name, part.joint,
+                          above.name, above.joint);
         joint = static_cast<std::uint32_t>(parent);
         if (joint == above.joint) return SWIVEL_OK;
         if (const Part* const other = find(turning, joint))
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "swivel_bind_joints: %s, joint %u, hangs below %s, joint %u, and would turn with it; name only "
-                        "joints that hang beside each other",
-                        part.name, part.joint, other->name, other->joint);
+            return refuse(
+                "swivel_bind_joints: %s, joint %u, hangs below %s, joint %u, and would turn with it; name only joints "
+                "that hang beside each other",
+                part.name, part.joint, other->name, other->joint);
         RestJoint between;
         if (const swivel_status status = read_joint(skeleton, joint, between); status != SWIVEL_OK) return status;
         const Rotor<double> unit = normalise(between.rotation);
@@ -181,16 +120,46 @@ swivel_status check_order(const Parts& parts, const RestLimb& limb)
     for (std::uint32_t n = 1; n < limb.twist_bone_count; ++n) {
         const Vector<double> way = limb.twist_bones[n].place - limb.twist_bones[n - 1].place;
         if (scalar_product(way, fore) < -1e-3 * len2(fore))
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "swivel_bind_joints: %s, joint %u, is nearer to the elbow than %s, joint %u; list them from "
-                        "elbow to wrist",
-                        parts.part[kFirstTwistBone + n].name, parts.part[kFirstTwistBone + n].joint,
-                        parts.part[kFirstTwistBone + n - 1].name, parts.part[kFirstTwistBone + n - 1].joint);
+            return refuse(
+                "swivel_bind_joints: %s, joint %u, is nearer to the elbow than %s, joint %u; list them from elbow to "
+                "wrist",
+                parts.part[kFirstTwistBone + n].name, parts.part[kFirstTwistBone + n].joint,
+                parts.part[kFirstTwistBone + n - 1].name, parts.part[kFirstTwistBone + n - 1].joint);
     }
     return SWIVEL_OK;
 }
 
 }  // namespace
+
+std::int32_t parent_of(const swivel_skeleton& skeleton, std::uint32_t joint)
+{
+    return value_at<std::int32_t>(skeleton.parents, joint);
+}
+
+swivel_status check_parents(const swivel_skeleton& skeleton, const char* name, std::uint32_t first_joint)
+{
+    if (first_joint >= skeleton.joint_count)
+        return refuse("swivel_bind_joints: %s is joint %u, but the skeleton has %u joints", name, first_joint,
+                      skeleton.joint_count);
+    std::uint32_t joint = first_joint;
+    for (std::uint32_t seen = 0; seen < skeleton.joint_count; ++seen) {
+        const std::int32_t parent = parent_of(skeleton, joint);
+        if (parent == -1) return SWIVEL_OK;
+        if (parent < -1 || static_cast<std::uint32_t>(parent) >= skeleton.joint_count)
+            return refuse("swivel_bind_joints: joint %u's parent is %d; give -1 for a root, or one of the %u joints",
+                          joint, parent, skeleton.joint_count);
+        joint = static_cast<std::uint32_t>(parent);
+    }
+    return refuse("swivel_bind_joints: the parents of %s, joint %u, go round in a circle; a root's parent is -1", name,
+                  first_joint);
+}
+
+swivel_status read_joint(const swivel_skeleton& skeleton, std::uint32_t joint, RestJoint& rest)
+{
+    rest = {};
+    const swivel_status status = read_rotation(skeleton, joint, rest.rotation);
+    return status == SWIVEL_OK ? read_place(skeleton, joint, rest.place) : status;
+}
 
 swivel_status rest_limb(const swivel_skeleton& skeleton, const swivel_limb_joints& joints, RestLimb& limb)
 {

@@ -3,9 +3,20 @@
 // Copies between rows and the caller's strided data, 4 bytes a component, bit for bit; positions from doubles, too.
 #pragma once
 
+#include <cstring>
+
 #include "batch/crowd/crowd.h"
 
 namespace swivel {
+
+// Value n of the caller's.
+template <class Value>
+Value value_at(const swivel_in& values, std::size_t n)
+{
+    Value value;
+    std::memcpy(&value, static_cast<const char*>(values.data) + n * values.stride, sizeof value);
+    return value;
+}
 
 // A field's rows in the blocks of one group.
 struct FieldRows {

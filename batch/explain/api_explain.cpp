@@ -2,19 +2,14 @@
 //
 // The C entry points that describe poses to people, in words.
 #include <cstring>
-#include <span>
 #include <tuple>
 
 #include "batch/api/check.h"
-#include "batch/api/pose_check.h"
 #include "batch/api/use.h"
 #include "batch/explain/compare.h"
 #include "batch/explain/explain.h"
-#include "batch/explain/explain_doubts.h"
-#include "batch/explain/explain_text.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/pose.h"
-#include "include/swivel/swivel_explain.h"
 #include "simd/float_env.h"
 
 using namespace swivel;
@@ -23,10 +18,10 @@ namespace {
 
 swivel_status take_place(const double* from, const char* name, Vector<double>& to)
 {
-    if (!from) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: %s is null", name);
+    if (!from) return refuse("swivel_compare: %s is null", name);
     std::memcpy(to.c, from, sizeof to.c);
     if (len2(to) <= kHuge2) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: %s is not finite or further than 1e15 from the origin", name);
+    return refuse("swivel_compare: %s is not finite or further than 1e15 from the origin", name);
 }
 
 // Explains each of a body's groups in a line of its own.
@@ -50,12 +45,11 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
     const bool is_body = group == SWIVEL_EVERY_GROUP;
     if (const swivel_status status = use.for_limbs(is_body ? 0 : group, limb, 1); status != SWIVEL_OK) return status;
     if (is_body && crowd->joint_count == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: this crowd has no bodies; name one of its %u groups",
-                    crowd->group_count);
+        return refuse("swivel_explain: this crowd has no bodies; name one of its %u groups", crowd->group_count);
     if (!is_body && !(crowd->groups[group].features & kNoLimb))
         if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK)
             return status;
-    if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
+    if (!text || size == 0) return refuse("swivel_explain: text is null or of no size");
     Text to({text, size});
     if (doubt_solve(*crowd, to)) to.add("%s", is_body ? "\n" : " ");
     if (is_body)
@@ -73,18 +67,16 @@ swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.for_limbs(group, body, 1); status != SWIVEL_OK) return status;
     if (crowd->joint_count == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_compare: this crowd has no bodies, so it has no pose; create it "
-                    "with a skeleton");
+        return refuse("swivel_compare: this crowd has no bodies, so it has no pose; create it with a skeleton");
     if (const swivel_status status = check_limbs(*crowd, group, "swivel_compare"); status != SWIVEL_OK) return status;
-    if (!pose) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: pose is null");
+    if (!pose) return refuse("swivel_compare: pose is null");
     if (const swivel_status status = check_pose(*crowd, pose); status != SWIVEL_OK) return status;
     LimbPlaces places{};
     for (const auto& [from, name, to] : {std::tuple{shoulder, "shoulder", &places.at[0]},
                                          {elbow, "elbow", &places.at[1]},
                                          {wrist, "wrist", &places.at[2]}})
         if (const swivel_status status = take_place(from, name, *to); status != SWIVEL_OK) return status;
-    if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_compare: text is null or of no size");
+    if (!text || size == 0) return refuse("swivel_compare: text is null or of no size");
     const bool agree = compare(*crowd, group, body, full_pose(pose), places, {text, size});
     if (agrees) *agrees = agree;
     return SWIVEL_OK;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/bad_value.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "batch/explain/limb_value.h"
+#include "batch/explain/explain.h"
+#include "batch/query/limb_value.h"
 
 namespace swivel {
 
@@ -25,12 +24,10 @@ bool is_bad(const LimbValue& value, std::uint32_t count, const FieldRow& row, sw
 // Whether only stages of bodies read a field. Far ground counts as no ground, so no ground is bad.
 bool is_of_bodies(const Group& group, swivel_field field)
 {
-    constexpr swivel_features kReadInBodies = SWIVEL_WITH_PLANT | SWIVEL_WITH_PELVIS_FIT | SWIVEL_WITH_NEXT_TARGET |
-                                              kShift | SWIVEL_WITH_GROUND | SWIVEL_WITH_LINK | kProp | kLook;
     if (field == SWIVEL_TARGET || field == SWIVEL_HAND)
         return group.features & SWIVEL_WITH_PLANT || group.plan.limb.link.is_prop;
     if (field == SWIVEL_CLAVICLE) return group.features & kBody;
-    return field != SWIVEL_GROUND && row_of(field).needs & kReadInBodies;
+    return field != SWIVEL_GROUND && !(kinds_of(row_of(field)) & kFreeLimbs);
 }
 
 }  // namespace
@@ -66,6 +63,33 @@ bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text)
         is_found = true;
     }
     return is_found;
+}
+
+void explain_bad_pose(const swivel_crowd& crowd, unsigned parts, const char* joints, Text& text)
+{
+    const std::uint32_t notes = crowd.pose_notes.load(std::memory_order_relaxed);
+    if (notes & kTimeIsGood) parts &= ~unsigned{kTimeOfPose};
+    if (!(notes & kHasSupport)) parts &= ~unsigned{kSupportOfPose};
+    if (!(notes & kHasWeight)) parts &= ~unsigned{kWeightOfPose};
+    if (parts & kTimeOfPose && notes & kTimeIsBad) parts = kTimeOfPose;
+    const struct {
+        PosePart part;
+        const char* words;
+    } names[] = {{kTimeOfPose, "its time"},
+                 {kRootOfPose, "the root's place, rotation or scale"},
+                 {kSupportOfPose, "its support"},
+                 {kWeightOfPose, "its weight"},
+                 {kJointsOfPose, joints}};
+    if (parts == 0) return text.add("an input that has been written since");
+    text.add("in the pose, ");
+    bool is_first = true;
+    for (const auto& each : names) {
+        if (!(parts & each.part)) continue;
+        parts &= ~unsigned{each.part};
+        text.add("%s%s", is_first ? "" : parts == 0 ? ", or " : ", ", each.words);
+        is_first = false;
+    }
+    text.add(" was not a number or out of its range, unless an input has been written since");
 }
 
 }  // namespace swivel

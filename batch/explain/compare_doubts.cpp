@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/compare_causes.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "batch/explain/explain_doubts.h"
+#include "batch/explain/compare.h"
+#include "batch/explain/explain.h"
 
 namespace swivel {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/compare_causes.h"
-
 #include <algorithm>
 #include <limits>
+
+#include "batch/explain/compare.h"
 
 namespace swivel {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/compare_causes.h"
-
 #include <cmath>
+
+#include "batch/explain/compare.h"
 
 namespace swivel {
 
@@ -12,14 +12,12 @@ constexpr Mistake kNoScale{
     "Your places are without root_scale. Leave it out of the pose, or scale the character that you look at."};
 constexpr Mistake kScaleTwice{[](Reading& how) { how.root_scale = 2; },
                               "Your places have root_scale twice: in its joints and at its root. Leave it out of one."};
-constexpr Mistake kAtRest{
-    [](Reading& how) { how.at_rest = true; },
-    "Your places are those of bones as the skeleton rests, but the pose has other translations. Leave these out, or "
-    "look at what changes them."};
-constexpr Mistake kUnscaled{
-    [](Reading& how) { how.unscaled = true; },
-    "Your places are those of joints without the pose's scales. Leave these out, or scale the character that you look "
-    "at."};
+constexpr Mistake kAtRest{[](Reading& how) { how.at_rest = true; },
+                          "Your places are those of bones as the skeleton rests, but the pose has other translations. "
+                          "Leave these out, or look at what changes them."};
+constexpr Mistake kUnscaled{[](Reading& how) { how.unscaled = true; },
+                            "Your places are those of joints without the pose's scales. Leave these out, or scale the "
+                            "character that you look at."};
 
 struct Units {
     double factor;

@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/compare_causes.h"
-
 #include <cmath>
+
+#include "batch/explain/compare.h"
 
 namespace swivel {
 
 namespace {
 
-constexpr Mistake kNoPlace{
-    [](Reading& how) { how.root_place = 0; },
-    "Your places are without root_position: they are from the root, or the pose's joints have it, too. Give places in "
-    "the world, and the root once."};
+constexpr Mistake kNoPlace{[](Reading& how) { how.root_place = 0; },
+                           "Your places are without root_position: they are from the root, or the pose's joints have "
+                           "it, too. Give places in the world, and the root once."};
 constexpr Mistake kPlaceTwice{[](Reading& how) { how.root_place = 2; },
                               "Your places have root_position twice. Give places in the world, and the root once."};
-constexpr Mistake kNoTurn{
-    [](Reading& how) { how.root_turn = 0; },
-    "Your places are without root_rotation: the pose's joints have it, too, or the character that you look at is not "
-    "turned. Give it once."};
+constexpr Mistake kNoTurn{[](Reading& how) { how.root_turn = 0; },
+                          "Your places are without root_rotation: the pose's joints have it, too, or the character "
+                          "that you look at is not turned. Give it once."};
 constexpr Mistake kTurnTwice{[](Reading& how) { how.root_turn = 2; },
                              "Your places have root_rotation twice: in the joints and at the root. Give it once."};
-constexpr Mistake kInRootFrame{
-    [](Reading& how) { how.root_place = how.root_turn = how.root_scale = 0; },
-    "Your places are in the root's frame, not in the world. Give them in the world, or leave the root out of the "
-    "pose."};
+constexpr Mistake kInRootFrame{[](Reading& how) { how.root_place = how.root_turn = how.root_scale = 0; },
+                               "Your places are in the root's frame, not in the world. Give them in the world, or "
+                               "leave the root out of the pose."};
 constexpr Mistake kFloats{
     [](Reading& how) { how.root_in_other_numbers = true; },
     "The pose's root_position is in floats, but root_is_double says doubles. Set root_is_double to 0."};

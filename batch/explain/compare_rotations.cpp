@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/compare_causes.h"
-
 #include <cmath>
+
+#include "batch/explain/compare.h"
 
 namespace swivel {
 
@@ -13,10 +13,9 @@ constexpr Mistake kJointsWFirst{
 constexpr Mistake kRootWFirst{
     [](Reading& how) { how.root_w_first = true; },
     "The pose's root_rotation is stored as w, x, y, z, but swivel takes x, y, z, w. Reorder it."};
-constexpr Mistake kAllWFirst{
-    [](Reading& how) { how.joints_w_first = how.root_w_first = true; },
-    "The pose's rotations, root_rotation among them, are stored as w, x, y, z, but swivel takes x, y, z, w. Reorder "
-    "them."};
+constexpr Mistake kAllWFirst{[](Reading& how) { how.joints_w_first = how.root_w_first = true; },
+                             "The pose's rotations, root_rotation among them, are stored as w, x, y, z, but swivel "
+                             "takes x, y, z, w. Reorder them."};
 constexpr Mistake kJointsInverse{
     [](Reading& how) { how.joints_inverse = true; },
     "The pose's joint rotations are the inverse ones: conjugates. Negate x, y and z of each."};
@@ -25,10 +24,9 @@ constexpr Mistake kRootInverse{[](Reading& how) { how.root_inverse = true; },
 constexpr Mistake kAllInverse{
     [](Reading& how) { how.joints_inverse = how.root_inverse = true; },
     "The pose's rotations, root_rotation among them, are the inverse ones: conjugates. Negate x, y and z of each."};
-constexpr Mistake kTransposed{
-    [](Reading& how) { how.joints_inverse = true; },
-    "The 3 x 3 part of the pose's matrices is transposed, so rows are where columns must be. Transpose it, but leave "
-    "the translation."};
+constexpr Mistake kTransposed{[](Reading& how) { how.joints_inverse = true; },
+                              "The 3 x 3 part of the pose's matrices is transposed, so rows are where columns must be. "
+                              "Transpose it, but leave the translation."};
 constexpr Mistake kInBody{
     [](Reading& how) { how.space = SWIVEL_IN_BODY; },
     "The pose's joints are relative to the root, but its space is SWIVEL_LOCAL. Give SWIVEL_IN_BODY."};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/compared_limb.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "batch/explain/compare.h"
 
 namespace swivel {
 

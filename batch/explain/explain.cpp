@@ -5,17 +5,8 @@
 
 #include <cmath>
 
-#include "batch/explain/bad_pose.h"
-#include "batch/explain/bad_value.h"
-#include "batch/explain/explain_doubts.h"
-#include "batch/explain/explain_ground.h"
-#include "batch/explain/explain_hold.h"
-#include "batch/explain/explain_limits.h"
-#include "batch/explain/explain_look.h"
-#include "batch/explain/explain_plant.h"
 #include "batch/explain/explain_probe.h"
-#include "batch/explain/explain_shift.h"
-#include "batch/explain/limb_value.h"
+#include "batch/query/limb_value.h"
 #include "core/limb_goal.h"
 
 namespace swivel {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/explain_doubts.h"
-
 #include <cmath>
 #include <limits>
 
-#include "batch/explain/limb_value.h"
+#include "batch/explain/explain.h"
+#include "batch/explain/explain_probe.h"
+#include "batch/query/limb_value.h"
 
 namespace swivel {
 
@@ -43,8 +43,7 @@ void doubt_support(const Group& group, std::uint32_t limb, const PosedLengths& p
     if (!(rounding > kSeen * posed.scaled)) return;
     text.add(
         "Warning: its point is %.3g from the support that it is planted on, where floats are good to %.2g. It slides "
-        "by "
-        "as much: give swivel_pose.support_position, near the body. ",
+        "by as much: give swivel_pose.support_position, near the body. ",
         away, rounding);
 }
 
@@ -58,8 +57,7 @@ bool doubt_solve(const swivel_crowd& crowd, Text& text)
     if (anew >= 2)
         text.add(
             "Warning: all bodies were reset before each of the last %u solves, so plants, looks and shifts begin anew "
-            "in "
-            "each. swivel_reset() is for teleports.",
+            "in each. swivel_reset() is for teleports.",
             anew);
     else if (time > 0)
         text.add("Warning: the last solve had a time of %g seconds. If that is in milliseconds, divide it by 1000.",

@@ -2,12 +2,11 @@
 //
 // To find a rule's effect, it places the foot again without that rule. Slopes are as if the root stood upright, because
 // no result says how it is turned. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
-#include "batch/explain/explain_ground.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "batch/explain/limb_value.h"
+#include "batch/explain/explain.h"
+#include "batch/query/limb_value.h"
 #include "batch/query/one_limb.h"
 #include "core/ground.h"
 
@@ -37,7 +36,8 @@ struct GroundedFoot {
     Rotor<double> stood(const GroundRules& by) const
     {
         const double scale = value(SWIVEL_RECORD)[kRecordScale];
-        const Vector<double> heel = vector<double>(rules.heel[0], rules.heel[1], rules.heel[2]);
+        const float(&heel_j)[3] = rules.given.heel;
+        const Vector<double> heel = vector<double>(heel_j[0], heel_j[1], heel_j[2]);
         const Foot<double> foot{vector_of(value(SWIVEL_SOLVED_GOAL)), sent};
         return foot_on_ground(ground, leaning(ground, vector_of(value(SWIVEL_LIFT), kSlope), up), up, foot,
                               scale * (heel - vector_of(value(SWIVEL_EFFECTOR))), scale, value(SWIVEL_GROUND_WEIGHT)[0],
@@ -55,7 +55,7 @@ struct GroundedFoot {
     void explain_turn(Text& text) const
     {
         GroundRules heel_anywhere = rules;
-        heel_anywhere.heel_clearance = -1e15f;
+        heel_anywhere.given.heel_clearance = -1e15f;
         GroundRules any_angle = heel_anywhere;
         any_angle.cos_half_max = 0, any_angle.sin_half_max = 1;
         const Rotor<double> with_ground = stood(heel_anywhere);

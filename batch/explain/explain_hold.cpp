@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/explain_hold.h"
-
-#include <algorithm>
-#include <iterator>
-
-#include "batch/explain/bad_value.h"
-#include "batch/explain/limb_value.h"
+#include "batch/explain/explain.h"
 #include "batch/query/forward.h"
+#include "batch/query/limb_value.h"
 #include "batch/query/one_limb.h"
 #include "core/prop.h"
 

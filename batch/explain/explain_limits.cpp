@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/explain_limits.h"
-
 #include <cmath>
+
+#include "batch/explain/explain.h"
+#include "batch/explain/explain_probe.h"
 
 namespace swivel {
 

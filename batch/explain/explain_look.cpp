@@ -2,15 +2,12 @@
 //
 // No row tells how far a joint turned, or how the root is turned. If flags leave several causes, the solved line of
 // sight decides. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
-#include "batch/explain/explain_look.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "batch/explain/bad_pose.h"
-#include "batch/explain/bad_value.h"
-#include "batch/explain/limb_value.h"
+#include "batch/explain/explain.h"
+#include "batch/query/limb_value.h"
 #include "core/conformal.h"
 
 namespace swivel {

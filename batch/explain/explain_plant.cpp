@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/explain_plant.h"
-
-#include "batch/explain/limb_value.h"
+#include "batch/explain/explain.h"
+#include "batch/query/limb_value.h"
 #include "core/plant_rules.h"
 
 namespace swivel {
@@ -34,7 +33,7 @@ double in_ms(double seconds) { return seconds * 1000; }
 struct PlantedLimb {
     const Group& group;
     std::uint32_t limb;
-    const PlantRules& rules = group.plan.limb.plant;
+    const swivel_plant& rules = group.plan.limb.plant.given;
     CarriedPlant state{group, limb};
 
     bool is_by_motion() const { return group.features & SWIVEL_PLANT_BY_MOTION; }
@@ -65,15 +64,14 @@ struct PlantedLimb {
         if (by_distance)
             text.add(
                 "It broke away, though in contact: the animated point was further from where it was locked than "
-                "unlock_radius, "
-                "%.3g limb lengths. It is %.4g from where the point is now.",
+                "unlock_radius, %.3g limb lengths. It is %.4g from where the point is now.",
                 double{rules.unlock_radius}, state.offset);
         else
             text.add("It was just released, because its contact ended: the animated point is %.4g from it.",
                      state.offset);
         if (!by_distance && is_by_motion())
             text.add(" Its motion ends it above %.3g limb lengths a second or %.3g over the root.",
-                     double{rules.speed_off}, double{rules.height_off});
+                     double{rules.speed[1]}, double{rules.height[1]});
         text.add(" From the next solve on its target fades back, within %.0f ms.", in_ms(double{rules.release_time}));
     }
     void explain_fading(Text& text) const
@@ -91,7 +89,7 @@ struct PlantedLimb {
         if (!is_in_contact() && is_by_motion())
             text.add(
                 " Its motion shows no contact, which begins below %.3g limb lengths a second and %.3g over the root.",
-                double{rules.speed_on}, double{rules.height_on});
+                double{rules.speed[0]}, double{rules.height[0]});
         else if (!is_in_contact())
             text.add(" It is not in contact: its label is %.3g, not above 0.5.", double{label()});
         else if (!state.is(CarriedPlant::armed))

@@ -5,11 +5,8 @@
 #include <cstring>
 
 #include "batch/explain/explain_text.h"
-#include "batch/explain/limb_value.h"
-#include "batch/explain/outside_limit.h"
 #include "batch/query/joint_angles.h"
 #include "batch/solve/solve.h"
-#include "core/bit_cast.h"
 #include "include/swivel/swivel_regions.h"
 #include "simd/dispatch.h"
 
@@ -33,12 +30,6 @@ std::uint32_t Probe::solve()
     alignas(64) float strip[kStripBlockFloats];
     solve_group(single_limb_kernels(), group(), {0, 1}, {strip, 1});
     return flags();
-}
-
-std::uint32_t Probe::flags() const
-{
-    const std::size_t at = std::size_t{field_first_row(group().features, SWIVEL_FLAGS)} * SWIVEL_LANES;
-    return bit_cast<std::uint32_t>(group().results[at]);
 }
 
 double Probe::violation(const FlagRow& limit) const
@@ -88,7 +79,7 @@ bool Probe::is_posed(swivel_field field) const
 // It gets the padding's value, from an ordinary arm without limits.
 void Probe::give_up(swivel_field field)
 {
-    float* const rows = group().input + row_offset(0, 0, field_first_row(group().features, field));
+    float* const rows = LimbValue(group(), 0, field).first;
     for (std::uint32_t row = 0; row < component_count(field); ++row)
         rows[row * SWIVEL_LANES] = rows[row * SWIVEL_LANES + 1];
 }

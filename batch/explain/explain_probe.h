@@ -7,8 +7,8 @@
 #include <initializer_list>
 
 #include "batch/query/forward.h"
+#include "batch/query/limb_value.h"
 #include "batch/query/one_limb.h"
-#include "simd/rows.h"
 
 namespace swivel {
 
@@ -23,7 +23,7 @@ public:
     std::uint32_t solve();
 
     LimbPose pose() const { return forward(group(), 0); }
-    std::uint32_t flags() const;
+    std::uint32_t flags() const { return flags_of(group(), 0); }
     double missed() const { return distance_missed(group(), 0); }
     double missed_share() const { return residual(group(), 0); }
     // The length of both bones, scaled and stretched.
@@ -40,15 +40,14 @@ public:
     std::uint32_t component_count(swivel_field field) const { return field_row_count(group().features, field); }
     float value(swivel_field field, std::uint32_t component) const
     {
-        return group().input[row_offset(0, 0, field_first_row(group().features, field) + component)];
+        return LimbValue(group(), 0, field).number(component);
     }
     bool is(swivel_field field, std::initializer_list<float> wanted) const;
     // The same in the group's own rows, from which a body's limb differs.
     std::uint32_t given_count(swivel_field field) const { return field_row_count(source_.features, field); }
     float given(swivel_field field, std::uint32_t component) const
     {
-        return source_
-            .input[row_offset(limb_, source_.input_row_count, field_first_row(source_.features, field) + component)];
+        return LimbValue(source_, limb_, field).number(component);
     }
     // Whether a body's pose gave the field instead of the caller.
     bool is_posed(swivel_field field) const;
@@ -66,5 +65,14 @@ private:
     std::uint32_t limb_;
     OneLimb one_;
 };
+
+// outside_limit.cpp: how far a pose is outside of its joint limits.
+
+// By how many radians a pose is outside of a limit on the swivel; 0 or less where it keeps it. value: as the limit's
+// rows hold it. order: a box's.
+double outside_limit(const ArmRotors& arm, swivel_field limit, const float* value, swivel_euler_order order);
+
+// The same of the upper arm's region.
+double outside_region(const ArmRotors& arm, const swivel_region& region);
 
 }  // namespace swivel

@@ -2,14 +2,11 @@
 //
 // No row has the shift that a spring seeks. So it is computed again, from the records of the limbs that fit, unless the
 // root is turned or joints have scales of their own, which no row has, either.
-#include "batch/explain/explain_shift.h"
-
 #include <cmath>
 #include <optional>
 
-#include "batch/explain/bad_pose.h"
-#include "batch/explain/bad_value.h"
-#include "batch/explain/limb_value.h"
+#include "batch/explain/explain.h"
+#include "batch/query/limb_value.h"
 #include "batch/query/one_limb.h"
 #include "core/fit.h"
 #include "core/limb_bones.h"
@@ -123,17 +120,12 @@ void explain_shift(const swivel_crowd& crowd, const Group& group, std::uint32_t 
 {
     const std::uint32_t flags = flags_of(group, limb);
     const LimbValue shift(group, limb, SWIVEL_SHIFT), wish(group, limb, SWIVEL_SHIFT_WISH);
-    if (is_bad_in_body(group, limb)) {
+    if (flags & SWIVEL_BAD_INPUT || is_bad_in_body(group, limb)) {
         text.add("Bad input: ");
-        explain_bad_in_body(group, limb, text);
+        if (!explain_bad_in_body(group, limb, text)) explain_bad_pose(crowd, kTimeOfPose | kRootOfPose, "", text);
         return text.add(". The shift stays as it was.");
     }
     if (flags == 0) return text.add("It was never solved, so it has no shift.");
-    if (flags & SWIVEL_BAD_INPUT) {
-        text.add("Bad input: ");
-        explain_bad_pose(crowd, kTimeOfPose | kRootOfPose, "", text);
-        return text.add(". The shift stays as it was.");
-    }
     if (shift[2] == 0) return text.add("It was reset: the next solve shifts the body at once.");
     // The end of a spring's way has lengths that are rounding, and then denormal ones.
     const double rounding = 1e-7 * double{group.plan.rest_length};

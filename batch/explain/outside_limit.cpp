@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "batch/explain/outside_limit.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "batch/explain/explain_probe.h"
 #include "batch/query/joint_angles.h"
 #include "core/region.h"
 
@@ -43,25 +42,16 @@ double outside_box(const Rotor<double>& q, const float* ranges, const EulerOrder
 
 double outside_limit(const ArmRotors& arm, swivel_field limit, const float* value, swivel_euler_order order)
 {
+    const FieldRow& row = row_of(limit);
+    const bool is_of_hand = row.needs & kHandLimits;
+    const Rotor<double>& joint = is_of_hand ? arm.wrist : arm.shoulder;
+    if (row.needs & kBoxFeatures) return outside_box(joint, value, kEulerOrders[order]);
     const Vector<double> bone = vector(0.0, 0.0, 1.0), axis = vector<double>(value[0], value[1], value[2]);
-    switch (limit) {
-        case SWIVEL_SHOULDER_CONE:
-            return outside_cone(axis, sandwich(arm.shoulder, bone), double{value[3]});
-        case SWIVEL_HAND_CONE:
-            return outside_cone(bone, sandwich(arm.wrist, axis), double{value[3]});
-        case SWIVEL_HUMERAL_TWIST:
-            return outside_twist(arm.shoulder, bone, value);
-        case SWIVEL_FOREARM_TWIST:
-            return outside_twist(arm.wrist, bone, value);
-        case SWIVEL_HAND_TWIST:
-            return outside_twist(arm.wrist, axis, value + 3);
-        case SWIVEL_SHOULDER_BOX:
-            return outside_box(arm.shoulder, value, kEulerOrders[order]);
-        case SWIVEL_WRIST_BOX:
-            return outside_box(arm.wrist, value, kEulerOrders[order]);
-        default:
-            return 0;
-    }
+    if (row.value.parts[0] == ValuePart::range) return outside_twist(joint, bone, value);
+    if (row.value.parts[1] == ValuePart::range) return outside_twist(joint, axis, value + 3);
+    // The hand's axis turns with the hand; the upper arm's cone stays.
+    return is_of_hand ? outside_cone(bone, sandwich(joint, axis), double{value[3]})
+                      : outside_cone(axis, sandwich(joint, bone), double{value[3]});
 }
 
 double outside_region(const ArmRotors& arm, const swivel_region& region)

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "batch/crowd/streams.h"
 #include "core/matrix_frame.h"
 
 namespace swivel {
@@ -140,14 +141,14 @@ double PosedBody::rotation_length(std::uint32_t joint) const
 }
 double PosedBody::root_scale() const
 {
-    return pose_.root_scale.data ? load<float, 1>(swivel::value_of(pose_.root_scale, body_))[0] : 1;
+    return pose_.root_scale.data ? double{value_at<float>(pose_.root_scale, body_)} : 1;
 }
 
 bool PosedBody::may_have_double_root() const
 {
     return pose_.root_position.stride >= 3 * sizeof(double) && body_ + 1 < crowd_.groups[0].limb_count;
 }
-double PosedBody::time() const { return pose_.time.data ? load<float, 1>(swivel::value_of(pose_.time, body_))[0] : 0; }
+double PosedBody::time() const { return pose_.time.data ? double{value_at<float>(pose_.time, body_)} : 0; }
 
 Vector<double> PosedBody::place_along(std::uint32_t joint, const Reading& how) const
 {

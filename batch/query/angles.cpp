@@ -36,8 +36,7 @@ swivel_status store_unit(const char* function, const double axis[3], float* unit
 {
     const double length = std::hypot(axis[0], axis[1], axis[2]);
     if (!(length > 0) || !std::isfinite(length))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: axis (%g, %g, %g) has no direction", function, axis[0], axis[1],
-                    axis[2]);
+        return refuse("%s: axis (%g, %g, %g) has no direction", function, axis[0], axis[1], axis[2]);
     for (int n = 0; n < 3; ++n) unit[n] = static_cast<float>(axis[n] / length);
     return SWIVEL_OK;
 }
@@ -62,13 +61,11 @@ void mirror_value(const FieldRow& row, const EulerOrder& order, float* value)
 swivel_status swivel_range(double min, double max, float range[4])
 {
     const FloatEnv env(min, max);
-    if (!range) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: range is null");
-    if (!std::isfinite(min) || !std::isfinite(max))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is not finite", min, max);
-    if (min > max) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: least %g is above most %g", min, max);
+    if (!range) return refuse("swivel_range: range is null");
+    if (!std::isfinite(min) || !std::isfinite(max)) return refuse("swivel_range: %g to %g is not finite", min, max);
+    if (min > max) return refuse("swivel_range: least %g is above most %g", min, max);
     if (max - min > 2 * kPi + kSlack)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_range: %g to %g is wider than a whole turn, 2 pi; angles are in radians", min, max);
+        return refuse("swivel_range: %g to %g is wider than a whole turn, 2 pi; angles are in radians", min, max);
     store_turn(0.5 * min + 0.5 * max, range);
     store_half_turn(0.5 * max - 0.5 * min, range + 2);
     return SWIVEL_OK;
@@ -77,10 +74,9 @@ swivel_status swivel_range(double min, double max, float range[4])
 swivel_status swivel_cone(const double axis[3], double max, float cone[4])
 {
     const FloatEnv env(max);
-    if (!axis || !cone) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: %s is null", axis ? "cone" : "axis");
+    if (!axis || !cone) return refuse("swivel_cone: %s is null", axis ? "cone" : "axis");
     if (!(max >= 0 && max <= kPi + kSlack))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi; angles are in radians",
-                    max);
+        return refuse("swivel_cone: largest angle %g is not in 0 to pi; angles are in radians", max);
     if (const swivel_status status = store_unit("swivel_cone", axis, cone); status != SWIVEL_OK) return status;
     cone[3] = static_cast<float>(std::cos(std::fmin(max, kPi)));
     return SWIVEL_OK;
@@ -89,10 +85,9 @@ swivel_status swivel_cone(const double axis[3], double max, float cone[4])
 swivel_status swivel_flexion(double min, double max, float flexion[2])
 {
     const FloatEnv env(min, max);
-    if (!flexion) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: flexion is null");
+    if (!flexion) return refuse("swivel_flexion: flexion is null");
     if (!(min >= 0 && min <= max && max <= kPi + kSlack))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_flexion: %g to %g is not a range within 0 to pi; angles are in radians", min, max);
+        return refuse("swivel_flexion: %g to %g is not a range within 0 to pi; angles are in radians", min, max);
     flexion[0] = min >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * min));
     flexion[1] = max >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * max));
     return SWIVEL_OK;
@@ -101,10 +96,9 @@ swivel_status swivel_flexion(double min, double max, float flexion[2])
 swivel_status swivel_aim(const double axis[3], double flexion, float aim[5])
 {
     const FloatEnv env(flexion);
-    if (!axis || !aim) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: %s is null", axis ? "aim" : "axis");
+    if (!axis || !aim) return refuse("swivel_aim: %s is null", axis ? "aim" : "axis");
     if (!(flexion >= 0 && flexion <= kPi + kSlack))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: flexion %g is not in 0 to pi; angles are in radians",
-                    flexion);
+        return refuse("swivel_aim: flexion %g is not in 0 to pi; angles are in radians", flexion);
     if (const swivel_status status = store_unit("swivel_aim", axis, aim); status != SWIVEL_OK) return status;
     const float cos_half = static_cast<float>(std::cos(0.5 * flexion));
     aim[3] = std::fmax(cos_half, 0.0f);
@@ -123,12 +117,11 @@ void swivel_cos_sin(double angle, float turn[2])
 swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to)
 {
     const FloatEnv env;
-    if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
+    if (!from || !to) return refuse("swivel_mirror: %s is null", from ? "to" : "from");
     if (const swivel_status status = check_field(field); status != SWIVEL_OK) return status;
-    if (!is_input(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", name_of(field));
+    if (!is_input(field)) return refuse("swivel_mirror: %s is a result; give an input field", name_of(field));
     if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
+        return refuse("swivel_mirror: there is no order %d", static_cast<int>(order));
     float value[kMaxComponents] = {};
     const std::uint32_t count = row_of(field).component_count;
     for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];

@@ -7,10 +7,10 @@
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
+#include "batch/query/limb_value.h"
 #include "batch/refusal/status.h"
 #include "core/joint_frame.h"
 #include "simd/float_env.h"
-#include "simd/rows.h"
 
 using namespace swivel;
 
@@ -35,10 +35,7 @@ Support support_at(const swivel_supports& supports, std::size_t n)
 // Three numbers of a value that a limb carries, from `first` on.
 class Carried {
 public:
-    Carried(const Group& group, std::uint32_t limb, swivel_field field, std::uint32_t first)
-        : at_(group.results + row_offset(limb, group.result_row_count, field_first_row(group.features, field) + first))
-    {
-    }
+    Carried(const LimbValue& value, std::uint32_t first) : at_(value.first + first * kLanes) {}
     template <class Change>
     void change(const Change& change) const
     {
@@ -62,13 +59,6 @@ private:
     }
 };
 
-// Whether a limb has been solved, so that it carries a state.
-bool has_begun(const Group& group, std::uint32_t limb)
-{
-    const std::uint32_t state = field_first_row(group.features, SWIVEL_PLANT) + 10;
-    return group.results[row_offset(limb, group.result_row_count, state)] != 0;
-}
-
 swivel_status check_supports(std::uint32_t limb_count, const swivel_supports& supports)
 {
     struct Values {
@@ -79,15 +69,13 @@ swivel_status check_supports(std::uint32_t limb_count, const swivel_supports& su
     for (const auto& [name, values, bytes] : {Values{"position", supports.position, 3 * sizeof(double)},
                                               Values{"rotation", supports.rotation, 4 * sizeof(float)}})
         if (values.data && values.stride != 0 && values.stride < bytes)
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "swivel_change_support: the %s's stride %zu is smaller than a value, %zu bytes", name,
-                        values.stride, bytes);
+            return refuse("swivel_change_support: the %s's stride %zu is smaller than a value, %zu bytes", name,
+                          values.stride, bytes);
     for (std::uint32_t n = 0; n < limb_count; ++n) {
         const Support support = support_at(supports, n);
         const double sizes[] = {len2(support.position), len2(support.rotation)};
         if (!(sizes[0] <= kHuge2 && std::isfinite(sizes[1])))
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "swivel_change_support: support %u is not finite or has a rotation of no length", n);
+            return refuse("swivel_change_support: support %u is not finite or has a rotation of no length", n);
     }
     return SWIVEL_OK;
 }
@@ -102,10 +90,7 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
     if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
     const Group& planted = crowd->groups[group];
     if (!(planted.features & SWIVEL_WITH_PLANT))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_change_support: group %u does not plant; create it with "
-                    "SWIVEL_WITH_PLANT",
-                    group);
+        return refuse("swivel_change_support: group %u does not plant; create it with SWIVEL_WITH_PLANT", group);
     for (const swivel_supports& supports : {from, to})
         if (const swivel_status status = check_supports(limb_count, supports); status != SWIVEL_OK) return status;
     for (std::uint32_t n = 0; n < limb_count; ++n) {
@@ -116,15 +101,15 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
             return sandwich(~after.rotation, sandwich(before.rotation, v) + (before.position - after.position));
         };
         const std::uint32_t limb = first + n;
-        if (!has_begun(planted, limb)) continue;
-        Carried(planted, limb, SWIVEL_PLANT, 0).change(place);
-        Carried(planted, limb, SWIVEL_PLANT, 3).change(along);
-        Carried(planted, limb, SWIVEL_PLANT, 6).change(along);
-        if (planted.features & SWIVEL_PLANT_BY_MOTION) Carried(planted, limb, SWIVEL_CONTACT_STATE, 0).change(place);
+        if (LimbValue(planted, limb, SWIVEL_PLANT)[10] == 0) continue;  // it was not solved, so it carries no state
+        Carried({planted, limb, SWIVEL_PLANT}, 0).change(place);
+        Carried({planted, limb, SWIVEL_PLANT}, 3).change(along);
+        Carried({planted, limb, SWIVEL_PLANT}, 6).change(along);
+        if (planted.features & SWIVEL_PLANT_BY_MOTION) Carried({planted, limb, SWIVEL_CONTACT_STATE}, 0).change(place);
         if (!(planted.features & SWIVEL_WITH_PLANT_ROTATION)) continue;
-        Carried(planted, limb, SWIVEL_PLANT_ROTATION, 0).turn(turn);
-        Carried(planted, limb, SWIVEL_PLANT_ROTATION, 4).change(along);
-        Carried(planted, limb, SWIVEL_PLANT_ROTATION, 7).change(along);
+        Carried({planted, limb, SWIVEL_PLANT_ROTATION}, 0).turn(turn);
+        Carried({planted, limb, SWIVEL_PLANT_ROTATION}, 4).change(along);
+        Carried({planted, limb, SWIVEL_PLANT_ROTATION}, 7).change(along);
     }
     return SWIVEL_OK;
 }

@@ -2,6 +2,7 @@
 //
 // The C entry points about single poses: the swivels that limits allow, and the solved pose as positions, errors and
 // joint angles.
+#include <algorithm>
 #include <cstring>
 #include <tuple>
 #include <utility>
@@ -9,11 +10,12 @@
 #include "batch/api/check.h"
 #include "batch/api/use.h"
 #include "batch/crowd/streams.h"
-#include "batch/query/allowed_arcs.h"
 #include "batch/query/forward.h"
 #include "batch/query/joint_angles.h"
 #include "batch/query/one_limb.h"
 #include "batch/refusal/status.h"
+#include "batch/solve/solve.h"
+#include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -29,6 +31,18 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
 {
     const double xyzw[4] = {q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>()};
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
+}
+
+// Stores at most capacity arcs of a free limb, which is counted within its group. Returns how many there are.
+std::uint32_t allowed_arcs(const Group& group, std::uint32_t limb, swivel_arc* arcs, std::uint32_t capacity)
+{
+    alignas(64) float strip[kStripBlockFloats];
+    const SolveRun run = run_of(group, {0, group.block_count}, {strip, 1}, false, nullptr);
+    ArcEnds ends[kMaxArcs];
+    const std::uint32_t count = single_limb_kernels().limbs.allowed_arcs(run, limb, ends);
+    for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
+        arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
+    return count;
 }
 
 // Calls take(group, limb, n) for the nth limb from `first` on. A body's limb comes as a free one.
@@ -66,11 +80,11 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.for_limbs(group, limb, 1); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_kept(*crowd, group, "swivel_allowed_arcs"); status != SWIVEL_OK)
-        return status;
-    if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
-    if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
+    swivel_status status = use.for_limbs(group, limb, 1);
+    if (status == SWIVEL_OK) status = check_kept(*crowd, group, "swivel_allowed_arcs");
+    if (status != SWIVEL_OK) return status;
+    if (!arc_count) return refuse("swivel_allowed_arcs: arc_count is null");
+    if (!arcs && capacity > 0) return refuse("swivel_allowed_arcs: arcs is null");
     for_each_free_limb(crowd->groups[group], limb, 1, [&](const Group& free_limbs, std::uint32_t at, std::uint32_t) {
         *arc_count = allowed_arcs(free_limbs, at, arcs, capacity);
     });
@@ -82,18 +96,17 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_kept(*crowd, group, "swivel_forward"); status != SWIVEL_OK) return status;
+    swivel_status status = use.for_limbs(group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_kept(*crowd, group, "swivel_forward");
+    if (status != SWIVEL_OK) return status;
     if (hand.data && !(crowd->groups[group].features & SWIVEL_WITH_HAND))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND",
-                    group);
+        return refuse("swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND", group);
     for (const auto& [name, out, component_count] :
          {std::tuple{"elbow", elbow, 3u}, {"wrist", wrist, 3u}, {"hand", hand, 4u}})
-        if (out.data)
-            if (const swivel_status status = check_stride(group, name, limb_count, out.data, out.stride,
-                                                          component_count * sizeof(double), false);
-                status != SWIVEL_OK)
-                return status;
+        if (status == SWIVEL_OK && out.data)
+            status =
+                check_stride(group, name, limb_count, out.data, out.stride, component_count * sizeof(double), false);
+    if (status != SWIVEL_OK) return status;
     const Group& all = crowd->groups[group];
     const Rotor<double> joint = hand_from_arm(all);
     for_each_free_limb(all, first, limb_count, [&](const Group& free_limbs, std::uint32_t limb, std::uint32_t n) {
@@ -110,12 +123,11 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_kept(*crowd, group, "swivel_residuals"); status != SWIVEL_OK) return status;
-    if (const swivel_status status =
-            check_stride(group, "distance", limb_count, distance.data, distance.stride, sizeof(double), false);
-        status != SWIVEL_OK)
-        return status;
+    swivel_status status = use.for_limbs(group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_kept(*crowd, group, "swivel_residuals");
+    if (status == SWIVEL_OK)
+        status = check_stride(group, "distance", limb_count, distance.data, distance.stride, sizeof(double), false);
+    if (status != SWIVEL_OK) return status;
     for_each_free_limb(crowd->groups[group], first, limb_count,
                        [&](const Group& free_limbs, std::uint32_t limb, std::uint32_t n) {
                            const double value = residual(free_limbs, limb);
@@ -130,20 +142,17 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
 {
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
-    if (const swivel_status status = use.for_limbs(group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_limbs(*crowd, group, "swivel_joint_angles"); status != SWIVEL_OK)
-        return status;
+    swivel_status status = use.for_limbs(group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_limbs(*crowd, group, "swivel_joint_angles");
+    if (status != SWIVEL_OK) return status;
     for (const auto& [order, name] :
          {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
         if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX",
-                        name, static_cast<int>(order));
-    if (family != 0 && family != 1)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
-    if (const swivel_status status =
-            check_stride(group, "angles", limb_count, angles.data, angles.stride, 7 * sizeof(double), false);
-        status != SWIVEL_OK)
-        return status;
+            return refuse("swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", name,
+                          static_cast<int>(order));
+    if (family != 0 && family != 1) return refuse("swivel_joint_angles: family is %d; it is 0 or 1", family);
+    status = check_stride(group, "angles", limb_count, angles.data, angles.stride, 7 * sizeof(double), false);
+    if (status != SWIVEL_OK) return status;
     const Group& g = crowd->groups[group];
     for (std::uint32_t n = 0; n < limb_count; ++n) {
         const JointAngles seven = joint_angles(arm_rotors(g, first + n), shoulder_order, wrist_order, family);

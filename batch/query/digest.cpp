@@ -3,9 +3,9 @@
 // One number for a crowd's results, which machines compare instead of the results themselves.
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "batch/crowd/crowd.h"
+#include "core/num.h"
 
 namespace {
 
@@ -23,13 +23,6 @@ void add(std::uint64_t& hash, std::uint64_t word)
     hash ^= hash >> 32;
 }
 
-std::uint32_t bits_of(float number)
-{
-    std::uint32_t bits;
-    std::memcpy(&bits, &number, sizeof bits);
-    return bits;
-}
-
 // One hash for each lane, so that sixteen products run at once.
 using Hashes = std::array<std::uint64_t, kLanes>;
 
@@ -39,7 +32,8 @@ void add(Hashes& hashes, const Group& group)
     for (std::uint32_t first = 0; first < group.limb_count; first += kLanes) {
         const std::uint32_t lane_count = std::min(group.limb_count - first, kLanes);
         for (std::uint32_t row = 0; row < group.result_row_count; ++row, rows += kLanes)
-            for (std::uint32_t lane = 0; lane < lane_count; ++lane) add(hashes[lane], bits_of(rows[lane]));
+            for (std::uint32_t lane = 0; lane < lane_count; ++lane)
+                add(hashes[lane], bit_cast<std::uint32_t>(rows[lane]));
     }
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "simd/rows.h"
+#include "batch/query/limb_value.h"
 
 namespace swivel {
 
@@ -14,18 +14,12 @@ struct Reader {
     const Group& group;
     std::size_t limb;
 
-    double operator()(swivel_field field, std::uint32_t component) const { return lane(field, component); }
-    float lane(swivel_field field, std::uint32_t component) const
+    double operator()(swivel_field field, std::uint32_t component) const
     {
-        const float* rows = is_input(field) ? group.input : group.results;
-        const std::uint32_t row_count = is_input(field) ? group.input_row_count : group.result_row_count;
-        return rows[row_offset(limb, row_count, field_first_row(group.features, field) + component)];
+        return LimbValue(group, limb, field)[component];
     }
-    Vector<double> vector_of(swivel_field f) const { return vector((*this)(f, 0), (*this)(f, 1), (*this)(f, 2)); }
-    Rotor<double> rotor_of(swivel_field f) const
-    {
-        return normalise(rotor((*this)(f, 0), (*this)(f, 1), (*this)(f, 2), (*this)(f, 3)));
-    }
+    Vector<double> vector_of(swivel_field field) const { return swivel::vector_of({group, limb, field}); }
+    Rotor<double> rotor_of(swivel_field field) const { return normalise(swivel::rotor_of({group, limb, field})); }
 };
 
 // The bones' lengths in the space of the targets, scaled and stretched.
@@ -101,8 +95,7 @@ ArmRotors arm_rotors(const Group& group, std::size_t limb)
 double distance_missed(const Group& group, std::size_t limb)
 {
     const Reader read{group, limb};
-    if (bit_cast<std::uint32_t>(read.lane(SWIVEL_FLAGS, 0)) & SWIVEL_BAD_INPUT)
-        return std::numeric_limits<double>::quiet_NaN();
+    if (flags_of(group, limb) & SWIVEL_BAD_INPUT) return std::numeric_limits<double>::quiet_NaN();
     const double scale = group.features & SWIVEL_WORLD ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
     const LimbPose pose = forward(group, limb);
     Vector<double> miss = read.vector_of(SWIVEL_TARGET) - pose.wrist;

@@ -6,6 +6,7 @@
 
 #include "batch/crowd/crowd.h"
 #include "core/space.h"
+#include "simd/rows.h"
 
 namespace swivel {
 
@@ -15,6 +16,14 @@ Rotor<double> hand_from_arm(const Group& group);
 Rotor<double> incoming_hand(const Group& group, std::uint32_t limb);
 // The hand that was written for it, of any length, or else the incoming one.
 Rotor<double> wanted_hand(const Group& group, std::uint32_t limb);
+
+// What no free limb has.
+inline constexpr swivel_features kBodyFeatures = [] {
+    swivel_features found = kBody | kLibraryGoal;
+    for (const FeatureRow& row : kFeatures)
+        if (row.kinds == kBodyLimbs) found |= row.feature;
+    return found;
+}();
 
 class OneLimb {
 public:
@@ -31,7 +40,7 @@ private:
     void set(swivel_field field, const Vector<double>& v);
     void set(swivel_field field, const Rotor<double>& q);
 
-    alignas(64) char rows_[10 * 1024] = {};
+    alignas(64) char rows_[block_bytes(kEveryFeature & ~kBodyFeatures)] = {};
     const Group& source_;
     Group group_{};
 };

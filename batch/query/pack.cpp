@@ -69,9 +69,9 @@ swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_bloc
     if (status != SWIVEL_OK) return status;
     const Group& whole_group = crowd->groups[group];
     if (blocks.count > whole_group.block_count || blocks.first > whole_group.block_count - blocks.count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u + %u are out of range; group %u has %u", blocks.first,
-                    blocks.count, group, whole_group.block_count);
-    if (!words && blocks.count > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_pack: words is null");
+        return refuse("blocks %u + %u are out of range; group %u has %u", blocks.first, blocks.count, group,
+                      whole_group.block_count);
+    if (!words && blocks.count > 0) return refuse("swivel_pack: words is null");
     const Isa* const isa = usable_isa(status);
     if (!isa) return status;
     const PackedValues packed(whole_group);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Structures that begin with their size, so that the library can read the shorter ones of older headers.
+// Structures that begin with their size, so that the library can read the shorter ones of older headers. And what else
+// callers of C may have put into them.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "batch/refusal/status.h"
@@ -25,12 +27,21 @@ template <class Struct>
 swivel_status check_size(const char* name, std::size_t size)
 {
     if (size == 0 || size % alignof(Struct) != 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s has size %zu; start from its default, or set the size", name, size);
+        return refuse("%s has size %zu; start from its default, or set the size", name, size);
     if (size > sizeof(Struct))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "%s has size %zu, this library's has %zu; build with the header of the library that you link", name,
-                    size, sizeof(Struct));
+        return refuse("%s has size %zu, this library's has %zu; build with the header of the library that you link",
+                      name, size, sizeof(Struct));
     return SWIVEL_OK;
+}
+
+// An enumerator's number, which C lets be any.
+template <class Enum>
+std::uint32_t number_of(const Enum& value)
+{
+    std::uint32_t number;
+    static_assert(sizeof number == sizeof value);
+    std::memcpy(&number, &value, sizeof number);
+    return number;
 }
 
 // Members reserved for later releases must be 0.
@@ -38,7 +49,7 @@ template <class Struct>
 swivel_status check_reserved(const char* name, const Struct& given)
 {
     if (given.reserved == 0) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "%s: reserved is not 0; start from its default", name);
+    return refuse("%s: reserved is not 0; start from its default", name);
 }
 
 // Element n of an array has the size of the first.
@@ -47,8 +58,7 @@ swivel_status check_element(const char* name, const Struct* array, std::size_t n
 {
     const std::size_t step = size_of(array), size = size_of(reinterpret_cast<const char*>(array) + n * step);
     if (size == step) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "%s %zu has size %zu, the first has %zu; start each from its default", name, n,
-                size, step);
+    return refuse("%s %zu has size %zu, the first has %zu; start each from its default", name, n, size, step);
 }
 
 // Element n of an array, whose step is the size of its first element. Members that a short element lacks come from

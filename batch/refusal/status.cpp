@@ -7,14 +7,30 @@
 namespace swivel {
 
 namespace {
+
 thread_local char message[256] = "";
+
+[[gnu::format(printf, 1, 0)]] void keep(const char* format, std::va_list values)
+{
+    std::vsnprintf(message, sizeof message, format, values);
+}
+
+}  // namespace
+
+swivel_status refuse(const char* format, ...)
+{
+    std::va_list values;
+    va_start(values, format);
+    keep(format, values);
+    va_end(values);
+    return SWIVEL_INVALID_ARGUMENT;
 }
 
 swivel_status fail(swivel_status status, const char* format, ...)
 {
     std::va_list values;
     va_start(values, format);
-    std::vsnprintf(message, sizeof message, format, values);
+    keep(format, values);
     va_end(values);
     return status;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Cones in order with bridges between neighbours.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -136,14 +135,13 @@ swivel_status swivel_region_add_cones(swivel_region* region, const swivel_region
     constexpr const char* kCall = "swivel_region_add_cones";
     if (const swivel_status status = check_region(kCall, region); status != SWIVEL_OK) return status;
     if (count < 1 || count > SWIVEL_MAX_REGION_PARTS)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u cones are not 1 to %d", kCall, count, SWIVEL_MAX_REGION_PARTS);
-    if (!cones) return fail(SWIVEL_INVALID_ARGUMENT, "%s: cones is null", kCall);
+        return refuse("%s: %u cones are not 1 to %d", kCall, count, SWIVEL_MAX_REGION_PARTS);
+    if (!cones) return refuse("%s: cones is null", kCall);
     RegionCone read[SWIVEL_MAX_REGION_PARTS];
     for (std::uint32_t n = 0; n < count; ++n)
         if (const swivel_status status = read_cone(kCall, n, cones[n], read[n]); status != SWIVEL_OK) return status;
     if (const std::uint32_t n = first_opposite(read, count, closed != 0); n < count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: cones %u and %u are opposite; give one on the way", kCall, n,
-                    (n + 1) % count);
+        return refuse("%s: cones %u and %u are opposite; give one on the way", kCall, n, (n + 1) % count);
     RegionBuilder builder(*region);
     add_cones(builder, read, count, closed != 0);
     return keep(kCall, builder, region);

@@ -16,14 +16,12 @@
 
 using namespace swivel;
 
-namespace swivel {
-
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kMaxCones = 6;
 constexpr int kRounds = 20;        // of moving centres; more change little
-constexpr int kSteps = 200;        // towards the farthest direction: within 1 / 200 of the smallest cone
+constexpr int kSteps = 200;        // that bring a cone within 1 % of the smallest
 constexpr int kAreaPoints = 4096;  // an area is told to 2 % of the sphere's sixteenth
 
 // Directions are read as they are needed, so their number is not bound.
@@ -78,39 +76,37 @@ void move_to_middles(const Directions& directions, Centres& centres)
         for (std::uint32_t n = 0; n < centres.count; ++n) centres.at[n] = unit_or(sum[n], centres.at[n]);
     }
 }
-// The direction of each centre that is farthest from the middle.
+// The direction of each centre that is farthest from its axis.
 struct Farthest {
     Vector<double> at[kMaxCones] = {};
     double cos[kMaxCones] = {2, 2, 2, 2, 2, 2};  // 2: the centre has no direction
 
-    Farthest(const Directions& directions, const Centres& centres, const Vector<double> (&middle)[kMaxCones])
+    Farthest(const Directions& directions, const Centres& centres, const Centres& axes)
     {
         for (std::uint32_t n = 0; n < directions.count; ++n) {
             const Vector<double> d = directions.at(n);
             const std::uint32_t nearest = centres.nearest(d);
-            if (const double now = scalar_product(middle[nearest], d); now < cos[nearest])
+            if (const double now = scalar_product(axes.at[nearest], d); now < cos[nearest])
                 cos[nearest] = now, at[nearest] = d;
         }
     }
 };
-// The smallest cone about each centre's directions, and the margin. The middle goes a smaller and smaller part of the
-// way to the direction that is farthest. A cone may be wider than a region's may.
+// The smallest cone about each centre's directions, and the margin. Each step adds to the axis the direction that is
+// farthest from it. A cone may be wider than a region's may.
 void enclose(const Directions& directions, const Centres& centres, double margin, RegionCone (&cones)[kMaxCones])
 {
-    Vector<double> middle[kMaxCones] = {}, axes[kMaxCones] = {};
-    std::copy_n(centres.at, centres.count, middle);
-    std::copy_n(centres.at, centres.count, axes);
-    for (int step = 1; step <= kSteps; ++step) {
+    Centres axes = centres;
+    Vector<double> sum[kMaxCones] = {};
+    for (int step = 0; step < kSteps; ++step) {
         const Farthest farthest(directions, centres, axes);
         for (std::uint32_t n = 0; n < centres.count; ++n) {
-            if (farthest.cos[n] > 1.5) continue;
-            middle[n] = middle[n] + (1.0 / (step + 1)) * (farthest.at[n] - middle[n]);
-            axes[n] = unit_or(middle[n], centres.at[n]);
+            sum[n] = sum[n] + farthest.at[n];
+            axes.at[n] = unit_or(sum[n], centres.at[n]);
         }
     }
     const Farthest farthest(directions, centres, axes);
     for (std::uint32_t n = 0; n < centres.count; ++n)
-        cones[n] = {axes[n], std::fmax(std::acos(std::clamp(farthest.cos[n], -1.0, 1.0)) + margin, kMinAngle)};
+        cones[n] = {axes.at[n], std::fmax(std::acos(std::clamp(farthest.cos[n], -1.0, 1.0)) + margin, kMinAngle)};
 }
 // The order in which the way from axis to axis is shortest.
 void put_in_order(RegionCone (&cones)[kMaxCones], std::uint32_t count)
@@ -147,20 +143,18 @@ int area(const swivel_region& region)
 
 }  // namespace
 
-}  // namespace swivel
-
 swivel_status swivel_region_add_directions(swivel_region* region, const float* directions, std::uint32_t count,
                                            float margin, std::uint32_t max_cones)
 {
     const FloatEnv env(margin);
     constexpr const char* kCall = "swivel_region_add_directions";
     if (const swivel_status status = check_region(kCall, region); status != SWIVEL_OK) return status;
-    if (count < 1) return fail(SWIVEL_INVALID_ARGUMENT, "%s: there are no directions", kCall);
-    if (!directions) return fail(SWIVEL_INVALID_ARGUMENT, "%s: directions is null", kCall);
+    if (count < 1) return refuse("%s: there are no directions", kCall);
+    if (!directions) return refuse("%s: directions is null", kCall);
     if (!(margin >= 0.01f && margin <= 1))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: the margin, %g, is not in 0.01 to 1", kCall, double{margin});
+        return refuse("%s: the margin, %g, is not in 0.01 to 1", kCall, double{margin});
     if (max_cones < 1 || max_cones > kMaxCones)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s: %u cones are not 1 to %u", kCall, max_cones, kMaxCones);
+        return refuse("%s: %u cones are not 1 to %u", kCall, max_cones, kMaxCones);
     Vector<double> unit;
     for (std::uint32_t n = 0; n < count; ++n)
         if (const swivel_status status = read_direction(kCall, "direction", n, directions + std::size_t{3} * n, unit);
@@ -187,8 +181,7 @@ swivel_status swivel_region_add_directions(swivel_region* region, const float* d
         }
     }
     if (best_count == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "%s: found no cones that hold all these directions; leave some out, or allow more cones", kCall);
+        return refuse("%s: found no cones that hold all these directions; leave some out, or allow more cones", kCall);
     RegionBuilder builder(*region);
     add_cones(builder, best, best_count, false);
     return keep(kCall, builder, region);

@@ -2,8 +2,6 @@
 //
 // The poses of a strip of bodies are copied into a workspace, and forward kinematics finds their limbs. Then every
 // group's limbs are solved, and the joints go back. All of it stays in a near cache.
-#include "batch/solve/bodies.h"
-
 #include <algorithm>
 #include <bit>
 

@@ -3,14 +3,12 @@
 // Picks the most urgent blocks. Floats above 0 have bits in the same order as the numbers. The code counts how many
 // blocks have which leading digits. The counts give the least urgency that is picked, without sorting and without
 // allocating memory.
-#include "batch/solve/budget.h"
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
-#include "batch/crowd/lane_mask.h"
-#include "core/bit_cast.h"
+#include "batch/solve/solve.h"
+#include "core/num.h"
 #include "simd/float_env.h"
 
 namespace swivel {

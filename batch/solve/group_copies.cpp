@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
-#include "batch/crowd/lane_mask.h"
+#include "core/num.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -55,11 +54,8 @@ LaneMask bad_lanes(const Group& group, std::uint32_t block)
     const float* const flags = group.results + row_offset(std::size_t{block} * SWIVEL_LANES, group.result_row_count,
                                                           group.first_row[index_of(SWIVEL_FLAGS)]);
     LaneMask lanes = 0;
-    for (std::uint32_t lane = 0; lane < SWIVEL_LANES; ++lane) {
-        std::uint32_t word;
-        std::memcpy(&word, flags + lane, sizeof word);
-        lanes |= (word & SWIVEL_BAD_INPUT ? 1u : 0u) << lane;
-    }
+    for (std::uint32_t lane = 0; lane < SWIVEL_LANES; ++lane)
+        lanes |= (bit_cast<std::uint32_t>(flags[lane]) & SWIVEL_BAD_INPUT ? 1u : 0u) << lane;
     return lanes;
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "batch/crowd/streams.h"
-#include "batch/solve/streams_of.h"
 #include "batch/solve/work.h"
 
 namespace swivel {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "batch/crowd/crowd.h"
-#include "batch/crowd/lane_mask.h"
 
 namespace swivel {
 

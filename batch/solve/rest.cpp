@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "batch/solve/rest.h"
-
 #include <algorithm>
 #include <utility>
 

@@ -2,13 +2,11 @@
 //
 // A round has a run of blocks of each of a few groups. A run is copied in, solved and copied out, while its rows are in
 // a near cache. If limbs are chosen, only these are.
-#include "batch/solve/rounds.h"
-
 #include <algorithm>
 
 #include "batch/solve/group_copies.h"
 #include "batch/solve/solve.h"
-#include "batch/solve/streams_of.h"
+#include "batch/solve/work.h"
 #include "simd/float_env.h"
 
 namespace swivel {

@@ -5,8 +5,6 @@
 //
 // oneTBB throws where it finds no memory or cannot start a thread. So this file is compiled with exceptions, unlike the
 // rest of the library, and lets none out. The calling thread then solves what oneTBB left.
-#include "batch/solve/schedule.h"
-
 #include <algorithm>
 
 #include "batch/solve/solve.h"
@@ -80,11 +78,11 @@ struct SharedJob {
     // A workspace with bodies may be too large for a stack. Where there is no memory, the parts are left.
     bool solve_on_heap(std::uint32_t first, std::uint32_t end) const
     {
-        constexpr std::align_val_t alignment{64};
+        constexpr std::align_val_t alignment{kArenaAlignment};
         const std::uint32_t blocks = work.crowd.strip_blocks, rows = work.crowd.body_row_count;
         void* const workspace = ::operator new(workspace_floats(blocks, rows) * sizeof(float), alignment, std::nothrow);
         if (!workspace) return false;
-        solve_in(strip_memory(static_cast<float*>(workspace), blocks, rows), first, end);
+        solve_in(strip_memory(work.crowd, static_cast<float*>(workspace)), first, end);
         ::operator delete(workspace, alignment);
         return true;
     }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "batch/solve/solve.h"
 
-#include "batch/crowd/lane_mask.h"
-#include "batch/solve/bodies.h"
-#include "batch/solve/rounds.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 

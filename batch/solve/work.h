@@ -4,8 +4,10 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "batch/crowd/crowd.h"
+#include "batch/refusal/sized.h"
 #include "simd/kernels.h"
 
 namespace swivel {
@@ -24,6 +26,17 @@ struct Work {
     swivel_sample* sample = nullptr;
     void* sample_user = nullptr;
 };
+
+// The nth streams of a job, and their fields.
+inline swivel_streams streams_at(const swivel_streams* streams, std::size_t n)
+{
+    return element(streams, n, swivel_default_streams());
+}
+inline std::span<const swivel_stream> fields_of(const swivel_streams& streams)
+{
+    return {streams.fields, streams.field_count};
+}
+
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
 // Whether a group's joints hang below a look that a job solves.
 inline bool hangs_on_solved(const swivel_crowd& crowd, const std::uint32_t* groups, const Group& group)

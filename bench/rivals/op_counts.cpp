@@ -85,14 +85,17 @@ struct SolvedLimb {
     swivel::ArmPose<Counted> arm;
     Rotor<Counted> wrist;
 };
-SolvedLimb solve_limb(const swivel::LimbUse& use, const swivel::LimbGoal<Counted>& goal, const swivel_region* region)
+SolvedLimb solve_limb(swivel_features features, const swivel::LimbGoal<Counted>& goal, const swivel_region* region)
 {
     const swivel::Mask<Counted> valid =
         swivel::is_valid(goal.arm) & swivel::is_product(goal.hand) & swivel::is_valid(goal.incoming);
-    const auto wrist = swivel::wrist_goal(use, goal);
+    const auto wrist = swivel::wrist_goal(features, goal);
     const auto to = swivel::wrist_line(wrist.place);
-    const auto bones = swivel::place_bones(use, goal, to.wanted);
-    const auto wish = swivel::limb_normal(use, goal, wrist.hand, to.line);
+    const auto bones = swivel::place_bones(features, goal, to.wanted);
+    swivel::WishGoal<Counted> wish_goal;
+    wish_goal.incoming = goal.incoming.shoulder;
+    wish_goal.weight = goal.weights.pole;
+    const auto wish = swivel::limb_normal(features, wish_goal, to.line);
     const swivel::Hinge<Counted> elbow = swivel::hinge(bones.cos_half, -bones.sin_half);
     swivel::Vector<Counted> normal = wish.normal;
     if (region) {
@@ -123,9 +126,7 @@ void count_body_limb(const Frames& frames, const BodyChain& chain, Arm arm = Arm
         of_binding, vector(1, 0, 0), Counted(0.0) < Counted(0.0));
     const Rotor<Counted> upper_from_arm = ~shoulder.rotation * seen.frames.upper,
                          fore_from_arm = ~elbow.rotation * seen.frames.fore;
-    swivel::LimbUse use;
-    use.hand = use.incoming = true;
-    use.wish = swivel::Wish::incoming;
+    swivel_features features = SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING;
     const swivel_region* region = nullptr;
     swivel::LimbGoal<Counted> goal;
     goal.arm = {per_scale * seen.back(target - root - shoulder.place), vector(0, 0, 0),
@@ -133,14 +134,14 @@ void count_body_limb(const Frames& frames, const BodyChain& chain, Arm arm = Arm
     goal.hand = ~seen.arm * rotor(0.3, 0.2, 0.1, 0.9) * ~of_binding;
     goal.incoming = {seen.model.upper, seen.model.upper, seen.model.upper};  // of which the first is used
     if (arm == Arm::rifle) {
-        use.weights = use.flexion = true;
+        features |= SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_FLEXION_LIMIT;
         region = &allowing_region();
         goal.incoming = {seen.model.upper, ~seen.model.upper * seen.model.fore,
                          ~seen.frames.fore * wrist.rotation * ~of_binding};
         goal.weights = {Counted(0.9), Counted(0.8), Counted(0.0)};
         goal.flexion = {Counted(0.9997), Counted(0.3)};
     }
-    const SolvedLimb solved = solve_limb(use, goal, region);
+    const SolvedLimb solved = solve_limb(features, goal, region);
 
     store(of_binding * solved.arm.shoulder * ~upper_from_arm, local);
     store(upper_from_arm * swivel::elbow_rotor(solved.arm) * ~fore_from_arm, local);
@@ -207,14 +208,15 @@ void count_look()
 void count_plant()
 {
     const auto no = [] { return Counted(0.0) < Counted(0.0); };
-    const swivel::PlantRules rules{0.12f, 0.24f, 0.06f, 0, 0.1f, 0.2f, 0.017f, 3.6f, 4, 10, 10, 0.6f, 0.8f, 0.1f, 0.1f};
+    const swivel::PlantRules rules = swivel::plant_rules(swivel_default_plant());
     const Rotor<Counted> foot = rotor(0.1, 0.05, -0.1, 0.98867);
     swivel::PlantState<Counted> state{
         vector(0.1, 0, 0.2), vector(0.01, 0, 0.02), vector(0.1, 0, 0.1), Counted(0.15), no(), no(), no(), no()};
     const swivel::Vector<Counted> place = vector(0.1, 0.9, 0.1) +
                                           Counted(1.1) * swivel::turned(foot, vector(0, -0.05, 0.1)),
                                   from = vector(1, 0, 2);
-    const swivel::PlantInput<Counted> in{place + from, no(), Counted(1.0 / 60), Counted(0.85) * Counted(1.1)};
+    const swivel::PlantInput<Counted> in{
+        .point = place + from, .label = no(), .time = Counted(1.0 / 60), .length = Counted(0.85) * Counted(1.1)};
     const swivel::Planted<Counted> planted = swivel::plant(state, in, rules);
     swivel::len2(planted.target - from);
 }

@@ -2,7 +2,8 @@
 #include "bench/rivals/rifle.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
+#include <vector>
 
 #include "bench/rivals/character.h"
 #include "swivel/swivel_regions.hpp"
@@ -12,7 +13,7 @@ namespace bench {
 const swivel_region& rifle_region()
 {
     static const swivel::Region region = [] {
-        std::array<swivel_region_cone, std::size(kArmCones)> cones;
+        std::vector<swivel_region_cone> cones(std::size(kArmCones));
         for (std::size_t n = 0; n < cones.size(); ++n) {
             std::ranges::copy(kArmCones[n].axis, cones[n].axis);
             cones[n].angle = kArmCones[n].angle;

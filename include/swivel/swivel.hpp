@@ -36,10 +36,9 @@
 #include "swivel_bodies.h"
 
 #if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-#define SWIVEL_HAS_EXCEPTIONS 1
+#define SWIVEL_HAS_EXCEPTIONS
 #define SWIVEL_NAMESPACE swivel
 #else
-#define SWIVEL_HAS_EXCEPTIONS 0
 // A name of its own. Otherwise a linker could give these functions to a file that expects an exception.
 #define SWIVEL_NAMESPACE swivel::inline without_exceptions
 #ifndef SWIVEL_ON_ERROR
@@ -54,9 +53,10 @@ struct Error : std::runtime_error {
     swivel_status status;
 };
 
-[[noreturn]] inline void fail([[maybe_unused]] swivel_status status, [[maybe_unused]] const std::string& text)
+[[noreturn]] inline void fail([[maybe_unused]] const std::string& text,
+                              [[maybe_unused]] swivel_status status = SWIVEL_INVALID_ARGUMENT)
 {
-#if SWIVEL_HAS_EXCEPTIONS
+#ifdef SWIVEL_HAS_EXCEPTIONS
     throw Error(status, text);
 #else
     SWIVEL_ON_ERROR(status, text.c_str());
@@ -65,8 +65,9 @@ struct Error : std::runtime_error {
 }
 inline void check(swivel_status status)
 {
-    if (status != SWIVEL_OK) fail(status, swivel_last_error());
+    if (status != SWIVEL_OK) fail(swivel_last_error(), status);
 }
+inline std::uint32_t count_of(const auto& values) { return static_cast<std::uint32_t>(std::ranges::size(values)); }
 
 // A group of a crowd, of one of the kinds.
 using Definition =
@@ -80,6 +81,24 @@ inline swivel_limb_def limbs(std::uint32_t limb_count, swivel_features features 
     return made;
 }
 
+// The limb of each body that has these joints, which must live until the crowd is made.
+inline swivel_body_limb_def body_limb(const swivel_limb_joints& joints, swivel_features features = 0)
+{
+    swivel_body_limb_def made = swivel_default_body_limb_def(&joints);
+    made.features = features;
+    return made;
+}
+swivel_body_limb_def body_limb(const swivel_limb_joints&& joints, swivel_features features = 0) = delete;
+
+// A chain of joints of each body that looks, from the first to the last, such as spine, neck and head: 1 to 8 of them.
+inline swivel_look_def look(const std::vector<std::uint32_t>& joints)
+{
+    swivel_look_def made = swivel_default_look_def();
+    made.joint_count = count_of(joints);
+    for (std::size_t n = 0; n < joints.size() && n < SWIVEL_MAX_LOOK_JOINTS; ++n) made.joints[n] = joints[n];
+    return made;
+}
+
 // A limb's alignments and bone lengths from its rest pose: swivel_bind_joints().
 inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_joints& joints)
 {
@@ -88,65 +107,50 @@ inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_jo
     return binding;
 }
 
-// A direction of the character at rest in the arm frame: swivel_arm_axis().
-inline std::array<double, 3> arm_axis(const swivel_binding& binding, const std::array<float, 4>& parent_rotation,
-                                      const std::array<double, 3>& direction)
+// The numbers that a function of swivel.h writes to its last argument.
+template <std::size_t size, class Number = float, class Make, class... Arguments>
+std::array<Number, size> made(Make make, Arguments... arguments)
 {
-    std::array<double, 3> axis;
-    check(swivel_arm_axis(&binding, parent_rotation.data(), direction.data(), axis.data()));
-    return axis;
-}
-
-template <std::size_t size, class Make, class... Angles>
-std::array<float, size> made_by(Make make, Angles... angles)
-{
-    std::array<float, size> value;
-    check(make(angles..., value.data()));
+    std::array<Number, size> value;
+    check(make(arguments..., value.data()));
     return value;
 }
-// Values of fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim(),
-// swivel_cos_sin().
-inline std::array<float, 4> range(double min, double max) { return made_by<4>(swivel_range, min, max); }
-inline std::array<float, 4> cone(const std::array<double, 3>& axis, double max)
+using Axis = std::array<double, 3>;  // of any length but zero
+// A direction of the character at rest in the arm frame: swivel_arm_axis().
+inline Axis arm_axis(const swivel_binding& binding, const std::array<float, 4>& parent_rotation, const Axis& direction)
 {
-    return made_by<4>(swivel_cone, axis.data(), max);
+    return made<3, double>(swivel_arm_axis, &binding, parent_rotation.data(), direction.data());
 }
-inline std::array<float, 2> flexion(double min, double max) { return made_by<2>(swivel_flexion, min, max); }
-inline std::array<float, 5> aim(const std::array<double, 3>& axis, double flexion)
-{
-    return made_by<5>(swivel_aim, axis.data(), flexion);
-}
+// Values of fields from angles in radians, as swivel_range(), swivel_cone() and so on make them.
+inline std::array<float, 4> range(double min, double max) { return made<4>(swivel_range, min, max); }
+inline std::array<float, 4> cone(const Axis& axis, double max) { return made<4>(swivel_cone, axis.data(), max); }
+inline std::array<float, 2> flexion(double min, double max) { return made<2>(swivel_flexion, min, max); }
+inline std::array<float, 5> aim(const Axis& axis, double flexion) { return made<5>(swivel_aim, axis.data(), flexion); }
 inline std::array<float, 2> cos_sin(double angle)
 {
     std::array<float, 2> value;
     swivel_cos_sin(angle, value.data());
     return value;
 }
-
-// An angle in radians, as all of swivel takes them.
-constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }
+constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }  // in radians
 
 // Whether a limb's value is made of one of these numbers: an arithmetic type itself, an array, a container with a
 // value_type, or a plain structure that starts with a number. Other classes are taken at their word.
-template <class Structure, class Number>
-concept StartsWith = std::is_aggregate_v<Structure> && requires(Number first)
-{
-    Structure{first};
-};
 template <class Value, class... Numbers>
 constexpr bool is_made_of()
 {
     using Each = std::remove_cv_t<std::remove_all_extents_t<Value>>;
+    constexpr auto starts_with = [](auto number) {
+        return std::is_aggregate_v<Each> && requires { Each{number}; };
+    };
     if constexpr (std::is_arithmetic_v<Each>)
         return (std::same_as<Each, Numbers> || ...);
     else if constexpr (requires { typename Each::value_type; })
         return is_made_of<typename Each::value_type, Numbers...>();
-    else if constexpr (StartsWith<Each, double>)  // a float would do, too
+    else if constexpr (starts_with(1.0))  // a float would do, too
         return (std::same_as<double, Numbers> || ...);
-    else if constexpr (StartsWith<Each, float> || StartsWith<Each, std::uint32_t> || StartsWith<Each, int>)
-        return (StartsWith<Each, Numbers> || ...);
-    else
-        return true;
+    else  // it starts with one of these, or with no number
+        return (starts_with(Numbers()) || ...) || !(starts_with(1.0f) || starts_with(1u) || starts_with(1));
 }
 template <class Value, class... Numbers>
 concept MadeOf = std::is_trivially_copyable_v<std::remove_cv_t<Value>> && is_made_of<Value, Numbers...>();
@@ -163,31 +167,23 @@ concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::r
 
 inline swivel_field_info describe(swivel_field field)
 {
-    swivel_field_info info{};
-    std::uint32_t index = 0;
-    while (swivel_describe_field(index, &info) && info.field != field) ++index;
-    return info;
-}
-
-// A field in messages.
-inline std::string named(swivel_field field)
-{
-    const swivel_field_info info = describe(field);
-    return info.field == field ? info.name : "field " + std::to_string(field);
+    swivel_field_info info;
+    for (std::uint32_t index = 0; swivel_describe_field(index, &info); ++index)
+        if (info.field == field) return info;
+    fail("there is no field " + std::to_string(field));
 }
 
 // Refuses flags in floats, and an array of more than four floats for a field of at most four: a matrix is no rotation.
-// Other larger values are stepped over by their size.
 template <class Value>
 void check_value(swivel_field field)
 {
     constexpr bool is_list = std::is_array_v<Value> || requires { typename Value::value_type; };
+    constexpr std::size_t size = sizeof(Value) / sizeof(float);
     if constexpr (!MadeOf<Value, std::uint32_t>)
-        if (field == SWIVEL_FLAGS) fail(SWIVEL_INVALID_ARGUMENT, "flags are bits; give a uint32_t for each limb");
-    if constexpr (is_list && sizeof(Value) > 4 * sizeof(float) && FieldValue<Value>)
+        if (field == SWIVEL_FLAGS) fail("flags are bits; give a uint32_t for each limb");
+    if constexpr (is_list && size > 4 && FieldValue<Value>)
         if (describe(field).max_components <= 4)
-            fail(SWIVEL_INVALID_ARGUMENT, "an array of " + std::to_string(sizeof(Value) / sizeof(float)) +
-                                              " floats is no value of " + named(field));
+            fail("an array of " + std::to_string(size) + " floats is no value of " + describe(field).name);
 }
 
 // A member of the caller's structures, for streams, for swivel_in, or for swivel_out unless it is const.
@@ -199,9 +195,8 @@ struct Stream {
     operator swivel_in() const { return {data, stride}; }
     operator swivel_out() const requires(!std::is_const_v<Value>) { return {data, stride}; }
 };
-// Where the first structure's member is, and the stride: swivel::stream(characters, &Character::grip). In place of a
-// member it takes a function that returns a reference to a part. Without characters it is null, which leaves the field
-// out. Doubles are for positions, int32_t for skeletons' parents.
+// A member of each structure: swivel::stream(characters, &Character::grip). In place of a member it takes a function
+// that returns a reference. No characters: null data. Doubles are for positions, int32_t for skeletons' parents.
 template <std::ranges::contiguous_range Range, class Member = std::identity>
 requires std::ranges::borrowed_range<Range>
 auto stream(Range&& values, Member member = {})
@@ -212,19 +207,18 @@ auto stream(Range&& values, Member member = {})
     return Stream<Value>{std::ranges::empty(values) ? nullptr : &std::invoke(member, *first), sizeof *first};
 }
 
-// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_streams, which views it
-// until it moves or ends, with fields that are added later, but not with a later origin(). Keep it from solve to solve
-// while the arrays stay where they are.
+// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_streams, which views it until
+// it moves or ends, with fields that are added later, but not with a later origin(). Keep it from solve to solve.
 class Streams {
 public:
     Streams& in(swivel_field field, const swivel_in& values) &
     {
-        if (field >= SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "streams take in no result; give it by out()");
+        if (field >= SWIVEL_INPUT_END) fail("streams take in no result; give it by out()");
         return add({field, const_cast<void*>(values.data), values.stride});  // inputs are only read
     }
     Streams& out(swivel_field field, const swivel_out& values) &
     {
-        if (field < SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "streams put out no input; give it by in()");
+        if (field < SWIVEL_INPUT_END) fail("streams put out no input; give it by in()");
         return add({field, values.data, values.stride});
     }
     template <class Value>
@@ -234,14 +228,12 @@ public:
     {
         check_value<std::remove_cv_t<Value>>(field);
         const bool may_be_floats = FieldValue<Value>, may_be_doubles = DoubleValue<Value>;
-        const bool is_position = describe(field).is_position;
-        if (!may_be_floats && !is_position)
-            fail(SWIVEL_INVALID_ARGUMENT, named(field) + " is no position; give it floats");
-        if (is_position && may_be_floats != may_be_doubles) {
-            const swivel_numbers numbers = may_be_floats ? SWIVEL_FLOATS : SWIVEL_DOUBLES;
-            if (positions_ != SWIVEL_NUMBERS_UNSPECIFIED && positions_ != numbers)
-                fail(SWIVEL_INVALID_ARGUMENT, "streams mix positions in floats and in doubles; give all in one");
-            positions_ = numbers;
+        const swivel_field_info info = describe(field);
+        if (!may_be_floats && !info.is_position) fail(info.name + std::string(" is no position; give it floats"));
+        if (info.is_position && may_be_floats != may_be_doubles) {
+            if (view_.positions == (may_be_floats ? SWIVEL_DOUBLES : SWIVEL_FLOATS))
+                fail("streams mix positions in floats and in doubles; give all in one");
+            view_.positions = may_be_floats ? SWIVEL_FLOATS : SWIVEL_DOUBLES;
         }
         return in(field, swivel_in(values));
     }
@@ -253,33 +245,12 @@ public:
         check_value<Value>(field);
         return out(field, swivel_out(values));
     }
-    // Positions are doubles, and this is subtracted.
-    Streams& origin(const swivel_in& values) &
-    {
-        origin_ = values;
-        return *this;
-    }
-    // A temporary stays one, so that no Job views it after its line: const Streams arms = Streams().in(...).out(...).
-    Streams&& in(swivel_field field, const swivel_in& values) && { return std::move(in(field, values)); }
-    Streams&& out(swivel_field field, const swivel_out& values) && { return std::move(out(field, values)); }
-    template <class Value>
-    Streams&& in(swivel_field field, const Stream<Value>& values) &&
-    {
-        return std::move(in(field, values));
-    }
-    template <class Value>
-    Streams&& out(swivel_field field, const Stream<Value>& values) &&
-    {
-        return std::move(out(field, values));
-    }
-    Streams&& origin(const swivel_in& values) && { return std::move(origin(values)); }
+    void origin(const swivel_in& values) { view_.origin = values; }  // positions are doubles; this is subtracted
     operator swivel_streams() const&
     {
-        swivel_streams view = swivel_default_streams();
+        swivel_streams view = view_;
         view.fields = fields_.data();
-        view.field_count = static_cast<std::uint32_t>(fields_.size());
-        view.positions = positions_;
-        view.origin = origin_;
+        view.field_count = count_of(fields_);
         return view;
     }
     operator swivel_streams() const&& = delete;  // which would view what ends with its line
@@ -287,19 +258,15 @@ public:
 private:
     Streams& add(const swivel_stream& field)
     {
-        if (count_ == fields_.size()) fail(SWIVEL_INVALID_ARGUMENT, "streams list more fields than a group has");
-        fields_[count_++] = field;
+        if (view_.field_count == fields_.size()) fail("streams list more fields than a group has");
+        fields_[view_.field_count++] = field;
         return *this;
     }
-    // As many as a group has. Those that are not used yet are null, which lists nothing.
-    std::array<swivel_stream, 64> fields_ = {};
-    std::size_t count_ = 0;
-    swivel_in origin_ = {};
-    swivel_numbers positions_ = SWIVEL_NUMBERS_UNSPECIFIED;
+    std::array<swivel_stream, 64> fields_ = {};       // as many as a group has; a null one lists nothing
+    swivel_streams view_ = swivel_default_streams();  // views start from it; it counts the fields added
 };
 
-// Samples the ground: anything that may be copied, and called by several threads at a time. To copy a capture of more
-// than two pointers may allocate; std::ref(ask) does not.
+// Samples the ground, on several threads at a time. A copy of over two pointers may allocate; std::ref(ask) does not.
 using Sample = std::function<void(const swivel_probes&)>;
 
 // Samples for one solve. An exception waits here until the solve is over, because none may cross C.
@@ -312,7 +279,7 @@ struct Sampling {
     {
         auto& self = *static_cast<Sampling*>(user);
         if (self.failures.load(std::memory_order_relaxed) > 0) return;
-#if SWIVEL_HAS_EXCEPTIONS
+#ifdef SWIVEL_HAS_EXCEPTIONS
         try {
             self.ask(*asked);
         } catch (...) {
@@ -339,9 +306,8 @@ struct Job {
     Sample sample = {};
 };
 
-// Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb of the group; or, with
-// `first`, for some limbs from that one on. Each value starts with the field's floats (doubles for forward kinematics);
-// larger values are stepped over by size.
+// Owns one crowd; moves, does not copy. A range has a value for each limb of the group or, with `first`, for some limbs
+// from that one on. Each value starts with the field's numbers; the rest of a larger value is skipped.
 class Crowd {
 public:
     using First = std::optional<std::uint32_t>;
@@ -350,8 +316,7 @@ public:
     explicit Crowd(const std::vector<Definition>& groups) { create(swivel_default_crowd_def(), groups); }
     Crowd(std::initializer_list<Definition> groups) : Crowd(std::vector(groups)) {}
     explicit Crowd(const Definition& group) : Crowd(std::vector{group}) {}
-    // Bodies of one skeleton, with a group for each limb, and perhaps for their looks, props and shift. up: see
-    // swivel_crowd_def.
+    // Bodies of one skeleton: groups of their limbs, and of looks, props and a shift. up: see swivel_crowd_def.
     Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, const std::vector<Definition>& groups,
           const std::array<float, 3>& up = {0, 1, 0})
     {
@@ -368,7 +333,6 @@ public:
         return *this;
     }
     ~Crowd() { swivel_crowd_destroy(crowd_); }
-
     swivel_crowd* get() const { return crowd_; }
 
     void write(swivel_field field, std::uint32_t group, const FieldRange auto& values, First first = {})
@@ -377,10 +341,9 @@ public:
         check(swivel_write(crowd_, field, group, first.value_or(0), checked(group, values, first), stream(values)));
     }
     // The same value for every limb of the group; numbers may be in braces.
-    template <FieldValue Value>
-    void write_all(swivel_field field, std::uint32_t group, const Value& value)
+    void write_all(swivel_field field, std::uint32_t group, const FieldValue auto& value)
     {
-        check_value<Value>(field);
+        check_value<std::remove_cvref_t<decltype(value)>>(field);
         check(swivel_write(crowd_, field, group, 0, 0, {&value, sizeof value}));  // group, field and size are right
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
     }
@@ -411,12 +374,11 @@ public:
         if (wanted.groups) {
             named = bits_of(*wanted.groups);
             job.groups = named.data();
-            job.group_word_count = count(named);
+            job.group_word_count = count_of(named);
         }
         if (wanted.mask) {
-            static constexpr std::uint32_t no_words = 0;  // which the library refuses; a null mask would be none
-            job.mask = wanted.mask->empty() ? &no_words : wanted.mask->data();
-            job.mask_word_count = count(*wanted.mask);
+            job.mask_word_count = count_of(*wanted.mask);
+            job.mask = wanted.mask->empty() ? &job.mask_word_count : wanted.mask->data();  // null would be no mask
         }
         if (!wanted.streams.empty()) {
             check_count(wanted.streams.size(), "streams",
@@ -443,12 +405,11 @@ public:
         if (!urgency.empty()) check_count(urgency.size(), "urgencies", swivel_block_count(crowd_), "blocks");
         std::uint32_t chosen = 0;
         check(swivel_choose(crowd_, priorities.data(), urgency.empty() ? nullptr : urgency.data(), max_blocks,
-                            mask.data(), count(mask), &chosen));
+                            mask.data(), count_of(mask), &chosen));
         return chosen;
     }
 
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
-
     std::vector<swivel_arc> allowed_arcs(std::uint32_t group, std::uint32_t limb) const
     {
         std::uint32_t arc_count = 0;
@@ -495,16 +456,13 @@ public:
 private:
     void create(swivel_crowd_def def, const std::vector<Definition>& groups)
     {
-        std::vector<swivel_group_def> defs(groups.size(), swivel_default_group_def());
-        for (std::size_t g = 0; g < groups.size(); ++g) {
-            defs[g].limb = std::get_if<swivel_limb_def>(&groups[g]);
-            defs[g].body_limb = std::get_if<swivel_body_limb_def>(&groups[g]);
-            defs[g].look = std::get_if<swivel_look_def>(&groups[g]);
-            defs[g].prop = std::get_if<swivel_prop_def>(&groups[g]);
-            defs[g].shift = std::get_if<swivel_shift_def>(&groups[g]);
-        }
+        std::vector<swivel_group_def> defs;
+        for (const Definition& group : groups)
+            defs.push_back({sizeof(swivel_group_def), std::get_if<swivel_limb_def>(&group),
+                            std::get_if<swivel_body_limb_def>(&group), std::get_if<swivel_look_def>(&group),
+                            std::get_if<swivel_prop_def>(&group), std::get_if<swivel_shift_def>(&group)});
         def.groups = defs.data();
-        def.group_count = count(defs);
+        def.group_count = count_of(defs);
         check(swivel_crowd_create(&def, &crowd_));
     }
 
@@ -513,29 +471,26 @@ private:
     {
         const std::uint32_t has = swivel_group_limb_count(crowd_, group);  // 0: the call says that there is no group
         if (!first && has > 0)
-            check_count(count(values), "values", has, "limbs", ", or pass the number of the first limb, too");
-        return count(values);
+            check_count(count_of(values), "values", has, "limbs", ", or pass the number of the first limb, too");
+        return count_of(values);
     }
     static void check_count(std::size_t given, const char* what, std::size_t wanted, const char* of_what,
                             const char* or_else = "")
     {
         if (given != wanted)
-            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " " + what + " for " + std::to_string(wanted) + " " +
-                                              of_what + "; give one for each" + or_else);
+            fail(std::to_string(given) + " " + what + " for " + std::to_string(wanted) + " " + of_what +
+                 "; give one for each" + or_else);
     }
-    static std::uint32_t count(const auto& values) { return static_cast<std::uint32_t>(std::ranges::size(values)); }
 
     // A bit for each group, set for these.
     std::vector<std::uint32_t> bits_of(std::span<const std::uint32_t> groups) const
     {
-        const std::uint32_t group_count = swivel_group_count(crowd_);
-        std::vector<std::uint32_t> words((group_count + 31) / 32);
+        const std::uint32_t count = swivel_group_count(crowd_);
+        std::vector<std::uint32_t> words((count + 31) / 32);
         for (const std::uint32_t group : groups) {
-            if (group >= group_count)
-                fail(SWIVEL_INVALID_ARGUMENT, "group " + std::to_string(group) + " does not exist; this crowd has " +
-                                                  std::to_string(group_count));
-            if (words[group / 32] >> group % 32 & 1)
-                fail(SWIVEL_INVALID_ARGUMENT, "group " + std::to_string(group) + " is named twice");
+            if (group >= count)
+                fail("group " + std::to_string(group) + " does not exist; this crowd has " + std::to_string(count));
+            if (words[group / 32] >> group % 32 & 1) fail("group " + std::to_string(group) + " is named twice");
             words[group / 32] |= 1u << group % 32;
         }
         return words;

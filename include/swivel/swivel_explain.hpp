@@ -14,8 +14,7 @@ inline std::string explain(const Crowd& crowd, std::uint32_t group, std::uint32_
 {
     std::string text(SWIVEL_EXPLANATION_BYTES, '\0');
     check(swivel_explain(crowd.get(), group, limb, text.data(), text.size()));
-    text.resize(text.find('\0'));
-    return text;
+    return text.c_str();
 }
 
 // swivel_compare(): which input of a body's pose disagrees with where the caller has its limb, in words.
@@ -31,8 +30,7 @@ inline Comparison compare(const Crowd& crowd, std::uint32_t group, std::uint32_t
     int agrees = 0;
     check(swivel_compare(crowd.get(), group, body, &pose, shoulder.data(), elbow.data(), wrist.data(), text.data(),
                          text.size(), &agrees));
-    text.resize(text.find('\0'));
-    return {agrees != 0, text};
+    return {agrees != 0, text.c_str()};
 }
 
 }  // namespace SWIVEL_NAMESPACE

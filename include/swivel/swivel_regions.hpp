@@ -13,31 +13,20 @@ namespace SWIVEL_NAMESPACE {
 // which must live until the crowd is made: arms.region = &region.get().
 class Region {
 public:
-    Region& add_cones(std::span<const swivel_region_cone> cones, bool closed = false)
+    Region& add_cones(const std::vector<swivel_region_cone>& cones, bool closed = false)
     {
-        check(swivel_region_add_cones(&region_, cones.data(), static_cast<std::uint32_t>(cones.size()), closed));
-        return *this;
-    }
-    Region& add_cones(std::initializer_list<swivel_region_cone> cones, bool closed = false)
-    {
-        return add_cones(std::span(cones.begin(), cones.size()), closed);
+        return changed_by(swivel_region_add_cones, cones.data(), count_of(cones), closed);
     }
     Region& add_polygon(std::span<const std::array<float, 3>> corners)
     {
-        check(swivel_region_add_polygon(&region_, first_of(corners), static_cast<std::uint32_t>(corners.size())));
-        return *this;
+        return changed_by(swivel_region_add_polygon, reinterpret_cast<const float*>(corners.data()), count_of(corners));
     }
     Region& add_directions(std::span<const std::array<float, 3>> directions, float margin, std::uint32_t max_cones)
     {
-        check(swivel_region_add_directions(&region_, first_of(directions),
-                                           static_cast<std::uint32_t>(directions.size()), margin, max_cones));
-        return *this;
+        return changed_by(swivel_region_add_directions, reinterpret_cast<const float*>(directions.data()),
+                          count_of(directions), margin, max_cones);
     }
-    Region& forbid(const swivel_region_cone& cone)
-    {
-        check(swivel_region_forbid(&region_, &cone));
-        return *this;
-    }
+    Region& forbid(const swivel_region_cone& cone) { return changed_by(swivel_region_forbid, &cone); }
     Region mirrored() const
     {
         Region made;
@@ -46,18 +35,17 @@ public:
     }
     float room(const std::array<float, 3>& direction) const
     {
-        float made = 0;
-        check(swivel_region_room(&region_, direction.data(), &made));
-        return made;
+        return made<1>(swivel_region_room, &region_, direction.data())[0];
     }
     const swivel_region& get() const { return region_; }
 
 private:
-    static const float* first_of(std::span<const std::array<float, 3>> list)
+    template <class Call, class... Arguments>
+    Region& changed_by(Call call, Arguments... arguments)
     {
-        return list.empty() ? nullptr : list.front().data();
+        check(call(&region_, arguments...));
+        return *this;
     }
-
     swivel_region region_ = swivel_default_region();
 };
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The stages of a body's limb: they bring the posed limb into the arm frame, and take what was solved back to its
-// joints.
+// The stages of a body's limb: they bring the posed limb into the arm frame, turn a hand that yields, and take what was
+// solved back to the joints.
 #pragma once
 
 #include "core/forearm_twist.h"
 #include "core/posed_limb.h"
+#include "core/yielding_hand.h"
 #include "simd/bodies/fit_stages.h"
 #include "simd/bodies/hold_stages.h"
 #include "simd/bodies/joint_stages.h"
 #include "simd/bodies/look_stages.h"
 #include "simd/bodies/plant_stages.h"
-#include "simd/bodies/yield_stage.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -142,6 +142,43 @@ struct StageBody<Stage::record> {
     }
 };
 
+// The hand turns to where the wrist does not get. A foot that is turned so keeps its toe over the ground.
+template <>
+struct StageBody<Stage::yield> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const T stretch = s.rows.get(kStretchRow), upper = stretch * length(s, 0), fore = stretch * length(s, 1);
+        const Vector<T> achieved = bent_reach(upper, fore, s.rows.get(kFlexionRow)) * s.rows.vector(kLineRow),
+                        missing = s.rows.vector(kWristRow) - achieved,
+                        effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
+        const Mask<T> misses = misses_its_place(missing, upper + fore);
+        Rotor<T> hand = yielding_hand(s.rows.rotor(kHandRow), effector, missing, upper + fore);
+        if (s.has(SWIVEL_WITH_GROUND) && any(misses)) hand = toe_over_ground(s, misses, achieved, effector, hand);
+        s.rows.set(kHandRow, hand);
+    }
+
+private:
+    // The foot after the least turn about the ankle that keeps its toe over the ground.
+    template <class S>
+    SWIVEL_INLINE static Rotor<typename S::T> toe_over_ground(const S& s, const Mask<typename S::T>& misses,
+                                                              const Vector<typename S::T>& ankle,
+                                                              const Vector<typename S::T>& effector,
+                                                              const Rotor<typename S::T>& foot)
+    {
+        using T = typename S::T;
+        const GroundPlane<T> ground = ground_of(s, up_of(s));
+        const ArmFrame<T> arm = arm_frame(s);
+        const T scale = s.body.get(s.strip.run.plan->limb.parent + kScaleRow),
+                height = ground.distance(arm.shoulder + scale * sandwich(arm.rotation, ankle)) / scale,
+                wanted = T(s.strip.run.plan->limb.ground.given.toe_clearance) - height;
+        return lifting_turn(ground.exists & misses, sandwich(~arm.rotation, ground.normal), sandwich(foot, effector),
+                            wanted) *
+               foot;
+    }
+};
+
 // A twist bone turns from its incoming rotation, by its share of how far the hand's twist changes.
 template <class S>
 SWIVEL_INLINE Rotor<typename S::T> turned_twist_bone(const S& s, std::uint32_t n)
@@ -207,8 +244,7 @@ private:
             kept = kept | (valid & (s.io.load(SWIVEL_WEIGHTS, 0) == none) & (s.io.load(SWIVEL_WEIGHTS, 1) == none) &
                            (s.io.load(SWIVEL_WEIGHTS, 2) == none));
         }
-        if (s.has(SWIVEL_WITH_LINK) && s.has(SWIVEL_POLE_INCOMING) &&
-            !(s.strip.run.features & (kBoundingFeatures | SWIVEL_WITH_ANGLE)))
+        if (s.has(SWIVEL_WITH_LINK) && s.has(SWIVEL_POLE_INCOMING) && !(s.strip.run.features & kMovingFeatures))
             kept = kept | (valid & (s.body.get(s.strip.run.plan->limb.goal + kGoalOwnRow) > T(0.5)));
         return kept;
     }

@@ -4,8 +4,6 @@
 // rows in which their results wait.
 #pragma once
 
-#include <cstddef>
-
 #include "core/ground.h"
 #include "core/limb_bones.h"
 #include "core/spring.h"

@@ -118,7 +118,7 @@ struct PlantedPoint {
     {
         if (!any(planted.step.locks)) return;
         const Vector<T> up = up_of(s);
-        const T clearance = T(limb.ground.toe_clearance) * s.body.get(limb.parent + kScaleRow);
+        const T clearance = T(limb.ground.given.toe_clearance) * s.body.get(limb.parent + kScaleRow);
         lock_on_ground(state, planted.step.locks, support.turned_back(up),
                        ground_of(s, up).way_up(support.to_root(state.mark), clearance));
     }
@@ -201,7 +201,7 @@ struct StageBody<Stage::ground> {
         const GroundRules& rules = limb.ground;
         const Vector<T> up = up_of(s);
         const T scale = s.body.get(limb.parent + kScaleRow), share = s.io.load(SWIVEL_GROUND_WEIGHT, 0);
-        const Vector<T> heel = vector(T(rules.heel[0]), T(rules.heel[1]), T(rules.heel[2]));
+        const Vector<T> heel = vector(T(rules.given.heel[0]), T(rules.given.heel[1]), T(rules.given.heel[2]));
         const Vector<T> heel_from_toe = scale * (heel - s.io.load_vector(SWIVEL_EFFECTOR));
         s.require(is_share(share) & (len2(heel_from_toe) <= T(kHuge2)));
         const Foot<T> planted{s.body.vector(limb.goal + kGoalPlaceRow), s.body.rotor(limb.goal + kGoalHandRow)};

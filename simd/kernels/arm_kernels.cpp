@@ -4,8 +4,6 @@
 // calls solve_slice() for each slice. That loads rows, calls the formula of core/solve_arm.h and stores rows. Arms for
 // which the formula does not hold are gathered, and solved as whole limbs. SWIVEL_ARCH is an xsimd architecture or
 // float. SWIVEL_REGISTERS is how many registers a slice works on side by side.
-#include <bit>
-
 #include "core/solve_arm.h"
 #include "simd/kernels/aside.h"
 #include "simd/pack.h"

@@ -46,34 +46,34 @@ SWIVEL_INLINE void load_lengths(const S& s, ArmGoal<typename S::T>& arm)
 }
 
 template <class S>
-SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, const LimbUse& use)
+SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, swivel_features features)
 {
     using T = typename S::T;
     LimbGoal<T> goal;
     load_lengths(s, goal.arm);
-    if (use.reach) {
+    if (features & SWIVEL_WITH_REACH) {
         goal.reach = {s.io.load(SWIVEL_REACH, 0), s.io.load(SWIVEL_REACH, 1), s.io.load(SWIVEL_REACH, 2),
                       s.io.load(SWIVEL_REACH, 3)};
         s.require(is_valid(goal.reach));
     }
-    if (use.cap) {
+    if (features & SWIVEL_WITH_CAP) {
         goal.cap = {
             s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
             s.has(kBody) ? s.body.get(kReachRow) : incoming_reach(normalise(s.rows.rotor(kIncomingRow + 4)), goal.arm)};
         s.require(is_valid(goal.cap));
     }
-    if (use.flexion) {
+    if (features & SWIVEL_WITH_FLEXION_LIMIT) {
         goal.flexion = {s.io.load(SWIVEL_FLEXION_LIMIT, 0), s.io.load(SWIVEL_FLEXION_LIMIT, 1)};
         s.require(is_valid(goal.flexion));
     }
-    return lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return place_bones(use, goal, wanted); });
+    return lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return place_bones(features, goal, wanted); });
 }
 template <>
 struct StageBody<Stage::bones> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
-        s.rows.set(kFlagsRow, lay_reaching_bones(s, use_of(s)).flags);
+        s.rows.set(kFlagsRow, lay_reaching_bones(s, s.features()).flags);
     }
 };
 
@@ -87,22 +87,22 @@ struct StageBody<Stage::aim> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const LimbUse use = use_of(s);
         LimbGoal<T> goal;
         load_lengths(s, goal.arm);
         // Checked as given: a turn's rounding is no fault of the axis.
         const Vector<T> axis = s.io.load_vector(SWIVEL_AIM);
         goal.aim = {in_hand(s, axis), s.io.load(SWIVEL_AIM, 3), s.io.load(SWIVEL_AIM, 4)};
         s.require(is_unit2(len2(axis)) & is_valid(goal.aim));
-        if (use.effector) {
+        if (s.has(SWIVEL_WITH_EFFECTOR)) {
             goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
             s.require(len2(goal.effector) <= T(kHuge2));
         }
-        const Rotor<T> hand = use.hand       ? s.rows.rotor(kHandRow)
-                              : s.has(kBody) ? s.rows.rotor(kIncomingRow + 8)
-                                             : one<T>();
-        const Laid<T> laid =
-            lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(use, goal, hand, wanted); });
+        const Rotor<T> hand = s.has(SWIVEL_WITH_HAND) ? s.rows.rotor(kHandRow)
+                              : s.has(kBody)          ? s.rows.rotor(kIncomingRow + 8)
+                                                      : one<T>();
+        const swivel_features features = s.features();
+        const Laid<T> laid = lay_bones(
+            s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(features, goal, hand, wanted); });
         s.rows.set(kFlagsRow, laid.flags);
     }
 };
@@ -121,26 +121,26 @@ SWIVEL_INLINE void load_continuity(const S& s, Continuity<typename S::T>& contin
 }
 
 template <class S>
-SWIVEL_INLINE void wish_for_normal(const S& s, const LimbUse& use, const Laid<typename S::T>& laid)
+SWIVEL_INLINE void wish_for_normal(const S& s, swivel_features features, const Laid<typename S::T>& laid)
 {
     using T = typename S::T;
-    LimbGoal<T> goal;
+    WishGoal<T> goal;
     if (has_pole(s)) {
-        goal.arm.pole = s.goal_vector(s.has(SWIVEL_WORLD), kPoleRow, SWIVEL_POLE);
-        s.require(len2(goal.arm.pole) <= T(kHuge2));
+        goal.pole = s.goal_vector(s.has(SWIVEL_WORLD), kPoleRow, SWIVEL_POLE);
+        s.require(len2(goal.pole) <= T(kHuge2));
     }
-    if (use.angle) {
+    if (features & SWIVEL_POLE_HAND) goal.hand = s.rows.rotor(kHandRow);
+    if (features & SWIVEL_WITH_ANGLE) {
         goal.angle = s.io.load_turned(SWIVEL_ANGLE);
         s.require(is_valid(goal.angle));
     }
-    if (use.incoming) goal.incoming.shoulder = s.rows.rotor(kIncomingRow);
-    if (use.weights) goal.weights.pole = s.io.load(SWIVEL_WEIGHTS, 2);
-    if (use.continuity) {
+    if (features & SWIVEL_WITH_INCOMING) goal.incoming = s.rows.rotor(kIncomingRow);
+    if (features & SWIVEL_WITH_WEIGHTS) goal.weight = s.io.load(SWIVEL_WEIGHTS, 2);
+    if (features & SWIVEL_WITH_MAX_SWIVEL) {
         load_continuity(s, goal.continuity);
         s.require(is_valid(goal.continuity));
     }
-    const Rotor<T> hand = use.wish == Wish::hand ? s.rows.rotor(kHandRow) : one<T>();
-    const LimbNormal<T> found = limb_normal(use, goal, hand, laid.line);
+    const LimbNormal<T> found = limb_normal(features, goal, laid.line);
     s.rows.set(kNormalRow, found.normal);
     s.rows.set(kFlagsRow, laid.flags | found.flags);
 }
@@ -149,7 +149,7 @@ struct StageBody<Stage::wish> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
-        wish_for_normal(s, use_of(s), Laid<typename S::T>{s.rows.vector(kLineRow), s.rows.word(kFlagsRow)});
+        wish_for_normal(s, s.features(), Laid<typename S::T>{s.rows.vector(kLineRow), s.rows.word(kFlagsRow)});
     }
 };
 
@@ -158,10 +158,9 @@ struct StageBody<Stage::place> {
     template <class S>
     SWIVEL_INLINE static void slice(const S& s)
     {
-        LimbUse use;
-        use.wish = S::template is<SWIVEL_POLE_NORMAL>() ? Wish::normal : Wish::pole;
-        use.angle = S::template is<SWIVEL_WITH_ANGLE>();
-        wish_for_normal(s, use, lay_reaching_bones(s, use));
+        // These are all that such limbs have of the features that the formulas ask for. The mask makes them constants.
+        const swivel_features features = s.features() & row_of(Stage::place).knows;
+        wish_for_normal(s, features, lay_reaching_bones(s, features));
     }
 };
 

@@ -13,29 +13,6 @@ namespace swivel::inline SWIVEL_ISA {
 template <Stage stage>
 struct StageBody;
 
-// The parts of the formula that a group's features use, but for limits of the swivel, which have stages of their own.
-template <class S>
-SWIVEL_INLINE LimbUse use_of(const S& s)
-{
-    LimbUse use;
-    use.hand = s.has(SWIVEL_WITH_HAND);
-    use.effector = s.has(SWIVEL_WITH_EFFECTOR);
-    use.angle = s.has(SWIVEL_WITH_ANGLE);
-    use.incoming = s.has(SWIVEL_WITH_INCOMING);
-    use.weights = s.has(SWIVEL_WITH_WEIGHTS);
-    use.reach = s.has(SWIVEL_WITH_REACH);
-    use.cap = s.has(SWIVEL_WITH_CAP);
-    use.continuity = s.has(SWIVEL_WITH_MAX_SWIVEL);
-    use.step_wins = s.has(SWIVEL_STEP_WINS);
-    use.aim = s.has(SWIVEL_WITH_AIM);
-    use.yields = s.has(SWIVEL_HAND_YIELDS);
-    use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming
-               : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal
-               : s.has(SWIVEL_POLE_HAND)   ? Wish::hand
-                                           : Wish::pole;
-    use.flexion = s.has(SWIVEL_WITH_FLEXION_LIMIT);
-    return use;
-}
 // Whether the caller gives a pole; and whether it is a point.
 template <class S>
 SWIVEL_INLINE bool has_pole(const S& s)
@@ -230,36 +207,36 @@ struct StageBody<Stage::goal> {
     {
         using T = typename S::T;
         const Binding& bind = s.strip.bind;
-        const LimbUse use = use_of(s);
+        const bool has_hand = s.has(SWIVEL_WITH_HAND), aims = s.has(SWIVEL_WITH_AIM);
         const bool seen = s.has(SWIVEL_WORLD);
         LimbGoal<T> goal;
         goal.arm.wrist = s.goal_vector(seen, kTargetRow, SWIVEL_TARGET);
         Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
-        if (use.hand) {
+        if (has_hand) {
             goal.hand = seen ? s.rows.rotor(kTargetHandRow) : s.io.load_rotor(SWIVEL_HAND);
             if (!seen) valid = valid & is_orientation(goal.hand);
             if (is_bound(s)) {
                 const Rotor<T> wrist_parent = s.has(kBody) ? s.body.rotor(s.strip.run.plan->limb.wrist_parent_row())
                                                            : broadcast<T>(bind.wrist_parent_from_arm);
-                goal.hand = (use.aim ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
+                goal.hand = (aims ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
             }
             valid = valid & is_product(goal.hand);
         }
-        if (use.effector && !use.aim) {
+        if (s.has(SWIVEL_WITH_EFFECTOR) && !aims) {
             goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
             valid = valid & (len2(goal.effector) <= T(kHuge2));
         }
-        if (use.weights) {
+        if (s.has(SWIVEL_WITH_WEIGHTS)) {
             goal.arm.upper = length(s, 0);
             goal.arm.fore = length(s, 1);
             goal.incoming = {s.rows.rotor(kIncomingRow), s.rows.rotor(kIncomingRow + 4),
-                             use.hand ? s.rows.rotor(kIncomingRow + 8) : one<T>()};
+                             has_hand ? s.rows.rotor(kIncomingRow + 8) : one<T>()};
             goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};
             valid = valid & is_valid(goal.weights);
         }
-        const WristGoal<T> wrist = wrist_goal(use, goal);
+        const WristGoal<T> wrist = wrist_goal(s.features(), goal);
         s.rows.set(kWristRow, wrist.place);
-        if (use.hand) s.rows.set(kHandRow, wrist.hand);
+        if (has_hand) s.rows.set(kHandRow, wrist.hand);
         s.require(valid);
     }
 };

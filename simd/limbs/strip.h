@@ -42,6 +42,8 @@ struct StripSlice {
     RowView<T> body;               // the body's; of free limbs the strip's, which no stage reads as these
     std::uint32_t block, lane;
 
+    // The group's features, for formulas. The bits of those that the stage knows are constants.
+    SWIVEL_ALWAYS_INLINE swivel_features features() const { return (strip.run.features & ~Knows) | Has; }
     // Whether the group has a feature; and the same as a constant, of one that the stage knows. A stage that asks for
     // another one as a constant does not compile.
     SWIVEL_ALWAYS_INLINE bool has(swivel_features feature) const

@@ -3,10 +3,37 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 namespace swivel::fuzz {
+
+namespace {
+
+// A large value for a constant, by its unit. Bodies' bones are about 1 long.
+float much_of(std::string_view unit)
+{
+    if (unit == "s") return 0.4f;
+    if (unit == "limb lengths a second") return 4;
+    return unit == "the bones' unit" ? 0.2f : 1;
+}
+// Draws a structure's constants, in steps from nothing to much, within their bounds.
+template <class Structure>
+void put_constants(Bytes& bytes, std::string_view structure, Structure& to)
+{
+    swivel_constant_info info;
+    for (std::uint32_t n = 0; swivel_describe_constant(n, &info); ++n) {
+        if (structure != info.structure) continue;
+        const float much = much_of(info.unit), min = std::max(info.min, -much), max = std::min(info.max, much);
+        auto* const values = reinterpret_cast<float*>(reinterpret_cast<std::byte*>(&to) + info.offset);
+        for (std::uint32_t k = 0; k < info.count; ++k)
+            values[k] = min + (max - min) * static_cast<float>(bytes.below(9)) / 8;
+    }
+}
+
+}  // namespace
 
 BodyDef::BodyDef(Bytes& bytes, std::uint32_t max_bodies)
 {
@@ -114,28 +141,19 @@ void BodyDef::add_look(Bytes& bytes, const std::uint32_t* of, std::size_t count)
     groups.push_back(group);
 }
 
-// How limbs stand and bodies shift, in steps from nothing to much.
+// How limbs stand and bodies shift.
 void BodyDef::take_constants(Bytes& bytes)
 {
-    const auto number = [&](float max) { return max * static_cast<float>(bytes.below(9)) / 8; };
     for (BodyGroup& group : groups) {
         swivel_plant& plant = group.limb.plant;
-        plant.lock_radius = number(1);
-        plant.unlock_radius = plant.lock_radius + number(1);  // which it is no less than
-        plant.stop_time = number(0.4f), plant.release_time = number(0.4f);
-        plant.relock_speed = number(2), plant.anchor_lead = number(1), plant.reset_time = number(2);
-        for (float& x : plant.speed) x = number(4);
-        for (float& x : plant.height) x = number(2) - 1;
-        group.shift = {sizeof group.shift, number(1), number(1), number(0.4f), number(1)};
+        put_constants(bytes, "plant", plant);
+        plant.unlock_radius += plant.lock_radius;  // which it is no less than
+        put_constants(bytes, "shift", group.shift);
         if (!group.has(SWIVEL_WITH_GROUND) && group.kind != SWIVEL_KIND_PROP) continue;
-        group.limb.ground = {{number(0.4f) - 0.2f, number(0.4f) - 0.2f, number(0.4f) - 0.2f},
-                             number(0.2f),
-                             number(0.2f),
-                             number(1),
-                             number(0.4f)};
-        group.prop.max_move = number(1);
+        put_constants(bytes, "ground", group.limb.ground);
+        put_constants(bytes, "prop", group.prop);
     }
-    for (float& x : up) x = number(2) - 1;
+    for (float& x : up) x = 2 * static_cast<float>(bytes.below(9)) / 8 - 1;
     up[1] = 1;
 }
 
@@ -186,6 +204,8 @@ void BodyDef::spoil(Bytes& bytes)
     const std::size_t g = bytes.below(static_cast<std::uint32_t>(joints.size()));
     swivel_limb_joints& limb = joints[g];
     BodyGroup& group = groups[bytes.below(static_cast<std::uint32_t>(groups.size()))];
+    constexpr std::size_t look_words =
+        (offsetof(swivel_look_def, reserved) - offsetof(swivel_look_def, joint_count)) / 4;
     switch (bytes.take<std::uint8_t>() % 14) {
         case 0:  // also in a circle
             spoil_word(bytes, {{parents.data(), parents.size()}});
@@ -204,11 +224,11 @@ void BodyDef::spoil(Bytes& bytes)
             break;
         default:  // how it stands, shifts, lies, links and looks, also of a group that does not
             spoil_word(bytes, {{&group.limb.plant, sizeof(swivel_plant) / 4},
-                               {&group.shift.drop, 4},
+                               {&group.shift.drop, (sizeof group.shift - offsetof(swivel_shift_def, drop)) / 4},
                                {&group.limb.ground, sizeof(swivel_ground) / 4},
-                               {&group.prop.joint, 2},
+                               {&group.prop.joint, (sizeof group.prop - offsetof(swivel_prop_def, joint)) / 4},
                                {&group.limb.link, 1},
-                               {&group.look.joint_count, 35}});
+                               {&group.look.joint_count, look_words}});
             break;
         case 5:  // the limb of another group
             limb = joints[bytes.below(static_cast<std::uint32_t>(joints.size()))];

@@ -125,12 +125,19 @@ std::vector<GroundSample> ground_of(const Crowd& crowd, std::uint32_t leg)
     for (std::size_t n = 0; n < places.size(); ++n) ground.push_back({places[n], normals[n]});
     return ground;
 }
-// Asks for the ground. Given the same ground in its rows, another crowd gets the same bits.
+// Asks for the ground, right above or below where each toe then goes. Given the same ground in its rows, another crowd
+// gets the same bits.
 void ask_and_give(const HillWalkers& walkers, Crowd& asking, Crowd& given, PoseBuffer& poses)
 {
     PoseBuffer given_poses = poses;
     walkers.ask_and_solve(asking, poses);
-    for (std::uint32_t leg = 0; leg < 2; ++leg) HillWalkers::write(given, leg, ground_of(asking, leg));
+    for (std::uint32_t leg = 0; leg < 2; ++leg) {
+        const std::vector<GroundSample> ground = ground_of(asking, leg);
+        const auto goals = read<std::array<float, 7>>(asking, SWIVEL_SOLVED_GOAL, leg);
+        for (std::size_t n = 0; n < ground.size(); ++n)
+            REQUIRE(std::hypot(ground[n].place[0] - goals[n][0], ground[n].place[2] - goals[n][2]) <= 1e-6f);
+        HillWalkers::write(given, leg, ground);
+    }
     walkers.solve(given, given_poses);
     REQUIRE(given_poses.bytes == poses.bytes);
     REQUIRE(swivel_digest(given.get()) == swivel_digest(asking.get()));

@@ -70,6 +70,15 @@ double bound(const SolvedBody& body, const std::vector<JointAt>& at, std::uint32
     return 2e-6 * length + 5e-7 * (way_to(body.of.skeleton, at, joint) + body.root().norm());
 }
 
+constexpr double kHalfUlp = 0x1p-24;  // u: an operation of floats rounds by at most this share of its result
+
+// How far floats may be off after some steps: in radians, or as a share of a length that holds all that they turn. An
+// operation rounds evenly within half an ulp, by 0.42 u in root mean square. So a step turns a rotation by up to 1.5 u,
+// because a product of two sums up 4 products a component. Or it moves a place by 2 u of its own length, which is less
+// than that one. Roundings are as good as independent, so the squares of their errors add up. Not one scene in 100
+// million is off by more than six times the root of their sum.
+double rounding_of(int steps) { return 6 * 1.5 * kHalfUlp * std::sqrt(steps); }
+
 bool is_limb_joint(const BodySkeleton& skeleton, std::uint32_t joint)
 {
     return std::ranges::any_of(skeleton.limbs, [&](const BodyLimbJoints& limb) {
@@ -282,14 +291,25 @@ TEST_CASE("what a limb records of its pose")
             check(swivel_residuals(solved.crowd.get(), 0, 0, 1, out(residual)));
             const JointAt &elbow_at = body.is[one.limb.elbow], &wrist_at = body.is[one.limb.wrist];
             const Vector3d place = body.root() + wrist_at.place;
-            const double length = LimbAt(one.skeleton, body.was_body, body.is, one.limb).length(),
-                         way = way_to(one.skeleton, body.is, one.limb.wrist), bound = 1e-5 * (way + body.root().norm());
+            // A pose in the body's space takes the most steps: 11 products for the limb's local rotations, 7 for the
+            // arm frame and the clavicle, 29 for how four joints move, 16 vectors to the world, back and on, and as
+            // much as 3 for the floats in which the test reads 11 joints. Told places are floats in the world, too.
+            const double way = way_to(one.skeleton, body.is, one.limb.wrist), turn_bound = rounding_of(66),
+                         bound = turn_bound * way + kHalfUlp * (way + body.root().norm());
             RC_ASSERT((Vector3d(elbow.data()) - body.root() - elbow_at.place).norm() <= bound);
             RC_ASSERT((Vector3d(wrist.data()) - place).norm() <= bound);
-            RC_ASSERT(Quaterniond(hand.data()).angularDistance(wrist_at.rotation) <= 1e-5);
-            const double missed = (place - vec(target)).norm() / length;
-            const double length_error = 1e-6 * length + 2e-7 * way;  // floats of the way are rounded, too
-            RC_ASSERT(std::fabs(residual - missed) * length <= bound + length_error * missed);
+            RC_ASSERT(Quaterniond(hand.data()).angularDistance(wrist_at.rotation) <= turn_bound);
+            // The length is that of the pose as it came. As far as its joints are from the root, it takes 6 steps: the
+            // elbow's place counts twice, once for each bone, so its square 4 times. Along the limb there are 7: 2 for
+            // the offsets, 2 for rotations between them, and 3 for the scale and the bones in the arm frame.
+            const double length = body.limb(0).length(),
+                         limb_way = way - way_to(one.skeleton, body.is, one.limb.shoulder);
+            double far = 0;
+            for (const std::uint32_t joint : {one.limb.shoulder, one.limb.elbow, one.limb.wrist})
+                far = std::max(far, body.was[joint].place.norm());
+            const double length_bound = std::hypot(rounding_of(6) * far, rounding_of(7) * limb_way),
+                         missed = (place - vec(target)).norm() / length;
+            RC_ASSERT(std::fabs(residual - missed) * length <= bound + length_bound * residual);
         }
     });
 }

@@ -82,7 +82,7 @@ void with_definition(const Recipe& recipe, const Take& take)
     corpus::with_definition(recipe, {20, 20, 20}, take);
 }
 
-// A group as the makers of swivel_bodies.hpp make it, with the members that they do not take.
+// A group as the makers of swivel.hpp make it, with the members that they do not take.
 swivel_body_limb_def made_as(const swivel_body_limb_def& in_c)
 {
     swivel_body_limb_def made = body_limb(*in_c.joints, in_c.features);
@@ -94,7 +94,7 @@ swivel_body_limb_def made_as(const swivel_body_limb_def& in_c)
 swivel_look_def made_as(const swivel_look_def& in_c)
 {
     swivel_look_def made = in_c;
-    const swivel_look_def chain = look(std::span(in_c.joints).first(in_c.joint_count));
+    const swivel_look_def chain = look({in_c.joints, in_c.joints + in_c.joint_count});
     made.joint_count = chain.joint_count;
     std::ranges::copy(chain.joints, made.joints);
     return made;

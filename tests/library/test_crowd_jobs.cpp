@@ -245,11 +245,12 @@ TEST_CASE("a job whose groups lie outside its blocks solves nothing, on threads,
     Crowd crowd({limbs(16 * 2000), limbs(16)});
     const Float3 target{0.3f, 0.2f, 1};
     for (std::uint32_t g = 0; g < 2; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
-    const Streams frame = Streams().in(SWIVEL_TARGET, {&target, 0});
+    Streams frame;
+    frame.in(SWIVEL_TARGET, {&target, 0});
     CHECK(crowd.solve({.blocks = swivel_blocks{0, 2000}, .groups = std::array{1u}, .streams = {frame}}) == 0);
     CHECK(crowd.solve({.groups = std::array{1u}, .streams = {frame}}) == 16);
     CHECK(crowd.solve({.groups = std::array{0u}, .streams = {frame}}) == 32000);
-    CHECK_THROWS_WITH(Streams().in(SWIVEL_FLAGS, {&target, 4}), "streams take in no result; give it by out()");
+    CHECK_THROWS_WITH(frame.in(SWIVEL_FLAGS, {&target, 4}), "streams take in no result; give it by out()");
 }
 
 TEST_CASE("bad input keeps the pose in a frame that is read and written in place")
@@ -278,13 +279,13 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
             crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
             crowd.solve();
             const auto had = read<Float4>(crowd, SWIVEL_SHOULDER);
-            const Streams frame = Streams()
-                                      .in(SWIVEL_TARGET, stream(poses, &Pose::target))
-                                      .in(SWIVEL_INCOMING_SHOULDER, stream(poses, &Pose::shoulder))
-                                      .in(SWIVEL_INCOMING_ELBOW, stream(poses, &Pose::elbow))
-                                      .out(SWIVEL_SHOULDER, stream(poses, &Pose::shoulder))
-                                      .out(SWIVEL_ELBOW, stream(poses, &Pose::elbow))
-                                      .out(SWIVEL_FLAGS, stream(poses, &Pose::flags));
+            Streams frame;
+            frame.in(SWIVEL_TARGET, stream(poses, &Pose::target))
+                .in(SWIVEL_INCOMING_SHOULDER, stream(poses, &Pose::shoulder))
+                .in(SWIVEL_INCOMING_ELBOW, stream(poses, &Pose::elbow))
+                .out(SWIVEL_SHOULDER, stream(poses, &Pose::shoulder))
+                .out(SWIVEL_ELBOW, stream(poses, &Pose::elbow))
+                .out(SWIVEL_FLAGS, stream(poses, &Pose::flags));
             const std::vector<std::uint32_t> mask(4, 0xffffbfffu);
             Job job{.streams = {frame}, .on_this_thread = on_this_thread};
             if (masked) job.mask = mask;

@@ -4,6 +4,7 @@
 // image. How limits hold for arms in their own frame is in test_limits.cpp.
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "simd/fields.h"
@@ -85,6 +86,16 @@ TEST_CASE("the other side's value of an input that is no limit and no turn is th
         ++same;
     }
     CHECK(same > 20);
+}
+
+TEST_CASE("a flexion of up to pi, as a double or as a float, is no limit")
+{
+    const Float2 none{1, 0};  // with which a limb starts
+    CHECK(std::ranges::equal(none, std::span(row_of(SWIVEL_FLEXION_LIMIT).start, 2)));
+    for (const double max : {kPi, double{std::numbers::pi_v<float>}}) {
+        CHECK(flexion(0, max) == none);
+        CHECK(flexion(max, max) == Float2{0, 0});
+    }
 }
 
 TEST_CASE("the body's other side is the mirror image")

@@ -36,12 +36,13 @@ struct FootCase {
     double over(const Vector3d& point) const { return unit().dot(point - place); }
     GroundRules rules() const
     {
-        return {{},
-                static_cast<float>(toe_clearance),
-                static_cast<float>(heel_clearance),
-                static_cast<float>(std::cos(max / 2)),
-                static_cast<float>(std::sin(max / 2)),
-                spring_rule(0.05f)};
+        swivel_ground ground = swivel_default_ground();
+        ground.toe_clearance = static_cast<float>(toe_clearance);
+        ground.heel_clearance = static_cast<float>(heel_clearance);
+        return {.given = ground,
+                .cos_half_max = static_cast<float>(std::cos(max / 2)),
+                .sin_half_max = static_cast<float>(std::sin(max / 2)),
+                .lift = spring_rule(0.05f)};
     }
 };
 float as_float(double x) { return static_cast<float>(x); }

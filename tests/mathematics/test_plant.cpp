@@ -6,7 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <string_view>
 
 #include <rapidcheck/catch.h>
 
@@ -208,11 +210,14 @@ float random_size(Random& random, float max) { return std::fabs(random_float(ran
 PlantRules any_rules(Random& random)
 {
     swivel_plant plant = swivel_default_plant();
-    for (float* const each :
-         {&plant.lock_radius, &plant.unlock_radius, &plant.stop_time, &plant.release_time, &plant.relock_speed})
-        if (random.below(2)) *each = random_size(random, 1000);
-    plant.anchor_lead = random_size(random, 1);
-    plant.reset_time = random.below(4) ? 0 : random_size(random, 1e15f);
+    swivel_constant_info info;
+    for (std::uint32_t n = 0; swivel_describe_constant(n, &info); ++n) {
+        if (info.structure != std::string_view("plant")) continue;
+        auto* const values = reinterpret_cast<float*>(reinterpret_cast<std::byte*>(&plant) + info.offset);
+        for (std::uint32_t k = 0; k < info.count; ++k)
+            if (random.below(2))
+                values[k] = info.min < 0 ? random_float(random, info.max) : random_size(random, info.max);
+    }
     return rules_of(plant);
 }
 bool is_finite(const Vector<float>& v)
@@ -248,7 +253,7 @@ TEST_CASE("a locked point moves by no bit, and stands on its mark once it has st
             const bool stood = before.locked && !planted.step.fresh;
             locked_for = stood ? locked_for + time : 0;
             if (stood && point.state.locked) RC_ASSERT(is_same(point.state.mark, before.mark));
-            if (stood && locked_for > point.rules.stop_time + 1e-5) {
+            if (stood && locked_for > point.rules.given.stop_time + 1e-5) {
                 RC_ASSERT(is_equal(planted.target, before.mark));
                 RC_ASSERT(point.state.left == 0);
                 ++stood_count;
@@ -269,7 +274,7 @@ TEST_CASE("a released point is with the animation again after its time to blend"
         for_each_step<float>(seed, [&](const PlantState<float>&, const PlantedPoint<float>& point, const Vector3d& x,
                                        bool, double time, double) {
             free_for = point.last.step.fades ? time : point.state.locked || point.state.waiting ? 0 : free_for + time;
-            if (free_for <= point.rules.release_time + 1e-5 || point.last.step.releases) return;
+            if (free_for <= point.rules.given.release_time + 1e-5 || point.last.step.releases) return;
             RC_ASSERT(is_equal(point.last.target, mv<float>(x)));
             ++free_count;
         });

@@ -5,7 +5,8 @@
 A fault exchanges an operator (+ and -, < and <=, == and !=, & and |), takes the second value of every select(), or leaves out a
 statement. All are compiled once, into a copy of the tree for one lane, and chosen by an environment variable (mutant.h). Each test runs
 once to find which faults it comes across. Then each fault is alive in these tests, the quickest first, until one fails. With --matrix all
-of them run: the table says which tests see what no other sees. Faults that do not compile are left out.
+of them run: the table says which tests see what no other sees. Faults that do not compile are left out. A test that runs into its time
+limit decides nothing, because the machine may be busy: a fault with which no test fails, and some run out of time, is undecided.
 """
 import argparse
 import collections
@@ -111,10 +112,13 @@ def build_all(build, tree, faults):
     raise Failure("after twelve rounds the copy still does not compile")
 
 
-def ends_well(build, test, seconds, **environment):
+def ending_of(build, test, seconds, **environment):
+    """How a test ends: passed, failed or timed out."""
     done = subprocess.run(["ctest", "--test-dir", build.folder, "-R", f"^{re.escape(test)}$", "--timeout", str(int(10 * seconds + 20))],
                           env={**os.environ, **environment}, capture_output=True, text=True)
-    return done.returncode == 0
+    if done.returncode == 0:
+        return "passed"
+    return "timed out" if "***Timeout" in done.stdout else "failed"
 
 
 def tests_of_faults(build, work, faults):
@@ -125,27 +129,38 @@ def tests_of_faults(build, work, faults):
     tests = sorted(name for name, command in build.commands.items() if command.is_relative_to(build.folder))
     for test in tests:
         begin = time.monotonic()
-        good = ends_well(build, test, 60, SWIVEL_MUTANTS_MET=str(met / test))
+        ending = ending_of(build, test, 60, SWIVEL_MUTANTS_MET=str(met / test))
         seconds, found = time.monotonic() - begin, set()
         for file in met.glob(f"{test}.*"):
             found.update(int(number) for number in file.read_text().split())
             file.unlink()
-        for number in found if good else ():
+        for number in found if ending == "passed" else ():
             meeting[number].append((seconds, test))
-        if not good:
-            print(f"-- {test} does not pass as it is, so it is left out", flush=True)
+        if ending != "passed":
+            print(f"-- {test} {ending} without any fault, so it is left out", flush=True)
     return {number: sorted(meeting[number]) for number in range(len(faults))}
 
 
 def verdict_on(build, number, tests, matrix):
-    """The tests that fail with this fault: the first one, or all."""
-    killers = []
+    """The tests that fail with this fault, the first one or all, and those that ran into their time limit before."""
+    killers, timed_out = [], []
     for seconds, test in tests:
-        if not ends_well(build, test, seconds, SWIVEL_MUTANT=str(number)):
+        ending = ending_of(build, test, seconds, SWIVEL_MUTANT=str(number))
+        if ending == "timed out":
+            timed_out.append(test)
+        elif ending == "failed":
             killers.append(test)
             if not matrix:
                 break
-    return killers
+    return killers, timed_out
+
+
+def words_for(tests, killers, timed_out):
+    if killers:
+        return f"seen by {', '.join(killers)}"
+    if timed_out:
+        return f"undecided, out of time in {', '.join(timed_out)}"
+    return "SURVIVED" if tests else "no test comes across it"
 
 
 def main():
@@ -183,17 +198,19 @@ def main():
         print(f"-- {len(faults) - len(dropped)} of {len(faults)} faults compile, {time.monotonic() - begin:.0f} s", flush=True)
         alive = [number for number in range(len(faults)) if number not in dropped]
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            killers = dict(zip(alive, pool.map(lambda number: verdict_on(build, number, tests[number], options.matrix), alive)))
+            verdicts = dict(zip(alive, pool.map(lambda number: verdict_on(build, number, tests[number], options.matrix), alive)))
     except Failure as failure:
         print(f"operators.py: {failure}", file=sys.stderr)
         return 1
     for number in alive:
-        unseen = "SURVIVED" if tests[number] else "no test comes across it"
-        print(f"{name(number)}: {'seen by ' + ', '.join(killers[number]) if killers[number] else unseen}")
+        print(f"{name(number)}: {words_for(tests[number], *verdicts[number])}")
     (work / "table.json").write_text(json.dumps([{"fault": name(number), "met_by": [test for _, test in tests[number]],
-                                                  "seen_by": killers[number]} for number in alive], indent=1))
-    seen = sum(bool(killers[number]) for number in alive)
-    print(f"\n{seen} of {len(alive)} faults seen, {time.monotonic() - begin:.0f} s; the table is {work / 'table.json'}")
+                                                  "seen_by": killers, "timed_out": timed_out}
+                                                 for number, (killers, timed_out) in verdicts.items()], indent=1))
+    seen = sum(bool(killers) for killers, _ in verdicts.values())
+    undecided = sum(bool(timed_out) and not killers for killers, timed_out in verdicts.values())
+    print(f"\n{seen} of {len(alive)} faults seen, {undecided} undecided, {time.monotonic() - begin:.0f} s; "
+          f"the table is {work / 'table.json'}")
     return 0
 
 

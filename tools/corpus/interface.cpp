@@ -101,34 +101,75 @@ swivel_in in(const std::vector<Value>& values)
 {
     return {values.data(), sizeof values[0]};
 }
-// How limbs stand, group by group, and how bodies shift.
-constexpr swivel_plant kPlants[kGroupCount] = {
-    {0.12f, 0.24f, 0.1f, 0.2f, 0.06f, 0.5f, 0, {0.6f, 0.8f}, {0.08f, 0.1f}},
-    {0.3f, 0.5f, 0.05f, 0.3f, 0.5f, 1, 1, {1, 1.5f}, {0.5f, 1}},
-    {0.02f, 0.05f, 0, 0, 0, 0, 0.5f, {2, 4}, {10, 10}},
-};
-constexpr swivel_shift_def kShifts = {sizeof(swivel_shift_def), 0.3f, 0.2f, 0.15f, 0.3f};
-constexpr swivel_ground kGrounds[kGroupCount] = {
-    {{0.03f, -0.06f, 0.05f}, 0.01f, 0.02f, 0.8f, 0.05f},
-    {{0, 0, 0}, 0, 0, 0.95f, 0.2f},
-    {{-0.1f, 0.02f, 0}, 0.05f, 0, 0.3f, 0},
-};
-constexpr float kMaxMoves[] = {1, 0.1f};  // of props, and of those at a joint
-constexpr swivel_look_def kLookDefs[kLookCount] = {
-    {sizeof(swivel_look_def),
-     2,
-     {},
-     {0.5f, 2},
-     {0.9f, 0.3f},
-     {0.02f, 0.1f, -0.05f},
-     {0.6f, 0, 0.8f},
-     0.5f,
-     -0.8f,
-     0.4f,
-     2,
-     0},
-    {sizeof(swivel_look_def), 1, {}, {1}, {0.2f}, {0, 0, 0}, {0, 1, 0}, -0.5f, -1, 0, 0, 0},
-};
+
+// How limbs stand, group by group, and how bodies shift and look. Constants that are not named here are the defaults,
+// as all of the first group's plant are.
+swivel_plant plant_of(std::uint32_t group)
+{
+    swivel_plant plant = swivel_default_plant();
+    if (group == 1) {
+        plant.lock_radius = 0.3f, plant.unlock_radius = 0.5f;
+        plant.stop_time = 0.05f, plant.release_time = 0.3f;
+        plant.relock_speed = 0.5f, plant.anchor_lead = 1, plant.reset_time = 1;
+        plant.speed[0] = 1, plant.speed[1] = 1.5f;
+        plant.height[0] = 0.5f, plant.height[1] = 1;
+    } else if (group == 2) {
+        plant.lock_radius = 0.02f, plant.unlock_radius = 0.05f;
+        plant.stop_time = plant.release_time = 0;
+        plant.relock_speed = 0, plant.anchor_lead = 0, plant.reset_time = 0.5f;
+        plant.speed[0] = 2, plant.speed[1] = 4;
+        plant.height[0] = plant.height[1] = 10;
+    }
+    return plant;
+}
+swivel_ground ground_of(std::uint32_t group)
+{
+    constexpr float heels[kGroupCount][3] = {{0.03f, -0.06f, 0.05f}, {0, 0, 0}, {-0.1f, 0.02f, 0}};
+    swivel_ground ground = swivel_default_ground();
+    std::copy_n(heels[group], 3, ground.heel);
+    if (group == 0) ground.toe_clearance = 0.01f, ground.heel_clearance = 0.02f;
+    if (group == 1) ground.cos_max = 0.95f, ground.half_life = 0.2f;
+    if (group == 2) ground.toe_clearance = 0.05f, ground.cos_max = 0.3f, ground.half_life = 0;
+    return ground;
+}
+swivel_shift_def shift_of_bodies()
+{
+    swivel_shift_def shift = swivel_default_shift_def();
+    shift.drop = 0.3f, shift.rise = 0.2f, shift.half_life = 0.15f;
+    return shift;
+}
+// joint: of the trunk, or -1, which is none.
+swivel_prop_def prop_at(std::int32_t joint)
+{
+    swivel_prop_def prop = swivel_default_prop_def();
+    prop.joint = joint;
+    if (joint >= 0) prop.max_move = 0.1f;
+    return prop;
+}
+swivel_look_def trunk_look(std::uint32_t spine, std::uint32_t chest)
+{
+    swivel_look_def look = swivel_default_look_def();
+    look.joint_count = 2;
+    look.joints[0] = spine, look.joints[1] = chest;
+    look.share[0] = 0.5f, look.share[1] = 2;
+    look.cos_max[0] = 0.9f, look.cos_max[1] = 0.3f;
+    look.eye[0] = 0.02f, look.eye[1] = 0.1f, look.eye[2] = -0.05f;
+    look.axis[0] = 0.6f, look.axis[1] = 0, look.axis[2] = 0.8f;
+    look.cos_full = 0.5f, look.cos_none = -0.8f;
+    look.fade_distance = 0.4f, look.rate = 2;
+    return look;
+}
+swivel_look_def eye_look(std::uint32_t joint)
+{
+    swivel_look_def look = swivel_default_look_def();
+    look.joint_count = 1;
+    look.joints[0] = joint;
+    look.cos_max[0] = 0.2f;
+    look.axis[1] = 1, look.axis[2] = 0;
+    look.cos_full = -0.5f, look.cos_none = -1;
+    look.fade_distance = look.rate = 0;
+    return look;
+}
 
 // Regions of upper arms: a forbidden cone, two cones, three half-spaces, and half of the sphere.
 constexpr swivel_region kUpperArms = {sizeof(swivel_region),
@@ -194,27 +235,20 @@ void define_bodies(const Recipe& recipe, std::uint32_t body_count, const TakeDef
         limbs[g] = swivel_default_body_limb_def(&joints[g]);
         put_limb(recipe, g, limbs[g]);
         limbs[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
-        limbs[g].plant = kPlants[g];
-        limbs[g].ground = kGrounds[g];
+        limbs[g].plant = plant_of(g);
+        limbs[g].ground = ground_of(g);
         if (is_holding(recipe, g)) limbs[g].link = has_prop(recipe) ? prop_group(recipe) : 0;
         groups[g].body_limb = &limbs[g];
     }
-    if (has_shift(recipe)) groups[count++].shift = &kShifts;
-    // One of the trunk's joints, which come last.
-    const bool is_at_joint = recipe.holds == Holds::prop_at_joint;
-    const swivel_prop_def prop = {sizeof(swivel_prop_def),
-                                  is_at_joint ? static_cast<std::int32_t>(own.joint_count()) - 2 : -1,
-                                  kMaxMoves[is_at_joint]};
+    const swivel_shift_def shift = shift_of_bodies();
+    if (has_shift(recipe)) groups[count++].shift = &shift;
+    // The trunk's joints come last, from its root on. The first joint is the eye.
+    const std::uint32_t spine = own.joint_count() - 2, chest = own.joint_count() - 3;
+    const swivel_prop_def prop = prop_at(recipe.holds == Holds::prop_at_joint ? static_cast<std::int32_t>(spine) : -1);
     if (has_prop(recipe)) groups[count++].prop = &prop;
-    swivel_look_def looks[kLookCount];
-    for (std::uint32_t n = 0; recipe.pose & kLooks && n < kLookCount; ++n) {
-        looks[n] = kLookDefs[n];
-        // The trunk comes last, from its root on; the eye first.
-        const std::uint32_t spine = own.joint_count() - 2, chest = own.joint_count() - 3;
-        looks[n].joints[0] = n == 0 ? spine : 0;
-        looks[n].joints[1] = n == 0 ? chest : 0;
-        groups[count++].look = &looks[n];
-    }
+    const swivel_look_def looks[kLookCount] = {trunk_look(spine, chest), eye_look(0)};
+    if (recipe.pose & kLooks)
+        for (const swivel_look_def& look : looks) groups[count++].look = &look;
     swivel_crowd_def def = swivel_default_crowd_def();
     def.skeleton = &skeleton;
     def.body_count = body_count;

@@ -39,9 +39,8 @@ Crowd crowd_of(std::span<const LimbSetup> limbs, std::uint32_t characters)
         limb.shoulder_order = limbs[n].shoulder_order;
         limb.wrist_order = limbs[n].wrist_order;
         if (limbs[n].region) limb.region = &*limbs[n].region;
-        limb.ground = limbs[n].ground;
-        limb.ground.half_life = GOAL_GROUND_HALF_LIFE;
-        limb.plant.anchor_lead = GOAL_ANCHOR_LEAD;
+        limb.plant = limbs[n].standing_plant();
+        limb.ground = limbs[n].standing_ground();
         if (limbs[n].goals.holds) limb.link = limbs[n].goals.holds - 1;
         groups.emplace_back(limb);
     }

@@ -42,6 +42,19 @@ struct LimbSetup {
         return {q[0], mirrored ? -q[1] : q[1], mirrored ? -q[2] : q[2], q[3]};
     }
     bool has(swivel_features feature) const { return (features & feature) != 0; }
+    // How a limb of a crowd of goals stands, with the constants of goals.h.
+    swivel_plant standing_plant() const
+    {
+        swivel_plant plant = swivel_default_plant();
+        plant.anchor_lead = GOAL_ANCHOR_LEAD;
+        return plant;
+    }
+    swivel_ground standing_ground() const
+    {
+        swivel_ground made = ground;
+        made.half_life = GOAL_GROUND_HALF_LIFE;
+        return made;
+    }
 };
 
 // The limbs of a character as one skeleton: joints as GOAL_JOINTS says, each limb's own below a root of its own.

@@ -114,7 +114,8 @@ constexpr float kMargin = 0.125f;
 Region region_of_calls()
 {
     Region region;
-    region.add_cones(kCones, true).add_polygon(kCorners).add_directions(kWays, kMargin, 2).forbid(kForbidden);
+    region.add_cones({std::begin(kCones), std::end(kCones)}, true);
+    region.add_polygon(kCorners).add_directions(kWays, kMargin, 2).forbid(kForbidden);
     return region.mirrored();
 }
 Json json_of(const Region& region)

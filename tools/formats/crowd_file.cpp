@@ -167,7 +167,7 @@ Maybe<Limit> read_limit(TomlTable& limits, std::string_view key)
     };
     if (key.ends_with("_cone")) return as_limit(read_cone(limits.table(key)));
     if (key.ends_with("_box")) return as_limit(read_box(limits.table(key)));
-    if (key == "hand_twist") return as_limit(read_twist(limits.table(key)));
+    if (!key.ends_with("_deg")) return as_limit(read_twist(limits.table(key)));
     return as_limit(key == "flexion_deg" ? limits.range(key, 0, 180, 180) : angles(limits, key));
 }
 

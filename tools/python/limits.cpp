@@ -140,13 +140,13 @@ void add_limits(py::module_& module)
         "The elbow's min and max flexion in radians, 0 <= min <= max <= pi: (2,) float32.");
     module.def(
         "cos_sin", [](double angle) { return array_of(cos_sin(angle)); }, py::arg("angle"),
-        "Cosine and sine of an angle in radians, for Field.ANGLE and Field.MAX_SWIVEL: (2,) float32.");
+        "Cosine and sine of an angle in radians, for fields such as Field.ANGLE: (2,) float32.");
     module.def("aim", &aim, py::arg("axis"), py::arg("flexion"),
                "An aim for Field.AIM: the hand's axis (3,), of any length, and the elbow's flexion in radians, 0 to\n"
                "pi: (5,) float32.");
     module.def("mirror", &mirror, py::arg("field"), py::arg("values"), py::arg("order") = 0,
-               "Values of Field.ANGLE or of a limit for the same limbs on the body's other side: (k,) or (n, k)\n"
-               "float32.\n\n"
+               "Values of a limit, or of a turn such as Field.ANGLE, for the same limbs on the body's other side:\n"
+               "(k,) or (n, k) float32.\n\n"
                "order is the EulerOrder of boxes. Values of other input fields are copied: places, hands and poses\n"
                "are for you to mirror. ValueError for results.");
     module.def(

@@ -70,9 +70,12 @@ Json json_of_limb(const CachedLimb& limb, const LimbSkeleton::OfLimb& joints)
         swivel_region region = *setup.region;
         out["region"] = base64_of(std::span<const char>(bytes_behind_size(region)));
     }
-    const swivel_ground& ground = setup.ground;
-    if (setup.has(SWIVEL_WITH_GROUND))
-        out["ground"] = {{"toeClearance", ground.toe_clearance}, {"heelClearance", ground.heel_clearance}};
+    if (setup.has(SWIVEL_WITH_GROUND)) {
+        const swivel_plant plant = setup.standing_plant();
+        const swivel_ground ground = setup.standing_ground();
+        out["plant"] = base64_of(std::span(&plant, 1));
+        out["ground"] = base64_of(std::span(&ground, 1));
+    }
     for (const FixedField& fixed : setup.fields)
         out["fixed"].push_back({{"field", fixed.field}, {"value", fixed.value}});
     return out;

@@ -38,6 +38,14 @@ export function floatsOf(base64) {
     return new Float32Array(bytesOf(base64).buffer);
 }
 
+/** The constants of a structure in base64, which are floats side by side, by the names of their defaults. */
+export function constantsOf(base64, defaults) {
+    const floats = floatsOf(base64);
+    let at = 0;
+    const next = (usual) => (typeof usual === "number" ? floats[at++] : floats.slice(at, at += usual.length));
+    return Object.fromEntries(Object.entries(defaults).map(([name, usual]) => [name, next(usual)]));
+}
+
 /** Of a limb's goal_source in each frame: its hand's rotation, its bones' lengths, its shoulder, and the figure's root, all in the world. */
 export class Sources {
     constructor(bytes) { this.bytes = bytes; }

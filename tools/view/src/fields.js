@@ -6,7 +6,6 @@ import { Feature, Field, OnBadInput } from "swivel-wasm/layout.js";
 
 const NAMES = new Map(Object.entries(Field).map(([name, field]) => [field, name]));
 const ALL = [1, 1, 1];  // weights that say nothing
-const PLANT_RUN = 1, GROUND_HALF = 0;  // as tools/crowd/goals.h has them
 
 /** The crowd file's values, by the field's name. */
 export function fixedOf({ fixed, weights }) {
@@ -48,9 +47,9 @@ export function writeFields(crowd, limb) {
 /** Makes the crowd of these limbs, with their fields. look: how heads look, or null. */
 export function makeCrowd(swivel, skeleton, limbs, look, bodyCount) {
     const groups = limbs.map((limb) => {
-        const { chain: joints, shoulderOrder, wristOrder, region, ground, held } = limb;
+        const { chain: joints, shoulderOrder, wristOrder, region, plant, ground, held } = limb;
         const shape = { joints, features: featuresFor(limb), shoulderOrder, wristOrder, onBadInput: OnBadInput.REST_POSE };
-        return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { ground: { ...ground, halfLife: GROUND_HALF }, plant: { anchorLead: PLANT_RUN } }) };
+        return { ...shape, ...(held >= 0 && { link: held }), ...(region && { region: swivel.region(region) }), ...(ground && { plant, ground }) };
     });
     if (look) groups.push({ look });
     if (limbs.some((limb) => featuresFor(limb) & Feature.WITH_PELVIS_FIT)) groups.push({ shift: {} });

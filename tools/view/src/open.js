@@ -2,7 +2,7 @@
 //
 // From the data that `swivel view` writes to a stage: whether command and page fit each other, and how much memory to take.
 import { instantiate } from "swivel-wasm/instantiate.js";
-import { VERSION } from "swivel-wasm/layout.js";
+import { layout, VERSION } from "swivel-wasm/layout.js";
 import wasm from "view.wasm";
 
 import { byteCountOf, sizeOf } from "./bytes.js";
@@ -23,9 +23,12 @@ function check(data) {
     };
     expect("characters", data.characters, sizeOf("goal_character") * data.character_count);
     if (data.ground) expect("the ground", data.ground.grid, sizeOf("goal_ground"));
-    for (const { name, plan, sources } of askedOf(data)) {
+    for (const { name, plan, sources, plant, ground } of askedOf(data)) {
         expect(`the plan of ${name}`, plan, sizeOf("goal_plan"));
         expect(`the clip of ${name}`, sources, sizeOf("goal_source") * clipFramesOf(data));
+        if (!ground) continue;
+        expect(`the plant of ${name}`, plant, layout.swivel_plant.bytes);
+        expect(`the ground of ${name}`, ground, layout.swivel_ground.bytes);
     }
 }
 

@@ -3,11 +3,11 @@
 // The crowd and its solves: goals by the formula of the command, changes by the user, one solve for all limbs. Knows the
 // solver; nothing is drawn here. World coordinates are the clip's. A character's root is where its pose hangs: it moves along.
 import { SwivelError } from "swivel-wasm/arguments.js";
-import { carried, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.js";
+import { carried, defaultGround, defaultPlant, Feature, featureRules, Field, Flag } from "swivel-wasm/layout.js";
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
-import { bytesOf, floatsOf, givenOf, memberOf, objectsOf, sizeOf, Sources } from "./bytes.js";
+import { bytesOf, constantsOf, floatsOf, givenOf, memberOf, objectsOf, sizeOf, Sources } from "./bytes.js";
 import { dragEveryone, dragOne, dropAllDrags, dropDrags, isShifted, movedParts, moveGoals, NO_SHIFT } from "./drags.js";
 import { featuresFor, fieldOf, fixedOf, makeCrowd, ownWith, writeFields } from "./fields.js";
 import { askedFor, seenGoal, shiftOf } from "./goals.js";
@@ -78,7 +78,8 @@ export class Stage {
         const plan = (member) => memberOf(this.memory.buffer, this.plansAt + index * sizeOf("goal_plan"), "goal_plan", member);
         return {
             index, name: limb.name, joints: limb.joints, features: BigInt(limb.features), region: limb.region && bytesOf(limb.region),
-            shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order, ground: limb.ground,
+            shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order,
+            plant: limb.ground && constantsOf(limb.plant, defaultPlant), ground: limb.ground && constantsOf(limb.ground, defaultGround),
             chain: { shoulder, elbow: shoulder + 1, wrist: shoulder + 2, twistBones, bend },  // in the crowd's skeleton
             fixed: fixedOf(limb),
             own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away; never written to

@@ -152,7 +152,7 @@ export class Crowd extends CrowdRows {
     /** A number for all results: equal results of crowds of one shape have equal digests on every machine. */
     digest(): bigint { return BigInt.asUintN(64, this.memory.calls.swivel_digest(this.crowd)); }
 
-    /** A value of Field.ANGLE or of a limit that this crowd has, for the same limb on the body's other side. order: a box's. */
+    /** A value of a limit that this crowd has, or of a turn such as Field.ANGLE, for the same limb on the body's other side. order: a box's. */
     mirror(field: FieldNumber, value: Numbers, order = 0): Float32Array {
         const components = this.held.reduce((max, _, group) => Math.max(max, this.componentCount(field, group)), 0);
         if (components === 0) refuse(`this crowd has no ${nameOf(field)}; give its feature to crowd()`);

@@ -51,7 +51,7 @@ export class Swivel {
     aim(axis: Numbers, flexion: number): Float32Array {
         return this.memory.result(5, (out, borrowed) => this.memory.calls.swivel_aim(vector("axis", axis, borrowed), flexion, out));
     }
-    /** Cosine and sine of an angle, for Field.ANGLE and Field.MAX_SWIVEL. */
+    /** Cosine and sine of an angle, for fields such as Field.ANGLE. */
     cosSin(angle: number): Float32Array {
         if (!Number.isFinite(angle)) refuse(`the angle is ${shown(angle)}; give radians`);
         return this.memory.result(2, (out) => {

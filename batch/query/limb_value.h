@@ -7,16 +7,15 @@
 #include <cstdint>
 
 #include "batch/crowd/crowd.h"
-#include "core/bit_cast.h"
 #include "core/conformal.h"
 #include "simd/rows.h"
 
 namespace swivel {
 
 struct LimbValue {
-    const float* first;
+    float* first;
 
-    LimbValue(const Group& group, std::uint32_t limb, swivel_field field)
+    LimbValue(const Group& group, std::size_t limb, swivel_field field)
     {
         const bool is_in = is_input(field);
         first = (is_in ? group.input : group.results) +
@@ -33,7 +32,7 @@ struct LimbValue {
     }
 };
 
-inline std::uint32_t flags_of(const Group& group, std::uint32_t limb)
+inline std::uint32_t flags_of(const Group& group, std::size_t limb)
 {
     return bit_cast<std::uint32_t>(LimbValue(group, limb, SWIVEL_FLAGS).number(0));
 }
