@@ -37,21 +37,13 @@ Pose solved(const Arm& arm)
     return {shoulder[0], elbow[0]};
 }
 
-// A vector turned by a quaternion, as all three engines write it in their sources.
-Eigen::Vector3d turned(const Float4& q, const Eigen::Vector3d& v)
-{
-    const Eigen::Vector3d u = vec(q);
-    const double w = static_cast<double>(q[3]);
-    return v + 2 * w * u.cross(v) + 2 * u.cross(u.cross(v));
-}
-
 // The engine's forward kinematics puts elbow and wrist where the picture says.
 void check_pose(const Arm& arm, const Pose& pose, const Eigen::Vector3d& elbow)
 {
     const Eigen::Vector3d got =
-        vec(arm.shoulder) + turned(pose.shoulder, vec(arm.elbow));
+        vec(arm.shoulder) + quat(pose.shoulder) * vec(arm.elbow);
     const Eigen::Vector3d wrist =
-        got + turned(pose.shoulder, turned(pose.elbow, vec(arm.wrist)));
+        got + quat(pose.shoulder) * (quat(pose.elbow) * vec(arm.wrist));
     const double size = vec(arm.elbow).norm() + vec(arm.wrist).norm();
     CHECK((got - elbow).norm() < 1e-6 * size);
     CHECK((wrist - vec(arm.target)).norm() < 1e-6 * size);
@@ -168,9 +160,8 @@ void check_carried(const Arm& engine, Point point, Turn turn)
     CHECK(turn_between(turn(carried.elbow), own.elbow) < 1e-6);
 }
 
-// The page's numbers, which follow from the triangle: of the upper arm's turn all
-// components are +-1 / sqrt 20 or
-// +-3 / sqrt 20, and the elbow makes a right angle.
+// The page's numbers, which follow from the triangle: all components of the upper arm's
+// turn are +-1 / sqrt 20 or +-3 / sqrt 20, and the elbow makes a right angle.
 void check_rotations(const Pose& pose, const Float4& shoulder, const Float4& elbow)
 {
     for (std::size_t i = 0; i < 4; ++i) {
