@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Limits of one rotation on the swivel's circle: a cone, a range of twist, a box of Euler angles. For a given target,
-// each limit requires a cos phi + b sin phi + c >= 0: a line in (cos phi, sin phi), in units of a cosine. A box of
-// Euler angles is a list of alternatives, each of several lines. A limit's room at a swivel is the max over its
-// alternatives of the min over their lines. A swivel with room >= 0 is allowed. Nothing here forms an angle.
+// Limits of one rotation on the swivel's circle: a range of twist, a box of Euler angles. For a given target, each
+// limit requires a cos phi + b sin phi + c >= 0: a line in (cos phi, sin phi), in units of a cosine. A box of Euler
+// angles is a list of alternatives, each of several lines. A limit's room at a swivel is the max over its alternatives
+// of the min over their lines. A swivel with room >= 0 is allowed. Nothing here forms an angle.
 //
 // Sources: swivel-angle intervals, D. Tolani, A. Goswami, N. Badler, Real-time inverse kinematics techniques for
 // anthropomorphic limbs (2000); swing and twist, the rotor's own components.
@@ -18,14 +18,6 @@ template <class T>
 struct Range {
     Turned<T> middle, half;
 };
-
-// An axis carried by the arm stays within a cone about a fixed axis; or a fixed axis stays within a carried cone. The
-// cosine of the angle between the two axes must be at least the opening's.
-template <class T>
-SWIVEL_INLINE constexpr OnCircle<T> cone_limit(const OnCircle<T>& cosine, const T& cos_opening)
-{
-    return cosine - constant(cos_opening);
-}
 
 // The twist of a rotor about an axis stays within a range. w and s are the rotor's scalar part and its part along the
 // axis. With tau the twist and beta the swing, w^2 - s^2 = cos^2(beta/2) cos tau, and 2 w s = cos^2(beta/2) sin tau. So

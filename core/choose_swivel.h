@@ -86,10 +86,6 @@ struct MaxRoom {
     Turned<T> best;
     T best_room, max_room;
 
-    SWIVEL_INLINE constexpr MaxRoom(const Turned<T>& first, const T& its_room)
-        : best(first), best_room(its_room), max_room(its_room)
-    {
-    }
     SWIVEL_INLINE constexpr void consider(const Turned<T>& swivel, const Mask<T>& exists, const T& left)
     {
         max_room = select(exists, hi(left, max_room), max_room);
@@ -144,7 +140,8 @@ template <class T, template <class, int> class Bounds, int Boxes>
 SWIVEL_INLINE constexpr FoundSwivel<T> min_violation(const Bounds<T, Boxes>& limits)
 {
     const Turned<T> wish{T(1), T(0)};
-    MaxRoom<T> found(wish, room(limits, wish));
+    const T first_room = room(limits, wish);
+    MaxRoom<T> found{wish, first_room, first_room};
     for_each_peak(limits, [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_OUT_OF_LINE_LAMBDA {
         if (any(exists)) found.consider(swivel, exists, room(limits, swivel));
     });

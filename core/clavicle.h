@@ -20,13 +20,11 @@ SWIVEL_INLINE constexpr Rotor<T> clavicle_rotation(const Vector<T>& bone, const 
     const Vector<T> a = scaled(bone), b = scaled(target), axis = share * cross(a, b);
     const T lengths = sqrt(len2(a) * len2(b)), cos = scalar_product(a, b);
     const T rest = T(1) - share;
-    const Rotor<T> turn = rotor(axis.template at<kE1>(), axis.template at<kE2>(), axis.template at<kE3>(),
-                                (rest + rest) * lengths + share * (lengths + cos));
+    const Rotor<T> turn = rotor(axis, (rest + rest) * lengths + share * (lengths + cos));
     // 1e-12: a hundred times what rounding leaves of a whole share straight behind.
     const Mask<T> turns =
         (len2(turn) > T(1e-12) * (lengths * lengths)) & (len2(bone) >= T(kTiny2)) & (len2(target) >= T(kTiny2));
-    const Rotor<T> none = rotor(T(0), T(0), T(0), T(1));
-    return normalise(select(turns, turn, none));
+    return normalise(select(turns, turn, one<T>()));
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -45,6 +45,18 @@ SWIVEL_ALWAYS_INLINE constexpr Rotor<T> rotor(const T& x, const T& y, const T& z
     q.template at<kScalar>() = w;
     return q;
 }
+// The same quaternion from the vector x e1 + y e2 + z e3.
+template <class T>
+SWIVEL_ALWAYS_INLINE constexpr Rotor<T> rotor(const Vector<T>& v, const T& w)
+{
+    return rotor(v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>(), w);
+}
+// The vector x e1 + y e2 + z e3 of the quaternion w + xi + yj + zk.
+template <class T>
+SWIVEL_ALWAYS_INLINE constexpr Vector<T> vector_part(const Rotor<T>& q)
+{
+    return {q.template at<kI>(), q.template at<kJ>(), q.template at<kK>()};
+}
 
 // cos + sin i.
 template <class T>
@@ -133,19 +145,14 @@ SWIVEL_ALWAYS_INLINE constexpr Turn<T> turn_by(const Rotor<T>& q)
             vector(xz + wy, yz - wx, odd - along), odd + along};
 }
 
-// One of the two quaternions of a rotation: q, or -q where leading is negative.
-template <class T>
-SWIVEL_ALWAYS_INLINE constexpr Rotor<T> with_sign_of(const T& leading, const Rotor<T>& q)
-{
-    return flip_sign(q, leading);
-}
-// The one with w >= 0, and at w = 0 with the first of x, y, z that is not zero positive.
+// The one of a rotation's two quaternions, q and -q, that has w >= 0. At w = 0, its first component of x, y, z that is
+// not zero is positive.
 template <class T>
 SWIVEL_ALWAYS_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
 {
     const T zero = T(0), x = q.template at<kI>(), y = q.template at<kJ>(), w = q.template at<kScalar>();
     const T among_xyz = select(x == zero, select(y == zero, q.template at<kK>(), y), x);
-    return with_sign_of(select(w == zero, among_xyz, w), q);
+    return flip_sign(q, select(w == zero, among_xyz, w));
 }
 
 // No rotation.

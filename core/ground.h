@@ -42,14 +42,6 @@ SWIVEL_INLINE constexpr GroundPlane<T> ground_plane(const Vector<T>& place, cons
     return {place, unit, rise, exists};
 }
 
-// The plane through the same point with another normal, such as that of a foot in the air.
-template <class T>
-SWIVEL_INLINE constexpr GroundPlane<T> leaning(const GroundPlane<T>& ground, const Vector<T>& normal,
-                                               const Vector<T>& up)
-{
-    return ground_plane(ground.place, normal, up);
-}
-
 // Raises the anchors of points that lock in this step by `way`, to their clearance over the ground. Their targets stay,
 // because their offsets fall by as much. up: in the support's frame.
 template <class T>
@@ -72,13 +64,12 @@ template <class T>
 SWIVEL_INLINE constexpr Rotor<T> no_further(const Rotor<T>& turn, const T& cos_half, const T& sin_half)
 {
     // By the sine: cosines do not tell small angles apart.
-    const Vector<T> v = vector(turn.template at<kI>(), turn.template at<kJ>(), turn.template at<kK>());
+    const Vector<T> v = vector_part(turn);
     const T length2 = len2(v);
     const Mask<T> is_further = length2 > sin_half * sin_half;
     if (!any(is_further)) return turn;
     const Vector<T> axis = (sin_half / sqrt(select(is_further, length2, T(1)))) * v;
-    return select(is_further,
-                  rotor(axis.template at<kE1>(), axis.template at<kE2>(), axis.template at<kE3>(), cos_half), turn);
+    return select(is_further, rotor(axis, cos_half), turn);
 }
 
 // The turn that lifts one end of a foot to the wanted height along the normal. The end moves up a circle about the
@@ -97,7 +88,8 @@ SWIVEL_INLINE constexpr Rotor<T> lifting_turn(const Mask<T>& counts, const Vecto
 }
 
 // Turns the foot with the ground by a share of 0 to 1, and keeps toe and heel at their clearances or higher.
-// slope: the plane that the foot turns with and its heel stays above: the ground, or leaning() of it.
+// slope: the plane that the foot turns with and its heel stays above: the ground, or for a foot in the air a plane
+// through the same point with another normal.
 // heel_from_toe: in the foot's frame, in the world's unit. Clearances are in the same unit.
 template <class T>
 SWIVEL_INLINE constexpr Foot<T> foot_on_ground(const GroundPlane<T>& ground, const GroundPlane<T>& slope,

@@ -22,17 +22,11 @@ SWIVEL_INLINE constexpr T with_one_nan(const T& x)
 {
     return select(x == x, x, T(__builtin_nan("")));
 }
-template <class T>
-SWIVEL_INLINE constexpr Vector<T> with_one_nan(const Vector<T>& v)
+template <class T, BladeSet S>
+SWIVEL_INLINE constexpr Mv<T, S> with_one_nan(Mv<T, S> m)
 {
-    return vector(with_one_nan(v.template at<kE1>()), with_one_nan(v.template at<kE2>()),
-                  with_one_nan(v.template at<kE3>()));
-}
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> with_one_nan(const Rotor<T>& q)
-{
-    return rotor(with_one_nan(q.template at<kI>()), with_one_nan(q.template at<kJ>()),
-                 with_one_nan(q.template at<kK>()), with_one_nan(q.template at<kScalar>()));
+    for (T& x : m.c) x = with_one_nan(x);
+    return m;
 }
 
 // Whether a rotation is unit but for the rounding of kinematics.
@@ -66,8 +60,7 @@ SWIVEL_INLINE constexpr Vector<T> or_nan(const Mask<T>& valid, const Vector<T>& 
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> turned(const Rotor<T>& q, const Vector<T>& v)
 {
-    const Vector<T> u = vector(q.template at<kI>(), q.template at<kJ>(), q.template at<kK>());
-    const Vector<T> once = cross(u, v), twice = once + once;
+    const Vector<T> u = vector_part(q), once = cross(u, v), twice = once + once;
     return v + q.template at<kScalar>() * twice + cross(u, twice);
 }
 

@@ -36,14 +36,6 @@ struct SwivellingArm {
     Rotor<T> hand;  // orientation, in the arm frame
 };
 
-// The component of a rotor that turns about the axis: the dot product of the axis and the rotor's vector part.
-template <class T>
-SWIVEL_INLINE constexpr T about(const Vector<T>& axis, const Rotor<T>& q)
-{
-    return axis.template at<kE1>() * q.template at<kI>() + axis.template at<kE2>() * q.template at<kJ>() +
-           axis.template at<kE3>() * q.template at<kK>();
-}
-
 // A fixed vector, in the line's frame.
 template <class T, class Lift, class V>
 SWIVEL_INLINE constexpr Vector<T> in_line(const SwivellingArm<T, Lift>& arm, const V& v)
@@ -64,20 +56,6 @@ SWIVEL_INLINE constexpr auto forearm_of(const SwivellingArm<T, Lift>& arm)
     return arm.to_arm * arm.elbow;
 }
 
-template <class T, class Lift>
-SWIVEL_INLINE constexpr OnCircle<T> shoulder_cone_limit(const SwivellingArm<T, Lift>& arm, const Cone<T>& cone)
-{
-    return cone_limit(per_size(arm) * inner(in_line(arm, cone.axis), sandwich(arm.to_arm, unit<T, kE3>())),
-                      cone.cos_opening);
-}
-template <class T, class Lift>
-SWIVEL_INLINE constexpr OnCircle<T> hand_cone_limit(const SwivellingArm<T, Lift>& arm, const Cone<T>& cone)
-{
-    return cone_limit(
-        per_size(arm) * inner(in_line(arm, sandwich(arm.hand, cone.axis)), sandwich(forearm_of(arm), unit<T, kE3>())),
-        cone.cos_opening);
-}
-
 // Twists come from products of a rotor's components. Near a swing of half a turn all of them are small, and sums of a
 // matrix's entries would leave their rounding errors.
 template <class T>
@@ -85,15 +63,12 @@ struct Twisting {
     Rotor<T> at_0, at_pi;  // the rotor that twists, at phi = 0 and at pi
     T per_size;
 
-    // s: the rotor's part along the twist's axis.
-    SWIVEL_INLINE constexpr OnCircle<T> limit(const OnHalfCircle<T>& s, const Range<T>& range) const
+    template <class Axis>
+    SWIVEL_INLINE constexpr OnCircle<T> limit(const Axis& axis, const Range<T>& range) const
     {
-        const OnHalfCircle<T> w{at_0.template at<kScalar>(), at_pi.template at<kScalar>()};
+        const OnHalfCircle<T> w{at_0.template at<kScalar>(), at_pi.template at<kScalar>()},
+            s{scalar_product(axis, vector_part(at_0)), scalar_product(axis, vector_part(at_pi))};
         return per_size * twist_limit(w, s, range);
-    }
-    SWIVEL_INLINE constexpr OnHalfCircle<T> along_e3() const
-    {
-        return {at_0.template at<kK>(), at_pi.template at<kK>()};
     }
 };
 template <class T, class Lift>
@@ -110,59 +85,45 @@ SWIVEL_INLINE constexpr Twisting<T> wrist_twisting(const SwivellingArm<T, Lift>&
     const Rotor<T> hand = ~from_line * arm.hand;
     return {~forearm * hand, ~forearm * ~unit<T, kK>() * hand, per_size(arm) / len2(from_line)};
 }
-template <class T, class Lift>
-SWIVEL_INLINE constexpr OnCircle<T> humeral_twist_limit(const SwivellingArm<T, Lift>& arm, const Range<T>& range)
-{
-    const Twisting<T> twisting = upper_arm_twisting(arm);
-    return twisting.limit(twisting.along_e3(), range);
-}
-template <class T, class Lift>
-SWIVEL_INLINE constexpr OnCircle<T> forearm_twist_limit(const SwivellingArm<T, Lift>& arm, const Range<T>& range)
-{
-    const Twisting<T> twisting = wrist_twisting(arm);
-    return twisting.limit(twisting.along_e3(), range);
-}
-template <class T, class Lift>
-SWIVEL_INLINE constexpr OnCircle<T> hand_twist_limit(const SwivellingArm<T, Lift>& arm, const Twist<T>& twist)
-{
-    const Twisting<T> twisting = wrist_twisting(arm);
-    return twisting.limit({about(twist.axis, twisting.at_0), about(twist.axis, twisting.at_pi)}, twist.range);
-}
 
 // The limits that are one line each, by field. An arm has one box for each joint.
+//
+// The upper arm stays within a cone about a fixed axis, the forearm within one that goes with the hand: the cosine of
+// the angle to the axis must be at least the opening's.
 inline constexpr int kMaxLines = 5, kMaxBoxes = 2;
-template <swivel_field limit, class Arm, class Value>
-SWIVEL_INLINE constexpr auto limit_line(const Arm& arm, const Value& value)
+template <swivel_field limit, class T, class Lift, class Value>
+SWIVEL_INLINE constexpr OnCircle<T> limit_line(const SwivellingArm<T, Lift>& arm, const Value& value)
 {
-    if constexpr (limit == SWIVEL_SHOULDER_CONE) return shoulder_cone_limit(arm, value);
-    if constexpr (limit == SWIVEL_HUMERAL_TWIST) return humeral_twist_limit(arm, value);
-    if constexpr (limit == SWIVEL_HAND_CONE) return hand_cone_limit(arm, value);
-    if constexpr (limit == SWIVEL_FOREARM_TWIST) return forearm_twist_limit(arm, value);
-    if constexpr (limit == SWIVEL_HAND_TWIST) return hand_twist_limit(arm, value);
+    if constexpr (limit == SWIVEL_SHOULDER_CONE) {
+        const auto upper_arm = sandwich(arm.to_arm, unit<T, kE3>());
+        return per_size(arm) * inner(in_line(arm, value.axis), upper_arm) - constant(value.cos_opening);
+    } else if constexpr (limit == SWIVEL_HAND_CONE) {
+        const auto forearm = sandwich(forearm_of(arm), unit<T, kE3>());
+        const Vector<T> axis = in_line(arm, sandwich(arm.hand, value.axis));
+        return per_size(arm) * inner(axis, forearm) - constant(value.cos_opening);
+    } else if constexpr (limit == SWIVEL_HUMERAL_TWIST) {
+        return upper_arm_twisting(arm).limit(unit<T, kE3>(), value);
+    } else if constexpr (limit == SWIVEL_FOREARM_TWIST) {
+        return wrist_twisting(arm).limit(unit<T, kE3>(), value);
+    } else {
+        static_assert(limit == SWIVEL_HAND_TWIST);
+        return wrist_twisting(arm).limit(value.axis, value.range);
+    }
 }
 
 // The entries of the matrix whose rows are fixed axes, and whose columns turn with the arm.
-template <class T>
-struct TurningMatrix {
-    Vector<T> row[3];  // in the line's frame
-    T per_size;
-    template <class Turning>
-    SWIVEL_INLINE constexpr OnCircle<T> entry(int at, const Turning& column) const
-    {
-        return per_size * inner(row[at], column);
-    }
-};
 template <class T, class Lift, class Turning>
 SWIVEL_INLINE constexpr auto turning_matrix(const SwivellingArm<T, Lift>& arm, const auto& e1, const auto& e2,
                                             const auto& e3, const Turning& turning)
 {
-    const TurningMatrix<T> matrix{{in_line(arm, e1), in_line(arm, e2), in_line(arm, e3)}, per_size(arm)};
+    const Vector<T> rows[3] = {in_line(arm, e1), in_line(arm, e2), in_line(arm, e3)};  // in the line's frame
+    const T size = per_size(arm);
     const auto column1 = sandwich(turning, unit<T, kE1>());
     const auto column2 = sandwich(turning, unit<T, kE2>());
     const auto column3 = sandwich(turning, unit<T, kE3>());
     return [=](int row, int column) SWIVEL_INLINE_LAMBDA {
-        if (column == 0) return matrix.entry(row, column1);
-        return column == 1 ? matrix.entry(row, column2) : matrix.entry(row, column3);
+        if (column == 0) return size * inner(rows[row], column1);
+        return column == 1 ? size * inner(rows[row], column2) : size * inner(rows[row], column3);
     };
 }
 template <class T, class Lift>

@@ -18,15 +18,20 @@ struct PlacedBones {
     Word<T> flags;
 };
 
-// The distances that the elbow's flexion allows: with flexion theta, d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
+// The distance from shoulder to wrist with flexion theta: d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
+template <class T>
+SWIVEL_INLINE constexpr T bent_reach(const T& upper, const T& fore, const T& cos_half)
+{
+    const T difference = upper - fore;
+    return sqrt(difference * difference + T(4) * (upper * fore) * (cos_half * cos_half));
+}
+// The distances that the elbow's flexion allows.
 template <class T>
 SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const FlexionLimit<T>& limit, const T& upper, const T& fore,
                                                     const T& near, const T& far)
 {
-    const T near2 = near * near, product4 = T(4) * (upper * fore);
-    const auto distance = [&](const T& cos_half) SWIVEL_INLINE_LAMBDA {
-        return lo(hi(sqrt(near2 + product4 * (cos_half * cos_half)), near), far);
-    };
+    const auto distance = [&](const T& cos_half)
+                              SWIVEL_INLINE_LAMBDA { return lo(hi(bent_reach(upper, fore, cos_half), near), far); };
     return {select(limit.cos_half_max > T(0), distance(limit.cos_half_max), near),
             select(limit.cos_half_min < T(1), distance(limit.cos_half_min), far), T(0), T(0), T(1)};
 }

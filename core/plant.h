@@ -11,8 +11,8 @@
 // waits for the next step to measure the animation's speed.
 #pragma once
 
+#include "core/group_rules.h"
 #include "core/joint_frame.h"
-#include "core/plant_rules.h"
 
 namespace swivel::inline SWIVEL_ISA {
 

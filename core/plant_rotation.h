@@ -20,13 +20,12 @@ SWIVEL_INLINE constexpr Vector<T> half_tangent(const Rotor<T>& q)
 {
     const T w = q.template at<kScalar>(), per = flip_sign(T(1) / hi(abs(w), T(1e-6)), w);
     Mask<T> longer = no_lanes<T>();
-    return at_most(per * vector(q.template at<kI>(), q.template at<kJ>(), q.template at<kK>()), T(3.7320508075688772),
-                   all_lanes<T>(), longer);
+    return at_most(per * vector_part(q), T(3.7320508075688772), all_lanes<T>(), longer);
 }
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> from_half_tangent(const Vector<T>& g)
 {
-    return normalise(rotor(g.template at<kE1>(), g.template at<kE2>(), g.template at<kE3>(), T(1)));
+    return normalise(rotor(g, T(1)));
 }
 
 // The rotation that goes with plant()'s target. animated: in the support's frame, of unit length. locked: after the

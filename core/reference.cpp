@@ -103,12 +103,17 @@ void write_vector(const Multivector& v, double out[3])
     out[2] = scalar(dot(v, e3));
 }
 
-ReferencePose solve_in_plane(const Multivector& p_w, const Multivector& pi_swivel, double L1, double L2)
+}  // namespace
+
+ReferencePose solve_reference(const ReferenceArm& arm)
 {
-    const Multivector p_e = elbow_point(p_w, pi_swivel, L1, L2);
+    const Multivector p_w = point(vector(arm.wrist[0], arm.wrist[1], arm.wrist[2]));
+    const Multivector p_pole = point(vector(arm.pole[0], arm.pole[1], arm.pole[2]));
+    const Multivector pi = swivel_plane(p_pole, p_w), pi_swivel = pi / norm(pi);
+    const Multivector p_e = elbow_point(p_w, pi_swivel, arm.upper, arm.fore);
     const double c4 = cosine_of_flexion(p_e, p_w);
     const Multivector q_e = elbow_quaternion(c4);
-    const Multivector l_M = middle_line(p_e, L1);
+    const Multivector l_M = middle_line(p_e, arm.upper);
     const Multivector q12 = middle_quaternion(l_M);
     const Multivector q3 = twist_quaternion(q12, pi_swivel);
     // q_s = q12 q3
@@ -122,23 +127,6 @@ ReferencePose solve_in_plane(const Multivector& p_w, const Multivector& pi_swive
     write_quaternion(q3, pose.twist_rotor);
     write_quaternion(q_s, pose.shoulder_rotor);
     return pose;
-}
-
-}  // namespace
-
-ReferencePose solve_reference(const ReferenceArm& arm)
-{
-    const Multivector p_w = point(vector(arm.wrist[0], arm.wrist[1], arm.wrist[2]));
-    const Multivector p_pole = point(vector(arm.pole[0], arm.pole[1], arm.pole[2]));
-    const Multivector pi_swivel = swivel_plane(p_pole, p_w);
-    return solve_in_plane(p_w, pi_swivel / norm(pi_swivel), arm.upper, arm.fore);
-}
-
-ReferencePose solve_reference_for_normal(const double wrist[3], const double normal[3], double upper, double fore)
-{
-    const Multivector p_w = point(vector(wrist[0], wrist[1], wrist[2]));
-    const Multivector n = vector(normal[0], normal[1], normal[2]);
-    return solve_in_plane(p_w, plane(n / norm(n), 0), upper, fore);
 }
 
 }  // namespace swivel

@@ -35,10 +35,4 @@ struct ReferencePose {
 // Rotations that put the wrist on its target. Allocates nothing; threads may call it together; about 0.1 ms.
 ReferencePose solve_reference(const ReferenceArm& arm);
 
-// The same with the swivel plane given by its normal, p_w x pole up to length.
-//   wrist: target, as in ReferenceArm
-//   normal: orthogonal to wrist, any length but 0
-//   upper, fore: bone lengths
-ReferencePose solve_reference_for_normal(const double wrist[3], const double normal[3], double upper, double fore);
-
 }  // namespace swivel

@@ -17,12 +17,6 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-template <class T>
-SWIVEL_INLINE constexpr T axis_of(const swivel_half_space& half, int n)
-{
-    return T(half.axis[n]);
-}
-
 // How much room each half-space leaves: room_of(n) is that of the nth.
 template <class T, class RoomOf>
 SWIVEL_INLINE constexpr T room_of_parts(const swivel_region& region, const RoomOf& room_of)
@@ -44,7 +38,7 @@ SWIVEL_INLINE constexpr T room(const swivel_region& region, const Vector<T>& dir
     const T x = direction.template at<kE1>(), y = direction.template at<kE2>(), z = direction.template at<kE3>();
     return room_of_parts<T>(region, [&](std::uint32_t n) SWIVEL_INLINE_LAMBDA {
         const swivel_half_space& half = region.half_space[n];
-        return axis_of<T>(half, 0) * x + axis_of<T>(half, 1) * y + axis_of<T>(half, 2) * z - T(half.cosine);
+        return T(half.axis[0]) * x + T(half.axis[1]) * y + T(half.axis[2]) * z - T(half.cosine);
     });
 }
 
@@ -57,7 +51,7 @@ struct RegionOnCircle {
     SWIVEL_INLINE constexpr OnCircle<T> line(std::uint32_t n) const
     {
         const swivel_half_space& half = region->half_space[n];
-        return axis_of<T>(half, 0) * x + axis_of<T>(half, 1) * y + axis_of<T>(half, 2) * z - constant(T(half.cosine));
+        return T(half.axis[0]) * x + T(half.axis[1]) * y + T(half.axis[2]) * z - constant(T(half.cosine));
     }
 };
 // Where the upper arm points.
@@ -75,26 +69,21 @@ SWIVEL_INLINE constexpr T room(const RegionOnCircle<T>& on, const Turned<T>& swi
     return room(*on.region, vector(on.x.at(swivel), on.y.at(swivel), on.z.at(swivel)));
 }
 
-// Calls take(end, exist) for all places where an arc within the region can end.
+// Calls take(swivel, exist) for the two places where a line crosses zero.
+template <class T, class Take>
+SWIVEL_INLINE constexpr void for_crossings(const OnCircle<T>& x, const Take& take)
+{
+    const Crossings<T> both = crossings(x);
+    take(both.first, both.exist);
+    take(both.second, both.exist);
+}
+// The same for all places where an arc within the region can end.
 template <class T, class Take>
 SWIVEL_INLINE constexpr void for_each_end(const RegionOnCircle<T>& on, const Take& take)
 {
     const std::uint32_t count = on.region->first[on.region->part_count];
-    for (std::uint32_t n = 0; n < count; ++n) {
-        if (on.region->half_space[n].is_edge == 0) continue;
-        const Crossings<T> ends = crossings(on.line(n));
-        take(ends.first, ends.exist);
-        take(ends.second, ends.exist);
-    }
-}
-
-// Calls take(swivel, exists) where two lines are equal.
-template <class T, class Take>
-SWIVEL_INLINE constexpr void for_equal(const OnCircle<T>& x, const OnCircle<T>& y, const Take& take)
-{
-    const Crossings<T> equal = crossings(x - y);
-    take(equal.first, equal.exist);
-    take(equal.second, equal.exist);
+    for (std::uint32_t n = 0; n < count; ++n)
+        if (on.region->half_space[n].is_edge != 0) for_crossings(on.line(n), take);
 }
 // The same for all places where the region's room can peak: where a half-space's line peaks, or where two lines are
 // equal, of one part, of two cuts, or of a part and a cut.
@@ -108,8 +97,8 @@ SWIVEL_INLINE constexpr void for_each_peak(const RegionOnCircle<T>& on, const Ta
         const Mask<T> peaks = r2 > T(kFlat2);
         const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
         take(Turned<T>{per_r * line.a, per_r * line.b}, peaks);
-        for (std::uint32_t cut = 0; cut < n && cut < region.cut_count; ++cut) for_equal(line, on.line(cut), take);
-        for (std::uint32_t m = part_first; m < n; ++m) for_equal(line, on.line(m), take);
+        for (std::uint32_t cut = 0; cut < n && cut < region.cut_count; ++cut) for_crossings(line - on.line(cut), take);
+        for (std::uint32_t m = part_first; m < n; ++m) for_crossings(line - on.line(m), take);
     };
     for (std::uint32_t n = 0; n < region.cut_count; ++n) take_peaks(n, n);
     for (std::uint32_t part = 0; part < region.part_count; ++part)
@@ -159,8 +148,8 @@ SWIVEL_INLINE constexpr void for_each_peak(const LimitsInRegion<T, Boxes>& both,
                 take(swivel, exists & edge[m].live());
             };
             const OnCircle<T> other = edge[m].line();
-            if (edge[m].front > 0 || edge[m].back > 0) for_equal(line, other, take_live);
-            if (edge[m].front < 0 || edge[m].back < 0) for_equal(line, T(-1) * other, take_live);
+            if (edge[m].front > 0 || edge[m].back > 0) for_crossings(line - other, take_live);
+            if (edge[m].front < 0 || edge[m].back < 0) for_crossings(line + other, take_live);
         }
     }
 }

@@ -109,9 +109,6 @@ SWIVEL_INLINE constexpr BentElbow<T> bend_elbow(const FrameStart<T>& start, cons
             holds};
 }
 
-// The square root of 1/2.
-inline constexpr double kRootOfHalf = 0.707106781186547524;
-
 // Stage 3: the shoulder's rotor. One root divides all lengths out.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> turn_shoulder(const Vector<T>& wrist, const SwivelPlane<T>& plane,
@@ -121,6 +118,7 @@ SWIVEL_INLINE constexpr Rotor<T> turn_shoulder(const Vector<T>& wrist, const Swi
         frame_from_start(wrist, plane.start, plane.per_length2, plane.normal, plane.normal_length);
     // Half the squared length of the rotor before it is scaled; the lift comes last.
     const T half2 = (plane.start.middle_half2() * frame.twist_len2) * elbow.lift2;
+    constexpr double kRootOfHalf = 0.707106781186547524;
     return (T(kRootOfHalf) / sqrt(half2)) * (frame.from_start * elbow.lift);
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/arm.h"
-#include "core/plant_rules.h"
+#include "core/group_rules.h"
 
 namespace swivel::inline SWIVEL_ISA {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The wrist's place and the hand's orientation that a goal asks for, and the line from the shoulder to that place.
-// Everything is in the arm frame.
+// The wrist's place and the hand's orientation that a goal asks for, the line from the shoulder to that place, and a
+// hand that yields where the wrist misses it. Everything is in the arm frame.
 #pragma once
 
+#include "core/clavicle.h"
 #include "core/limb_goal.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -61,6 +62,29 @@ SWIVEL_INLINE constexpr WristLine<T> wrist_line(const Vector<T>& wrist)
     const T distance = sqrt(select(on_shoulder, T(1), wrist2));
     return {select(on_shoulder, vector(T(0), T(0), T(1)), (T(1) / distance) * wrist),
             select(on_shoulder, T(0), distance), on_shoulder};
+}
+
+// In limb lengths: a wrist this near to its place is at its place (SWIVEL_REACHED).
+inline constexpr double kAtItsPlace = 1e-6;
+
+// Whether the wrist misses its place. missing: from the wrist to its place. length: of the limb.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> misses_its_place(const Vector<T>& missing, const T& length)
+{
+    const T min = T(kAtItsPlace) * length;
+    return len2(missing) > min * min;
+}
+// A hand that yields: where the wrist misses its place, the least turn about the wrist brings the effector nearest to
+// its target, onto the line from the wrist. So a heel lifts where the leg is too short for the toe. A target straight
+// behind has no shorter way round, and nothing turns. hand: of unit length.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> yielding_hand(const Rotor<T>& hand, const Vector<T>& effector,
+                                               const Vector<T>& missing, const T& length)
+{
+    const Mask<T> misses = misses_its_place(missing, length);
+    if (!any(misses)) return hand;
+    const Vector<T> from_wrist = sandwich(hand, effector);
+    return select(misses, clavicle_rotation(from_wrist, from_wrist + missing, T(1)) * hand, hand);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -121,17 +121,24 @@ Vector<double> reachable(const ArmGoal<float>& goal)
 struct FloatErrors {
     Error wrist, plane, length;
 
-    void add(const ArmGoal<float>& goal)
+    // Measures the wrist and the lengths of rotors, and returns the pose with rotors of unit length. There is no wrist
+    // to measure where the target is on the shoulder or the bones have no length.
+    ArmPose<double> add_wrist(const ArmGoal<float>& goal)
     {
         const ArmPose<float> pose = solve_arm(goal);
-        const Rotor<double> shoulder = to_double(hemisphere(pose.shoulder));
+        const Rotor<double> shoulder = to_double(pose.shoulder);
         const double halves = std::hypot(double{pose.cos_half}, double{pose.sin_half});
         length.add(std::max(std::fabs(std::sqrt(len2(shoulder)) - 1), std::fabs(halves - 1)));
 
         const ArmPose<double> exact{normalise(shoulder), pose.cos_half / halves, pose.sin_half / halves, 0, true};
         const double upper = goal.upper, fore = goal.fore;
-        wrist.add(std::sqrt(len2(wrist_of(exact, upper, fore) - reachable(goal))) / (upper + fore));
-
+        if (len2(convert<double>(goal.wrist)) >= kTiny2 && upper + fore > 0)
+            wrist.add(std::sqrt(len2(wrist_of(exact, upper, fore) - reachable(goal))) / (upper + fore));
+        return exact;
+    }
+    void add(const ArmGoal<float>& goal)
+    {
+        const ArmPose<double> exact = add_wrist(goal);
         // How far the hinge is from the swivel plane's normal, times the sine by which the normal loses digits.
         const Vector<double> line = normalise(convert<double>(goal.wrist)),
                              pole = normalise(convert<double>(goal.pole));
@@ -197,28 +204,17 @@ void verify_hard(Report& report)
 {
     const float places[] = {-2, -1, -1e-7f, 0, 1e-15f, 3e-12f, 0.5f, 1, 2, 1e15f};
     const float bones[] = {0, 1e-15f, 3e-12f, 1e-3f, 1, 1.0000001f, 1e15f};
-    Error wrist, length;
+    FloatErrors errors;
     for (const float x : places)
         for (const float y : places)
             for (const float z : places)
                 for (const float upper : bones)
                     for (const float fore : bones)
-                        for (const float side : {-1.0f, 0.0f, 1e-3f, 1.0f}) {
-                            const ArmGoal<float> goal{vector(x * 0.5f, y * 0.5f, z * 0.5f),
-                                                      vector(x * 0.5f, side, z * 0.5f), upper, fore};
-                            const ArmPose<float> pose = solve_arm(goal);
-                            const Rotor<double> q = to_double(pose.shoulder);
-                            const double halves = std::hypot(double{pose.cos_half}, double{pose.sin_half});
-                            length.add(std::max(std::fabs(std::sqrt(len2(q)) - 1), std::fabs(halves - 1)));
-                            if (len2(convert<double>(goal.wrist)) < kTiny2 || !(upper + fore > 0)) continue;
-                            const ArmPose<double> exact{normalise(q), pose.cos_half / halves, pose.sin_half / halves, 0,
-                                                        true};
-                            const Vector<double> missed =
-                                wrist_of(exact, double{upper}, double{fore}) - reachable(goal);
-                            wrist.add(std::sqrt(len2(missed)) / (double{upper} + fore));
-                        }
-    report("production<float>, wrist to target", "hard poses", wrist, 1e-6, 0);
-    report("production<float>, rotor lengths", "hard poses", length, 1e-6, 0);
+                        for (const float side : {-1.0f, 0.0f, 1e-3f, 1.0f})
+                            errors.add_wrist(
+                                {vector(x * 0.5f, y * 0.5f, z * 0.5f), vector(x * 0.5f, side, z * 0.5f), upper, fore});
+    report("production<float>, wrist to target", "hard poses", errors.wrist, 1e-6, 0);
+    report("production<float>, rotor lengths", "hard poses", errors.length, 1e-6, 0);
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/look_rules.h"
-#include "core/plant_rules.h"
+#include "core/group_rules.h"
 #include "simd/fields.h"
 
 namespace swivel {

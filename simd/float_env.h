@@ -21,8 +21,7 @@ namespace swivel {
 class FloatEnv {
 public:
     // registers: the numbers that the caller has by value. Compilers take the environment for constant, so they would
-    // compute with these before it is set. Memory is read after that, and results are written before the
-    // end.
+    // compute with these before it is set. Memory is read after that, and results are written before the end.
     template <class... Numbers>
     explicit FloatEnv(Numbers&... registers)
     {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The functions that a build for one instruction set gives. Plain arms have one for each set of features, whole
-// limbs one that takes a list of stages. Nothing here knows lanes.
+// The functions that a build for one instruction set gives. Plain arms have one for each set of features, whole limbs
+// one that takes a list of stages. Nothing here knows lanes.
 #pragma once
 
 #include <cstddef>

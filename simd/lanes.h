@@ -171,8 +171,8 @@ struct Registers<xsimd::neon64> : VectorRegisters<xsimd::neon64> {
 };
 #endif
 
-// Lanes, their masks and their words consist of a register for each N. Copies go register by register. g++ would
-// copy the array as one piece of memory, through general registers.
+// Lanes, their masks and their words consist of a register for each N. Copies go register by register. g++ would copy
+// the array as one piece of memory, through general registers.
 #define SWIVEL_LANES_REGISTERS(Type, Register)                                           \
     Register r[sizeof...(N)];                                                            \
     Type() = default;                                                                    \

@@ -32,8 +32,8 @@ SWIVEL_ALWAYS_INLINE constexpr LaneBlocks blocks_of(std::uint32_t row_count)
 }
 
 // The rows of one slice of T's lanes: the places of its first lane in the first input row and in the first result row.
-// A slice covers whole blocks or lies in one. So every other place is a constant away. A slice of runtime
-// features lies in one.
+// A slice covers whole blocks or lies in one. So every other place is a constant away. A slice of runtime features lies
+// in one.
 template <class T, swivel_features Features>
 struct Rows {
     static_assert(Features != kRuntimeFeatures || lane_count<T> <= kLanes);
@@ -48,37 +48,26 @@ struct Rows {
             Features == kRuntimeFeatures ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
         return first + static_cast<std::uint32_t>(component);
     }
-    SWIVEL_ALWAYS_INLINE const float* input_at(swivel_field field, int component) const
+    // Where an input or a result lies, and how its lanes lie in blocks.
+    SWIVEL_ALWAYS_INLINE const float* at(swivel_field field, int component) const
     {
-        return input + std::size_t{row(field, component)} * kLanes;
+        return (is_input(field) ? input : results) + std::size_t{row(field, component)} * kLanes;
     }
-    SWIVEL_ALWAYS_INLINE float* result_at(swivel_field field, int component) const
+    SWIVEL_ALWAYS_INLINE static constexpr LaneBlocks blocks(swivel_field field)
     {
-        return results + std::size_t{row(field, component)} * kLanes;
+        return blocks_of(is_input(field) ? kPlan<Features>.input_count : kPlan<Features>.result_count);
     }
     SWIVEL_ALWAYS_INLINE T load(swivel_field field, int component) const
     {
-        return load_lanes<T>(input_at(field, component), kInputs);
+        return load_lanes<T>(at(field, component), blocks(field));
     }
     SWIVEL_ALWAYS_INLINE Vector<T> load_vector(swivel_field field, int first = 0) const
     {
-        return load_vector_rows<T>(input_at(field, first), kInputs);
+        return load_vector_rows<T>(at(field, first), blocks(field));
     }
     SWIVEL_ALWAYS_INLINE Rotor<T> load_rotor(swivel_field field, int first = 0) const
     {
-        return load_rotor_rows<T>(input_at(field, first), kInputs);
-    }
-    SWIVEL_ALWAYS_INLINE T load_result(swivel_field field, int component) const
-    {
-        return load_lanes<T>(result_at(field, component), kResults);
-    }
-    SWIVEL_ALWAYS_INLINE Vector<T> load_result_vector(swivel_field field, int first) const
-    {
-        return load_vector_rows<T>(result_at(field, first), kResults);
-    }
-    SWIVEL_ALWAYS_INLINE Rotor<T> load_result_rotor(swivel_field field, int first) const
-    {
-        return load_rotor_rows<T>(result_at(field, first), kResults);
+        return load_rotor_rows<T>(at(field, first), blocks(field));
     }
     SWIVEL_ALWAYS_INLINE Turned<T> load_turned(swivel_field field, int first = 0) const
     {
@@ -98,24 +87,13 @@ struct Rows {
     template <class Value>
     SWIVEL_ALWAYS_INLINE void store(swivel_field field, int component, const Value& value) const
     {
-        float* const to = result_at(field, component);
+        constexpr LaneBlocks where = blocks_of(kPlan<Features>.result_count);
+        float* const to = results + std::size_t{row(field, component)} * kLanes;
         if (chosen == kEveryLane)
-            store_rows(to, value, kResults);
+            store_rows(to, value, where);
         else
-            store_rows(to, value, lanes_where<T>(chosen), kResults);
+            store_rows(to, value, lanes_where<T>(chosen), where);
     }
-    SWIVEL_ALWAYS_INLINE void store_vector(swivel_field field, const Vector<T>& v, int first = 0) const
-    {
-        store(field, first, v);
-    }
-    SWIVEL_ALWAYS_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
-    {
-        store(field, first, q);
-    }
-
-private:
-    static constexpr LaneBlocks kInputs = blocks_of(kPlan<Features>.input_count),
-                                kResults = blocks_of(kPlan<Features>.result_count);
 };
 
 // How a skeleton's joints lie to the arm frame, all of unit length; identities in groups without joints. They are

@@ -103,7 +103,7 @@ inline constexpr StageRow kOtherStages[] = {
     {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MAX_SWIVEL, kSpecial, 0},
     {Stage::yield, 0, SWIVEL_HAND_YIELDS, 0},
     {Stage::shoulder_box, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_BOX, 0},
-    {Stage::wrist_box, 0, SWIVEL_WITH_WRIST_BOX, 0},
+    {Stage::wrist_box, 0, SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_AIM},
     {Stage::region, SWIVEL_WITH_AIM, SWIVEL_WITH_REGION, 0},
     {Stage::choose, 0, kLineFeatures, kBoxFeatures | SWIVEL_WITH_REGION},
     {Stage::choose_in_box, 0, kBoxFeatures, SWIVEL_WITH_REGION},
@@ -128,7 +128,8 @@ inline constexpr auto kStages = [] {
         const Stage stage = static_cast<Stage>(n);
         if (is_line(stage)) {
             const swivel_features feature = row_of(line_limit_of(stage)).needs;
-            rows[n] = {stage, feature & kHandLimits ? 0 : SWIVEL_WITH_AIM, feature, 0};
+            const bool may_aim = !(feature & kHandLimits);
+            rows[n] = {stage, may_aim ? SWIVEL_WITH_AIM : 0, feature, may_aim ? 0 : SWIVEL_WITH_AIM};
         } else {
             rows[n] = *other++;
         }

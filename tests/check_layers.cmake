@@ -94,19 +94,19 @@ may_include(include "include/swivel/swivel_explain[.]hpp$" "\"swivel[.]hpp\"|\"s
 may_include(include "" "${standard}|\"swivel(_bodies|_regions|_explain)?[.]h(pp)?\"|<(std(def|int)|string)[.]h>")
 
 # ---- core: formulas and the standard library; the oracle shares nothing with the formulas. arm.h takes fields, features and the bits of flags from swivel.h,
-# region.h the structure of a region from swivel_regions.h, plant_rules.h the constants of plants and grounds from swivel_bodies.h
+# region.h the structure of a region from swivel_regions.h, group_rules.h the constants of plants and grounds from swivel_bodies.h
 may_include(core "core/(isa|num|algebra|conformal|pack|arm|frame_rotor|solve_arm|space|pipeline)[.]h$"
             "<(bit|cmath|cstddef|cstdint|type_traits|utility)>|\"core/(isa|num|algebra|conformal|pack|arm|frame_rotor|solve_arm|space)[.]h\"|${public}")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
 may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"|${public}")
-must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/(arm|plant_rules|region)[.]h$"
-             "formulas know no crowd; arm.h knows the bits of flags, region.h regions, plant_rules.h constants of groups")
+must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/(arm|group_rules|region)[.]h$"
+             "formulas know no crowd; arm.h knows the bits of flags, region.h regions, group_rules.h constants of groups")
 
 # ---- simd: lanes and rows are on the ground; stages of limbs, stages of bodies and the files of kernels stand above them in this order
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"core/(look|plant)_rules[.]h\"|\"simd/(fields|rows|stages)[.]h\"")
+may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"core/group_rules[.]h\"|\"simd/(fields|rows|stages)[.]h\"")
 may_include(simd "simd/values[.]h$" "${standard}|\"simd/lanes[.]h\"")
 may_include(simd "simd/component_rows[.]h$" "\"core/conformal[.]h\"|\"simd/(fields|lanes)[.]h\"")
 may_include(simd "simd/slice[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(component_rows|kernels|lanes|rows)[.]h\"")

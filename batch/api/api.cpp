@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The C entry points: check the arguments, call in, turn outcomes into statuses.
-#include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
@@ -32,19 +32,11 @@ uint32_t swivel_version(void) { return SWIVEL_VERSION; }
 
 const char* swivel_status_text(swivel_status status)
 {
-    switch (status) {
-        case SWIVEL_OK:
-            return "done";
-        case SWIVEL_INVALID_ARGUMENT:
-            return "invalid argument";
-        case SWIVEL_OUT_OF_MEMORY:
-            return "out of memory";
-        case SWIVEL_UNKNOWN_ISA:
-            return "unknown instruction set";
-        case SWIVEL_ISA_UNAVAILABLE:
-            return "instruction set not available on this CPU";
-    }
-    return "unknown status";
+    constexpr const char* texts[] = {"done", "invalid argument", "out of memory", "unknown instruction set",
+                                     "instruction set not available on this CPU"};
+    static_assert(std::size(texts) == SWIVEL_ISA_UNAVAILABLE + 1, "a text for each");
+    const std::uint32_t number = number_of(status);
+    return number < std::size(texts) ? texts[number] : "unknown status";
 }
 
 const char* swivel_last_error(void) { return last_error(); }
@@ -125,13 +117,9 @@ swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_
                                                      : !parent_rotation ? "parent_rotation"
                                                      : !direction       ? "direction"
                                                                         : "axis");
-    const float parent[4] = {parent_rotation[0], parent_rotation[1], parent_rotation[2], parent_rotation[3]};
-    const double wanted[3] = {direction[0], direction[1], direction[2]};
-    double found[3];
-    swivel_status status = check_size<swivel_binding>("binding", size_of(binding));
-    if (status == SWIVEL_OK) status = arm_axis(element(binding, 0, swivel_default_binding()), parent, wanted, found);
-    if (status == SWIVEL_OK) std::copy(found, found + 3, axis);
-    return status;
+    if (const swivel_status status = check_size<swivel_binding>("binding", size_of(binding)); status != SWIVEL_OK)
+        return status;
+    return arm_axis(element(binding, 0, swivel_default_binding()), parent_rotation, direction, axis);
 }
 
 uint32_t swivel_group_count(const swivel_crowd* crowd) { return crowd ? crowd->group_count : 0; }

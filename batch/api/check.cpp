@@ -80,14 +80,6 @@ swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swive
     return check_stride(group, name_of(field), limb_count, data, stride, count * component_bytes, input);
 }
 
-swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks)
-{
-    if (blocks.first > crowd.block_count || blocks.count > crowd.block_count - blocks.first)
-        return refuse("%u blocks from block %u on do not all exist; this crowd has %u", blocks.count, blocks.first,
-                      crowd.block_count);
-    return SWIVEL_OK;
-}
-
 const Isa* usable_isa(swivel_status& status)
 {
     const Isa* isa = current_isa();

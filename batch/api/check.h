@@ -34,9 +34,6 @@ swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swive
                            const void* data, std::size_t stride, bool input,
                            std::size_t component_bytes = sizeof(float));
 
-// A range of blocks.
-swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks);
-
 // The kernels to solve with; or null, with the reason in status and last_error().
 const Isa* usable_isa(swivel_status& status);
 

@@ -4,7 +4,6 @@
 
 #include "batch/api/check.h"
 #include "batch/crowd/streams.h"
-#include "batch/solve/pose.h"
 #include "batch/solve/work.h"
 #include "simd/float_env.h"
 

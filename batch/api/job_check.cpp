@@ -5,7 +5,6 @@
 #include "batch/api/use.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/pose.h"
 #include "batch/solve/work.h"
 #include "simd/rows.h"
 
@@ -120,8 +119,10 @@ swivel_status check_all_streams(const swivel_crowd& crowd, const swivel_job& job
 
 swivel_status check_job(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
 {
-    swivel_status status = job.blocks ? check_blocks(crowd, blocks) : SWIVEL_OK;
-    if (status == SWIVEL_OK) status = check_groups(crowd, job);
+    if (blocks.first > crowd.block_count || blocks.count > crowd.block_count - blocks.first)
+        return refuse("%u blocks from block %u on do not all exist; this crowd has %u", blocks.count, blocks.first,
+                      crowd.block_count);
+    swivel_status status = check_groups(crowd, job);
     if (status == SWIVEL_OK && (job.mask || job.mask_word_count > 0))
         status = check_mask(crowd, job.mask, job.mask_word_count);
     if (status == SWIVEL_OK) status = check_pose(crowd, job.groups, job.pose);

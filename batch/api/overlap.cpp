@@ -10,7 +10,6 @@
 #include "batch/api/check.h"
 #include "batch/api/pose_arrays.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/pose.h"
 #include "batch/solve/work.h"
 #include "simd/rows.h"
 

@@ -5,7 +5,6 @@
 #include "batch/api/pose_arrays.h"
 #include "batch/refusal/sized.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/pose.h"
 #include "batch/solve/work.h"
 
 namespace swivel {

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "batch/crowd/body_joints.h"
-#include "batch/crowd/constants.h"
 #include "batch/refusal/status.h"
 #include "core/arm.h"
 
@@ -20,17 +19,6 @@ swivel_status fail_in(const char* what, swivel_status status)
     std::snprintf(line, sizeof line, "%s", last_error());
     const bool names_call = std::strncmp(line, call, sizeof call - 1) == 0;
     return fail(status, "%s: %s", what, line + (names_call ? sizeof call - 1 : 0));
-}
-
-// Checks that a group's joints suit its features.
-swivel_status check_turned(const swivel_skeleton& skeleton, const GroupDef& group)
-{
-    const swivel_limb_joints limb = joints_of(group);
-    if (group.features & SWIVEL_WITH_CLAVICLE && parent_of(skeleton, limb.shoulder) < 0)
-        return refuse(
-            "the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
-            limb.shoulder);
-    return SWIVEL_OK;
 }
 
 // Checks a group's constants against the table's bounds. Numbers for joints that a look lacks may be any.
@@ -196,11 +184,15 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     if (!group.joints) return SWIVEL_OK;
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
+    const swivel_limb_joints joints = joints_of(group);
     swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
-    if (status == SWIVEL_OK) status = check_reserved("limb joints", joints_of(group));
-    if (status == SWIVEL_OK) status = rest_limb(skeleton, joints_of(group), limb);
+    if (status == SWIVEL_OK) status = check_reserved("limb joints", joints);
+    if (status == SWIVEL_OK) status = rest_limb(skeleton, joints, limb);
     if (status == SWIVEL_OK) status = bind(limb, binding);
-    if (status == SWIVEL_OK) status = check_turned(skeleton, group);
+    if (status == SWIVEL_OK && group.features & SWIVEL_WITH_CLAVICLE && parent_of(skeleton, joints.shoulder) < 0)
+        status =
+            refuse("the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
+                   joints.shoulder);
     if (status == SWIVEL_OK) {
         if (group.features & SWIVEL_WITH_PLANT) status = check_plant(g, group);
         if (status == SWIVEL_OK && group.features & SWIVEL_WITH_GROUND) status = check_ground(g, group);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "batch/crowd/constants.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <string_view>
+
+#include "batch/crowd/group_def.h"
 
 namespace swivel {
 

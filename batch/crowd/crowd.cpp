@@ -173,7 +173,6 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     swivel_crowd* const crowd = new (layout.crowd) swivel_crowd{};
     crowd->alive = swivel_crowd::kAlive;
     crowd->doubted_time = kNoDoubt;
-    crowd->pose_notes = 0;
     crowd->group_count = def.group_count;
     crowd->block_count = layout.block_count;
     crowd->block_bytes = static_cast<std::size_t>(layout.row_bytes / layout.block_count);

@@ -4,6 +4,7 @@
 // its lanes.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -112,6 +113,15 @@ inline StripMemory strip_memory(const swivel_crowd& crowd, float* workspace)
 inline std::uint32_t lane_group_count(const swivel_crowd& crowd)
 {
     return crowd.joint_count > 0 ? 1 : crowd.group_count;
+}
+
+// The place in the crowd's list of joints of the one whose rows begin at `row`.
+inline std::uint32_t joint_at(const swivel_crowd& crowd, std::uint32_t row)
+{
+    const BodyJoint* const at =
+        std::lower_bound(crowd.joints, crowd.joints + crowd.joint_count, row,
+                         [](const BodyJoint& joint, std::uint32_t wanted) { return joint.row < wanted; });
+    return static_cast<std::uint32_t>(at - crowd.joints);
 }
 
 // Masks of a crowd's lanes have one bit for each lane. A word of 32 bits covers two blocks.

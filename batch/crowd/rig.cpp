@@ -121,10 +121,11 @@ bool is_binding(const swivel_binding& b)
            are_unit(b.twist_parent_from_arm) && are_unit(b.twist_from_arm);
 }
 
-swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],
-                       double (&axis)[3])
+swivel_status arm_axis(const swivel_binding& binding, const float* parent_rotation, const double* direction,
+                       double* axis)
 {
-    const Rotor<double> parent = rotor_of(parent_rotation);
+    const float* const q = parent_rotation;
+    const Rotor<double> parent = rotor<double>(q[0], q[1], q[2], q[3]);
     const Vector<double> wanted = vector<double>(direction[0], direction[1], direction[2]);
     if (!is_binding(binding))
         return refuse(

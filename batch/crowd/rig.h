@@ -51,8 +51,8 @@ inline void store(const Rotor<double>& q, float (&numbers)[4])
 swivel_status bind(const RestLimb& limb, swivel_binding& binding);
 
 // Does what swivel_arm_axis() promises; arguments are already checked for null.
-swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],
-                       double (&axis)[3]);
+swivel_status arm_axis(const swivel_binding& binding, const float* parent_rotation, const double* direction,
+                       double* axis);
 // Whether a binding has unit quaternions, and not too many twist bones.
 bool is_binding(const swivel_binding& binding);
 

@@ -148,7 +148,7 @@ Stream* streams_out(const FieldRows& rows, std::size_t first, swivel_out values,
 
 void copy(const Stream* stream, const Stream* end, std::size_t first, std::size_t limb_count)
 {
-    for (; stream != end; ++stream) stream->copy(first, limb_count);
+    for (; stream != end; ++stream) stream->run(*stream, first, limb_count);
 }
 
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)

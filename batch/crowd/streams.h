@@ -36,9 +36,6 @@ struct Stream {
     std::size_t values_first;  // the limb of the first value, counted within the group
     const char* origin;        // of the same limb, for doubles
     std::size_t origin_stride;
-
-    // Limbs first ... first + limb_count - 1 of the group.
-    void copy(std::size_t first, std::size_t limb_count) const { run(*this, first, limb_count); }
 };
 
 // Stores the streams of all components of a field at `to`, and returns their end. values, origins: from limb `first`
@@ -52,7 +49,7 @@ Stream* streams_of_doubles(const FieldRows& rows, std::size_t first, swivel_in v
 Stream* streams_out(const FieldRows& rows, std::size_t first, swivel_out values, Stream* to);
 constexpr std::uint32_t stream_count(std::uint32_t component_count) { return (component_count + 3) / 4; }
 
-// Copies by each of some streams.
+// Copies limbs first ... first + limb_count - 1 of the group by each of some streams.
 void copy(const Stream* streams, const Stream* end, std::size_t first, std::size_t limb_count);
 
 // Copy a field of limbs first ... first + limb_count - 1 of the group at once.

@@ -9,7 +9,7 @@
 #include "batch/explain/compare.h"
 #include "batch/explain/explain.h"
 #include "batch/refusal/status.h"
-#include "batch/solve/pose.h"
+#include "batch/solve/work.h"
 #include "simd/float_env.h"
 
 using namespace swivel;

@@ -44,19 +44,25 @@ bool is_bad_in_body(const Group& group, std::uint32_t limb)
                        [&](const FieldRow& row) { return is_bad_in_body(group, limb, row.field); });
 }
 
+std::uint32_t add_numbers(const Group& group, std::uint32_t limb, swivel_field field, Text& text)
+{
+    const LimbValue value(group, limb, field);
+    std::uint32_t unknown = 0;
+    text.add("%s (", name_of(field));
+    for (std::uint32_t c = 0; c < field_row_count(group.features, field); ++c) {
+        text.add("%s%g", c == 0 ? "" : ", ", value[c]);
+        unknown += std::isnan(value[c]);
+    }
+    return unknown;
+}
+
 bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text)
 {
     bool is_found = false;
     for (const FieldRow& row : kFields) {
         if (!is_bad_in_body(group, limb, row.field)) continue;
-        const LimbValue value(group, limb, row.field);
-        text.add("%s%s (", is_found ? "; " : "", row.name);
-        bool is_number = true;
-        for (std::uint32_t c = 0; c < field_row_count(group.features, row.field); ++c) {
-            text.add("%s%g", c == 0 ? "" : ", ", value[c]);
-            is_number = is_number && !std::isnan(value[c]);
-        }
-        if (is_number)
+        text.add("%s", is_found ? "; " : "");
+        if (add_numbers(group, limb, row.field, text) == 0)
             text.add(") is out of its range, %s", row.value.words);
         else
             text.add(") is not a number");

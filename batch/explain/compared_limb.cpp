@@ -13,7 +13,7 @@ double length(const LimbPlaces& limb) { return distance(limb.at[0], limb.at[1]) 
 LimbJoints ComparedLimb::joints_of(std::uint32_t other_group) const
 {
     const BodyLimb& limb = crowd.groups[other_group].plan.limb;
-    return {{body.joint_at(limb.shoulder), body.joint_at(limb.elbow), body.joint_at(limb.wrist)}};
+    return {{joint_at(crowd, limb.shoulder), joint_at(crowd, limb.elbow), joint_at(crowd, limb.wrist)}};
 }
 LimbPlaces ComparedLimb::places(const LimbJoints& chosen, const Reading& how) const
 {

@@ -38,25 +38,6 @@ void explain_lengths(const Probe& probe, swivel_field field, Text& text)
     }
 }
 
-// Names an input and says why it is bad.
-void explain_bad_value(const Probe& probe, swivel_field field, Text& text)
-{
-    text.add("%s (", name_of(field));
-    bool is_number = true, is_given = false;
-    for (std::uint32_t c = 0; c < probe.given_count(field); ++c) {
-        const double x = double{probe.given(field, c)};
-        text.add("%s%g", c == 0 ? "" : ", ", x);
-        is_number = is_number && !std::isnan(x);
-        is_given = is_given || !std::isnan(x);
-    }
-    if (is_number) {
-        text.add(") is out of its range, %s", row_of(field).value.words);
-        explain_lengths(probe, field, text);
-    } else {
-        text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
-    }
-}
-
 // Names the inputs that are bad on their own.
 void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
@@ -64,8 +45,13 @@ void explain_bad_input(Probe& probe, const swivel_crowd& crowd, const Group& gro
     bool is_found = false, is_place_bad = false, is_pose_bad = false;
     const auto found = [&](swivel_field field) {
         text.add("%s", is_found ? "; " : "");
-        explain_bad_value(probe, field, text);
         is_found = true;
+        const std::uint32_t unknown = add_numbers(group, limb, field, text);
+        if (unknown > 0)
+            return text.add(") is not a number%s",
+                            unknown < field_row_count(group.features, field) ? "" : ": it may never have been written");
+        text.add(") is out of its range, %s", row_of(field).value.words);
+        explain_lengths(probe, field, text);
     };
     for (const FieldRow& row : kFields) {
         const swivel_field field = row.field;

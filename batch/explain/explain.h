@@ -35,6 +35,9 @@ bool is_bad_in_body(const Group& group, std::uint32_t limb);
 // Names all bad inputs with their values and ranges. Returns whether there are any.
 bool explain_bad_in_body(const Group& group, std::uint32_t limb, Text& text);
 
+// Adds an input's name and its numbers, up to the closing bracket. Returns how many are not a number.
+std::uint32_t add_numbers(const Group& group, std::uint32_t limb, swivel_field field, Text& text);
+
 // The parts of a pose.
 enum PosePart : unsigned {
     kTimeOfPose = 1,

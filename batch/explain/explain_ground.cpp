@@ -39,7 +39,7 @@ struct GroundedFoot {
         const float(&heel_j)[3] = rules.given.heel;
         const Vector<double> heel = vector<double>(heel_j[0], heel_j[1], heel_j[2]);
         const Foot<double> foot{vector_of(value(SWIVEL_SOLVED_GOAL)), sent};
-        return foot_on_ground(ground, leaning(ground, vector_of(value(SWIVEL_LIFT), kSlope), up), up, foot,
+        return foot_on_ground(ground, ground_plane(ground.place, vector_of(value(SWIVEL_LIFT), kSlope), up), up, foot,
                               scale * (heel - vector_of(value(SWIVEL_EFFECTOR))), scale, value(SWIVEL_GROUND_WEIGHT)[0],
                               by)
             .rotation;

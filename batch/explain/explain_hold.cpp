@@ -137,7 +137,7 @@ struct HeldProp {
     {
         const bool has_place = is_given(place, 3), has_turn = is_given(turn, 4);
         if (has_joint()) {
-            text.add("It lies as joint %u has it", skeleton_joint());
+            text.add("It lies as joint %u has it", crowd.joints[joint_at(crowd, plan.joint)].skeleton_joint);
             if (has_place || has_turn)
                 text.add(", with the %s that %s written in that joint's frame",
                          !has_turn    ? "place"
@@ -184,14 +184,6 @@ struct HeldProp {
             else if (hand.has_record())
                 text.add(" The hand of group %u is %.4g from its grip.", hand.number, hand.missed());
         });
-    }
-
-private:
-    std::uint32_t skeleton_joint() const
-    {
-        std::uint32_t n = 0;
-        while (crowd.joints[n].row != plan.joint) ++n;
-        return crowd.joints[n].skeleton_joint;
     }
 };
 

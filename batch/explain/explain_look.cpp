@@ -49,7 +49,8 @@ struct LookOfBody {
     void doubt_distance(Text& text) const
     {
         double chain = 0;
-        for (std::uint32_t at = last_joint_number(); at != 0; at = parent_of(at)) {
+        std::uint32_t at = joint_at(crowd, joints.turned[joints.turned_count - 1].row);
+        for (; at != 0; at = joint_at(crowd, crowd.joints[at].parent)) {
             const float(&v)[3] = crowd.joints[at].translation;
             chain += std::sqrt(len2(vector<double>(v[0], v[1], v[2])));
         }
@@ -103,15 +104,7 @@ struct LookOfBody {
     }
 
 private:
-    std::uint32_t number_of(std::uint32_t row) const
-    {
-        std::uint32_t n = 0;
-        while (crowd.joints[n].row != row) ++n;
-        return n;
-    }
-    std::uint32_t parent_of(std::uint32_t number) const { return number_of(crowd.joints[number].parent); }
-    std::uint32_t last_joint_number() const { return number_of(joints.turned[joints.turned_count - 1].row); }
-    std::uint32_t last_joint() const { return crowd.joints[last_joint_number()].skeleton_joint; }
+    std::uint32_t last_joint() const { return joints.turned[joints.turned_count - 1].skeleton_joint; }
     Vector<double> eye() const { return vector<double>(rules.eye[0], rules.eye[1], rules.eye[2]); }
     Vector<double> ahead() const { return vector<double>(rules.axis[0], rules.axis[1], rules.axis[2]); }
     // The scale of the last joint, where it is known. If joints have no scales of their own, it is the root's, which a

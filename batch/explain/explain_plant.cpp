@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/explain/explain.h"
 #include "batch/query/limb_value.h"
-#include "core/plant_rules.h"
+#include "core/group_rules.h"
 
 namespace swivel {
 

@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "batch/explain/explain_text.h"
-#include "batch/query/joint_angles.h"
 #include "batch/solve/solve.h"
 #include "include/swivel/swivel_regions.h"
 #include "simd/dispatch.h"
@@ -72,8 +71,9 @@ bool Probe::is(swivel_field field, std::initializer_list<float> wanted) const
 bool Probe::is_posed(swivel_field field) const
 {
     if (!is_of_body()) return false;
-    if (field == SWIVEL_HAND && !has(SWIVEL_WITH_AIM)) return std::isnan(LimbValue(source_, limb_, field).length(0, 4));
-    return row_of(field).excludes & kBody || (field == SWIVEL_LENGTHS && std::isnan(given(field, 0)));
+    const LimbValue given(source_, limb_, field);
+    if (field == SWIVEL_HAND && !has(SWIVEL_WITH_AIM)) return std::isnan(given.length(0, 4));
+    return row_of(field).excludes & kBody || (field == SWIVEL_LENGTHS && std::isnan(given[0]));
 }
 
 // It gets the padding's value, from an ordinary arm without limits.

@@ -43,12 +43,6 @@ public:
         return LimbValue(group(), 0, field).number(component);
     }
     bool is(swivel_field field, std::initializer_list<float> wanted) const;
-    // The same in the group's own rows, from which a body's limb differs.
-    std::uint32_t given_count(swivel_field field) const { return field_row_count(source_.features, field); }
-    float given(swivel_field field, std::uint32_t component) const
-    {
-        return LimbValue(source_, limb_, field).number(component);
-    }
     // Whether a body's pose gave the field instead of the caller.
     bool is_posed(swivel_field field) const;
 

@@ -10,7 +10,6 @@
 #include "batch/query/one_limb.h"
 #include "core/fit.h"
 #include "core/limb_bones.h"
-#include "core/yielding_hand.h"
 
 namespace swivel {
 

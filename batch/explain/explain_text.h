@@ -18,11 +18,7 @@ class Text {
 public:
     explicit Text(std::span<char> room) : room_(room) { room_[0] = 0; }
 
-#if defined(__GNUC__)
-    [[gnu::format(printf, 2, 3)]]
-#endif
-    void
-    add(const char* format, ...)
+    [[gnu::format(printf, 2, 3)]] void add(const char* format, ...)
     {
         std::va_list arguments;
         va_start(arguments, format);

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "batch/explain/explain_probe.h"
-#include "batch/query/joint_angles.h"
 #include "core/region.h"
 
 namespace swivel {
@@ -18,7 +17,7 @@ double outside_range(double angle, const float* range)
 }
 double outside_twist(const Rotor<double>& q, const Vector<double>& axis, const float* range)
 {
-    return outside_range(2 * std::atan2(about(axis, q), q.at<kScalar>()), range);
+    return outside_range(2 * std::atan2(scalar_product(axis, vector_part(q)), q.at<kScalar>()), range);
 }
 double outside_cone(const Vector<double>& a, const Vector<double>& b, double cos_opening)
 {

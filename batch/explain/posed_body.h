@@ -27,13 +27,11 @@ struct Reading {
 };
 
 // Joint numbers are places in the crowd's list of needed joints. 0 is the root, and parents come before joints.
-class PosedBody {
-public:
-    // The pose must be valid and of full size. Crowd and pose must outlive this.
-    PosedBody(const swivel_crowd& crowd, const swivel_pose& pose, std::uint32_t body)
-        : crowd_(crowd), pose_(pose), body_(body)
-    {
-    }
+struct PosedBody {
+    const swivel_crowd& crowd;
+    const swivel_pose& pose;  // valid and of full size
+    const std::uint32_t body;
+
     // In the world; NaN if it depends on a bad number.
     Vector<double> place(std::uint32_t joint, const Reading& how) const;
     // In the world, of unit length.
@@ -45,13 +43,11 @@ public:
     // Whether the root's place may be read as doubles: an array of floats may end earlier at the last body.
     bool may_have_double_root() const;
     Vector<double> root_place(const Reading& how) const;
-    Vector<double> root_place() const { return root_place(Reading(pose_)); }
-    double root_scale() const;
+    Vector<double> root_place() const { return root_place(Reading(pose)); }
     double time() const;  // 0 without
 
-    std::uint32_t joint_at(std::uint32_t row) const;
-    std::uint32_t parent(std::uint32_t joint) const { return joint_at(crowd_.joints[joint].parent); }
-    std::uint32_t skeleton_joint(std::uint32_t joint) const { return crowd_.joints[joint].skeleton_joint; }
+    std::uint32_t parent(std::uint32_t joint) const { return joint_at(crowd, crowd.joints[joint].parent); }
+    std::uint32_t skeleton_joint(std::uint32_t joint) const { return crowd.joints[joint].skeleton_joint; }
     // The number of steps from a joint up to one above it; 0 if that is not above.
     std::uint32_t steps_up(std::uint32_t joint, std::uint32_t above) const;
     // Whether a joint of a form of 12 floats may have 16 that are a matrix by columns. Then the 12 are no matrix of the
@@ -71,10 +67,6 @@ private:
     Vector<double> place_along(std::uint32_t joint, const Reading& how) const;
     Vector<double> place_in_body(std::uint32_t joint, const Reading& how) const;
     const char* value_of(const swivel_joint_values& values, std::uint32_t joint) const;
-
-    const swivel_crowd& crowd_;
-    const swivel_pose& pose_;
-    std::uint32_t body_;
 };
 
 }  // namespace swivel

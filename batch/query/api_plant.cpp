@@ -3,7 +3,6 @@
 // The C entry point that changes what planted points stand on.
 #include <cmath>
 #include <cstring>
-#include <initializer_list>
 
 #include "batch/api/check.h"
 #include "batch/api/use.h"
@@ -31,33 +30,6 @@ Support support_at(const swivel_supports& supports, std::size_t n)
     read(supports.rotation, q);
     return {vector(p[0], p[1], p[2]), normalise(rotor<double>(q[0], q[1], q[2], q[3]))};
 }
-
-// Three numbers of a value that a limb carries, from `first` on.
-class Carried {
-public:
-    Carried(const LimbValue& value, std::uint32_t first) : at_(value.first + first * kLanes) {}
-    template <class Change>
-    void change(const Change& change) const
-    {
-        const Vector<double> changed = change(vector<double>(at_[0], at_[kLanes], at_[2 * kLanes]));
-        set({changed.at<kE1>(), changed.at<kE2>(), changed.at<kE3>()});
-    }
-    // The same for a rotation's four numbers.
-    void turn(const Rotor<double>& by) const
-    {
-        const Rotor<double> turned = by * rotor<double>(at_[0], at_[kLanes], at_[2 * kLanes], at_[3 * kLanes]);
-        set({turned.at<kI>(), turned.at<kJ>(), turned.at<kK>(), turned.at<kScalar>()});
-    }
-
-private:
-    float* at_;
-
-    void set(std::initializer_list<double> numbers) const
-    {
-        float* to = at_;
-        for (const double x : numbers) *to = static_cast<float>(x), to += kLanes;
-    }
-};
 
 swivel_status check_supports(std::uint32_t limb_count, const swivel_supports& supports)
 {
@@ -96,20 +68,26 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
     for (std::uint32_t n = 0; n < limb_count; ++n) {
         const Support before = support_at(from, n), after = support_at(to, n);
         const Rotor<double> turn = ~after.rotation * before.rotation;
-        const auto along = [&](const Vector<double>& v) { return sandwich(turn, v); };
-        const auto place = [&](const Vector<double>& v) {
-            return sandwich(~after.rotation, sandwich(before.rotation, v) + (before.position - after.position));
+        const auto move_place = [&](const LimbValue& value) {
+            const Vector<double> place =
+                sandwich(before.rotation, vector_of(value)) + (before.position - after.position);
+            store(sandwich(~after.rotation, place), value);
+        };
+        const auto turn_vector = [&](const LimbValue& value, std::uint32_t at) {
+            store(sandwich(turn, vector_of(value, at)), value, at);
         };
         const std::uint32_t limb = first + n;
-        if (LimbValue(planted, limb, SWIVEL_PLANT)[10] == 0) continue;  // it was not solved, so it carries no state
-        Carried({planted, limb, SWIVEL_PLANT}, 0).change(place);
-        Carried({planted, limb, SWIVEL_PLANT}, 3).change(along);
-        Carried({planted, limb, SWIVEL_PLANT}, 6).change(along);
-        if (planted.features & SWIVEL_PLANT_BY_MOTION) Carried({planted, limb, SWIVEL_CONTACT_STATE}, 0).change(place);
+        const LimbValue plant(planted, limb, SWIVEL_PLANT);
+        if (plant[10] == 0) continue;  // it was not solved, so it carries no state
+        move_place(plant);
+        turn_vector(plant, 3);
+        turn_vector(plant, 6);
+        if (planted.features & SWIVEL_PLANT_BY_MOTION) move_place({planted, limb, SWIVEL_CONTACT_STATE});
         if (!(planted.features & SWIVEL_WITH_PLANT_ROTATION)) continue;
-        Carried({planted, limb, SWIVEL_PLANT_ROTATION}, 0).turn(turn);
-        Carried({planted, limb, SWIVEL_PLANT_ROTATION}, 4).change(along);
-        Carried({planted, limb, SWIVEL_PLANT_ROTATION}, 7).change(along);
+        const LimbValue rotation(planted, limb, SWIVEL_PLANT_ROTATION);
+        store(turn * rotor_of(rotation), rotation);
+        turn_vector(rotation, 4);
+        turn_vector(rotation, 7);
     }
     return SWIVEL_OK;
 }

@@ -11,7 +11,6 @@
 #include "batch/api/use.h"
 #include "batch/crowd/streams.h"
 #include "batch/query/forward.h"
-#include "batch/query/joint_angles.h"
 #include "batch/query/one_limb.h"
 #include "batch/refusal/status.h"
 #include "batch/solve/solve.h"

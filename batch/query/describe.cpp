@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "batch/api/check.h"
-#include "batch/crowd/constants.h"
+#include "batch/crowd/group_def.h"
 #include "simd/rows.h"
 
 using namespace swivel;

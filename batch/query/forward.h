@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Forward kinematics of one solved limb, counted within its group, and its distance from the target. In double, without
-// lanes.
+// Forward kinematics of one solved limb, counted within its group, its distance from the target, and its joint angles.
+// In double, without lanes.
 #pragma once
 
 #include "batch/crowd/crowd.h"
+#include "core/angle_limits.h"
 #include "core/arm.h"
 #include "core/space.h"
 
@@ -34,5 +35,14 @@ double length_of(const Group& group, std::size_t limb);
 double distance_missed(const Group& group, std::size_t limb);
 // That distance over length_of(); 0 for a limb of no length.
 double residual(const Group& group, std::size_t limb);
+
+// joint_angles.cpp: a pose as joint angles, for people and files.
+struct JointAngles {
+    double shoulder[3], flexion, wrist[3];
+};
+JointAngles joint_angles(const ArmRotors& arm, swivel_euler_order shoulder_order, swivel_euler_order wrist_order,
+                         int family);
+// The three angles of R = R_p(first) R_q(middle) R_r(last), of a family: see swivel_joint_angles().
+void euler_angles(const Rotor<double>& q, const EulerOrder& order, int family, double (&angles)[3]);
 
 }  // namespace swivel

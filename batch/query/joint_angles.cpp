@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "batch/query/joint_angles.h"
-
 #include <cmath>
 #include <numbers>
+
+#include "batch/query/forward.h"
 
 namespace swivel {
 

@@ -24,6 +24,7 @@ struct LimbValue {
     }
     float number(std::uint32_t c) const { return first[c * kLanes]; }
     double operator[](std::uint32_t c) const { return double{number(c)}; }
+    void set(std::uint32_t c, double x) const { first[c * kLanes] = static_cast<float>(x); }
     double length(std::uint32_t from, std::uint32_t count) const
     {
         double sum = 0;
@@ -31,6 +32,17 @@ struct LimbValue {
         return std::sqrt(sum);
     }
 };
+
+// Stores a vector, or a quaternion, from a component on.
+inline void store(const Vector<double>& v, const LimbValue& to, std::uint32_t first = 0)
+{
+    for (std::uint32_t c = 0; c < 3; ++c) to.set(first + c, v.c[c]);
+}
+inline void store(const Rotor<double>& q, const LimbValue& to, std::uint32_t first = 0)
+{
+    store(vector(q.at<kI>(), q.at<kJ>(), q.at<kK>()), to, first);
+    to.set(first + 3, q.at<kScalar>());
+}
 
 inline std::uint32_t flags_of(const Group& group, std::size_t limb)
 {

@@ -75,44 +75,28 @@ void OneLimb::take(std::uint32_t limb)
 void OneLimb::take_record(std::uint32_t limb)
 {
     const LimbValue record(source_, limb, SWIVEL_RECORD);
-    set(SWIVEL_SHOULDER_POSITION, vector_of(record, kRecordShoulder));
-    set(SWIVEL_PARENT_ROTATION, rotor_of(record, kRecordArm));
-    set(SWIVEL_PARENT_SCALE, 0, record[kRecordScale]);
-    set(SWIVEL_LENGTHS, 0, record[kRecordLengths]);
-    set(SWIVEL_LENGTHS, 1, record[kRecordLengths + 1]);
-    set(SWIVEL_INCOMING_SHOULDER, rotor_of(record, kRecordIncoming));
-    set(SWIVEL_INCOMING_ELBOW, rotor_of(record, kRecordIncoming + 4));
+    store(vector_of(record, kRecordShoulder), own(SWIVEL_SHOULDER_POSITION));
+    store(rotor_of(record, kRecordArm), own(SWIVEL_PARENT_ROTATION));
+    own(SWIVEL_PARENT_SCALE).set(0, record[kRecordScale]);
+    own(SWIVEL_LENGTHS).set(0, record[kRecordLengths]);
+    own(SWIVEL_LENGTHS).set(1, record[kRecordLengths + 1]);
+    store(rotor_of(record, kRecordIncoming), own(SWIVEL_INCOMING_SHOULDER));
+    store(rotor_of(record, kRecordIncoming + 4), own(SWIVEL_INCOMING_ELBOW));
     const swivel_features features = source_.features;
     const Rotor<double> hand = hand_from_arm(source_);
-    if (group().features & SWIVEL_WITH_HAND) set(SWIVEL_INCOMING_WRIST, rotor_of(record, kRecordIncoming + 8));
+    if (group().features & SWIVEL_WITH_HAND) store(rotor_of(record, kRecordIncoming + 8), own(SWIVEL_INCOMING_WRIST));
     if (features & SWIVEL_WITH_AIM) {
-        set(SWIVEL_HAND, rotor_of(record, kRecordIncoming + 8));
-        if (!(features & SWIVEL_WITH_HAND)) set(SWIVEL_WRIST, rotor_of(record, kRecordIncoming + 8));
-        set(SWIVEL_AIM, sandwich(hand, vector_of({source_, limb, SWIVEL_AIM})));
+        store(rotor_of(record, kRecordIncoming + 8), own(SWIVEL_HAND));
+        if (!(features & SWIVEL_WITH_HAND)) store(rotor_of(record, kRecordIncoming + 8), own(SWIVEL_WRIST));
+        store(sandwich(hand, vector_of({source_, limb, SWIVEL_AIM})), own(SWIVEL_AIM));
     } else if (features & SWIVEL_WITH_HAND) {
         const Rotor<double> wanted =
             features & kLibraryGoal ? rotor_of({source_, limb, SWIVEL_SOLVED_GOAL}, 3) : wanted_hand(source_, limb);
-        set(SWIVEL_HAND, wanted * ~hand);
+        store(wanted * ~hand, own(SWIVEL_HAND));
     }
-    if (features & kLibraryGoal) set(SWIVEL_TARGET, vector_of({source_, limb, SWIVEL_SOLVED_GOAL}));
+    if (features & kLibraryGoal) store(vector_of({source_, limb, SWIVEL_SOLVED_GOAL}), own(SWIVEL_TARGET));
     if (features & SWIVEL_WITH_EFFECTOR)
-        set(SWIVEL_EFFECTOR, sandwich(hand, vector_of({source_, limb, SWIVEL_EFFECTOR})));
-}
-
-void OneLimb::set(swivel_field field, std::uint32_t component, double value)
-{
-    LimbValue(group(), 0, field).first[component * kLanes] = static_cast<float>(value);
-}
-void OneLimb::set(swivel_field field, const Vector<double>& v)
-{
-    for (std::uint32_t c = 0; c < 3; ++c) set(field, c, v.c[c]);
-}
-void OneLimb::set(swivel_field field, const Rotor<double>& q)
-{
-    set(field, 0, q.at<kI>());
-    set(field, 1, q.at<kJ>());
-    set(field, 2, q.at<kK>());
-    set(field, 3, q.at<kScalar>());
+        store(sandwich(hand, vector_of({source_, limb, SWIVEL_EFFECTOR})), own(SWIVEL_EFFECTOR));
 }
 
 }  // namespace swivel

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "batch/crowd/crowd.h"
-#include "core/space.h"
+#include "batch/query/limb_value.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -36,9 +36,7 @@ public:
 
 private:
     void take_record(std::uint32_t limb);
-    void set(swivel_field field, std::uint32_t component, double value);
-    void set(swivel_field field, const Vector<double>& v);
-    void set(swivel_field field, const Rotor<double>& q);
+    LimbValue own(swivel_field field) const { return {group_, 0, field}; }
 
     alignas(64) char rows_[block_bytes(kEveryFeature & ~kBodyFeatures)] = {};
     const Group& source_;

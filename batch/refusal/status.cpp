@@ -10,18 +10,13 @@ namespace {
 
 thread_local char message[256] = "";
 
-[[gnu::format(printf, 1, 0)]] void keep(const char* format, std::va_list values)
-{
-    std::vsnprintf(message, sizeof message, format, values);
-}
-
 }  // namespace
 
 swivel_status refuse(const char* format, ...)
 {
     std::va_list values;
     va_start(values, format);
-    keep(format, values);
+    std::vsnprintf(message, sizeof message, format, values);
     va_end(values);
     return SWIVEL_INVALID_ARGUMENT;
 }
@@ -30,7 +25,7 @@ swivel_status fail(swivel_status status, const char* format, ...)
 {
     std::va_list values;
     va_start(values, format);
-    keep(format, values);
+    std::vsnprintf(message, sizeof message, format, values);
     va_end(values);
     return status;
 }

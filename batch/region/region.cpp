@@ -35,20 +35,14 @@ bool is_valid(const swivel_half_space& half)
 void RegionBuilder::add(const HalfSpace& half)
 {
     const std::uint32_t at = region_.first[region_.part_count] + open_;
-    if (at >= SWIVEL_MAX_HALF_SPACES) {
-        full_ = true;
-        return;
-    }
+    if (!fits(at < SWIVEL_MAX_HALF_SPACES)) return;
     region_.half_space[at] = stored(half);
     ++open_;
 }
 
 void RegionBuilder::end_part()
 {
-    if (region_.part_count >= SWIVEL_MAX_REGION_PARTS) {
-        full_ = true;
-        return;
-    }
+    if (!fits(region_.part_count < SWIVEL_MAX_REGION_PARTS)) return;
     const std::uint32_t end = region_.first[region_.part_count] + open_;
     region_.first[++region_.part_count] = end;
     open_ = 0;
@@ -57,10 +51,7 @@ void RegionBuilder::end_part()
 void RegionBuilder::cut(const HalfSpace& half)
 {
     const std::uint32_t count = region_.first[region_.part_count];
-    if (count >= SWIVEL_MAX_HALF_SPACES) {
-        full_ = true;
-        return;
-    }
+    if (!fits(count < SWIVEL_MAX_HALF_SPACES)) return;
     for (std::uint32_t n = count; n > region_.cut_count; --n) region_.half_space[n] = region_.half_space[n - 1];
     region_.half_space[region_.cut_count++] = stored(half);
     for (std::uint32_t part = 0; part <= region_.part_count; ++part) ++region_.first[part];

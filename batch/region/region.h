@@ -27,6 +27,13 @@ public:
     const swivel_region& region() const { return region_; }
 
 private:
+    // has_room: for one more.
+    bool fits(bool has_room)
+    {
+        full_ = full_ || !has_room;
+        return has_room;
+    }
+
     swivel_region region_;
     std::uint32_t open_ = 0;  // half-spaces of the part that is not ended yet
     bool full_ = false;

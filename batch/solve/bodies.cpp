@@ -7,7 +7,6 @@
 
 #include "batch/crowd/streams.h"
 #include "batch/solve/group_copies.h"
-#include "batch/solve/pose.h"
 #include "batch/solve/solve.h"
 #include "simd/float_env.h"
 

@@ -17,15 +17,7 @@ namespace {
 constexpr std::size_t kCrowdedStride = 512;
 constexpr std::uint32_t kCrowdedBlocks = 2;
 
-// Calls copy(first, limb_count) for a group's limbs in some blocks, counted within the group: all of them, or those of
-// lanes(block).
-template <class Copy>
-void for_all_limbs(const Group& group, GroupBlocks blocks, const Copy& copy)
-{
-    const std::size_t first = std::size_t{blocks.first} * SWIVEL_LANES,
-                      end = first + std::size_t{blocks.count} * SWIVEL_LANES;
-    copy(first, std::min(end, std::size_t{group.limb_count}) - first);
-}
+// Calls copy(first, limb_count) for the limbs of lanes(block) in some blocks of a group, counted within the group.
 template <class Lanes, class Copy>
 void for_some_limbs(GroupBlocks blocks, const Lanes& lanes_in, const Copy& copy)
 {
@@ -69,12 +61,12 @@ Stream* add_input(const Group& group, const swivel_streams& given, const swivel_
 }
 void copy_chosen(const Group& group, const Stream* from, const Stream* end, const std::uint32_t* mask, GroupBlocks some)
 {
-    const auto copy_limbs = [&](std::size_t limb, std::size_t limb_count) { copy(from, end, limb, limb_count); };
     if (mask)
-        for_some_limbs(
-            some, [&](std::uint32_t block) { return chosen_limbs(group, block, mask); }, copy_limbs);
-    else
-        for_all_limbs(group, some, copy_limbs);
+        return for_some_limbs(
+            some, [&](std::uint32_t block) { return chosen_limbs(group, block, mask); },
+            [&](std::size_t limb, std::size_t limb_count) { copy(from, end, limb, limb_count); });
+    const std::size_t limb = std::size_t{some.first} * SWIVEL_LANES, room = std::size_t{some.count} * SWIVEL_LANES;
+    copy(from, end, limb, std::min(room, group.limb_count - limb));
 }
 
 // Calls copy(part) for a few of some blocks at a time.

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "batch/solve/pose.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-#include "batch/refusal/sized.h"
+#include "batch/solve/solve.h"
 #include "simd/transpose.h"
 
 namespace swivel {
-
-swivel_pose full_pose(const swivel_pose* given) { return element(given, 0, swivel_default_pose()); }
 
 namespace {
 

@@ -63,20 +63,14 @@ struct Bundle {
     }
     void solve(std::uint32_t round) const
     {
-        for (const GroupCopies* group = groups; group != groups + count; ++group)
-            if (const std::uint32_t first = round * run_blocks; first < group->blocks.count)
-                solve_run(*group, {group->blocks.first + first, std::min(run_blocks, group->blocks.count - first)});
-    }
-
-private:
-    void solve_run(const GroupCopies& copies, GroupBlocks blocks) const
-    {
-        copies.copy_in(work.mask, blocks);
-        if (work.mask)
-            solve_chosen_group(work.kernels, *copies.group, work.mask, blocks, work.strip);
-        else
-            solve_group(work.kernels, *copies.group, blocks, work.strip);
-        copies.copy_out(work.mask, blocks);
+        const std::uint32_t first = round * run_blocks;
+        for (const GroupCopies* copies = groups; copies != groups + count; ++copies) {
+            if (first >= copies->blocks.count) continue;
+            const GroupBlocks run{copies->blocks.first + first, std::min(run_blocks, copies->blocks.count - first)};
+            copies->copy_in(work.mask, run);
+            solve_chosen_group(work.kernels, *copies->group, work.mask, run, work.strip);
+            copies->copy_out(work.mask, run);
+        }
     }
 };
 

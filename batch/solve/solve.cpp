@@ -24,10 +24,7 @@ void solve_blocks(const Work& work, std::uint32_t first, std::uint32_t end)
     const FloatEnv env;
     const swivel_blocks blocks{work.blocks.first + first, end - first};
     for_each_group(work.crowd, work.groups, blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
-        if (work.mask)
-            solve_chosen_group(work.kernels, group, work.mask, part, work.strip, work.exceeds_cache);
-        else
-            solve_group(work.kernels, group, part, work.strip, work.exceeds_cache);
+        solve_chosen_group(work.kernels, group, work.mask, part, work.strip, work.exceeds_cache);
     });
 }
 
@@ -45,7 +42,7 @@ void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks,
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
                         StripMemory strip, bool exceeds_cache)
 {
-    if (group.features & kLimbFeatures) return solve_group(kernels, group, blocks, strip, exceeds_cache, mask);
+    if (!mask || group.features & kLimbFeatures) return solve_group(kernels, group, blocks, strip, exceeds_cache, mask);
     const std::uint32_t end = blocks.first + blocks.count;
     // How many blocks from one on are all chosen whole, or all not.
     const auto count_from = [&](std::uint32_t block, bool whole) {

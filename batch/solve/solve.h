@@ -25,8 +25,7 @@ void solve_blocks(const Work& work, std::uint32_t first, std::uint32_t end);
 // keep their results. strip: of a workspace, which plain arms do not need.
 void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
                  bool exceeds_cache = false, const std::uint32_t* mask = nullptr);
-// Solves the limbs of a mask. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is
-// faster.
+// The same. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is faster.
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
                         StripMemory strip, bool exceeds_cache = false);
 // Runs the stages of one pass of a group of bodies, before any limb of these bodies is solved.
@@ -44,6 +43,17 @@ bool exceeds_cache(const swivel_crowd& crowd, std::uint32_t block_count);
 std::uint32_t strip_count(const Work& work);
 // Solves strips first ... end - 1 of a job on this thread.
 void solve_strips(const Work& work, std::uint32_t first, std::uint32_t end);
+
+// pose.cpp: the way of solved joints back into the bodies' poses.
+//
+// These write a block's bodies to the caller's memory: the joints that a group moves; and, once all groups are solved,
+// where all needed joints are.
+void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const Group& group, const BodyBlock& block);
+// The same of a pose in the body's space, where the group's own motion is known.
+void carry_out(const BodyKernels& kernels, const BodyPlan& plan, const Group& group, const BodyBlock& block);
+void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBlock& block);
+// Sets how a limb or look that is not solved moves its joints: no more than what is above them.
+void stay(const Group& group, const BodyBlock& block);
 
 // rounds.cpp: a job with streams goes in rounds, because limbs of one character often share cache lines. Round n is the
 // nth run of blocks of each group, so one thread has the same characters of all groups.

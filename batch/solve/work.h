@@ -37,6 +37,13 @@ inline std::span<const swivel_stream> fields_of(const swivel_streams& streams)
     return {streams.fields, streams.field_count};
 }
 
+// A validated pose, padded to the current size of the structure.
+inline swivel_pose full_pose(const swivel_pose* given) { return element(given, 0, swivel_default_pose()); }
+// The origin of the positions in a job's streams: the root, where it is doubles.
+inline swivel_in origin_of(const swivel_pose& pose) { return pose.root_is_double ? pose.root_position : swivel_in{}; }
+// Whether a pose asks for where all needed joints are.
+inline bool gives_joints(const swivel_pose& pose) { return pose.joint_rotations.data || pose.joint_positions.data; }
+
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
 // Whether a group's joints hang below a look that a job solves.
 inline bool hangs_on_solved(const swivel_crowd& crowd, const std::uint32_t* groups, const Group& group)

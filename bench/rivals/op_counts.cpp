@@ -41,7 +41,7 @@ Rotor<Counted> rotor(double x, double y, double z, double w)
 // A joint's rotation as it is stored: on the incoming one's side.
 void store(const Rotor<Counted>& local, const Rotor<Counted>& incoming)
 {
-    swivel::with_sign_of(swivel::scalar_product(~incoming, local), local);
+    swivel::flip_sign(local, swivel::scalar_product(~incoming, local));
 }
 
 // Forward kinematics of all joints, which have no scales of their own.
@@ -164,7 +164,7 @@ void count_ground()
     const auto normal =
         swivel::sprung(swivel::Spring<swivel::Vector<Counted>>{vector(0.1, 1, 0.1), vector(0.2, 0, -0.1)},
                        ground.slope(up), Counted(1.0 / 60), swivel::spring_rule(0.05f));
-    swivel::foot_on_ground(ground, swivel::leaning(ground, normal.at, up), up, {toe, foot},
+    swivel::foot_on_ground(ground, swivel::ground_plane(ground.place, normal.at, up), up, {toe, foot},
                            Counted(1.1) * vector(0, 0, -0.15), Counted(1.1), Counted(1.0), rules);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Answers about single limbs in words, for tools, and for binding a skeleton. They link
-// apart from the solver: the target swivel::explain, or the shared library.
+// Answers about single limbs in words, for tools, and for binding a skeleton. They link apart from the solver: the
+// target swivel::explain, or the shared library.
 #pragma once
 
 #include "swivel_bodies.h"

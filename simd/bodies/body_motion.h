@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How what was solved moves the joints of bodies: those that a limb turns, and all below them. Only
-// body_kernels.cpp includes this.
+// How what was solved moves the joints of bodies: those that a limb turns, and all below them. Only body_kernels.cpp
+// includes this.
 #pragma once
 
 #include "simd/bodies/body_values.h"
@@ -32,11 +32,7 @@ struct Motion {
     }
     SWIVEL_INLINE Vector<T> operator()(const Vector<T>& place) const { return turned(turn, place) + shift; }
     // Where nothing moves, so the incoming bits stay.
-    SWIVEL_INLINE Mask<T> is_none() const
-    {
-        const Vector<T> axis = vector(turn.template at<kI>(), turn.template at<kJ>(), turn.template at<kK>());
-        return (len2(axis) == T(0)) & (len2(shift) == T(0));
-    }
+    SWIVEL_INLINE Mask<T> is_none() const { return (len2(vector_part(turn)) == T(0)) & (len2(shift) == T(0)); }
 };
 
 // From the world to the body's space.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The kernels of bodies read and write rows of a block's joints, and the caller's values of its bodies.
-// Only body_kernels.cpp includes this.
+// The kernels of bodies read and write rows of a block's joints, and the caller's values of its bodies. Only
+// body_kernels.cpp includes this.
 #pragma once
 
 #include <array>

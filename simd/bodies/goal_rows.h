@@ -7,7 +7,6 @@
 #include "core/ground.h"
 #include "core/limb_bones.h"
 #include "core/spring.h"
-#include "core/yielding_hand.h"
 #include "simd/limbs/goal_stages.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -140,8 +139,8 @@ SWIVEL_INLINE void set_goal(const S& s, const Vector<typename S::T>& place, cons
     hold_back(s, SWIVEL_SOLVED_GOAL, 3, hand);
 }
 
-// A height that a spring eases towards a goal. It carries where it is, its rate, and 1 once it has begun.
-// It begins at the goal, and anew where that is asked for.
+// A height that a spring eases towards a goal. It carries where it is, its rate, and 1 once it has begun. It begins at
+// the goal, and anew where that is asked for.
 template <class T>
 struct EasedHeight {
     T at, rate;
@@ -153,9 +152,9 @@ SWIVEL_INLINE EasedHeight<typename S::T> eased(const S& s, swivel_field carried,
 {
     using T = typename S::T;
     const T time = s.body.get(kTimeRow);
-    const Spring<T> previous{s.io.load_result(carried, 0), s.io.load_result(carried, 1)};
+    const Spring<T> previous{s.io.load(carried, 0), s.io.load(carried, 1)};
     const Mask<T> is_number = (previous.at == previous.at) & (previous.rate == previous.rate), stands = time == T(0),
-                  begun = (s.io.load_result(carried, 2) > T(0.5)) & is_number & !anew;
+                  begun = (s.io.load(carried, 2) > T(0.5)) & is_number & !anew;
     const Spring<T> next = sprung(previous, goal, time, rule);
     const EasedHeight<T> height{select(begun, select(stands, previous.at, next.at), goal),
                                 select(begun, select(stands, previous.rate, next.rate), T(0)),
@@ -174,8 +173,7 @@ SWIVEL_INLINE Spring<Vector<typename S::T>> eased_normal(const S& s, const Vecto
 {
     using T = typename S::T;
     const T time = s.body.get(kTimeRow);
-    const Spring<Vector<T>> carried{s.io.load_result_vector(SWIVEL_LIFT, kSlope),
-                                    s.io.load_result_vector(SWIVEL_LIFT, kSlopeRate)};
+    const Spring<Vector<T>> carried{s.io.load_vector(SWIVEL_LIFT, kSlope), s.io.load_vector(SWIVEL_LIFT, kSlopeRate)};
     const Spring<Vector<T>> next = sprung(carried, goal, time, rule);
     const Mask<T> usable = (scalar_product(carried.at, up) > T(1e-3)) & (len2(carried.at) <= T(1e6)) &
                            (len2(carried.rate) <= T(kHuge2)) & !fresh,

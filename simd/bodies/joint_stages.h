@@ -48,7 +48,7 @@ SWIVEL_INLINE void set_local(const S& s, std::uint32_t joint, const Rotor<typena
     const T side = select(valid, scalar_product(~incoming, q), T(1));
     if (pose.form != SWIVEL_ROTATIONS && pose.space == SWIVEL_LOCAL)
         turn_axes(s, joint, unit_rotation(select(valid, q * ~incoming, q)), valid, kept);
-    s.body.set(joint + kLocalRow, select(kept, incoming, with_sign_of(side, q)));
+    s.body.set(joint + kLocalRow, select(kept, incoming, flip_sign(q, side)));
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -17,7 +17,7 @@ template <class S>
 SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
 {
     using T = typename S::T;
-    T rest = s.io.load_result(SWIVEL_PLANT, kState);
+    T rest = s.io.load(SWIVEL_PLANT, kState);
     const auto next = [&](float bit) SWIVEL_INLINE_LAMBDA {
         const Mask<T> is_set = rest >= T(bit);
         rest = select(is_set, rest - T(bit), rest);
@@ -28,10 +28,10 @@ SWIVEL_INLINE PlantState<typename S::T> load_plant(const S& s)
     state.waiting = next(kIsWaiting);
     state.armed = next(kIsArmed);
     state.locked = next(kIsLocked);
-    state.mark = s.io.load_result_vector(SWIVEL_PLANT, kMark);
-    state.offset = s.io.load_result_vector(SWIVEL_PLANT, kOffset);
-    state.velocity = s.io.load_result_vector(SWIVEL_PLANT, kVelocity);
-    state.left = s.io.load_result(SWIVEL_PLANT, kLeft);
+    state.mark = s.io.load_vector(SWIVEL_PLANT, kMark);
+    state.offset = s.io.load_vector(SWIVEL_PLANT, kOffset);
+    state.velocity = s.io.load_vector(SWIVEL_PLANT, kVelocity);
+    state.left = s.io.load(SWIVEL_PLANT, kLeft);
     return state;
 }
 template <class S>
@@ -60,8 +60,7 @@ SWIVEL_INLINE Mask<typename S::T> in_contact(const S& s, const Mask<typename S::
         return contact > T(0.5);
     }
     const BodyLimb& limb = s.strip.run.plan->limb;
-    MotionState<T> motion{s.io.load_result_vector(SWIVEL_CONTACT_STATE, 0),
-                          s.io.load_result(SWIVEL_CONTACT_STATE, 3) > T(0.5)};
+    MotionState<T> motion{s.io.load_vector(SWIVEL_CONTACT_STATE), s.io.load(SWIVEL_CONTACT_STATE, 3) > T(0.5)};
     const Mask<T> is_in_contact = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.plant);
     hold_back(s, SWIVEL_CONTACT_STATE, 0, motion.place);
     hold_back(s, SWIVEL_CONTACT_STATE, 3, select(motion.contact, T(1), T(0)));
@@ -75,9 +74,9 @@ SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<type
                                                 const Rotor<typename S::T>& hand)
 {
     using T = typename S::T;
-    TurnState<T> turn{s.io.load_result_rotor(SWIVEL_PLANT_ROTATION, kTurnMark),
-                      s.io.load_result_vector(SWIVEL_PLANT_ROTATION, kTurnOffset),
-                      s.io.load_result_vector(SWIVEL_PLANT_ROTATION, kTurnVelocity)};
+    TurnState<T> turn{s.io.load_rotor(SWIVEL_PLANT_ROTATION, kTurnMark),
+                      s.io.load_vector(SWIVEL_PLANT_ROTATION, kTurnOffset),
+                      s.io.load_vector(SWIVEL_PLANT_ROTATION, kTurnVelocity)};
     const Rotor<T> planted =
         plant_rotation(turn, step, locked, unit_rotation(~support * hand), s.strip.run.plan->limb.plant);
     hold_back(s, SWIVEL_PLANT_ROTATION, kTurnMark, turn.mark);
@@ -132,8 +131,8 @@ struct PlantedPoint {
 private:
     SWIVEL_INLINE Vector<T> lifted_so_far() const
     {
-        const T last_lift = s.io.load_result(SWIVEL_LIFT, 0);
-        const Mask<T> has_begun = (s.io.load_result(SWIVEL_LIFT, 2) > T(0.5)) & (last_lift == last_lift) & !state.fresh;
+        const T last_lift = s.io.load(SWIVEL_LIFT, 0);
+        const Mask<T> has_begun = (s.io.load(SWIVEL_LIFT, 2) > T(0.5)) & (last_lift == last_lift) & !state.fresh;
         return select(has_begun, last_lift, T(0)) * up_of(s);
     }
     // From the root's level to the ground below the animated point.
@@ -146,93 +145,81 @@ private:
 };
 
 // Where to sample the ground, whatever was given of it so far. The height does not matter.
-template <>
-struct StageBody<Stage::probe> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        const PlantedPoint<S> point(s, false);
-        const Vector<T> place = point.place() + s.body.vector(kRootRow);
-        s.require(len2(place) <= T(kHuge2));
-        s.good_rows().store_vector(SWIVEL_PROBE, place);
-    }
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::probe>, const S& s)
+{
+    using T = typename S::T;
+    const PlantedPoint<S> point(s, false);
+    const Vector<T> place = point.place() + s.body.vector(kRootRow);
+    s.require(len2(place) <= T(kHuge2));
+    s.good_rows().store(SWIVEL_PROBE, 0, place);
+}
 
-template <>
-struct StageBody<Stage::plant> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        PlantedPoint<S> point(s, true);
-        const Planted<T>& planted = point.planted;
-        const Vector<T> place = point.place();
-        s.require(len2(place) <= T(kHuge2));
-        const Rotor<T> hand =
-            s.has(SWIVEL_WITH_PLANT_ROTATION)
-                ? planted_turn(s, planted.step, point.state.locked, point.support.rotation, point.animated.rotation)
-                : point.animated.rotation;
-        if (s.has(SWIVEL_WITH_GROUND)) {
-            point.lock_to_ground();
-            hold_back(s, SWIVEL_PROBE, 0, place + s.body.vector(kRootRow));
-            hold_back(s, SWIVEL_LIFT, 0, point.lift.at);
-            hold_back(s, SWIVEL_LIFT, 1, point.lift.rate);
-            hold_back(s, SWIVEL_LIFT, 2, T(1));
-            const Spring<Vector<T>> normal = point.normal();
-            hold_back(s, SWIVEL_LIFT, kSlope, normal.at);
-            hold_back(s, SWIVEL_LIFT, kSlopeRate, normal.rate);
-        }
-        hold_back_plant(s, point.state);
-        set_goal(s, place, hand);
-        s.body.set(point.limb.goal + kGoalFlagsRow,
-                   word_where(point.state.locked, SWIVEL_PLANTED) | word_where(planted.step.releases, SWIVEL_RELEASED) |
-                       word_where(planted.too_far, SWIVEL_BROKE_AWAY) | word_where(planted.cut, SWIVEL_CUT));
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::plant>, const S& s)
+{
+    using T = typename S::T;
+    PlantedPoint<S> point(s, true);
+    const Planted<T>& planted = point.planted;
+    const Vector<T> place = point.place();
+    s.require(len2(place) <= T(kHuge2));
+    const Rotor<T> hand =
+        s.has(SWIVEL_WITH_PLANT_ROTATION)
+            ? planted_turn(s, planted.step, point.state.locked, point.support.rotation, point.animated.rotation)
+            : point.animated.rotation;
+    if (s.has(SWIVEL_WITH_GROUND)) {
+        point.lock_to_ground();
+        hold_back(s, SWIVEL_PROBE, 0, place + s.body.vector(kRootRow));
+        hold_back(s, SWIVEL_LIFT, 0, point.lift.at);
+        hold_back(s, SWIVEL_LIFT, 1, point.lift.rate);
+        hold_back(s, SWIVEL_LIFT, 2, T(1));
+        const Spring<Vector<T>> normal = point.normal();
+        hold_back(s, SWIVEL_LIFT, kSlope, normal.at);
+        hold_back(s, SWIVEL_LIFT, kSlopeRate, normal.rate);
     }
-};
+    hold_back_plant(s, point.state);
+    set_goal(s, place, hand);
+    s.body.set(point.limb.goal + kGoalFlagsRow,
+               word_where(point.state.locked, SWIVEL_PLANTED) | word_where(planted.step.releases, SWIVEL_RELEASED) |
+                   word_where(planted.too_far, SWIVEL_BROKE_AWAY) | word_where(planted.cut, SWIVEL_CUT));
+}
 
-template <>
-struct StageBody<Stage::ground> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        const BodyLimb& limb = s.strip.run.plan->limb;
-        const GroundRules& rules = limb.ground;
-        const Vector<T> up = up_of(s);
-        const T scale = s.body.get(limb.parent + kScaleRow), share = s.io.load(SWIVEL_GROUND_WEIGHT, 0);
-        const Vector<T> heel = vector(T(rules.given.heel[0]), T(rules.given.heel[1]), T(rules.given.heel[2]));
-        const Vector<T> heel_from_toe = scale * (heel - s.io.load_vector(SWIVEL_EFFECTOR));
-        s.require(is_share(share) & (len2(heel_from_toe) <= T(kHuge2)));
-        const Foot<T> planted{s.body.vector(limb.goal + kGoalPlaceRow), s.body.rotor(limb.goal + kGoalHandRow)};
-        const Vector<T> normal = s.body.vector(limb.goal + waiting_row(SWIVEL_LIFT) + kSlope);
-        const GroundPlane<T> ground = ground_of(s, up);
-        const Foot<T> foot =
-            foot_on_ground(ground, leaning(ground, normal, up), up, planted, heel_from_toe, scale, share, rules);
-        set_goal(s, foot.toe, foot.rotation);
-    }
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::ground>, const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = s.strip.run.plan->limb;
+    const GroundRules& rules = limb.ground;
+    const Vector<T> up = up_of(s);
+    const T scale = s.body.get(limb.parent + kScaleRow), share = s.io.load(SWIVEL_GROUND_WEIGHT, 0);
+    const Vector<T> heel = vector(T(rules.given.heel[0]), T(rules.given.heel[1]), T(rules.given.heel[2]));
+    const Vector<T> heel_from_toe = scale * (heel - s.io.load_vector(SWIVEL_EFFECTOR));
+    s.require(is_share(share) & (len2(heel_from_toe) <= T(kHuge2)));
+    const Foot<T> planted{s.body.vector(limb.goal + kGoalPlaceRow), s.body.rotor(limb.goal + kGoalHandRow)};
+    const Vector<T> normal = s.body.vector(limb.goal + waiting_row(SWIVEL_LIFT) + kSlope);
+    const GroundPlane<T> ground = ground_of(s, up);
+    const Foot<T> foot =
+        foot_on_ground(ground, ground_plane(ground.place, normal, up), up, planted, heel_from_toe, scale, share, rules);
+    set_goal(s, foot.toe, foot.rotation);
+}
 
 // Stores what waited. Bad input keeps what is carried, or clears it where limbs go to rest.
-template <>
-struct StageBody<Stage::commit> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        const Rows<T, kRuntimeFeatures> out = s.good_rows(),
-                                        cleared = s.rows_of(s.strip.run.keeps_pose ? 0 : s.chosen() & ~s.good());
-        for (const swivel_field field : kWaitingResults) {
-            const FieldRow& row = row_of(field);
-            if ((s.strip.run.features & row.needs) != row.needs) continue;
-            const std::uint32_t waiting = s.strip.run.plan->limb.goal + waiting_row(field);
-            for (std::uint32_t c = 0; c < row.component_count; ++c) {
-                out.store(field, static_cast<int>(c), s.body.get(waiting + c));
-                if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED)
-                    cleared.store(field, static_cast<int>(c), T(0));
-            }
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::commit>, const S& s)
+{
+    using T = typename S::T;
+    const Rows<T, kRuntimeFeatures> out = s.good_rows(),
+                                    cleared = s.rows_of(s.strip.run.keeps_pose ? 0 : s.chosen() & ~s.good());
+    for (const swivel_field field : kWaitingResults) {
+        const FieldRow& row = row_of(field);
+        if ((s.strip.run.features & row.needs) != row.needs) continue;
+        const std::uint32_t waiting = s.strip.run.plan->limb.goal + waiting_row(field);
+        for (std::uint32_t c = 0; c < row.component_count; ++c) {
+            out.store(field, static_cast<int>(c), s.body.get(waiting + c));
+            if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED)
+                cleared.store(field, static_cast<int>(c), T(0));
         }
     }
-};
+}
 
 }  // namespace swivel::inline SWIVEL_ISA

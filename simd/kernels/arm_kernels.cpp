@@ -48,7 +48,7 @@ template <class T, swivel_features Features>
 SWIVEL_INLINE Mask<T> store_rotation(const Rows<T, Features>& rows, swivel_field field, const Rotor<T>& q)
 {
     const T w = q.template at<kScalar>();
-    rows.store_rotor(field, with_sign_of(w, q));
+    rows.store(field, 0, flip_sign(q, w));
     return abs(w) > T(0);
 }
 
@@ -61,7 +61,7 @@ SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const RunConstan
     if constexpr (joints) {
         shoulder = pose.shoulder * run.arm_from_upper;
         const Rotor<T> elbow = pose.cos_half * run.elbow_straight - pose.sin_half * run.elbow_hinge;
-        rows.store_rotor(SWIVEL_ELBOW, hemisphere(elbow));  // w may be 0: a folded arm turns by pi
+        rows.store(SWIVEL_ELBOW, 0, hemisphere(elbow));  // w may be 0: a folded arm turns by pi
     } else {
         rows.store(SWIVEL_ELBOW, 0, pose.cos_half);
         rows.store(SWIVEL_ELBOW, 1, pose.sin_half);

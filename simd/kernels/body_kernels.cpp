@@ -13,14 +13,8 @@ namespace swivel::inline SWIVEL_ISA {
 
 namespace {
 
-// A joint as a pose gives it, relative to its parent or to the root.
-struct GivenJoint {
-    Rotor<T> rotation;
-    Vector<T> translation;
-    T scale;
-};
-
-// The joints of a block. Form, Translates, Scales: what the pose has, as constants.
+// The joints of a block as a pose gives them, each in its parent's frame or in the root's. Form, Translates, Scales:
+// what the pose has, as constants.
 template <swivel_pose_form Form, bool Translates, bool Scales>
 struct PoseReader {
     const Bodies rotations, translations, scales;
@@ -33,7 +27,7 @@ struct PoseReader {
           pose(given)
     {
     }
-    SWIVEL_INLINE GivenJoint read(const BodyJoint& joint, std::uint32_t lane, const RowView<T>& to) const
+    SWIVEL_INLINE JointFrame<T> read(const BodyJoint& joint, std::uint32_t lane, const RowView<T>& to) const
     {
         const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
         if constexpr (Form != SWIVEL_ROTATIONS) {
@@ -41,10 +35,10 @@ struct PoseReader {
         } else {
             const Rotor<T> rotation = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
             if (joint.is_turned) to.set(kLocalRow, rotation);
-            GivenJoint given{rotation,
-                             vector(T(joint.translation[0]), T(joint.translation[1]), T(joint.translation[2])), T(1)};
+            JointFrame<T> given{
+                rotation, vector(T(joint.translation[0]), T(joint.translation[1]), T(joint.translation[2])), T(1)};
             if constexpr (Translates)
-                given.translation = vector_of(
+                given.place = vector_of(
                     load_values<T, 3>(translations.lane + lane, offset_of(pose.translations, joint.skeleton_joint)));
             if constexpr (Scales) {
                 const std::array<T, 3> scale =
@@ -56,7 +50,8 @@ struct PoseReader {
     }
 
 private:
-    SWIVEL_INLINE static GivenJoint read_matrix(LaneValues lane, std::size_t at, bool is_turned, const RowView<T>& to)
+    SWIVEL_INLINE static JointFrame<T> read_matrix(LaneValues lane, std::size_t at, bool is_turned,
+                                                   const RowView<T>& to)
     {
         const MatrixParts m = read_parts<Form>(lane, at);
         const MatrixFrame<T> frame = matrix_frame(axis_of<Form>(m, 0), axis_of<Form>(m, 1), axis_of<Form>(m, 2));
@@ -67,6 +62,14 @@ private:
         return {frame.rotation, vector_of(m.part[3]), select(frame.valid, frame.scale, T(__builtin_nan("")))};
     }
 };
+
+// Fills a row of a block with a number of each body.
+SWIVEL_INLINE void read_numbers(const BodyBlock& block, const swivel_in& values, std::uint32_t row)
+{
+    const Bodies bodies(block, values);
+    for (std::uint32_t n = 0; n < kLanes; ++n)
+        std::memcpy(block.rows + row * kLanes + n, bodies.lane[n], sizeof(float));
+}
 
 // The root, which lies at the place that all others are from.
 SWIVEL_FLATTEN [[gnu::noinline]] void read_root(const BodyPlan& plan, const BodyBlock& block)
@@ -90,11 +93,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_root(const BodyPlan& plan, const Body
         for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>)
             at(0, lane).set(kRootRow, vector_of(load_values<T, 3>(bodies.lane + lane, 0)));
     }
-    if (pose.root_scale.data) {
-        const Bodies bodies(block, pose.root_scale);
-        float* const scales = at(kRootJoint + kScaleRow, 0).first;
-        for (std::uint32_t n = 0; n < kLanes; ++n) std::memcpy(scales + n, bodies.lane[n], sizeof(float));
-    }
+    if (pose.root_scale.data) read_numbers(block, pose.root_scale, kRootJoint + kScaleRow);
 }
 
 // Where the root is from the support, along the world's axes: of doubles, and of floats once the root is read.
@@ -123,19 +122,11 @@ SWIVEL_INLINE void take_root_from_support(const BodyBlock& block, const swivel_p
     }
 }
 
-void read_weights(const BodyPlan& plan, const BodyBlock& block)
-{
-    const Bodies weights(block, plan.pose->weight);
-    for (std::uint32_t n = 0; n < kLanes; ++n)
-        std::memcpy(block.rows + kWeightRow * kLanes + n, weights.lane[n], sizeof(float));
-}
 // A body's values for plants and shifts.
 SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan, const BodyBlock& block)
 {
     const swivel_pose& pose = *plan.pose;
-    const Bodies times(block, pose.time);
-    for (std::uint32_t n = 0; n < kLanes; ++n)
-        std::memcpy(block.rows + kTimeRow * kLanes + n, times.lane[n], sizeof(float));
+    read_numbers(block, pose.time, kTimeRow);
     if (pose.root_is_double)
         read_root_from_support(block, pose);
     else
@@ -155,10 +146,10 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan
 // chain, what is bad in a joint shows in all below it.
 template <bool Translates>
 SWIVEL_INLINE JointFrame<T> frame_in_body(const JointFrame<T>& root, const JointFrame<T>& above,
-                                          const GivenJoint& given)
+                                          const JointFrame<T>& given)
 {
-    JointFrame<T> frame = joint_frame(root, given.rotation, given.translation, given.scale);
-    if constexpr (!Translates) frame.place = above.place + turned(above.rotation, above.scale * given.translation);
+    JointFrame<T> frame = joint_frame(root, given.rotation, given.place, given.scale);
+    if constexpr (!Translates) frame.place = above.place + turned(above.rotation, above.scale * given.place);
     const Mask<T> good = is_almost_unit(above.rotation) & (len2(above.place) <= T(kHuge2));
     frame.scale = select(good & (above.scale == above.scale), frame.scale, T(__builtin_nan("")));
     return frame;
@@ -173,10 +164,10 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_joints(const BodyPlan& plan, const Bo
         const BodyJoint& joint = plan.joints[n];
         for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
             const RowView<T> at = rows_of(block, joint.row, lane);
-            const GivenJoint given = reader.read(joint, lane, at);
+            const JointFrame<T> given = reader.read(joint, lane, at);
             const JointFrame<T> above = frame_of(rows_of(block, joint.parent, lane));
             if (!in_body) {
-                set_frame(at, joint_frame(above, given.rotation, given.translation, given.scale));
+                set_frame(at, joint_frame(above, given.rotation, given.place, given.scale));
                 continue;
             }
             const JointFrame<T> frame =
@@ -191,7 +182,7 @@ void forward(const BodyPlan& plan, const BodyBlock& block)
 {
     read_root(plan, block);
     if (plan.pose->time.data) read_time_and_support(plan, block);
-    if (plan.pose->weight.data) read_weights(plan, block);
+    if (plan.pose->weight.data) read_numbers(block, plan.pose->weight, kWeightRow);
     const swivel_pose& pose = *plan.pose;
     switch (pose.form) {
         case SWIVEL_MATRIX_ROWS:

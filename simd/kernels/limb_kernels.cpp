@@ -21,7 +21,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void run_stage(Strip& strip)
 {
     constexpr StageRow row = row_of(stage);
     for_each_slice<Number, constants_of(row), Has | implied_by(row)>(
-        strip, [](const auto& s) SWIVEL_INLINE_LAMBDA { StageBody<stage>::slice(s); });
+        strip, [](const auto& s) SWIVEL_INLINE_LAMBDA { advance(AtStage<stage>(), s); });
 }
 
 using StageFunction = void (*)(Strip& strip);

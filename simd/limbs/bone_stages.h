@@ -68,52 +68,46 @@ SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, swivel_features
     }
     return lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return place_bones(features, goal, wanted); });
 }
-template <>
-struct StageBody<Stage::bones> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        s.rows.set(kFlagsRow, lay_reaching_bones(s, s.features()).flags);
-    }
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::bones>, const S& s)
+{
+    s.rows.set(kFlagsRow, lay_reaching_bones(s, s.features()).flags);
+}
 
-template <>
-struct StageBody<Stage::capped> : StageBody<Stage::bones> {
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::capped>, const S& s)
+{
+    advance(AtStage<Stage::bones>(), s);
+}
 
-template <>
-struct StageBody<Stage::aim> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        LimbGoal<T> goal;
-        load_lengths(s, goal.arm);
-        // Checked as given: a turn's rounding is no fault of the axis.
-        const Vector<T> axis = s.io.load_vector(SWIVEL_AIM);
-        goal.aim = {in_hand(s, axis), s.io.load(SWIVEL_AIM, 3), s.io.load(SWIVEL_AIM, 4)};
-        s.require(is_unit2(len2(axis)) & is_valid(goal.aim));
-        if (s.has(SWIVEL_WITH_EFFECTOR)) {
-            goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
-            s.require(len2(goal.effector) <= T(kHuge2));
-        }
-        const Rotor<T> hand = s.has(SWIVEL_WITH_HAND) ? s.rows.rotor(kHandRow)
-                              : s.has(kBody)          ? s.rows.rotor(kIncomingRow + 8)
-                                                      : one<T>();
-        const swivel_features features = s.features();
-        const Laid<T> laid = lay_bones(
-            s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(features, goal, hand, wanted); });
-        s.rows.set(kFlagsRow, laid.flags);
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::aim>, const S& s)
+{
+    using T = typename S::T;
+    LimbGoal<T> goal;
+    load_lengths(s, goal.arm);
+    // Checked as given: a turn's rounding is no fault of the axis.
+    const Vector<T> axis = s.io.load_vector(SWIVEL_AIM);
+    goal.aim = {in_hand(s, axis), s.io.load(SWIVEL_AIM, 3), s.io.load(SWIVEL_AIM, 4)};
+    s.require(is_unit2(len2(axis)) & is_valid(goal.aim));
+    if (s.has(SWIVEL_WITH_EFFECTOR)) {
+        goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
+        s.require(len2(goal.effector) <= T(kHuge2));
     }
-};
+    const Rotor<T> hand = s.has(SWIVEL_WITH_HAND) ? s.rows.rotor(kHandRow)
+                          : s.has(kBody)          ? s.rows.rotor(kIncomingRow + 8)
+                                                  : one<T>();
+    const swivel_features features = s.features();
+    const Laid<T> laid =
+        lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(features, goal, hand, wanted); });
+    s.rows.set(kFlagsRow, laid.flags);
+}
 
 template <class S>
 SWIVEL_INLINE void load_continuity(const S& s, Continuity<typename S::T>& continuity)
 {
     using T = typename S::T;
-    continuity = {vector(s.io.load_result(SWIVEL_NORMAL, 0), s.io.load_result(SWIVEL_NORMAL, 1),
-                         s.io.load_result(SWIVEL_NORMAL, 2)),
-                  s.io.load_turned(SWIVEL_MAX_SWIVEL)};
+    continuity = {s.io.load_vector(SWIVEL_NORMAL), s.io.load_turned(SWIVEL_MAX_SWIVEL)};
     if (!s.has(kBody) || !s.strip.run.strip.pose->time.data) return;
     const T time = s.body.get(kTimeRow);
     s.require(is_within(time, 0, kHuge) & is_valid(continuity));
@@ -144,24 +138,18 @@ SWIVEL_INLINE void wish_for_normal(const S& s, swivel_features features, const L
     s.rows.set(kNormalRow, found.normal);
     s.rows.set(kFlagsRow, laid.flags | found.flags);
 }
-template <>
-struct StageBody<Stage::wish> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        wish_for_normal(s, s.features(), Laid<typename S::T>{s.rows.vector(kLineRow), s.rows.word(kFlagsRow)});
-    }
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::wish>, const S& s)
+{
+    wish_for_normal(s, s.features(), Laid<typename S::T>{s.rows.vector(kLineRow), s.rows.word(kFlagsRow)});
+}
 
-template <>
-struct StageBody<Stage::place> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        // These are all that such limbs have of the features that the formulas ask for. The mask makes them constants.
-        const swivel_features features = s.features() & row_of(Stage::place).knows;
-        wish_for_normal(s, features, lay_reaching_bones(s, features));
-    }
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::place>, const S& s)
+{
+    // These are all that such limbs have of the features that the formulas ask for. The mask makes them constants.
+    const swivel_features features = s.features() & row_of(Stage::place).knows;
+    wish_for_normal(s, features, lay_reaching_bones(s, features));
+}
 
 }  // namespace swivel::inline SWIVEL_ISA

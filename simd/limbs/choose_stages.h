@@ -66,20 +66,14 @@ SWIVEL_INLINE Limits<typename S::T, Boxes> load_limits(const S& s, int line_coun
         [&](int box, int row) SWIVEL_INLINE_LAMBDA { return s.io.load(list.box_field[box], row); });
 }
 
-// The same for where an upper arm with a region points. row(row) loads a row of the strip.
-template <class T, class Row>
-SWIVEL_INLINE RegionOnCircle<T> load_region(const swivel_region* region, const Row& row)
-{
-    const auto line_at = [&](std::uint32_t first) SWIVEL_INLINE_LAMBDA {
-        return OnCircle<T>{row(first), row(first + 1), row(first + 2)};
-    };
-    return {region, line_at(kRegionRows[0]), line_at(kRegionRows[1]), line_at(kRegionRows[2])};
-}
+// The same for where an upper arm with a region points.
 template <class S>
-SWIVEL_INLINE auto load_region(const S& s)
+SWIVEL_INLINE RegionOnCircle<typename S::T> load_region(const S& s)
 {
-    return load_region<typename S::T>(s.strip.run.region,
-                                      [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA { return s.rows.get(row); });
+    const auto line_at = [&](std::uint32_t row) SWIVEL_INLINE_LAMBDA {
+        return OnCircle<typename S::T>{s.rows.get(row), s.rows.get(row + 1), s.rows.get(row + 2)};
+    };
+    return {s.strip.run.region, line_at(kRegionRows[0]), line_at(kRegionRows[1]), line_at(kRegionRows[2])};
 }
 
 // Lanes of a strip.

@@ -9,9 +9,10 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// StageBody<stage>::slice(s) takes a slice one stage further.
+// Each stage has a function advance(AtStage<stage>(), s), which takes a slice one stage further.
 template <Stage stage>
-struct StageBody;
+struct AtStage {
+};
 
 // Whether the caller gives a pole; and whether it is a point.
 template <class S>
@@ -84,31 +85,28 @@ SWIVEL_INLINE Vector<typename S::T> in_hand(const S& s, const Vector<typename S:
     return is_bound(s) ? sandwich(broadcast<typename S::T>(s.strip.bind.hand_from_arm), v) : v;
 }
 
-template <>
-struct StageBody<Stage::goal_to_parent> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
-        const Vector<T> pole = has_pole(s) ? s.io.load_vector(SWIVEL_POLE) : vector(T(0), T(0), T(0));
-        const ParentFrame<T> parent = s.io.load_parent();
-        s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
-        // The arm frame goes with the parent.
-        Rotor<T> rotation = parent.rotation;
-        if constexpr (S::template is<SWIVEL_JOINTS>()) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
-        const SeenGoal<T> seen =
-            seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
-        const T shrink = T(1) / seen.size;
-        s.rows.set(kTargetRow, shrink * seen.wrist);
-        s.rows.set(kPoleRow, shrink * seen.pole);
-        if constexpr (S::template is<SWIVEL_WITH_HAND>()) {
-            const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
-            s.require(is_orientation(hand));
-            s.rows.set(kTargetHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
-        }
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::goal_to_parent>, const S& s)
+{
+    using T = typename S::T;
+    const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
+    const Vector<T> pole = has_pole(s) ? s.io.load_vector(SWIVEL_POLE) : vector(T(0), T(0), T(0));
+    const ParentFrame<T> parent = s.io.load_parent();
+    s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
+    // The arm frame goes with the parent.
+    Rotor<T> rotation = parent.rotation;
+    if constexpr (S::template is<SWIVEL_JOINTS>()) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+    const SeenGoal<T> seen =
+        seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
+    const T shrink = T(1) / seen.size;
+    s.rows.set(kTargetRow, shrink * seen.wrist);
+    s.rows.set(kPoleRow, shrink * seen.pole);
+    if constexpr (S::template is<SWIVEL_WITH_HAND>()) {
+        const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+        s.require(is_orientation(hand));
+        s.rows.set(kTargetHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
     }
-};
+}
 
 // Places from the clavicle's joint, in the arm frame: the shoulder's, and what the clavicle turns from towards the
 // target.
@@ -147,98 +145,88 @@ SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
 }
 
 // Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
-template <>
-struct StageBody<Stage::clavicle> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        const bool is_posed = s.has(kBody);
-        const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
-        const Vector<T>& bone = ends.shoulder;
-        const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
-        const Vector<T> target = s.rows.vector(kTargetRow) + bone;
-        s.require((len2(bone) <= T(kHuge2)) & is_share(share));
-        const Rotor<T> turn = clavicle_rotation(
-            ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
-        const Turn<T> back = turn_by(~turn);
-        s.rows.set(kTargetRow, back(target) - bone);
-        if (has_pole(s)) {
-            const Vector<T> pole = s.rows.vector(kPoleRow);
-            s.rows.set(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
-        }
-        if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM))
-            s.rows.set(kTargetHandRow, ~turn * s.rows.rotor(kTargetHandRow));
-        s.rows.set(kClavicleRow, turn);
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::clavicle>, const S& s)
+{
+    using T = typename S::T;
+    const bool is_posed = s.has(kBody);
+    const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
+    const Vector<T>& bone = ends.shoulder;
+    const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
+    const Vector<T> target = s.rows.vector(kTargetRow) + bone;
+    s.require((len2(bone) <= T(kHuge2)) & is_share(share));
+    const Rotor<T> turn =
+        clavicle_rotation(ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
+    const Turn<T> back = turn_by(~turn);
+    s.rows.set(kTargetRow, back(target) - bone);
+    if (has_pole(s)) {
+        const Vector<T> pole = s.rows.vector(kPoleRow);
+        s.rows.set(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
     }
-};
+    if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM))
+        s.rows.set(kTargetHandRow, ~turn * s.rows.rotor(kTargetHandRow));
+    s.rows.set(kClavicleRow, turn);
+}
 
-template <>
-struct StageBody<Stage::incoming> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const Binding& bind = s.strip.bind;
-        load(s, SWIVEL_INCOMING_SHOULDER, kIncomingRow, bind.parent_from_arm, bind.upper_from_arm);
-        load(s, SWIVEL_INCOMING_ELBOW, kIncomingRow + 4, bind.elbow_parent_from_arm, bind.fore_from_arm);
-        if (s.has(SWIVEL_WITH_HAND))
-            load(s, SWIVEL_INCOMING_WRIST, kIncomingRow + 8, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
-    }
+template <class S>
+SWIVEL_INLINE void load_incoming(const S& s, swivel_field field, std::uint32_t row, const Rotor<float>& from,
+                                 const Rotor<float>& to)
+{
+    using T = typename S::T;
+    const Rotor<T> local = s.io.load_rotor(field);
+    Rotor<T> of_arm = local;
+    if constexpr (S::template is<SWIVEL_JOINTS>()) of_arm = ~broadcast<T>(from) * local * broadcast<T>(to);
+    of_arm = scaled(of_arm);
+    s.require(is_orientation(local) & is_orientation(of_arm));
+    s.rows.set(row, of_arm);
+}
 
-private:
-    template <class S>
-    SWIVEL_INLINE static void load(const S& s, swivel_field field, std::uint32_t row, const Rotor<float>& from,
-                                   const Rotor<float>& to)
-    {
-        using T = typename S::T;
-        const Rotor<T> local = s.io.load_rotor(field);
-        Rotor<T> of_arm = local;
-        if constexpr (S::template is<SWIVEL_JOINTS>()) of_arm = ~broadcast<T>(from) * local * broadcast<T>(to);
-        of_arm = scaled(of_arm);
-        s.require(is_orientation(local) & is_orientation(of_arm));
-        s.rows.set(row, of_arm);
-    }
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::incoming>, const S& s)
+{
+    const Binding& bind = s.strip.bind;
+    load_incoming(s, SWIVEL_INCOMING_SHOULDER, kIncomingRow, bind.parent_from_arm, bind.upper_from_arm);
+    load_incoming(s, SWIVEL_INCOMING_ELBOW, kIncomingRow + 4, bind.elbow_parent_from_arm, bind.fore_from_arm);
+    if (s.has(SWIVEL_WITH_HAND))
+        load_incoming(s, SWIVEL_INCOMING_WRIST, kIncomingRow + 8, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
+}
 
-template <>
-struct StageBody<Stage::goal> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        using T = typename S::T;
-        const Binding& bind = s.strip.bind;
-        const bool has_hand = s.has(SWIVEL_WITH_HAND), aims = s.has(SWIVEL_WITH_AIM);
-        const bool seen = s.has(SWIVEL_WORLD);
-        LimbGoal<T> goal;
-        goal.arm.wrist = s.goal_vector(seen, kTargetRow, SWIVEL_TARGET);
-        Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
-        if (has_hand) {
-            goal.hand = seen ? s.rows.rotor(kTargetHandRow) : s.io.load_rotor(SWIVEL_HAND);
-            if (!seen) valid = valid & is_orientation(goal.hand);
-            if (is_bound(s)) {
-                const Rotor<T> wrist_parent = s.has(kBody) ? s.body.rotor(s.strip.run.plan->limb.wrist_parent_row())
-                                                           : broadcast<T>(bind.wrist_parent_from_arm);
-                goal.hand = (aims ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
-            }
-            valid = valid & is_product(goal.hand);
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::goal>, const S& s)
+{
+    using T = typename S::T;
+    const Binding& bind = s.strip.bind;
+    const bool has_hand = s.has(SWIVEL_WITH_HAND), aims = s.has(SWIVEL_WITH_AIM);
+    const bool seen = s.has(SWIVEL_WORLD);
+    LimbGoal<T> goal;
+    goal.arm.wrist = s.goal_vector(seen, kTargetRow, SWIVEL_TARGET);
+    Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
+    if (has_hand) {
+        goal.hand = seen ? s.rows.rotor(kTargetHandRow) : s.io.load_rotor(SWIVEL_HAND);
+        if (!seen) valid = valid & is_orientation(goal.hand);
+        if (is_bound(s)) {
+            const Rotor<T> wrist_parent = s.has(kBody) ? s.body.rotor(s.strip.run.plan->limb.wrist_parent_row())
+                                                       : broadcast<T>(bind.wrist_parent_from_arm);
+            goal.hand = (aims ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
         }
-        if (s.has(SWIVEL_WITH_EFFECTOR) && !aims) {
-            goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
-            valid = valid & (len2(goal.effector) <= T(kHuge2));
-        }
-        if (s.has(SWIVEL_WITH_WEIGHTS)) {
-            goal.arm.upper = length(s, 0);
-            goal.arm.fore = length(s, 1);
-            goal.incoming = {s.rows.rotor(kIncomingRow), s.rows.rotor(kIncomingRow + 4),
-                             has_hand ? s.rows.rotor(kIncomingRow + 8) : one<T>()};
-            goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};
-            valid = valid & is_valid(goal.weights);
-        }
-        const WristGoal<T> wrist = wrist_goal(s.features(), goal);
-        s.rows.set(kWristRow, wrist.place);
-        if (has_hand) s.rows.set(kHandRow, wrist.hand);
-        s.require(valid);
+        valid = valid & is_product(goal.hand);
     }
-};
+    if (s.has(SWIVEL_WITH_EFFECTOR) && !aims) {
+        goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
+        valid = valid & (len2(goal.effector) <= T(kHuge2));
+    }
+    if (s.has(SWIVEL_WITH_WEIGHTS)) {
+        goal.arm.upper = length(s, 0);
+        goal.arm.fore = length(s, 1);
+        goal.incoming = {s.rows.rotor(kIncomingRow), s.rows.rotor(kIncomingRow + 4),
+                         has_hand ? s.rows.rotor(kIncomingRow + 8) : one<T>()};
+        goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};
+        valid = valid & is_valid(goal.weights);
+    }
+    const WristGoal<T> wrist = wrist_goal(s.features(), goal);
+    s.rows.set(kWristRow, wrist.place);
+    if (has_hand) s.rows.set(kHandRow, wrist.hand);
+    s.require(valid);
+}
 
 }  // namespace swivel::inline SWIVEL_ISA

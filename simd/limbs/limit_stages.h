@@ -12,37 +12,21 @@ namespace swivel::inline SWIVEL_ISA {
 
 // How far the upper arm is off the line to the wrist: about the hinge, or any rotation where a line of the hand aims.
 template <class S>
-SWIVEL_INLINE auto hinged_lift(const S& s)
-{
-    return hinge(s.rows.get(kLiftRow), s.rows.get(kLiftRow + 1));
-}
-template <class S>
 SWIVEL_INLINE auto lift_of(const S& s)
 {
     if constexpr (S::template is<SWIVEL_WITH_AIM>())
         return s.rows.rotor(kLiftRow);
     else
-        return hinged_lift(s);
+        return hinge(s.rows.get(kLiftRow), s.rows.get(kLiftRow + 1));
 }
-template <class S, class Lift>
-SWIVEL_INLINE auto swivelling_arm(const S& s, const Lift& lift)
-{
-    using T = typename S::T;
-    return SwivellingArm<T, Lift>{s.rows.vector(kLineRow), s.rows.vector(kNormalRow), lift, s.elbow(),
-                                  s.rows.rotor(kHandRow)};
-}
-
-// The arm, for limits of the upper arm.
+// The arm that is limited.
 template <class S>
 SWIVEL_INLINE auto arm_of(const S& s)
 {
-    return swivelling_arm(s, lift_of(s));
-}
-// The arm, for limits of the hand. Groups that aim have none of these (fields.h), so its lift is about the hinge.
-template <class S>
-SWIVEL_INLINE auto hand_arm_of(const S& s)
-{
-    return swivelling_arm(s, hinged_lift(s));
+    using T = typename S::T;
+    using Lift = decltype(lift_of(s));
+    return SwivellingArm<T, Lift>{s.rows.vector(kLineRow), s.rows.vector(kNormalRow), lift_of(s), s.elbow(),
+                                  s.rows.rotor(kHandRow)};
 }
 
 template <class S>
@@ -68,29 +52,17 @@ SWIVEL_INLINE auto load_limit(const S& s)
         return Twist<typename S::T>{s.io.load_vector(limit), s.io.load_range(limit, 3)};
     }
 }
-// The arm that it limits.
-template <swivel_field limit, class S>
-SWIVEL_INLINE auto limited_arm(const S& s)
-{
-    if constexpr ((row_of(limit).needs & kHandLimits) != 0)
-        return hand_arm_of(s);
-    else
-        return arm_of(s);
-}
 // Its line comes after those of the features before its own.
-template <Stage stage>
-requires(is_line(stage)) struct StageBody<stage> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        constexpr swivel_field limit = line_limit_of(stage);
-        constexpr swivel_features before = row_of(limit).needs - 1;
-        const auto value = load_limit<limit>(s);
-        const OnCircle<typename S::T> line = limit_line<limit>(limited_arm<limit>(s), value);
-        s.require(is_valid(value));
-        set_line(s, kLimitRow + 3 * line_count(s.strip.run.features & before), line);
-    }
-};
+template <Stage stage, class S>
+requires(is_line(stage)) SWIVEL_INLINE void advance(AtStage<stage>, const S& s)
+{
+    constexpr swivel_field limit = line_limit_of(stage);
+    constexpr swivel_features before = row_of(limit).needs - 1;
+    const auto value = load_limit<limit>(s);
+    const OnCircle<typename S::T> line = limit_line<limit>(arm_of(s), value);
+    s.require(is_valid(value));
+    set_line(s, kLimitRow + 3 * line_count(s.strip.run.features & before), line);
+}
 
 // Stores the curves of the nth box. Its ranges stay among the inputs.
 template <class S>
@@ -106,34 +78,25 @@ SWIVEL_INLINE void set_box(const S& s, std::uint32_t n, swivel_field field, cons
     set_line(s, row + 9, curves.last_cos);
     set_line(s, row + 12, curves.last_sin);
 }
-template <>
-struct StageBody<Stage::shoulder_box> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const EulerOrder& order = kEulerOrders[s.strip.run.shoulder_order];
-        set_box(s, 0, SWIVEL_SHOULDER_BOX, shoulder_box_curves(arm_of(s), order));
-    }
-};
-template <>
-struct StageBody<Stage::wrist_box> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const EulerOrder& order = kEulerOrders[s.strip.run.wrist_order];
-        set_box(s, s.has(SWIVEL_WITH_SHOULDER_BOX), SWIVEL_WRIST_BOX, wrist_box_curves(hand_arm_of(s), order));
-    }
-};
-template <>
-struct StageBody<Stage::region> {
-    template <class S>
-    SWIVEL_INLINE static void slice(const S& s)
-    {
-        const auto on = region_limit(arm_of(s), s.strip.run.region);
-        set_line(s, kRegionRows[0], on.x);
-        set_line(s, kRegionRows[1], on.y);
-        set_line(s, kRegionRows[2], on.z);
-    }
-};
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::shoulder_box>, const S& s)
+{
+    const EulerOrder& order = kEulerOrders[s.strip.run.shoulder_order];
+    set_box(s, 0, SWIVEL_SHOULDER_BOX, shoulder_box_curves(arm_of(s), order));
+}
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::wrist_box>, const S& s)
+{
+    const EulerOrder& order = kEulerOrders[s.strip.run.wrist_order];
+    set_box(s, s.has(SWIVEL_WITH_SHOULDER_BOX), SWIVEL_WRIST_BOX, wrist_box_curves(arm_of(s), order));
+}
+template <class S>
+SWIVEL_INLINE void advance(AtStage<Stage::region>, const S& s)
+{
+    const auto on = region_limit(arm_of(s), s.strip.run.region);
+    set_line(s, kRegionRows[0], on.x);
+    set_line(s, kRegionRows[1], on.y);
+    set_line(s, kRegionRows[2], on.z);
+}
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -61,7 +61,7 @@ struct StripSlice {
     // A part of the goal: in the strip, if an earlier stage has put it there, or else as it was given.
     SWIVEL_ALWAYS_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
     {
-        return load_vector_rows<T>(in_strip ? rows.at(row) : io.input_at(field, 0));
+        return load_vector_rows<T>(in_strip ? rows.at(row) : io.at(field, 0));
     }
 
     // Bits of its lanes.

@@ -11,8 +11,8 @@
 
 #include <rapidcheck/catch.h>
 
+#include "core/group_rules.h"
 #include "core/limb_bones.h"
-#include "core/plant_rules.h"
 #include "core/spring.h"
 #include "tests/formula_arm.h"
 

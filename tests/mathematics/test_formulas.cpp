@@ -56,8 +56,7 @@ TEST_CASE("the known answer: oracle, lecture's steps and production formula")
     const Quaterniond q_e(0.705162, -0.709047, 0, 0), q12(0, 0.532689, 0.532689, 0.657637),
         q_s(0.251667, 0.288289, 0.695991, 0.607577);
 
-    const double wrist[] = {1.1, 1.1, 1.1}, normal[] = {-2, 2, 0};  // of any length
-    const ReferencePose oracle = solve_reference_for_normal(wrist, normal, 1.4, 1.3);
+    const ReferencePose oracle = solve_reference({{1.1, 1.1, 1.1}, {0, 0, -1}, 1.4, 1.3});
     CHECK((Vector3d(oracle.elbow) - elbow).norm() < 2 * digit);
     CHECK(std::fabs(oracle.cos_flexion - c4) < digit);
     CHECK(distance(eigen(oracle.elbow_rotor), q_e) < 2 * digit);

@@ -75,7 +75,7 @@ Foot<T> by_formula(const FootCase& given, const Foot<T>& foot)
 {
     const Vector<T> up = mv<T>(given.up);
     const GroundPlane<T> ground = ground_plane(mv<T>(given.place), mv<T>(given.normal), up);
-    return foot_on_ground(ground, leaning(ground, ground.slope(up), up), up, foot, mv<T>(given.heel),
+    return foot_on_ground(ground, ground_plane(ground.place, ground.slope(up), up), up, foot, mv<T>(given.heel),
                           static_cast<T>(given.scale), static_cast<T>(given.share), given.rules());
 }
 template <class T>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The constants of groups that plant, and of those that stand on ground: as their definition gives them, and what
-// formulas need besides. The constants of the springs that ease shifts and lifts.
+// The constants of groups that plant, stand on ground or look: as their definition gives them, and what formulas need
+// besides. The constants of the springs that ease shifts and lifts.
 #pragma once
+
+#include <cstdint>
 
 #include "include/swivel/swivel_bodies.h"
 
@@ -49,6 +51,24 @@ struct GroundRules {
     swivel_ground given;
     float cos_half_max, sin_half_max;  // of half the max angle that a foot turns
     SpringRule lift;
+};
+
+// The rules of one joint that looks.
+struct LookJoint {
+    float share;                       // of the turn that is left
+    float cos_half_max, sin_half_max;  // of half the joint's max turn
+};
+// A look fades by the cosine between the incoming line of sight and the line to the target, and by distance.
+struct LookFade {
+    float cos_none, per_cos;  // per_cos: 1 / (cos_full - cos_none)
+    float distance;
+};
+inline constexpr std::uint32_t kMaxLookJoints = 8;
+struct LookRules {
+    LookJoint joint[kMaxLookJoints];
+    LookFade fade;
+    float eye[3], axis[3];  // in the last joint's frame; axis: unit
+    float rate;             // radians a second; 0: not eased
 };
 
 }  // namespace swivel
