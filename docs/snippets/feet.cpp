@@ -60,7 +60,7 @@ TEST_CASE("docs: feet that stand while the root glides")
         {swivel::body_limb(left, features), swivel::body_limb(right, features)});
     // [end]
     swivel_pose pose = pose_of(characters);
-    Eigen::Vector3d stood;
+    Eigen::Vector3d stood = Eigen::Vector3d::Zero();
     for (int n = 0; n < 20; ++n) {
         for (Character& each : characters) each.place[2] += 0.3f * kFrame;
         // [frame]
@@ -159,7 +159,7 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
     }
     swivel_pose pose = pose_of(characters);
     pose.time = {&kFrame, 0};
-    Eigen::Vector3d stood, foot;
+    Eigen::Vector3d stood = Eigen::Vector3d::Zero(), foot = stood;
     for (int n = 0; n < 60; ++n) {
         if (n == 1)
             for (Standing& each : characters) each.place[1] += 0.1f;
