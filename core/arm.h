@@ -17,7 +17,7 @@ inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e
 // bones lie below kPlainMax. Then half2 in solve_arm.h, the product of all squared lengths, stays a normal float. With
 // wrists w, poles p and distances d, half2 is a quarter to one times (d/L2)^2 w^2 (p sin)^2. It is at least 0.25 1e-13
 // (1e-9 1e-3)^2, because kMinLift bounds (d/L2)^2 w^2. It is at most 5e15 kPlainMax^3, because the digits of bones
-// allow d/L2 up to 3.4e7. docs/proof.md proves that no operation of a plain arm overflows.
+// allow d/L2 up to 3.4e7. docs/mathematics.md proves that no operation of a plain arm overflows.
 inline constexpr double kPlainMin = 1e-9, kPlainMax = 3.5e7, kMinLift = 1e-13;
 // The least sine of a pole's angle to the target's line. A closer pole does not say where the elbow goes, because its
 // digits are noise.

@@ -2,7 +2,7 @@
 //
 // Rotations and numbers in 16-bit words, rounded to nearest, ties to even. Float arithmetic does the rounding: adding a
 // large number leaves an integer, or a half float's digits, in the low bits of the sum. The words stay in the bits of a
-// T until they are stored. docs/howto/results.md says how to read them.
+// T until they are stored. docs/howto/limbs.md says how to read them.
 #pragma once
 
 #include "core/conformal.h"

@@ -15,7 +15,7 @@ struct Pose {
 Pose solved(const Arm& arm)
 {
     // [solve]
-    const std::int32_t parents[] = {-1, 0, 1};  // of shoulder, elbow and wrist
+    const std::int32_t parents[] = {-1, 0, 1};
     const Float3 translations[] = {arm.shoulder, arm.elbow, arm.wrist};
     swivel_skeleton skeleton = swivel_default_skeleton();
     skeleton.joint_count = 3;
@@ -37,21 +37,13 @@ Pose solved(const Arm& arm)
     return {shoulder[0], elbow[0]};
 }
 
-// A vector turned by a quaternion, as all three engines write it in their sources.
-Eigen::Vector3d turned(const Float4& q, const Eigen::Vector3d& v)
-{
-    const Eigen::Vector3d u = vec(q);
-    const double w = static_cast<double>(q[3]);
-    return v + 2 * w * u.cross(v) + 2 * u.cross(u.cross(v));
-}
-
 // The engine's forward kinematics puts elbow and wrist where the picture says.
 void check_pose(const Arm& arm, const Pose& pose, const Eigen::Vector3d& elbow)
 {
     const Eigen::Vector3d got =
-        vec(arm.shoulder) + turned(pose.shoulder, vec(arm.elbow));
+        vec(arm.shoulder) + quat(pose.shoulder) * vec(arm.elbow);
     const Eigen::Vector3d wrist =
-        got + turned(pose.shoulder, turned(pose.elbow, vec(arm.wrist)));
+        got + quat(pose.shoulder) * (quat(pose.elbow) * vec(arm.wrist));
     const double size = vec(arm.elbow).norm() + vec(arm.wrist).norm();
     CHECK((got - elbow).norm() < 1e-6 * size);
     CHECK((wrist - vec(arm.target)).norm() < 1e-6 * size);
@@ -66,8 +58,8 @@ Arm unity()
                   .elbow = {0.3f, 0, 0},  // bones along x
                   .wrist = {0.4f, 0, 0},
                   .bend = {0, 0, 1},
-                  .target = {0.2f, 1.4f, 0.5f},  // half a metre in front
-                  .pole = {0.2f, 0.4f, 0.2f}};   // below
+                  .target = {0.2f, 1.4f, 0.5f},
+                  .pole = {0.2f, 0.4f, 0.2f}};
     // [end]
     return arm;
 }
@@ -93,8 +85,8 @@ Arm unreal_mesh()
                   .elbow = {-30, 0, 0},  // bones along -x
                   .wrist = {-40, 0, 0},
                   .bend = {0, 1, 0},
-                  .target = {-20, 50, 140},  // half a metre in front
-                  .pole = {-20, 20, 40}};    // below
+                  .target = {-20, 50, 140},
+                  .pole = {-20, 20, 40}};
     // [end]
     return arm;
 }
@@ -106,8 +98,8 @@ Arm godot()
                   .elbow = {0.3f, 0, 0},  // bones along x
                   .wrist = {0.4f, 0, 0},
                   .bend = {0, 0, -1},
-                  .target = {0.2f, 1.4f, -0.5f},  // half a metre in front
-                  .pole = {0.2f, 0.4f, -0.2f}};   // below
+                  .target = {0.2f, 1.4f, -0.5f},
+                  .pole = {0.2f, 0.4f, -0.2f}};
     // [end]
     return arm;
 }
@@ -119,8 +111,8 @@ Arm blender()
                   .elbow = {-0.3f, 0, 0},  // bones along -x
                   .wrist = {-0.4f, 0, 0},
                   .bend = {0, -1, 0},
-                  .target = {-0.2f, -0.5f, 1.4f},  // half a metre in front
-                  .pole = {-0.2f, -0.2f, 0.4f}};   // below
+                  .target = {-0.2f, -0.5f, 1.4f},
+                  .pole = {-0.2f, -0.2f, 0.4f}};
     // [end]
     return arm;
 }
@@ -135,33 +127,21 @@ Arm gltf()
             .pole = {-0.2f, 0.4f, 0.2f}};
 }
 
-// [to_unity]
+// [convert]
 Float3 point_to_unity(const Float3& p) { return {-p[0], p[1], p[2]}; }
 Float4 turn_to_unity(const Float4& q) { return {q[0], -q[1], -q[2], q[3]}; }
-// [end]
-
-// [to_unreal]
 Float3 point_to_unreal(const Float3& p)
 {
     return {100 * p[2], -100 * p[0], 100 * p[1]};
 }
 Float4 turn_to_unreal(const Float4& q) { return {-q[2], q[0], -q[1], q[3]}; }
-// [end]
-
-// [to_unreal_mesh]
 Float3 point_to_unreal_mesh(const Float3& p)
 {
     return {100 * p[0], 100 * p[2], 100 * p[1]};
 }
 Float4 turn_to_unreal_mesh(const Float4& q) { return {-q[0], -q[2], -q[1], q[3]}; }
-// [end]
-
-// [to_godot]
 Float3 point_to_godot(const Float3& p) { return {-p[0], p[1], -p[2]}; }
 Float4 turn_to_godot(const Float4& q) { return {-q[0], q[1], -q[2], q[3]}; }
-// [end]
-
-// [to_blender]
 Float3 point_to_blender(const Float3& p) { return {p[0], -p[2], p[1]}; }
 Float4 turn_to_blender(const Float4& q) { return {q[0], -q[2], q[1], q[3]}; }
 // [end]
@@ -180,9 +160,8 @@ void check_carried(const Arm& engine, Point point, Turn turn)
     CHECK(turn_between(turn(carried.elbow), own.elbow) < 1e-6);
 }
 
-// The page's numbers, which follow from the triangle: of the upper arm's turn all
-// components are +-1 / sqrt 20 or
-// +-3 / sqrt 20, and the elbow makes a right angle.
+// The page's numbers, which follow from the triangle: all components of the upper arm's
+// turn are +-1 / sqrt 20 or +-3 / sqrt 20, and the elbow makes a right angle.
 void check_rotations(const Pose& pose, const Float4& shoulder, const Float4& elbow)
 {
     for (std::size_t i = 0; i < 4; ++i) {

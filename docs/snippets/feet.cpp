@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
-#include <algorithm>
-#include <swivel/swivel_bodies.hpp>
-#include <swivel/swivel_explain.hpp>
-
 namespace {
 
 enum Joint {
@@ -17,123 +13,57 @@ enum Joint {
     kRightFoot,
     kJoints
 };
-const std::array<std::int32_t, kJoints> kParents = {-1, 0, 1, 2, 0, 4, 5};
-const std::array<Float3, kJoints> kOffsets = {{{0, 0.85f, 0},
-                                               {0.1f, 0, 0},
-                                               {0, -0.45f, 0},
-                                               {0, -0.45f, 0},
-                                               {-0.1f, 0, 0},
-                                               {0, -0.45f, 0},
-                                               {0, -0.45f, 0}}};
+const Bones<kJoints> bones = {{-1, 0, 1, 2, 0, 4, 5},
+                              {{{0, 0.9f, 0},
+                                {0.1f, 0, 0},
+                                {0, -0.45f, 0},
+                                {0, -0.45f, 0},
+                                {-0.1f, 0, 0},
+                                {0, -0.45f, 0},
+                                {0, -0.45f, 0}}}};
+const swivel_skeleton skeleton = bones.skeleton();
+const swivel_limb_joints left = bones.limb(kLeftThigh, -1),
+                         right = bones.limb(kRightThigh, -1);
+// The ball of the foot and the heel, both on the sole.
+constexpr Float3 kBall = {0, -0.08f, 0.14f}, kHeel = {0, -0.08f, -0.06f};
 constexpr float kFrame = 1 / 60.0f;
 
-// [character]
-struct Character {
-    Float3 place;  // of the root, in the world
-    Float4 rotation;
-    std::array<Float4, kJoints> pose;    // local rotations, as the animation has them
-    std::array<Float4, kJoints> solved;  // a copy with the legs solved: draw this one
-    float left_down, right_down;         // 1 while the clip has the foot down, else 0
-    float time;                          // seconds since this character's last solve
-};
-// [end]
-
-swivel_skeleton legs()
-{
-    swivel_skeleton skeleton = swivel_default_skeleton();
-    skeleton.parents = swivel::stream(kParents);
-    skeleton.translations = swivel::stream(kOffsets);
-    skeleton.joint_count = kJoints;
-    return skeleton;
-}
-swivel_limb_joints leg(std::uint32_t thigh)
-{
-    swivel_limb_joints joints = swivel_default_limb_joints(thigh, thigh + 1, thigh + 2);
-    joints.bend[2] = -1;
-    return joints;
-}
-
-// Both knees bent, both feet down.
-Character standing()
-{
-    Character made{{1, 0, 2}, {0, 0, 0, 1}, {}, {}, 1, 1, kFrame};
-    made.pose.fill({0, 0, 0, 1});
-    for (const Joint thigh : {kLeftThigh, kRightThigh}) {
-        made.pose[thigh] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
-        made.pose[thigh + 1] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
-    }
-    made.solved = made.pose;
-    return made;
-}
-
-// Where a joint is in the world: the skeleton's own forward kinematics.
-Eigen::Vector3d place_of(const Character& character, int joint)
-{
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    for (; joint >= 0; joint = kParents[static_cast<std::size_t>(joint)]) {
-        const auto n = static_cast<std::size_t>(joint);
-        at = vec(kOffsets[n]) + quat(character.solved[n]) * at;
-    }
-    return vec(character.place) + quat(character.rotation) * at;
-}
-
-// A crowd of some bodies that the parts of the page start from.
-struct Legs {
-    swivel_limb_joints left = leg(kLeftThigh), right = leg(kRightThigh);
-    swivel::Crowd crowd;
-    std::vector<Character> characters;
-    swivel_pose pose = swivel_default_pose();
-
-    explicit Legs(swivel_features features, std::uint32_t count = 3)
-        : crowd(
-              legs(), count,
-              {swivel::body_limb(left, features), swivel::body_limb(right, features)}),
-          characters(count, standing())
+// Both knees bent, both feet flat.
+struct Standing : Posed<kJoints> {
+    Standing()
     {
-        pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
-                          nullptr};
-        pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
-                        nullptr};
-        pose.root_position = swivel::stream(characters, &Character::place);
-        pose.time = swivel::stream(characters, &Character::time);
-    }
-    // A frame in which every root glides and the animation stands.
-    void glide(float speed, float down = 1)
-    {
-        for (Character& each : characters) each.place[2] += speed * kFrame;
-        if (swivel_field_row_count(crowd.get(), 0, SWIVEL_CONTACT))
-            for (const std::uint32_t group : {0u, 1u})
-                crowd.write_all(SWIVEL_CONTACT, group, std::array{down});
-        crowd.solve({.pose = &pose});
+        for (const std::size_t thigh : {kLeftThigh, kRightThigh}) {
+            pose[thigh] = pose[thigh + 2] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
+            pose[thigh + 1] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
+        }
+        solved = pose;
     }
 };
 
 }  // namespace
 
-TEST_CASE("docs: feet that stand")
+TEST_CASE("docs: feet that stand while the root glides")
 {
-    std::vector<Character> characters(40, standing());
-    const swivel_skeleton skeleton = legs();
-    const swivel_limb_joints left = leg(kLeftThigh), right = leg(kRightThigh);
+    struct Character : Standing {
+        // [character]
+        float left_down, right_down;  // 1 while the clip has the foot down, else 0
+        float time;                   // seconds since this character's last solve
+        // [end]
+    };
+    std::vector<Character> characters(40);
+    for (Character& each : characters)
+        each.left_down = each.right_down = 1, each.time = kFrame;
     // [crowd]
     constexpr swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT;
     swivel::Crowd crowd(
         skeleton, 40,
         {swivel::body_limb(left, features), swivel::body_limb(right, features)});
     // [end]
+    swivel_pose pose = pose_of(characters);
     Eigen::Vector3d stood = Eigen::Vector3d::Zero();
     for (int n = 0; n < 20; ++n) {
-        for (Character& each : characters)
-            each.place[2] +=
-                0.3f * kFrame;  // in two thirds of a step the root glides on
+        for (Character& each : characters) each.place[2] += 0.3f * kFrame;
         // [frame]
-        swivel_pose pose = swivel_default_pose();
-        pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
-                          nullptr};
-        pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
-                        nullptr};
-        pose.root_position = swivel::stream(characters, &Character::place);
-        pose.root_rotation = swivel::stream(characters, &Character::rotation);
         pose.time = swivel::stream(characters, &Character::time);
         swivel::Streams left_leg, right_leg;
         left_leg.in(SWIVEL_CONTACT, swivel::stream(characters, &Character::left_down));
@@ -141,89 +71,46 @@ TEST_CASE("docs: feet that stand")
                      swivel::stream(characters, &Character::right_down));
         crowd.solve({.streams = {left_leg, right_leg}, .pose = &pose});
         // [end]
-        if (n == 0) stood = place_of(characters[7], kLeftFoot);
-        CHECK((place_of(characters[7], kLeftFoot) - stood).norm() < 2e-6);
+        const Eigen::Vector3d foot =
+            bones.frame(characters[7], kLeftFoot).translation();
+        if (n == 0) stood = foot;
+        CHECK((foot - stood).norm() < 2e-6);
     }
-    // [reset]
-    swivel_reset(crowd.get(), 0, 7, 1);  // group, first body, how many
-    swivel_reset(crowd.get(), 1, 7, 1);
-    // [end]
-    std::array<std::array<float, 11>, 40> state;
-    crowd.read(SWIVEL_PLANT, 0, state);
-    CHECK(state[7][10] == 0);
-    CHECK(state[8][10] == 9);
-}
-
-TEST_CASE("docs: feet by motion")
-{
-    const swivel_skeleton skeleton = legs();
-    const swivel_limb_joints left = leg(kLeftThigh);
-    // [motion]
-    swivel_body_limb_def left_leg = swivel::body_limb(
-        left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_PLANT_BY_MOTION);
-    // In limb lengths, of 0.9 m here. To begin a contact, then to go on with it:
-    left_leg.plant.speed[0] = 0.4f, left_leg.plant.speed[1] = 0.6f;    // a second
-    left_leg.plant.height[0] = 0.1f, left_leg.plant.height[1] = 0.2f;  // over the root
-    // [end]
-    swivel::Crowd crowd(skeleton, 1, {left_leg});
-    std::vector<Character> one(1, standing());
-    swivel_pose pose = swivel_default_pose();
-    pose.rotations = {one[0].pose.data(), sizeof(Character), sizeof(Float4), nullptr};
-    pose.results = {one[0].solved.data(), sizeof(Character), sizeof(Float4), nullptr};
-    pose.root_position = swivel::stream(one, &Character::place);
-    pose.time = swivel::stream(one, &Character::time);
-    std::uint32_t flags[2] = {};
-    for (const float speed : {1.0f, 0.2f})
-        for (int n = 0; n < 5; ++n) {
-            one[0].place[2] += speed * kFrame;
-            crowd.solve({.pose = &pose});
-            crowd.read(SWIVEL_FLAGS, 0, std::span(&flags[speed < 1], 1));
-        }
-    CHECK((flags[0] & SWIVEL_PLANTED) == 0);
-    CHECK((flags[1] & SWIVEL_PLANTED) != 0);
 }
 
 TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
 {
-    // [walker]
-    struct Walker {
+    struct Walker : Standing {
+        // [walker]
         Double3 place;    // in a large world
         Double3 support;  // what it stands on: a tile's origin, a lift's place
         Float4 support_rotation;
-        std::array<Float4, kJoints> pose, solved;
-        float time;
+        // [end]
     };
-    // [end]
-    const Walker first{{4e6 + 1, 0, 2}, {4e6, 0, 0},       {0, 0, 0, 1},
-                       standing().pose, standing().solved, kFrame};
-    std::vector<Walker> walkers(2, first);
-    const swivel_limb_joints left = leg(kLeftThigh);
+    std::vector<Walker> walkers(2);
+    for (Walker& each : walkers)
+        each.place = {4e6 + 1, 0, 2}, each.support = {4e6, 0, 0},
+        each.support_rotation = {0, 0, 0, 1};
     swivel::Crowd crowd(
-        legs(), 2, {swivel::body_limb(left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT)});
-    crowd.write_all(SWIVEL_CONTACT, 0, std::array{1.0f});
+        skeleton, 2,
+        {swivel::body_limb(left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT)});
+    crowd.write_all(SWIVEL_CONTACT, 0, {1});
+    swivel_pose pose = pose_of(walkers);
+    pose.time = {&kFrame, 0};
     // [double]
-    swivel_pose pose = swivel_default_pose();
     pose.root_is_double = 1;
-    pose.rotations = {walkers[0].pose.data(), sizeof(Walker), sizeof(Float4), nullptr};
-    pose.results = {walkers[0].solved.data(), sizeof(Walker), sizeof(Float4), nullptr};
     pose.root_position = swivel::stream(walkers, &Walker::place);
     pose.support_position = swivel::stream(walkers, &Walker::support);
     pose.support_rotation = swivel::stream(walkers, &Walker::support_rotation);
-    pose.time = swivel::stream(walkers, &Walker::time);
     // [end]
     const auto foot = [&] {
-        Character as = standing();
-        as.place = {};
-        as.solved = walkers[0].solved;
-        return Eigen::Vector3d(vec(walkers[0].place) + place_of(as, kLeftFoot));
-    };
-    crowd.solve({.pose = &pose});
-    const Eigen::Vector3d stood = foot();
-    for (int n = 0; n < 10; ++n) {
-        for (Walker& each : walkers) each.place[0] += 0.005;
         crowd.solve({.pose = &pose});
-        CHECK((foot() - stood).norm() < 2e-6);
-    }
+        const Eigen::Isometry3d from_root = bones.frame(walkers[0], kLeftFoot);
+        return Eigen::Vector3d(vec(walkers[0].place) + from_root.translation());
+    };
+    const Eigen::Vector3d stood = foot();
+    walkers[0].place[0] += 0.005;
+    CHECK((foot() - stood).norm() < 2e-6);
     struct Lift {
         Double3 place;
         Float4 rotation;
@@ -237,25 +124,16 @@ TEST_CASE("docs: feet on tiles, platforms, and from one to the other")
     swivel::check(swivel_change_support(crowd.get(), 0, body, 1, ground,
                                         on_lift));  // for each leg
     // [end]
-    const auto ride = [&] {
-        // [ride]
-        walkers[body].support = lift.place;  // of each body on the lift, in each frame
-        walkers[body].support_rotation = lift.rotation;
-        // [end]
-    };
-    ride();
-    crowd.solve({.pose = &pose});
-    CHECK((foot() - stood).norm() < 2e-6);
     lift.place[1] += 0.05;
-    ride();
-    crowd.solve({.pose = &pose});
+    // [ride]
+    walkers[body].support = lift.place;  // of each body on the lift, in each frame
+    walkers[body].support_rotation = lift.rotation;
+    // [end]
     CHECK((foot() - stood - Eigen::Vector3d(0, 0.05, 0)).norm() < 2e-6);
 }
 
 TEST_CASE("docs: legs that a cap and a shift help to reach")
 {
-    const swivel_skeleton skeleton = legs();
-    const swivel_limb_joints left = leg(kLeftThigh), right = leg(kRightThigh);
     // [fit]
     constexpr swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT |
                                          SWIVEL_WITH_CAP | SWIVEL_WITH_PELVIS_FIT |
@@ -265,34 +143,26 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
         {swivel::body_limb(left, features), swivel::body_limb(right, features),
          swivel_default_shift_def()});
     // [end]
-    std::vector<Character> characters(40, standing());
-    // [steps]
+    std::vector<Standing> characters(40);
     struct Steps {
         Float3 left_next, right_next;  // where each foot lands next, in the world
         float left_in, right_in;       // in how many seconds
         Float3 shift;                  // of the body: a result
     };
-    // [end]
     std::vector<Steps> steps(40, Steps{{}, {}, 9, 9, {}});
     std::vector<Float3> shown(40);
     for (const std::uint32_t group : {0u, 1u}) {
-        crowd.write_all(SWIVEL_CONTACT, group, std::array{1.0f});
+        crowd.write_all(SWIVEL_CONTACT, group, {1});
         // [cap]
         crowd.write_all(SWIVEL_CAP, group, Float3{0.02f, 0.9f, 0});  // for each leg
         // [end]
     }
-    swivel_pose pose = swivel_default_pose();
-    pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
-                      nullptr};
-    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
-                    nullptr};
-    pose.root_position = swivel::stream(characters, &Character::place);
-    pose.time = swivel::stream(characters, &Character::time);
-    Float3 shift{};
-    Eigen::Vector3d stood = Eigen::Vector3d::Zero();
+    swivel_pose pose = pose_of(characters);
+    pose.time = {&kFrame, 0};
+    Eigen::Vector3d stood = Eigen::Vector3d::Zero(), foot = stood;
     for (int n = 0; n < 60; ++n) {
         if (n == 1)
-            for (Character& each : characters) each.place[1] += 0.1f;
+            for (Standing& each : characters) each.place[1] += 0.1f;
         // [shift]
         swivel::Streams left_leg, right_leg, pelvis;
         left_leg.in(SWIVEL_NEXT_TARGET, swivel::stream(steps, &Steps::left_next));
@@ -306,121 +176,148 @@ TEST_CASE("docs: legs that a cap and a shift help to reach")
             shown[body][1] += steps[body].shift[0];  // draw the body here
         }
         // [end]
-        Character as = characters[7];
-        as.place = shown[7];
-        shift = steps[7].shift;
-        if (n == 0) stood = place_of(as, kLeftFoot);
-        // At the end of its reach the eased zone takes a quarter of the margin.
-        if (n == 59)
-            CHECK((place_of(as, kLeftFoot) - stood).norm() < 0.25 * 0.02 * 0.9 + 1e-5);
+        Standing drawn = characters[7];
+        drawn.place = shown[7];
+        foot = bones.frame(drawn, kLeftFoot).translation();
+        if (n == 0) stood = foot;
     }
-    CHECK(shift[0] < -0.02f);
-    CHECK(shift[2] == 1);
+    CHECK(steps[7].shift[0] < -0.02f);
+    // At the end of its reach the eased zone takes a quarter of the margin.
+    CHECK((foot - stood).norm() < 0.25 * 0.02 * 0.9 + 1e-5);
 }
 
-TEST_CASE("docs: palms and standing feet keep their rotation")
+TEST_CASE("docs: feet on hills")
 {
-    const swivel_skeleton skeleton = legs();
-    const swivel_limb_joints left = leg(kLeftThigh);
-    // [turn]
-    const swivel_body_limb_def left_leg = swivel::body_limb(
-        left, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND |
-                  SWIVEL_WITH_PLANT_ROTATION | SWIVEL_WITH_EFFECTOR);
-    swivel::Crowd crowd(skeleton, 40, {left_leg});
-    crowd.write_all(SWIVEL_EFFECTOR, 0,
-                    Float3{0, -0.07f, 0.1f});  // the ball of the foot
-    // [end]
-    std::vector<Character> characters(40, standing());
-    crowd.write_all(SWIVEL_CONTACT, 0, std::array{1.0f});
-    swivel_pose pose = swivel_default_pose();
-    pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
-                      nullptr};
-    pose.results = {characters[0].solved.data(), sizeof(Character), sizeof(Float4),
-                    nullptr};
-    pose.root_position = swivel::stream(characters, &Character::place);
-    pose.root_rotation = swivel::stream(characters, &Character::rotation);
-    pose.time = swivel::stream(characters, &Character::time);
-    const auto foot = [&] {
-        const Character& of = characters[3];
-        return Eigen::Quaterniond(
-            quat(of.rotation) * quat(of.solved[kHips]) * quat(of.solved[kLeftThigh]) *
-            quat(of.solved[kLeftShin]) * quat(of.solved[kLeftFoot]));
-    };
-    crowd.solve({.pose = &pose});
-    const Eigen::Quaterniond stood = foot();
-    for (int n = 1; n < 10; ++n) {
-        const float half = 0.01f * static_cast<float>(n);  // it turns in place
-        for (Character& each : characters)
-            each.rotation = {0, std::sin(half), 0, std::cos(half)};
-        crowd.solve({.pose = &pose});
-        CHECK(foot().angularDistance(stood) < 2e-6);
-    }
-}
-
-TEST_CASE("docs: feet that are not solved in every frame")
-{
-    Legs scene(SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT);
-    scene.glide(0.3f);
-    std::vector<Character>& characters = scene.characters;
-    swivel::Crowd& crowd = scene.crowd;
-    const swivel_pose& pose = scene.pose;
-    const float dt = kFrame;
-    for (Character& each : characters) each.time = 0;
-    const std::vector<std::uint32_t> chosen = {0, 2}, mask = {0b101};
-    for (int n = 0; n < 3; ++n) {
-        // [detail]
-        for (Character& each : characters) each.time += dt;  // of every character
-        crowd.solve({.mask = mask, .pose = &pose});
-        for (const std::uint32_t body : chosen) characters[body].time = 0;
-        // [end]
-    }
-    CHECK(characters[0].time == 0);
-    CHECK(characters[1].time == Approx(3 * dt));
-}
-
-TEST_CASE("docs: the state of feet, saved and restored")
-{
-    Legs scene(SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT);
-    for (int n = 0; n < 9; ++n) scene.glide(0.3f, n < 4 ? 0 : 1);
-    swivel::Crowd& crowd = scene.crowd;
-    // [save]
-    std::vector<std::array<float, 11>> saved(3);  // a value for each body
-    crowd.read(SWIVEL_PLANT, 0, saved);           // group 0: the left legs
-    // [end]
-    const std::vector<Character> then = scene.characters;
-    scene.glide(0.3f);
-    const std::vector<Character> next = scene.characters;
-    for (int n = 0; n < 9; ++n) scene.glide(1, 0);
-    std::ranges::copy(then, scene.characters.begin());
-    // [restore]
-    crowd.write(SWIVEL_PLANT, 0, saved);
-    // [end]
-    scene.glide(0.3f);
-    for (std::size_t n = 0; n < 3; ++n) {
-        CHECK(scene.characters[n].solved[kLeftThigh] == next[n].solved[kLeftThigh]);
-        CHECK(scene.characters[n].solved[kLeftShin] == next[n].solved[kLeftShin]);
-    }
-}
-
-TEST_CASE("docs: why a foot slid")
-{
-    Legs scene(SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT | SWIVEL_WITH_RECORD);
-    swivel::Crowd& crowd = scene.crowd;
-    const std::vector<Character>& characters = scene.characters;
-    std::vector<std::string> log;
-    for (int n = 0; n < 30; ++n) {
-        scene.glide(0.7f);
-        // [why]
-        std::vector<std::uint32_t> flags(characters.size());
-        for (const std::uint32_t leg : {0u, 1u}) {  // groups
-            crowd.read(SWIVEL_FLAGS, leg, flags);
-            for (std::uint32_t body = 0; body < flags.size(); ++body)
-                if (flags[body] & (SWIVEL_BROKE_AWAY | SWIVEL_CUT))
-                    log.push_back(swivel::explain(crowd, leg, body));
+    struct Terrain {
+        float height(double x, double z) const
+        {
+            return static_cast<float>(0.15 * std::sin(0.9 * x) +
+                                      0.1 * std::sin(0.7 * z));
         }
-        // [end]
+        Float3 normal(double x, double z) const  // of any length
+        {
+            return {static_cast<float>(-0.135 * std::cos(0.9 * x)), 1,
+                    static_cast<float>(-0.07 * std::cos(0.7 * z))};
+        }
+    };
+    const Terrain terrain;
+    struct Character : Standing {
+        std::array<float, 2> down = {1, 1};  // of the left foot and the right one
+        std::array<Float3, 2> probe, ground, normal;
+        Float3 shift;
+    };
+    std::vector<Character> characters(40);
+    std::vector<Double3> roots;
+    for (Character& each : characters) {
+        const auto x = static_cast<float>(roots.size());
+        each.place = {x, terrain.height(x, 2), 2};
+        each.ground.fill({NAN, NAN, NAN});  // none is known yet
+        each.normal.fill({0, 1, 0});
+        roots.push_back({x, each.place[1], 2});
     }
-    REQUIRE(log.size() == 6);  // both feet of three
-    CHECK(log[0].starts_with(
-        "It broke away, though in contact: the animated point was further"));
+    const std::array<swivel_limb_joints, 2> legs = {left, right};
+    // [hill_crowd]
+    const swivel_features features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND |
+                                     SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_PLANT |
+                                     SWIVEL_WITH_GROUND |      // stand on the ground
+                                     SWIVEL_WITH_PELVIS_FIT |  // the pelvis follows
+                                     SWIVEL_HAND_YIELDS;       // heels lift
+    std::vector<swivel::Definition> groups;
+    for (const swivel_limb_joints& joints : legs) {
+        swivel_body_limb_def leg = swivel::body_limb(joints, features);
+        std::copy(kHeel.begin(), kHeel.end(), leg.ground.heel);
+        groups.push_back(leg);
+    }
+    groups.push_back(swivel_default_shift_def());
+    swivel::Crowd crowd(skeleton, 40, groups);
+    for (std::uint32_t leg = 0; leg < 2; ++leg)
+        crowd.write_all(SWIVEL_EFFECTOR, leg, kBall);
+    // [end]
+    swivel_pose pose = pose_of(characters);
+    pose.time = {&kFrame, 0};
+    // [streams]
+    std::array<swivel::Streams, 2> feet;
+    swivel::Streams pelvis;
+    constexpr std::size_t step = sizeof(Character);
+    for (std::size_t leg = 0; leg < 2; ++leg)
+        feet[leg].in(SWIVEL_CONTACT, {&characters[0].down[leg], step});
+    pelvis.out(SWIVEL_SHIFT, swivel::stream(characters, &Character::shift));
+    // [end]
+    const auto reset = [&] {
+        for (std::uint32_t group = 0; group < 3; ++group) crowd.reset(group);
+    };
+    // Solves frames; then all feet stand with their balls on the ground.
+    const auto check = [&](auto solve) {
+        reset();
+        for (int n = 0; n < 30; ++n) solve();
+        double max = 0;
+        for (Character drawn : characters) {
+            drawn.place[1] += drawn.shift[0];
+            for (const std::size_t foot : {kLeftFoot, kRightFoot}) {
+                const Eigen::Vector3d ball = bones.frame(drawn, foot) * vec(kBall);
+                const float height = terrain.height(ball.x(), ball.z());
+                max = std::max(max, std::abs(ball.y() - double{height}));
+            }
+        }
+        CHECK(max < 1e-4);
+    };
+    check([&] {
+        // [sample]
+        const auto sample = [&](const swivel_probes& probes) {
+            for (std::size_t foot = 0; foot < probes.count; ++foot) {
+                const auto& at = probes.places[foot];
+                probes.grounds[foot][0] = at[0];
+                probes.grounds[foot][1] = terrain.height(at[0], at[2]);
+                probes.grounds[foot][2] = at[2];
+                const Float3 normal = terrain.normal(at[0], at[2]);
+                std::copy(normal.begin(), normal.end(), probes.normals[foot]);
+            }
+        };
+        crowd.solve(
+            {.streams = {feet[0], feet[1], pelvis}, .pose = &pose, .sample = sample});
+        // [end]
+    });
+    check([&] {
+        const auto sample = [&](const swivel_probes& probes) {
+            for (std::size_t foot = 0; foot < probes.count; ++foot) {
+                // [far]
+                const auto& at = probes.places[foot];              // from the root
+                const Double3& root = roots[probes.bodies[foot]];  // in the world
+                const double x = root[0] + double{at[0]}, z = root[2] + double{at[2]};
+                const double height = double{terrain.height(x, z)} - root[1];
+                // [end]
+                probes.grounds[foot][0] = at[0];
+                probes.grounds[foot][1] = static_cast<float>(height);
+                probes.grounds[foot][2] = at[2];
+                const Float3 normal = terrain.normal(x, z);
+                std::copy(normal.begin(), normal.end(), probes.normals[foot]);
+            }
+        };
+        swivel_pose far = pose;
+        far.root_is_double = 1;
+        far.root_position = {roots.data(), sizeof roots[0]};
+        crowd.solve(
+            {.streams = {feet[0], feet[1], pelvis}, .pose = &far, .sample = sample});
+    });
+    // [late]
+    for (std::size_t leg = 0; leg < 2; ++leg) {
+        feet[leg].in(SWIVEL_GROUND, {&characters[0].ground[leg], step});
+        feet[leg].in(SWIVEL_GROUND_NORMAL, {&characters[0].normal[leg], step});
+        feet[leg].out(SWIVEL_PROBE, {&characters[0].probe[leg], step});
+    }
+    // [end]
+    const auto solve_late = [&] {
+        // [next]
+        crowd.solve({.streams = {feet[0], feet[1], pelvis}, .pose = &pose});
+        for (Character& each : characters)  // for the next frame
+            for (std::size_t leg = 0; leg < 2; ++leg) {
+                const Float3& at = each.probe[leg];
+                each.ground[leg] = {at[0], terrain.height(at[0], at[2]), at[2]};
+                each.normal[leg] = terrain.normal(at[0], at[2]);
+            }
+        // [end]
+    };
+    reset();
+    solve_late();
+    check(solve_late);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "check.h"
 
-#include <swivel/swivel_regions.hpp>
-
 namespace {
 
 void give_arm(swivel::Crowd& crowd)
@@ -19,6 +17,13 @@ std::uint32_t flags_of(const swivel::Crowd& crowd)
     return flags[0];
 }
 
+Eigen::Vector3d elbow_of(const swivel::Crowd& crowd)
+{
+    std::array<Double3, 1> elbow;
+    crowd.elbows(0, elbow);
+    return vec(elbow[0]);
+}
+
 }  // namespace
 
 TEST_CASE("docs: cones")
@@ -30,12 +35,8 @@ TEST_CASE("docs: cones")
     // [end]
     give_arm(crowd);
     crowd.solve();
-    std::array<Double3, 1> elbow, wrist;
-    crowd.elbows(0, elbow);
-    crowd.wrists(0, wrist);
-    CHECK(vec(elbow[0]).normalized().z() >= std::cos(0.9) - 1e-6);
+    CHECK(elbow_of(crowd).normalized().z() >= std::cos(0.9) - 1e-6);
     CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE));
-    CHECK(distance(wrist[0], Float3{0.25f, 0.15f, 0.25f}) < 1e-6);
 }
 
 TEST_CASE("docs: regions")
@@ -50,9 +51,7 @@ TEST_CASE("docs: regions")
     // [end]
     give_arm(crowd);
     crowd.solve();
-    std::array<Double3, 1> elbow;
-    crowd.elbows(0, elbow);
-    const Eigen::Vector3f to = vec(elbow[0]).cast<float>();
+    const Eigen::Vector3f to = elbow_of(crowd).cast<float>();
     CHECK(region.room({to.x(), to.y(), to.z()}) >= -1e-6f);
     CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_REGION));
 }
@@ -82,8 +81,6 @@ TEST_CASE("docs: a region of a clip")
     for (const Float3& direction : directions) {
         CHECK(region.room(direction) > 0);
         CHECK(region.room({-direction[0], -direction[1], -direction[2]}) < 0);
-        CHECK(region.mirrored().room({-direction[0], direction[1], direction[2]}) ==
-              region.room(direction));
     }
 }
 
@@ -99,19 +96,14 @@ TEST_CASE("docs: twists")
     // [end]
     give_arm(crowd);
     crowd.solve();
-    std::array<Float4, 1> shoulder, wrist;
-    crowd.read(SWIVEL_SHOULDER, 0, shoulder);
-    crowd.read(SWIVEL_WRIST, 0, wrist);
-    const auto twist = [](const Float4& q) {
-        const Eigen::Quaterniond turn = quat(q);
-        return std::remainder(2 * std::atan2(turn.z(), turn.w()),
-                              2 * 3.141592653589793);
+    const auto twist_of = [&](swivel_field field) {
+        std::array<Float4, 1> q;
+        crowd.read(field, 0, q);
+        return 2 * std::atan(quat(q[0]).z() / quat(q[0]).w());
     };
-    CHECK(twist(shoulder[0]) <= 1.2 + 1e-5);
-    CHECK(twist(shoulder[0]) >= -1.5 - 1e-5);
-    CHECK(std::abs(twist(wrist[0])) <= 1.4 + 1e-5);
-    CHECK(flags_of(crowd) &
-          (SWIVEL_LIMITED_HUMERAL_TWIST | SWIVEL_LIMITED_FOREARM_TWIST));
+    CHECK(twist_of(SWIVEL_SHOULDER) <= 1.2 + 1e-5);
+    CHECK(twist_of(SWIVEL_SHOULDER) >= -1.5 - 1e-5);
+    CHECK(std::abs(twist_of(SWIVEL_WRIST)) <= 1.4 + 1e-5);
 }
 
 TEST_CASE("docs: flexion")
@@ -122,13 +114,11 @@ TEST_CASE("docs: flexion")
     crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, swivel::flexion(0.1, 2.4));
     // [end]
     give_arm(crowd);
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 9});
+    crowd.write_all(SWIVEL_TARGET, 0, {0, 0, 9});
     crowd.solve();
-    std::array<Float2, 1> elbow;
+    std::array<Float2, 1> elbow;  // of half the angle
     crowd.read(SWIVEL_ELBOW, 0, elbow);
-    CHECK(std::abs(2 * std::atan2(static_cast<double>(elbow[0][1]),
-                                  static_cast<double>(elbow[0][0])) -
-                   0.1) < 1e-5);
+    CHECK(elbow[0][1] == Approx(std::sin(0.05)).margin(5e-6));
     CHECK(flags_of(crowd) == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION));
 }
 
@@ -145,19 +135,13 @@ TEST_CASE("docs: Euler boxes")
     crowd.write_all(SWIVEL_SHOULDER_BOX, 0, box);
     // [end]
     give_arm(crowd);
-    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0.2f});
     crowd.solve();
     std::array<std::array<double, 7>, 1> angles;
     crowd.joint_angles(0, SWIVEL_YXZ, SWIVEL_XYZ, 0, angles);
-    const auto inside = [&](double y, double x, double z) {
-        return std::abs(y) < 1 + 1e-5 && x > -0.4 - 1e-5 && x < 1.6 + 1e-5 &&
-               std::abs(z) < 0.8 + 1e-5;
-    };
-    const std::array<double, 7> first = angles[0];
-    crowd.joint_angles(0, SWIVEL_YXZ, SWIVEL_XYZ, 1, angles);
-    const bool allowed = inside(first[0], first[1], first[2]) ||
-                         inside(angles[0][0], angles[0][1], angles[0][2]);
-    CHECK(allowed != ((flags_of(crowd) & SWIVEL_INFEASIBLE) != 0));
+    CHECK(std::abs(angles[0][0]) < 1 + 1e-5);
+    CHECK(std::abs(angles[0][1] - 0.6) < 1 + 1e-5);
+    CHECK(std::abs(angles[0][2]) < 0.8 + 1e-5);
+    CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_BOX));
 }
 
 TEST_CASE("docs: allowed arcs")
@@ -214,12 +198,8 @@ TEST_CASE("docs: limits in the character's axes")
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.1f, -0.1f, -0.3f});  // behind
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, 0, -1});
     crowd.solve();
-    std::array<Double3, 1> elbow;
-    crowd.elbows(0, elbow);
     const double cosine =
-        vec(elbow[0]).normalized().dot(Eigen::Vector3d(0, -1, 1).normalized());
+        elbow_of(crowd).normalized().dot(Eigen::Vector3d(0, -1, 1).normalized());
     CHECK(std::acos(cosine) < swivel::degrees(80) + 1e-3);
-    std::array<std::uint32_t, 1> flags;
-    crowd.read(SWIVEL_FLAGS, 0, flags);
-    CHECK(flags[0] == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE));
+    CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE));
 }

@@ -642,7 +642,7 @@ SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t
 
 // Results in 16-bit words, about half of the rows' bytes, the same on every CPU. Word r of lane l of the nth block
 // becomes words[(n * rows + r) * SWIVEL_LANES + l], where rows is swivel_packed_row() of SWIVEL_RESULT_END. A rotation
-// takes 3 words, flags 2, other numbers a half float each; SWIVEL_NORMAL takes none. docs/howto/results.md has the
+// takes 3 words, flags 2, other numbers a half float each; SWIVEL_NORMAL takes none. docs/howto/limbs.md has the
 // formula.
 SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
 // The first row of words of a field of a group; if it has none, the row after those before it.

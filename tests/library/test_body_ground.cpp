@@ -2,7 +2,7 @@
 //
 // The promise: feet stand on ground as it lies, for which the library asks once for each chosen foot. What they do on
 // hills is measured by forward kinematics of Eigen's, in double: how far soles are from the ground, how they slide, and
-// how fast legs turn. docs/howto/hills.md has the numbers.
+// how fast legs turn. docs/howto/feet.md has some of the numbers.
 #include <catch2/catch.hpp>
 
 #include <atomic>

@@ -149,7 +149,7 @@ TEST_CASE("any unit quaternion: its words are the documentation's, and lead back
     }
     CHECK(worst <= kAngle);
     CHECK(worst > 0.9 * kAngle);  // the bound is near what happens
-    CHECK(kAngle <= 1.54e-4);     // as docs/howto/results.md says
+    CHECK(kAngle <= 1.54e-4);     // as docs/howto/limbs.md says
 }
 
 TEST_CASE("of components of equal size the first is left out; q and -q have the same words")
@@ -293,7 +293,7 @@ TEST_CASE("wrists of random arms stay within the stated distance of the results'
         const char* name;
         double bound;
     } cases[] = {{"arms", kAngle + kFlexion}, {"joints", 2 * kAngle}, {"joints-hand", 2 * kAngle}};
-    CHECK(kAngle + kFlexion <= 1.13e-3);  // as docs/fields.md says
+    CHECK(kAngle + kFlexion <= 1.13e-3);  // as docs/howto/limbs.md says
     CHECK(2 * kAngle <= 3.1e-4);
     constexpr std::uint32_t limbs = 60000;
     std::uint64_t seed = 0;

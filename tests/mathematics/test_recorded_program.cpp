@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The proof (docs/proof.md) is about a list of operations, proof/Program.v. This is the test that solve_plain
+// The proof (docs/mathematics.md) is about a list of operations, proof/Program.v. This is the test that solve_plain
 // does these operations and no others: it runs the library's own templates on numbers that write down what is done to
 // them.
 #include <catch2/catch.hpp>

@@ -9,7 +9,7 @@ or
     <!-- examples/NAME.c: PART -->
 
 holds that file's lines between `// [shown]`, or `// [PART]`, and `// [end]`. So pages read the same in the repository and on the site.
-The tests docs_snippets, docs_start and those of examples build and run the files. Run as a program, this script writes the lines into the pages."""
+The tests docs_snippets and those of examples build and run the files. Run as a program, this script writes the lines into the pages."""
 import re
 import sys
 import textwrap

@@ -100,7 +100,7 @@ CLI::Option* add_crowd_of_clip(CLI::App& command, SolveOptions& options)
                           "Where wrists, elbows and hands (ankles, knees and feet) must be. 'clip' is the clip's own "
                           "motion. A CSV file has the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z]"
                           "[,qx,qy,qz,qw], in the world. limb is left_arm, right_arm, left_leg or right_leg. - is "
-                          "standard input. docs/tables.md says more")
+                          "standard input. docs/motion_files.md says more")
               ->default_str("clip"),
           file_name());
     takes(command.add_option("--between", options.between,

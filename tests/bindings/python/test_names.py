@@ -25,7 +25,6 @@ PACKAGE = Path(swivel.__file__).parent  # as built, with the stub
 STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))
 DOCS = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
 FIELDS = (ROOT / "docs" / "fields.md").read_text(encoding="utf-8")
-BODIES = (ROOT / "docs" / "howto" / "bodies.md").read_text(encoding="utf-8")
 PROGRAM = r"```python\n(.*?)```"
 
 
@@ -186,15 +185,14 @@ class Stub(unittest.TestCase):
     def test_types_of_package_and_documentation(self):
         """mypy finds nothing, and does find a mistake."""
         with tempfile.TemporaryDirectory() as folder:
-            programs, wrong = [Path(folder) / "program.py", Path(folder) / "bodies.py"], Path(folder) / "wrong.py"
-            for program, page in zip(programs, (DOCS, BODIES)):
-                program.write_text("\n".join(re.findall(PROGRAM, page, re.DOTALL)), encoding="utf-8")
+            program, wrong = Path(folder) / "program.py", Path(folder) / "wrong.py"
+            program.write_text("\n".join(re.findall(PROGRAM, DOCS, re.DOTALL)), encoding="utf-8")
             wrong.write_text("import swivel\nswivel.Crowd(3).reed(swivel.Field.TARGET)\n", encoding="utf-8")
             base = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", f"--cache-dir={folder}/cache"]
             environment = {"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"}
             run = lambda *files: subprocess.run([*base, *map(str, files)], capture_output=True, text=True, env=environment,
                                                 cwd=folder)
-            good = run(*PACKAGE.glob("*.py*"), *programs)
+            good = run(*PACKAGE.glob("*.py*"), program)
             self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
             self.assertIn('has no attribute "reed"', run(wrong).stdout)
 
@@ -236,38 +234,32 @@ class Words(unittest.TestCase):
             self.assertEqual(np.ndim(crowd.read(field, group)), 1 if int(numbers) == 1 else 2)
 
 
-def names_of(page, count):
-    """The variables that a page's programs leave, run one after the other, and what they print."""
-    programs = re.findall(PROGRAM, (ROOT / "docs" / page).read_text(encoding="utf-8"), re.DOTALL)
+def names_of_programs():
+    """The variables that the page's programs leave, run one after the other, and what they print."""
+    programs = re.findall(PROGRAM, DOCS, re.DOTALL)
     names, printed = {}, io.StringIO()
     with contextlib.redirect_stdout(printed):
         for program in programs:
             exec(program, names)
-    assert len(programs) == count, f"{page} has {len(programs)} programs"
+    assert len(programs) == 3, f"python.md has {len(programs)} programs"
     return names, printed.getvalue()
 
 
 class Documentation(unittest.TestCase):
     def test_programs_run(self):
-        names, printed = names_of("python.md", 14)
+        names, printed = names_of_programs()
         self.assertIn("['REACHED', 'CLAMPED_FAR']", printed)
-        np.testing.assert_allclose(names["arms"].wrist_position[0], names["targets"][0], atol=1e-6)
-        np.testing.assert_allclose(np.linalg.norm(names["shoulder"], axis=1), 1, atol=1e-6)
+        np.testing.assert_allclose(names["plain"].wrist_position[0], names["targets"][0], atol=1e-6)
+        np.testing.assert_allclose(np.linalg.norm(names["upper_arms"], axis=1), 1, atol=1e-6)
         self.assertIsNotNone(names["limited"].wrist)
-        for crowd in ("characters", "climbers"):
+        for crowd in ("crowd", "limbs"):
             self.assertFalse(np.any(flags_of(names[crowd]) & Flag.BAD_INPUT))
-        np.testing.assert_allclose(names["characters"].wrists(1)[:100], (names["hips"] - (0, 0.8, 0))[:100], atol=1e-4)
-        self.assertTrue(np.all(names["characters"].elbows(1)[:100, 2] > 0.1))  # forwards
+        np.testing.assert_allclose(names["limbs"].wrists(1)[:100], (names["hips"] - (0, 0.8, 0))[:100], atol=1e-4)
+        self.assertTrue(np.all(names["limbs"].elbows(1)[:100, 2] > 0.1))  # forwards
         np.testing.assert_allclose(names["arm"].lengths, (0.30, 0.26), rtol=1e-6)
-        self.assertEqual(names["arm"].twist_from_arm.shape, (1, 4))
         for what in ("planted", "held", "seen"):  # by the flags of all bodies
             self.assertTrue(np.all(names[what]), what)
-        np.testing.assert_allclose(names["rifles"][:, :3], names["stand"] + (0, 1.2, 0.35), atol=1e-4)
-
-    def test_the_program_of_bodies_runs(self):
-        names, _ = names_of("howto/bodies.md", 1)
-        crowds = [crowd for crowd in names.values() if isinstance(crowd, swivel.Crowd)]
-        self.assertEqual([np.any(flags_of(crowd) & (Flag.BAD_INPUT | Flag.CLAMPED_FAR | Flag.CLAMPED_NEAR)) for crowd in crowds], [False])
+        np.testing.assert_allclose(names["rifles"][:, :3], names["drawn_at"] + (0, 1.3, 0.35), atol=1e-4)
 
 
 if __name__ == "__main__":

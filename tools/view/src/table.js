@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The goals that the user has moved, as a table that `swivel solve --targets` reads (docs/tables.md), in all frames.
+// The goals that the user has moved, as a table that `swivel solve --targets` reads (docs/motion_files.md), in all
+// frames.
 import { element } from "./dom.js";
 
 const MAX_ROWS = 2e6;
