@@ -71,10 +71,10 @@ struct LookRules {
     float rate;             // radians a second; 0: not eased
 };
 
-// Where elbows with SWIVEL_POLE_HALF_LINE point: along `side`, as seen in the mirror that turns `behind` into the line
-// to the wrist. Both are unit vectors of the arm frame, at right angles.
+// Limbs with SWIVEL_POLE_HALF_LINE have the normal `normal`, as seen in the mirror that turns `behind` into the line to
+// the wrist. Both are unit vectors of the arm frame, at right angles.
 struct HalfLine {
-    float behind[3], side[3];
+    float behind[3], normal[3];
 };
 
 }  // namespace swivel

@@ -52,11 +52,15 @@ struct HalfLineNormal {
     Mask<T> is_defined;
 };
 template <class T>
-SWIVEL_INLINE constexpr HalfLineNormal<T> half_line_normal(const Vector<T>& behind, const Vector<T>& side,
+SWIVEL_INLINE constexpr HalfLineNormal<T> half_line_normal(const Vector<T>& behind, const Vector<T>& normal,
                                                            const Vector<T>& line)
 {
-    const Vector<T> from_behind = line - behind;
-    return {across(cross(from_behind, side), line), len2(from_behind) > T(kPoleOff * kPoleOff)};
+    // As a mirror image it is as exact as the direction of `mirror` is. With (line - behind) x V made orthogonal to the
+    // line, which it equals for `normal` = V x behind, errors would grow with the square.
+    const Vector<T> mirror = line - behind;
+    const T length2 = len2(mirror);
+    const Vector<T> image = T(0.5) * length2 * normal - scalar_product(mirror, normal) * mirror;
+    return {across(image, line), length2 > T(kPoleOff * kPoleOff)};
 }
 
 // How an elbow goes on from solve to solve.
@@ -76,12 +80,12 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const Continuity<T>& continuity)
 // The parts of a limb's goal that the wish is made of. Parts that the group's features do not use may hold anything.
 template <class T>
 struct WishGoal {
-    Vector<T> pole;          // or the swivel plane's normal
-    Vector<T> behind, side;  // where nobody gives a pole: see HalfLine
-    Rotor<T> hand;           // with SWIVEL_POLE_HAND: as blended
-    Turned<T> angle;         // turns the wish about the line from shoulder to wrist; of any length
-    Rotor<T> incoming;       // with SWIVEL_WITH_INCOMING: the shoulder's rotation
-    T weight;                // of the pole, 0 to 1
+    Vector<T> pole;            // or the swivel plane's normal
+    Vector<T> behind, normal;  // where nobody gives a pole: see HalfLine
+    Rotor<T> hand;             // with SWIVEL_POLE_HAND: as blended
+    Turned<T> angle;           // turns the wish about the line from shoulder to wrist; of any length
+    Rotor<T> incoming;         // with SWIVEL_WITH_INCOMING: the shoulder's rotation
+    T weight;                  // of the pole, 0 to 1
     Continuity<T> continuity;
 };
 
@@ -109,7 +113,7 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(swivel_features features, 
     Vector<T> normal = incoming_normal;  // of any length until the end
     Mask<T> is_defined = incoming_is_defined, keeps_incoming = incoming_is_defined;
     if (features & SWIVEL_POLE_HALF_LINE) {
-        const HalfLineNormal<T> found = half_line_normal(goal.behind, goal.side, line);
+        const HalfLineNormal<T> found = half_line_normal(goal.behind, goal.normal, line);
         normal = found.normal;
         is_defined = found.is_defined;
     } else if (!(features & SWIVEL_POLE_INCOMING)) {

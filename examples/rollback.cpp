@@ -81,8 +81,10 @@ int main()
         guess = play(client, inputs(frame, false));
     }
     std::printf("guessed: %s\n", text(guess == truth));
+    // [rollback]
     client.load(states[kTurn % kLate]);
     for (int frame = kTurn; frame < kTurn + kLate; ++frame) guess = play(client, inputs(frame, true));
+    // [end]
     std::printf("rolled back: %s\n", text(guess == truth && client.state_digest() == server.state_digest()));
     server.save(states[0]);
     visitor.load(states[0]);

@@ -133,14 +133,13 @@ Vector<double> behind_in_arm(const float (&pole_behind)[3], const swivel_binding
 
 HalfLine half_line(const Vector<double>& behind)
 {
-    // The mirror that turns `behind` into the limb at rest turns `side` into where the elbow points at rest. It is its
-    // own inverse, so it turns that into `side`.
-    const Vector<double> mirror = kLineAtRest - behind;
-    const Vector<double> side = 2 * scalar_product(mirror, kBendAtRest) / len2(mirror) * mirror - kBendAtRest;
+    // The mirror that turns `behind` into the limb at rest is its own inverse.
+    const Vector<double> mirror = kLineAtRest - behind, at_rest = cross(kBendAtRest, kLineAtRest);
+    const Vector<double> normal = at_rest - 2 * scalar_product(mirror, at_rest) / len2(mirror) * mirror;
     HalfLine made;
     for (std::size_t c = 0; c < 3; ++c) {
         made.behind[c] = static_cast<float>(behind.c[c]);
-        made.side[c] = static_cast<float>(side.c[c]);
+        made.normal[c] = static_cast<float>(normal.c[c]);
     }
     return made;
 }

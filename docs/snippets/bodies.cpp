@@ -19,20 +19,6 @@ struct Character : Posed<kJoints> {
     float time = 1 / 60.0f;
 };
 
-// [carried]
-// Calls take(field, group, number of floats) for all that the next solve starts from.
-void for_carried(const swivel::Crowd& crowd, auto take)
-{
-    swivel_field_info info;
-    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-        for (std::uint32_t g = 0; g < swivel_group_count(crowd.get()); ++g) {
-            const std::size_t size = swivel_field_row_count(crowd.get(), g, info.field);
-            if (info.kind == SWIVEL_FIELD_CARRIED && size > 0)
-                take(info.field, g, size);
-        }
-}
-// [end]
-
 }  // namespace
 
 TEST_CASE("docs: bodies")
@@ -69,13 +55,33 @@ TEST_CASE("docs: bodies")
         const Double3 shoulder = engine_place(kUpperArm),
                       elbow = engine_place(kForearm),
                       wrist = engine_place(kHand);  // in the world, of character 3
-        // Of group 0, body 3:
+        // Group 0, body 3:
         const auto said = swivel::compare(crowd, 0, 3, pose, shoulder, elbow, wrist);
         if (!said.agrees) log.push_back(said.text);
         // [end]
     };
     compare();
     CHECK(log.empty());
+
+    std::size_t drawn = 0;
+    const auto debug_line = [&](const double* from, const double* to, std::uint32_t) {
+        drawn += distance(Double3{from[0], from[1], from[2]},
+                          Double3{to[0], to[1], to[2]}) < 9;
+    };
+    const std::uint32_t body = 3;
+    // [draw]
+    constexpr std::uint32_t room = 1024;
+    swivel_shape shapes[room];
+    std::uint32_t count;
+    swivel::check(swivel_draw(crowd.get(), SWIVEL_EVERY_GROUP, body, &pose, shapes,
+                              room, &count));
+    for (std::uint32_t n = 0; n < std::min(count, room); ++n)
+        debug_line(shapes[n].from, shapes[n].to, shapes[n].color);  // 0xRRGGBBAA
+    // [end]
+    CHECK(count <= room);
+    CHECK(drawn == count);
+    CHECK(count > 10);
+
     for (Float4& q : characters[3].pose) q = {q[3], q[0], q[1], q[2]};
     compare();
     REQUIRE(log.size() == 1);
@@ -120,53 +126,46 @@ TEST_CASE("docs: joints relative to the root")
         CHECK(distance(model.places[kHand], target) < 2e-6);
 }
 
-TEST_CASE("docs: what is carried, saved, restored and reset")
+TEST_CASE("docs: what bodies carry is saved, loaded and reset")
 {
     const std::uint32_t body_count = 3;
     std::vector<Character> characters(body_count);
     const swivel_limb_joints leg = bones.limb(kThigh, -1);
-    swivel::Crowd crowd(
-        bones.skeleton(), body_count,
-        {swivel::body_limb(leg, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT),
-         swivel::look({kChest})});
-    crowd.write_all(SWIVEL_CONTACT, 0, {1});
-    crowd.write_all(SWIVEL_LOOK_TARGET, 1, {9, 1, 1});
+    const auto made = [&] {
+        swivel::Crowd crowd(
+            bones.skeleton(), body_count,
+            {swivel::body_limb(leg, SWIVEL_POLE_INCOMING | SWIVEL_WITH_PLANT),
+             swivel::look({kChest})});
+        crowd.write_all(SWIVEL_CONTACT, 0, {1});
+        crowd.write_all(SWIVEL_LOOK_TARGET, 1, {9, 1, 1});
+        return crowd;
+    };
+    swivel::Crowd crowd = made(), other = made();
     swivel_pose pose = pose_of(characters);
     pose.time = swivel::stream(characters, &Character::time);
-    const auto play = [&] {
+    const auto play = [&](swivel::Crowd& played) {
         for (int frame = 0; frame < 3; ++frame) {
             for (Character& each : characters) each.place[2] += 0.005f;
-            crowd.solve({.pose = &pose});
+            played.solve({.pose = &pose});
         }
-        return characters[2].solved;
+        return characters;
     };
-    play();
-    // [save]
-    std::vector<float> saved;
-    for_carried(crowd, [&](swivel_field field, std::uint32_t group, std::size_t size) {
-        const std::size_t at = saved.size();
-        saved.resize(at + size * body_count);
-        swivel::check(swivel_read(crowd.get(), field, group, 0, body_count,
-                                  {&saved[at], size * sizeof(float)}));
-    });
-    // [end]
-    const std::vector<Character> then = characters;
-    const std::array<Float4, kJoints> next = play();
-    std::ranges::copy(then, characters.begin());
+    const std::vector<Character> then = play(crowd);
     const std::uint32_t body = 2;
-    // [reset]
-    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group)
-        swivel::check(swivel_reset(crowd.get(), group, body, 1));
+    // [state]
+    std::vector<std::byte> state(body_count * swivel_state_bytes(crowd.get()));
+    crowd.save(state);            // all bodies; swivel_save(): some
+    other.load(state);            // or crowd, later
+    crowd.reset_bodies(body, 1);  // it was teleported, or is somebody else now
     // [end]
-    CHECK(play() != next);
+    CHECK(crowd.state_digest() != other.state_digest());
+    const std::vector<Character> next = play(crowd);
     std::ranges::copy(then, characters.begin());
-    // [restore]
-    const float* from = saved.data();
-    for_carried(crowd, [&](swivel_field field, std::uint32_t group, std::size_t size) {
-        swivel::check(swivel_write(crowd.get(), field, group, 0, body_count,
-                                   {from, size * sizeof(float)}));
-        from += size * body_count;
-    });
-    // [end]
-    CHECK(play() == next);
+    const std::vector<Character> loaded = play(other);
+    CHECK(loaded[0].solved == next[0].solved);
+    CHECK(loaded[body].solved != next[body].solved);
+    crowd.load(state);
+    std::ranges::copy(then, characters.begin());
+    CHECK(play(crowd)[body].solved == loaded[body].solved);
+    CHECK(crowd.state_digest() == other.state_digest());
 }

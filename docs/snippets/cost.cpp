@@ -53,7 +53,7 @@ TEST_CASE("docs: bodies come near and go")
         };
         const auto reset = [&](const Character& each) {
             const auto body = static_cast<std::uint32_t>(&each - characters.data());
-            swivel::check(swivel_reset(crowd.get(), 0, body, 1));
+            crowd.reset_bodies(body, 1);
         };
         // [fade]
         for (Character& each : characters) {

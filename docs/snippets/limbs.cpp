@@ -194,6 +194,29 @@ TEST_CASE("docs: the hand as the pole")
     check_side(crowd, Eigen::Quaterniond(0.8, 0, 0.6, 0) * -Eigen::Vector3d::UnitZ());
 }
 
+TEST_CASE("docs: no pole")
+{
+    // [half_line]
+    const swivel_limb_def arms = swivel::limbs(1, SWIVEL_POLE_HALF_LINE);
+    swivel_limb_def legs = arms;
+    legs.pole_behind[1] = 1;  // behind: where knees bend to
+    swivel::Crowd crowd({arms, legs});
+    // [end]
+    give_arm(crowd);
+    crowd.write_all(SWIVEL_LENGTHS, 1, {0.45f, 0.43f});
+    crowd.write_all(SWIVEL_TARGET, 1, {0, -0.5f, 0.5f});
+    crowd.solve();
+    for (const std::uint32_t group : {0u, 1u}) {
+        std::array<std::uint32_t, 1> flags;
+        crowd.read(SWIVEL_FLAGS, group, flags);
+        CHECK(flags[0] == SWIVEL_REACHED);
+    }
+    // The normal is (u - R) x V: R behind, V so that an elbow at rest lies there, too.
+    const Eigen::Vector3d u = vec(kTarget).normalized(), r(0, -1, 0), v(0, 0, 1),
+                          normal = (u - r).cross(v);
+    check_side(crowd, normal.cross(u));
+}
+
 TEST_CASE("docs: aiming")
 {
     // [aim]

@@ -578,7 +578,7 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 // The state of a body is all that its next solve starts from besides its inputs: the carried fields of all groups. Free
 // limbs with SWIVEL_KEEP_POSE have their results in it, too, because bad input keeps these. In a crowd of free limbs
 // body n is limb n of each group, and groups must have the same limb count. Inputs, among them each body's time since
-// its last solve, are the caller's. docs/howto/bodies.md explains rollback.
+// its last solve, are the caller's. docs/howto/server.md explains rollback.
 //
 // Bytes of one body's state; 0 for free limbs in groups of unequal counts.
 SWIVEL_API size_t swivel_state_bytes(const swivel_crowd* crowd);

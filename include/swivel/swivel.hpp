@@ -94,7 +94,7 @@ inline swivel_look_def look(std::span<const std::uint32_t> joints)
     for (std::size_t n = 0; n < joints.size() && n < SWIVEL_MAX_LOOK_JOINTS; ++n) made.joints[n] = joints[n];
     return made;
 }
-inline swivel_look_def look(std::initializer_list<std::uint32_t> joints) { return look(std::span(joints)); }
+inline swivel_look_def look(std::initializer_list<std::uint32_t> joints) { return look(std::vector(joints)); }
 
 // A limb's alignments and bone lengths from its rest pose: swivel_bind_joints().
 inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_joints& joints)

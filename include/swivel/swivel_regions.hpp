@@ -19,7 +19,7 @@ public:
     }
     Region& add_cones(std::initializer_list<swivel_region_cone> cones, bool closed = false)
     {
-        return add_cones(std::span(cones), closed);
+        return add_cones(std::vector(cones), closed);
     }
     Region& add_polygon(std::span<const std::array<float, 3>> corners)
     {

@@ -127,7 +127,7 @@ SWIVEL_INLINE void wish_for_normal(const S& s, swivel_features features, const L
     if (features & SWIVEL_POLE_HALF_LINE) {
         const auto constant = [](const float(&v)[3]) SWIVEL_INLINE_LAMBDA { return vector(T(v[0]), T(v[1]), T(v[2])); };
         goal.behind = constant(s.strip.run.half_line->behind);
-        goal.side = constant(s.strip.run.half_line->side);
+        goal.normal = constant(s.strip.run.half_line->normal);
     }
     if (features & SWIVEL_WITH_ANGLE) {
         goal.angle = s.io.load_turned(SWIVEL_ANGLE);

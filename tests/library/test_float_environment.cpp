@@ -294,7 +294,7 @@ constexpr std::string_view kWithoutFloats =
     " version status_text last_error crowd_destroy block_count group_first_limb digest group_limb_count "
     "field_first_row field_row_count input_rows result_rows packed_row write reset isa_name use_isa "
     "isa_at isa_runs group_count group_kind group_features describe_field describe_feature "
-    "describe_constant flag_name workspace_bytes ";
+    "describe_constant flag_name workspace_bytes state_bytes save load reset_body state_digest ";
 
 #ifdef __x86_64__
 // The control words and sticky flags of both units.

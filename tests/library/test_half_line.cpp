@@ -186,7 +186,7 @@ TEST_CASE("on the half-line the elbow is where an undefined pole leaves it")
     const Vector3d behind(0.6, 0, -0.8);
     for (const double from_behind : {0.9e-3, 1.1e-3}) {
         const Vector3d direction = (behind + from_behind * Vector3d::UnitY()).normalized();
-        const LimbPose got = solved(half_line(1, behind), rounded(Arm{1.5 * direction, {}, 1, 1}));
+        const LimbPose got = solved(half_line(1, behind), rounded(Arm{1.5 * direction, Vector3d::Zero(), 1, 1}));
         CHECK(((got.flags & SWIVEL_SWIVEL_UNDEFINED) != 0) == (from_behind < 1e-3));
         CHECK((got.wrist_place() - 1.5 * direction).norm() < 3e-6);
         if (from_behind > 1e-3)
@@ -195,7 +195,7 @@ TEST_CASE("on the half-line the elbow is where an undefined pole leaves it")
             CHECK(angle_between(got.hinge(), Vector3d(0.64, 0, 0.48)) < 0.01);  // the rest hinge, across the line
     }
     Crowd crowd(half_line(1, behind));
-    write_arm(crowd, 0, Arm{1.5 * behind, {}, 1, 1});
+    write_arm(crowd, 0, Arm{1.5 * behind, Vector3d::Zero(), 1, 1});
     crowd.solve();
     CHECK_THAT(explain(crowd, 0, 0), Catch::Contains("points along pole_behind"));
 }

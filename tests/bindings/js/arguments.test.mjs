@@ -74,8 +74,8 @@ test('every argument of every call counts', () => {
   assert.equal(crowd.mirror(Field.SHOULDER_CONE, [0, 0, 1, 0.5]).length, 4);
   // Whose arguments are elsewhere: those that make things, solve(), and what bodies have.
   const methods = (of) => (of === Object.prototype ? [] : [...Object.getOwnPropertyNames(of).filter((name) => typeof Object.getOwnPropertyDescriptor(of, name).value === 'function'), ...methods(Object.getPrototypeOf(of))]);
-  const inside = ['constructor', 'orDispose', 'own', 'group', 'place', 'settle', 'refresh', 'streamsOf', 'listOf', 'list', 'view', 'writeFrom', 'readTo', 'rowsOf', 'rows', 'name', 'lists', 'one', 'answer', 'forward', 'choice', 'refreshResults'];
-  const known = [...inside, ...Object.keys(functions), ...Object.keys(answers), ...Object.keys(ofLimbs), 'hands', 'jointAngles', 'write', 'reset', 'kind', 'bindJoints', 'crowd', 'bodies', 'region', 'solve', 'digest', 'save', 'load', 'resetBodies', 'stateDigest', 'dispose'];
+  const inside = ['constructor', 'orDispose', 'own', 'group', 'place', 'settle', 'refresh', 'streamsOf', 'listOf', 'list', 'view', 'writeFrom', 'readTo', 'rowsOf', 'rows', 'name', 'lists', 'one', 'answer', 'forward', 'choice', 'refreshResults', 'shapes'];
+  const known = [...inside, ...Object.keys(functions), ...Object.keys(answers), ...Object.keys(ofLimbs), 'hands', 'jointAngles', 'write', 'reset', 'kind', 'bindJoints', 'crowd', 'bodies', 'region', 'solve', 'digest', 'save', 'load', 'resetBodies', 'stateDigest', 'draw', 'dispose'];
   assert.deepEqual([crowd, swivel].flatMap(methods).filter((name) => !known.includes(name)), []);
   crowd.dispose();
 });

@@ -89,7 +89,7 @@ METHODS = {
 }
 # These are in test_numbers and test_scenes, below, test_bodies, test_numbers again, and, what comes out, in test_arrays. The last are in test_bodies.
 ELSEWHERE = {"solve", "change_support", "kind", "compare", "choose", "digest", "version", "isa_name", "isas", "use_isa", "fill_cache",
-             "save", "load", "reset_bodies", "state_digest"}
+             "save", "load", "reset_bodies", "state_digest", "draw"}
 
 
 def same_of(answer):
@@ -182,7 +182,7 @@ REFUSED = [
     (ValueError, "direction 0, (0, 0, 0), has no direction", lambda: Region().room((0, 0, 0))),
     (ValueError, "axes: expected shape (n, 3), got (3,)", lambda: cones(axes=(1, 0, 0), angles=0.1)),
     (ValueError, "the region allows nothing", lambda: swivel.Crowd(Group(1, region=Region()))),
-    (ValueError, "pole_behind: expected shape (3,)", lambda: swivel.Crowd(Group(1, pole_behind=(0, 1)))),
+    (ValueError, "pole_behind: expected shape (1, 3), or (3,) for all limbs, got (2,)", lambda: swivel.Crowd(Group(1, pole_behind=(0, 1)))),
     (ValueError, "pole_behind lies along the limb at rest", lambda: swivel.Crowd(Group(1, features=Feature.POLE_HALF_LINE, pole_behind=(0, 0, 1)))),
     (ValueError, "group 0 has a pole_behind, but not Feature.POLE_HALF_LINE", lambda: make(ARM._replace(pole_behind=(0, 1, 0)))),
     (TypeError, "region: expected a Region, got 3", lambda: swivel.Crowd(Group(1, region=3))),

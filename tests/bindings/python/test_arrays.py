@@ -163,7 +163,7 @@ class Mistakes(Refusals):
         self.refuses(ValueError, "there is no order of axes 6", swivel.Crowd, 1, 0, 6)
         self.refuses(ValueError, "group is -1", crowd.read, Field.TARGET, -1)
         self.refuses(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got 'x'", swivel.Crowd, ["x"])
-        for wrong in ((1, 2), (None, None), (), (1, None, "WORLD"), (1, None, 0, 0, 0, 0, None, 0, 0)):
+        for wrong in ((1, 2), (None, None), (), (1, None, "WORLD"), (1, None, 0, 0, 0, 0, None, 0, None, 0)):
             self.refuses(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got (", swivel.Crowd, [wrong])
         self.refuses(ValueError, "there is no way to treat bad input 2; give a member of swivel.OnBadInput", swivel.Crowd, 1, on_bad_input=2)
         self.refuses(ValueError, "features is -1", swivel.Crowd, [swivel.Group(1, features=-1)])

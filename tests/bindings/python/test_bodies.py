@@ -204,7 +204,7 @@ class Mistakes(Refusals):
 class Drawn(Refusals):
     def test_lines_of_a_body(self):
         crowd, pose = crowd_of(2, Feature.POLE_INCOMING | Feature.WITH_RECORD), Pose(np.tile(np.float32((0, 0, 0, 1)), (2, 8, 1)))
-        self.refuses(ValueError, "swivel_draw: pose is null; give the one of the last solve", crowd.draw, limb=0)
+        self.refuses(ValueError, "draw: pose is null; give the one of the last solve", crowd.draw, limb=0)
         crowd.solve(streams=[{"target": np.tile(np.float32(target), (2, 1))} for target in ((0.6, 1.4, 0.2), (0.1, 0.2, 0.1))], pose=pose)
         names, lines, colors = crowd.draw(limb=1, pose=pose)
         self.assertEqual((lines.shape, colors.shape), ((len(names), 2, 3), (len(names), 4)))

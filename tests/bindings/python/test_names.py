@@ -99,7 +99,8 @@ class Names(unittest.TestCase):
         """What Python has under another name, or does by itself."""
         others = {"crowd_create", "crowd_destroy", "crowd_bytes", "workspace_bytes", "last_error", "status_text", "forward",
                   "unpack_rotation", "unpack_half", "field_row_count", "field_first_row", "group_first_limb", "group_limb_count",
-                  "group_features", "group_kind", "input_rows", "result_rows", "describe_field", "describe_feature", "describe_constant", "flag_name", "isa_at", "isa_runs", "region_mirror"}
+                  "group_features", "group_kind", "input_rows", "result_rows", "describe_field", "describe_feature", "describe_constant", "flag_name", "isa_at", "isa_runs", "region_mirror",
+                  "state_bytes", "reset_body"}
         functions = {name.removeprefix("swivel_") for name in described("functions")}
         self.assertGreater(len(functions), 40)
         has = set(dir(swivel)) | set(dir(swivel.Crowd)) | {f"region_{name}" for name in dir(swivel.Region)}
