@@ -71,8 +71,8 @@ struct LookRules {
     float rate;             // radians a second; 0: not eased
 };
 
-// Limbs with SWIVEL_POLE_HALF_LINE have the normal `normal`, as seen in the mirror that turns `behind` into the line to
-// the wrist. Both are unit vectors of the arm frame, at right angles.
+// With SWIVEL_POLE_HALF_LINE the mirror that turns `behind` into the line to the wrist turns `normal` into the swivel
+// plane's normal. Both are unit vectors of the arm frame, at right angles.
 struct HalfLine {
     float behind[3], normal[3];
 };

@@ -81,7 +81,7 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const Continuity<T>& continuity)
 template <class T>
 struct WishGoal {
     Vector<T> pole;            // or the swivel plane's normal
-    Vector<T> behind, normal;  // where nobody gives a pole: see HalfLine
+    Vector<T> behind, normal;  // with SWIVEL_POLE_HALF_LINE: see HalfLine
     Rotor<T> hand;             // with SWIVEL_POLE_HAND: as blended
     Turned<T> angle;           // turns the wish about the line from shoulder to wrist; of any length
     Rotor<T> incoming;         // with SWIVEL_WITH_INCOMING: the shoulder's rotation

@@ -106,7 +106,7 @@ struct BodyKernels {
     // - carry: any joint that moves, as a pose in the body's space has it.
     // - locate: a needed joint's rotation and position, in the body's space, from the root before its shift.
     void (*carry)(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint);
-    void (*locate)(const BodyBlock& block, const BodyJoint& joint);
+    void (*locate)(const BodyPlan& plan, const BodyBlock& block, const BodyJoint& joint);
 };
 
 struct Kernels {

@@ -32,7 +32,7 @@ uint32_t swivel_version(void) { return SWIVEL_VERSION; }
 
 const char* swivel_status_text(swivel_status status)
 {
-    switch (status) {
+    switch (number_of(status)) {
         case SWIVEL_OK:
             return "done";
         case SWIVEL_INVALID_ARGUMENT:

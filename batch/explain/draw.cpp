@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "batch/crowd/streams.h"
 #include "batch/explain/explain.h"
 #include "batch/explain/posed_body.h"
 #include "batch/query/limb_value.h"
@@ -60,13 +61,14 @@ struct DrawnBody {
         const float(&v)[3] = crowd.groups[0].plan.up;
         return vector<double>(v[0], v[1], v[2]);
     }
-    // By what the last solve shifted the root.
+    // By what the last solve shifted the root; the pose's weight counts for it, too.
     Vector<double> shifted() const
     {
         for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
             if (!(crowd.groups[g].features & kShift)) continue;
             const LimbValue value(crowd.groups[g], number, SWIVEL_SHIFT);
-            return value[2] == 0 ? zero : value[0] * up;  // 0: reset, or never solved
+            const double weight = pose.weight.data ? double{value_at<float>(pose.weight, number)} : 1;
+            return value[2] == 0 ? zero : value[0] * weight * up;  // 0: reset, or never solved
         }
         return zero;
     }

@@ -112,7 +112,8 @@ void draw_limb(const swivel_crowd& crowd, std::uint32_t g, std::uint32_t limb, b
     if (!(group.features & kBody)) {
         draw_pose(group, limb, true, with_incoming, to);
         if (flags_of(group, limb) & SWIVEL_BAD_INPUT) to.point(SWIVEL_SHAPE_BAD_INPUT, arm_frame(group, limb).shoulder);
-    } else if (group.features & SWIVEL_WITH_RECORD && flags_of(group, limb) != 0) {
+    } else if (group.features & SWIVEL_WITH_RECORD && flags_of(group, limb) != 0 &&
+               !(flags_of(group, limb) & SWIVEL_BAD_INPUT)) {  // which keeps the results of an older solve
         draw_recorded(group, limb, with_incoming, to);
     } else {
         return;

@@ -62,7 +62,8 @@ void draw_region(const swivel_region& region, const ArmFrame& arm, double radius
 {
     Probe probe(group, limb);
     for_each_limit([&](const FlagRow& row) { probe.give_up(row); });
-    if (probe.has(SWIVEL_WITH_MAX_SWIVEL)) probe.give_up(SWIVEL_MAX_SWIVEL);
+    // Else arcs count from the wish as the step leaves it.
+    if (probe.has(SWIVEL_STEP_WINS)) probe.give_up(SWIVEL_MAX_SWIVEL);
     if (probe.solve() & SWIVEL_BAD_INPUT) return std::nullopt;
     return probe.pose();
 }
@@ -77,8 +78,8 @@ void draw_limits(const Group& group, std::size_t limb, const LimbPose& pose, Dra
         const LimbValue cone(group, limb, SWIVEL_SHOULDER_CONE);
         draw_cone(pose.shoulder, sandwich(arm.rotation, vector_of(cone)), cone[3], upper, to);
     }
-    if (group.features &
-        SWIVEL_WITH_HAND_CONE)  // which is about the forearm, as the hand's axis is at most so far from it
+    // The hand's axis is at most so far from the forearm.
+    if (group.features & SWIVEL_WITH_HAND_CONE)
         draw_cone(pose.wrist, pose.wrist - pose.elbow, LimbValue(group, limb, SWIVEL_HAND_CONE)[3], 2 * to.size, to);
     if (group.features & SWIVEL_WITH_REGION) draw_region(*group.region, arm, upper, to);
 }

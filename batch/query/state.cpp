@@ -37,7 +37,7 @@ StateLayout state_layout(const swivel_crowd& crowd)
 {
     constexpr std::uint32_t kVersion = 1;  // goes up where numbers of the same fields change their meaning
     StateLayout layout{kVersion, kWordBytes};
-    const auto add = [&](std::uint32_t number) { layout.word = (layout.word ^ number) * 16777619u; };  // as FNV-1 does
+    const auto add = [&](std::uint32_t number) { layout.word = (layout.word ^ number) * 16777619u; };  // as FNV-1a does
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         add(g);
         for_each_state_result(crowd.groups[g], [&](const FieldRow& result, std::uint32_t, std::uint32_t count) {

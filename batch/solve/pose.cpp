@@ -116,7 +116,7 @@ void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBloc
     const swivel_pose& pose = *plan.pose;
     const PoseWriter writer{pose, block};
     for (std::uint32_t n = 1; n < plan.joint_count; ++n) {
-        kernels.locate(block, plan.joints[n]);
+        kernels.locate(plan, block, plan.joints[n]);
         const std::uint32_t joint = plan.joints[n].skeleton_joint;
         if (pose.joint_rotations.data) writer.write<4>(pose.joint_rotations, joint, kOutTurnRow);
         if (pose.joint_positions.data) writer.write<3>(pose.joint_positions, joint, kOutPlaceRow);

@@ -53,7 +53,7 @@ typedef enum swivel_status {
 
 // The version the library was built as: SWIVEL_VERSION.
 SWIVEL_API uint32_t swivel_version(void);
-// What a status means, in a few words.
+// A status in a few words.
 SWIVEL_API const char* swivel_status_text(swivel_status status);
 // One line on the calling thread's last failed call: what, where, what to do. Later calls that succeed keep it. Empty
 // before any failure.
@@ -88,7 +88,7 @@ typedef enum swivel_flag {
     SWIVEL_BAD_INPUT = 1u << 30,       // an input is not valid or was never given
 } swivel_flag;
 
-// What a group is. In a crowd of bodies, limb i of each group belongs to body i.
+// In a crowd of bodies, limb i of each group belongs to body i.
 typedef enum swivel_kind {
     SWIVEL_KIND_LIMB,  // free limbs: swivel_limb_def. Definitions of the others are in swivel_bodies.h
     SWIVEL_KIND_BODY_LIMB,
@@ -270,7 +270,7 @@ typedef struct swivel_binding {
     float fore_from_arm[4];          // the same, to the elbow joint's own frame
     float wrist_parent_from_arm[4];  // the same, to the wrist's parent
     float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations
-    float lengths[2];                                      // upper arm, forearm; NaN where they are not known
+    float lengths[2];                                      // upper arm, forearm; NaN: not known
     uint32_t twist_bone_count;                             // 0: SWIVEL_TWIST_BONES is relative to their rest
     // The same, to each twist bone's parent and to its own frame.
     float twist_parent_from_arm[SWIVEL_MAX_TWIST_BONES][4], twist_from_arm[SWIVEL_MAX_TWIST_BONES][4];
@@ -479,7 +479,7 @@ typedef enum swivel_numbers {
     SWIVEL_DOUBLES
 } swivel_numbers;
 
-// One group's values as engines keep them. What is not listed stays in the rows. A field may be listed once.
+// One group's values as engines keep them. Other fields stay in the rows. A field may be listed once.
 typedef struct swivel_streams {
     size_t size;
     const swivel_stream* fields;
@@ -519,8 +519,7 @@ typedef struct swivel_job {
     const uint32_t* mask;
     uint32_t mask_word_count;  // (swivel_block_count() + 1) / 2
 
-    // The caller's own arrays, for each group that is named, in the crowd's order. Null: values are in the crowd's
-    // rows.
+    // The caller's own arrays, for each group named, in the crowd's order. Null: the crowd's rows.
     const swivel_streams* streams;
 
     // Not 0: solves on the calling thread, and never allocates; several threads may do so at once, on blocks that do
@@ -550,7 +549,7 @@ static inline swivel_job swivel_default_job(void)
 }
 
 // Bytes of a workspace, the memory beside its rows that a solve works in: up to 64 KiB; of bodies up to 192 KiB, or 1.4
-// KiB for each joint that is needed. Each call of swivel_solve() that runs at the same time needs one.
+// KiB for each needed joint. Each swivel_solve() that runs at the same time needs one.
 SWIVEL_API size_t swivel_workspace_bytes(const swivel_crowd* crowd);
 
 // Solves limbs; job may be null. Fails if no workspace is free.
@@ -561,8 +560,8 @@ SWIVEL_API size_t swivel_workspace_bytes(const swivel_crowd* crowd);
 // A solve costs by blocks: keep limbs that are solved together side by side.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
 
-// Chooses whole blocks by urgency, at most max_blocks of them. Each call adds the largest priority among a block's
-// limbs to the block's urgency, picks the most urgent blocks, and sets their urgency to 0.
+// Chooses at most max_blocks whole blocks by urgency. Each call adds the largest priority among a block's
+// limbs to the block's urgency, picks the most urgent, and sets their urgency to 0.
 //
 // priorities: one entry for each group, or one alone for bodies; one float for each limb, 0..1e15.
 // urgency: a float for each block, 0 at first, kept from call to call. Null: priorities alone decide.
@@ -572,29 +571,28 @@ SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* pri
                                        uint32_t max_blocks, uint32_t* mask, uint32_t mask_word_count,
                                        uint32_t* chosen_count);
 
-// Clears the carried fields of these limbs, so that they start anew, such as after a teleport.
+// Clears these limbs' carried fields, so that they start anew, such as after a teleport.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
-// The state of a body is all that its next solve starts from besides its inputs: the carried fields of all groups. Free
-// limbs with SWIVEL_KEEP_POSE have their results in it, too, because bad input keeps these. In a crowd of free limbs
-// body n is limb n of each group, and groups must have the same limb count. Inputs, among them each body's time since
-// its last solve, are the caller's. docs/howto/server.md explains rollback.
+// A body's state is what its next solve starts from besides inputs, which are the caller's: the carried fields of all
+// groups, and the results of free limbs with SWIVEL_KEEP_POSE. In crowds of free limbs body n is limb n of each group,
+// and groups must have one limb count. docs/howto/server.md explains rollback.
 //
-// Bytes of one body's state; 0 for free limbs in groups of unequal counts.
+// Bytes of one body's state; 0 for groups of unequal counts.
 SWIVEL_API size_t swivel_state_bytes(const swivel_crowd* crowd);
-// Saves the state of bodies, one body after the other, in bytes that are the same on every CPU. size: of the caller's
-// memory, swivel_state_bytes() a body or more, of any alignment.
+// Saves the state of bodies, one after the other, in the same bytes on every CPU. size: swivel_state_bytes() a body, or
+// more, of any alignment.
 SWIVEL_API swivel_status swivel_save(const swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, void* bytes,
                                      size_t size);
-// Loads what swivel_save() saved of any bodies, of this crowd or of another whose groups carry the same fields. Inputs
-// and other results stay as they are. Nothing is loaded if any of the bytes are of another kind of crowd.
+// Loads what swivel_save() saved of any bodies, of this crowd or of one whose groups carry the same fields. Inputs and
+// other results stay. It loads nothing if any bytes are of another kind of crowd.
 SWIVEL_API swivel_status swivel_load(swivel_crowd* crowd, uint32_t first_body, uint32_t body_count, const void* bytes,
                                      size_t size);
-// Clears the carried fields of all groups of these bodies, such as for a teleport. In their next solve feet land where
-// the animation has them, and looks and shifts are at their goals at once.
+// swivel_reset() of all groups of these bodies. In their next solve feet land where the animation has them, and looks
+// and shifts are at their goals at once.
 SWIVEL_API swivel_status swivel_reset_body(swivel_crowd* crowd, uint32_t first_body, uint32_t body_count);
-// A digest of the state of all bodies, or of free limbs in any groups. Unlike swivel_digest() it leaves out what a
-// solve does not start from: after swivel_load() of all bodies it is the saved crowd's.
+// A digest of the state of all bodies, or of free limbs in any groups. Unlike swivel_digest(), it is the saved crowd's
+// after swivel_load() of all bodies.
 SWIVEL_API uint64_t swivel_state_digest(const swivel_crowd* crowd);
 
 // Values of fields from angles in radians. For twists and boxes, the range from min to max, no wider than 2 pi.
@@ -611,12 +609,12 @@ SWIVEL_API swivel_status swivel_flexion(double min, double max, float flexion[2]
 SWIVEL_API swivel_status swivel_aim(const double axis[3], double flexion, float aim[5]);
 // Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MAX_SWIVEL.
 SWIVEL_API void swivel_cos_sin(double angle, float pair[2]);
-// The value of SWIVEL_ANGLE or of a limit for the same limb on the other side of a body whose skeleton is mirrored in
-// x. order: of boxes. Other input fields are copied.
+// The value of SWIVEL_ANGLE or of a limit for the same limb on the other side of a skeleton mirrored in x. order: of
+// boxes. Other input fields are copied.
 SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
 
 // Forward kinematics of the results, in the targets' space: 3 doubles for elbow and wrist, 4 for the hand's rotation.
-// Outputs whose data is null are left out. Body groups need WITH_RECORD for it, residuals and arcs.
+// Null outputs are left out. Body groups need WITH_RECORD for it, residuals and arcs.
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
 // How far each limb's wrist or effector is from its target, or WITH_AIM the target from the hand's ray: one double, in
@@ -630,7 +628,7 @@ typedef struct swivel_arc {
 } swivel_arc;
 
 // The swivels that a limb's limits allow for its present inputs, in their order around the circle, at most capacity of
-// them. *arc_count says how many there are, 0 for bad input.
+// them. *arc_count: how many there are, 0 for bad input.
 SWIVEL_API swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
                                              uint32_t capacity, uint32_t* arc_count);
 // The joint angles of the results: 7 doubles a limb, in radians about the rest pose and the arm frame's axes. Three of
@@ -647,12 +645,12 @@ SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t
 SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
 // The first row of words of a field of a group; if it has none, the row after those before it.
 SWIVEL_API uint32_t swivel_packed_row(const swivel_crowd* crowd, uint32_t group, swivel_field field);
-// The rotation of three words that lie word_stride words apart, SWIVEL_LANES in rows.
+// The rotation of three words, word_stride words apart, SWIVEL_LANES in rows.
 SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
 // The value of any half float, exactly.
 SWIVEL_API float swivel_unpack_half(uint16_t word);
 
-// A digest of all results, to compare machines by: equal results have equal digests, others almost surely not.
+// A digest of all results, to compare machines by: equal results have equal ones, others almost surely not.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // The instruction set in use: SWIVEL_FORCE_ISA of the environment, else the best that this CPU runs. Null if the former

@@ -209,7 +209,7 @@ typedef struct swivel_pose {
     swivel_joint_values joint_rotations, joint_positions;
     // Seconds since each body's last solve, 1 float. Groups WITH_PLANT, shifts, and looks with a rate need it.
     swivel_in time;
-    // What planted points stand on, such as a platform. Null: the world's origin, not turned.
+    // The support of planted points, such as a platform. Null: the world's origin, not turned.
     swivel_in support_position;  // 3 floats in the world, or doubles as the root's
     swivel_in support_rotation;  // x, y, z, w
     // How much the solve counts, 1 float, a share; null: 1.
@@ -230,7 +230,7 @@ typedef struct swivel_probes {
     uint32_t group, count;
     const uint32_t* bodies;
     const float (*places)[3];  // where to sample, as SWIVEL_PROBE
-    float (*grounds)[3];       // in and out: SWIVEL_GROUND. NaN: there is none
+    float (*grounds)[3];       // in and out: SWIVEL_GROUND. NaN: none
     float (*normals)[3];       // in and out: SWIVEL_GROUND_NORMAL
 } swivel_probes;
 

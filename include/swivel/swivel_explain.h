@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Answers about single limbs and bodies in words and lines, for tools, and for binding a skeleton. They link apart from
-// the solver: the target swivel::explain, or the shared library.
+// Answers about limbs and bodies in words and lines, for tools and for binding. They link apart from the solver: the
+// target swivel::explain, or the shared library.
 #pragma once
 
 #include "swivel_bodies.h"
@@ -11,36 +11,35 @@ extern "C" {
 #endif
 
 enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // enough for every text
-#define SWIVEL_EVERY_GROUP UINT32_MAX      // for swivel_explain(): all groups of a body
+#define SWIVEL_EVERY_GROUP UINT32_MAX      // all groups of a body
 
-// Explains a limb's state in a sentence or two, from its present inputs: the input that is bad, how far out of reach
-// the target is, the limit that turned the elbow, why a point stands or slides, and which unit or time looks wrong.
-// With SWIVEL_EVERY_GROUP it explains all groups of body `limb`, a line each. Body groups need WITH_RECORD. text gets
-// at most size bytes, its 0 among them.
+// Explains a limb's state in a sentence or two, from its present inputs: which input is bad, how far out of reach the
+// target is, which limit turned the elbow, why a point stands or slides, which unit or time looks wrong.
+// SWIVEL_EVERY_GROUP: all groups of body `limb`, a line each. Body groups need WITH_RECORD. text gets at most size
+// bytes, its 0 among them.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
 // Compares a pose, as a job has it, with where your engine has a limb of one body in the world, and says which input
-// disagrees: the order of quaternions, the form or the space, another joint, a unit, an axis, the root. Call it for
-// each limb when you bind a skeleton. agrees: unless null, becomes 1 where all are within 1e-3 of the limb's length,
-// else 0.
+// disagrees: the order of quaternions, form, space, a joint, a unit, an axis, the root. Call it for each limb when you
+// bind a skeleton. *agrees, unless null: 1 where all are within 1e-3 of the limb's length, else 0.
 SWIVEL_API swivel_status swivel_compare(const swivel_crowd* crowd, uint32_t group, uint32_t body,
                                         const swivel_pose* pose, const double shoulder[3], const double elbow[3],
                                         const double wrist[3], char* text, size_t size, int* agrees);
 
-// The kinds of swivel_draw()'s shapes, with their colours.
+// Shapes of swivel_draw(), with their colours.
 typedef enum swivel_shape_kind {
-    SWIVEL_SHAPE_BONE,       // white: as solved
-    SWIVEL_SHAPE_INCOMING,   // grey: a bone as it came
+    SWIVEL_SHAPE_BONE,       // white: as solved, between joints that limbs and looks need, and from the root
+    SWIVEL_SHAPE_INCOMING,   // grey: bones as they came
     SWIVEL_SHAPE_BEND,       // salmon: from the elbow as it came to where flexion carries the forearm
-    SWIVEL_SHAPE_AXIS_X,     // red; these three show how a root, a wanted hand or a prop is turned
+    SWIVEL_SHAPE_AXIS_X,     // red; these three: how a root, wanted hand or prop is turned
     SWIVEL_SHAPE_AXIS_Y,     // green
     SWIVEL_SHAPE_AXIS_Z,     // blue
-    SWIVEL_SHAPE_TARGET,     // yellow: a point that was written for a limb, look or prop
-    SWIVEL_SHAPE_GOAL,       // orange: the point to which a plant or grip sends its limb
-    SWIVEL_SHAPE_MISS,       // red: from the wrist or effector to where it should be
+    SWIVEL_SHAPE_TARGET,     // yellow: as written for a limb, look or prop
+    SWIVEL_SHAPE_GOAL,       // orange: where a plant or grip sends its limb
+    SWIVEL_SHAPE_MISS,       // red: from the wrist or effector to where it should be; of length 0 where it reached
     SWIVEL_SHAPE_EFFECTOR,   // light grey: from the wrist
-    SWIVEL_SHAPE_POLE,       // magenta: from the elbow to its pole or along its direction; pole_behind
+    SWIVEL_SHAPE_POLE,       // magenta: from the elbow to its pole or along it; from the shoulder along pole_behind
     SWIVEL_SHAPE_NORMAL,     // violet: the wished normal of the swivel plane
     SWIVEL_SHAPE_WISH,       // pink: the elbow without limits
     SWIVEL_SHAPE_ALLOWED,    // light green: arcs where limits allow the elbow
@@ -65,12 +64,12 @@ typedef struct swivel_shape {
     uint32_t group;  // SWIVEL_EVERY_GROUP: of the body itself
 } swivel_shape;
 
-// Shows a free limb, or a body and one of its groups or with SWIVEL_EVERY_GROUP all, as lines and points for a
-// debug renderer. Arcs are lines of at most 10 degrees. Shapes whose numbers are not finite are left out.
+// Lines and points for a debug renderer: of a free limb, or of a body with one of its groups or SWIVEL_EVERY_GROUP.
+// Arcs are lines of at most 10 degrees. Shapes that are not finite are left out.
 //
-// pose: of a body, the last solve's, with the root as it went in. Its bones as they came need results apart from
-// rotations, or WITH_RECORD; so do a body limb's misses, poles and limits.
-// shapes: gets at most capacity of them. *shape_count: how many there are, always in the same order.
+// pose: of a body, the last solve's, with the root as it went in. Bones as they came need results apart from rotations,
+// or WITH_RECORD, which misses, poles and limits of bodies also need.
+// shapes: gets at most capacity of the *shape_count shapes, in a fixed order; null with capacity 0 asks for the count.
 SWIVEL_API swivel_status swivel_draw(const swivel_crowd* crowd, uint32_t group, uint32_t limb, const swivel_pose* pose,
                                      swivel_shape* shapes, uint32_t capacity, uint32_t* shape_count);
 

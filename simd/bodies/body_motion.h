@@ -4,6 +4,7 @@
 // includes this.
 #pragma once
 
+#include "core/limb_goal.h"
 #include "simd/bodies/body_values.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -132,14 +133,17 @@ void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint
     }
 }
 
-// Positions count from the root before its shift, as all that a solve tells does.
-SWIVEL_FLATTEN void locate(const BodyBlock& block, const BodyJoint& joint)
+// Positions count from the root before its shift, as all that a solve tells does. The pose's weight counts for the
+// shift as it does for turns.
+SWIVEL_FLATTEN void locate(const BodyPlan& plan, const BodyBlock& block, const BodyJoint& joint)
 {
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const IntoBody body(block, lane);
         const Motion motion = Motion::at(block, joint.mover, lane);
         const RowView<T> at = rows_of(block, joint.row, lane), out = rows_of(block, 0, lane);
-        const Vector<T> place = motion(body.place(at)), shifted = out.vector(kShiftedRow);
+        const T given = plan.pose->weight.data ? out.get(kWeightRow) : T(1),
+                weight = select(is_share(given), given, T(0));
+        const Vector<T> place = motion(body.place(at)), shifted = weight * out.vector(kShiftedRow);
         out.set(kOutTurnRow, with_one_nan(hemisphere(motion.turn * body.rotation(at))));
         // Adding a shift of 0 would turn -0 to +0.
         out.set(kOutPlaceRow, with_one_nan(select(len2(shifted) == T(0), place, place + body.offset(shifted))));

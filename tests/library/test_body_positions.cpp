@@ -259,6 +259,32 @@ TEST_CASE("positions that a solve takes or tells hold for the root as it is give
     }
 }
 
+TEST_CASE("the weight of a pose counts for the shift that positions of joints have")
+{
+    Random random{3};
+    const ShiftedBodies bodies(random, with_head(random), false);
+    const float weight = GENERATE(0.0f, 0.5f, 1.0f);
+    const std::size_t count = bodies.skeleton.size();
+    std::vector<Float3> told(kBodies * count, kNoPlace);
+    Crowd crowd = bodies.crowd();
+    PoseBuffer poses = bodies.incoming();
+    swivel_pose pose = bodies.view(poses);
+    pose.joint_positions = {told.data(), count * sizeof(Float3), sizeof(Float3), nullptr};
+    pose.weight = {&weight, 0};
+    crowd.solve({.pose = &pose});
+    for (std::size_t n = 0; n < kBodies; ++n) {
+        const Body& given = bodies.bodies[n];
+        const std::vector<JointAt> is = joints_at(bodies.skeleton, poses.read(n, given));
+        const Quaterniond root = quat(given.root_rotation).normalized();
+        for (std::size_t joint = 0; joint < count; ++joint) {
+            const Float3& in_body = told[n * count + joint];
+            if (std::isnan(in_body[0])) continue;  // no group needs it
+            const Vector3d place = is[joint].place + double{weight} * bodies.wanted[n].by;
+            REQUIRE((double{given.root_scale} * (root * vec(in_body)) - place).norm() <= kOff);
+        }
+    }
+}
+
 TEST_CASE("a sample function is asked for positions that hold for the root as it is given")
 {
     Random random{2};
