@@ -6,9 +6,9 @@
 //
 //   cmake --preset dev && cmake --build --preset dev && bench/run
 //
-// bench/run starts it and keeps its result. `swivel bench` runs a few families of it. Repetitions are in random order,
-// and medians are shown: of the CPU time, or of threads by the clock on the wall. It takes some minutes and 1 GB.
-// Google Benchmark's own flags come after: --benchmark_filter=P/, --benchmark_repetitions=...,
+// bench/run starts it and keeps its result. `swivel lab bench` runs a few families of it. Repetitions are in random
+// order, and medians are shown: of the CPU time, or of threads by the clock on the wall. It takes some minutes and 1
+// GB. Google Benchmark's own flags come after: --benchmark_filter=P/, --benchmark_repetitions=...,
 // --benchmark_out=result.json.
 #include <benchmark/benchmark.h>
 

@@ -198,7 +198,7 @@ typedef enum swivel_field {
     SWIVEL_FLAGS,              // 1: bits of swivel_flag, as uint32_t
     SWIVEL_STRETCH,            // 1, WITH_REACH: the factor for both bone lengths
     SWIVEL_NORMAL,             // 3, WITH_MAX_SWIVEL: of the swivel plane, from which the next solve steps
-    SWIVEL_TWIST_BONES,        // 4 a bone: bone i of 1..n turns by i / (n + 1) of the hand's twist
+    SWIVEL_TWIST_BONES,        // 4 a bone: bone i of n turns by i / (n + 1) of the hand's twist, which jumps at 180 deg
     SWIVEL_CLAVICLE_ROTATION,  // 4, WITH_CLAVICLE: new rotation = old * this
     SWIVEL_RECORD,             // 22: shoulder, arm frame, scale, lengths and incoming rotations
     SWIVEL_PLANT,              // 11: the anchor, the offset that fades, its state

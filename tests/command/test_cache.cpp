@@ -56,10 +56,12 @@ TEST_CASE("Chunks hold whole blocks, cover the crowd and depend on nothing else"
 {
     rc::prop("chunk_shape", [] {
         const std::uint32_t frames = up_to(100'000), characters = up_to(10'000'000), limbs = up_to(4);
-        const ChunkShape shape = chunk_shape(frames, characters, limbs);
+        const bool carries_state = up_to(2) == 2;
+        const ChunkShape shape = chunk_shape(frames, characters, limbs, carries_state);
         RC_ASSERT(shape.frames >= 1 && shape.frames <= frames);
         RC_ASSERT(shape.characters % SWIVEL_LANES == 0);
         RC_ASSERT(std::uint64_t{shape.frames} * shape.characters * limbs <= 65'536u);
+        RC_ASSERT(!carries_state || std::uint64_t{shape.characters} * limbs <= 4'096u);
         CachedCrowd crowd;
         crowd.frame_count = frames, crowd.character_count = characters, crowd.chunk = shape;
         std::uint64_t all = 0;

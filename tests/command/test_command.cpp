@@ -108,7 +108,7 @@ TEST_CASE("command: bench has rows for swivel on every instruction set, and for 
 {
     const TempFolder folder;
     const Json info = Json::parse(output({"info", "--json"}));
-    const Outcome measured = spawn_command(folder.path, {"bench", "--json", "--seconds", "0.1"});
+    const Outcome measured = spawn_command(folder.path, {"lab", "bench", "--json", "--seconds", "0.1"});
     REQUIRE(measured.exit_code == 0);
     const Json out = Json::parse(measured.out);
     CHECK(out.at("context").at("cpu") == info.at("cpu"));
@@ -120,7 +120,7 @@ TEST_CASE("command: bench has rows for swivel on every instruction set, and for 
             if (state == "runs here") CHECK(median.at(fmt::format(fmt::runtime(row), isa)) > 0);
     for (const char* rival : {"loop_trig/", "single_glm/", "frame_glm/"})
         CHECK(std::ranges::any_of(median, [&](const auto& row) { return row.first.starts_with(rival); }));
-    const Outcome text = spawn_command(folder.path, {"bench", "--seconds", "0.1"});
+    const Outcome text = spawn_command(folder.path, {"lab", "bench", "--seconds", "0.1"});
     CHECK(text.exit_code == 0);
     CHECK_THAT(text.out, StartsWith("cpu ") && Contains(info.at("cpu").get<std::string>()) && Contains(" ns an arm"));
     for (const auto& [row, ns] : median)

@@ -29,6 +29,64 @@ std::string three_cells(const Vector3d& v) { return text_of(v).substr(1, text_of
 
 }  // namespace
 
+TEST_CASE("agents: the clip's character, turned, sized, later and at its place, with all that it is asked for")
+{
+    const CrowdStage stage(100, 25);
+    spill(stage.folder / "agents.csv",
+          "name,x,z,y,heading_deg,size,start\n# turned\nAnna,30,-70,2,90,1,3\n\"Ben B\",0,0,0,-150,1,0\n"
+          "Cleo,5,2,1,0,0.9,10\n");
+    const std::string crowd = "[crowd]\nlimbs = \"all\"\n", with = "agents = \"agents.csv\"\n",
+                      asked = "[limb.arms]\ntarget.offset = [0.5, 1, 2]\n";
+    const std::vector<PoseLine> own = stage.rows(crowd + asked, "left_arm"),
+                                agents = stage.rows(crowd + with + asked, "left_arm", ",heading_deg,name");
+    const struct {
+        std::string name;
+        double heading_deg, size;
+        std::size_t start;
+        Vector3d place;
+    } wanted[] = {{"Anna", 90, 1, 3, {30, 2, -70}}, {"Ben B", -150, 1, 0, {0, 0, 0}}, {"Cleo", 0, 0.9, 10, {5, 1, 2}}};
+    const std::size_t frames = stage.clip.lines.size();
+    REQUIRE(agents.size() == 3 * frames);
+    for (const PoseLine& line : agents) {
+        const auto& who = wanted[line.character];
+        CHECK(line.cell.at("name") == who.name);
+        CHECK(line.number("heading_deg") == Approx(who.heading_deg));
+        // A joint may differ by 2e-3 where the arm is straight, as docs/command.md says.
+        if (who.size == 1)
+            for (std::size_t j = 0; j < 3; ++j)
+                CHECK(line.joint[j].angularDistance(own[(line.frame + who.start) % frames].joint[j]) < 2e-3);
+        const Vector3d hips = joint_in(stage.clip, who.start, "Hips").position,
+                       at = Eigen::AngleAxisd(who.heading_deg / kDegrees, Vector3d::UnitY()) * (who.size * hips);
+        CHECK(line.number("place_x") + at.x() == Approx(who.place.x()).margin(1e-3));
+        CHECK(line.number("place_z") + at.z() == Approx(who.place.z()).margin(1e-3));
+    }
+
+    // Targets are in the world: rows where the turned clip has its wrists bring the clip's own poses back.
+    const Words more = {"--export-targets", "t.csv"};
+    const std::vector<PoseLine> plain = stage.rows(crowd + with, "left_arm", ",heading_deg,name", more),
+                                back =
+                                    stage.rows(crowd + with + "targets = \"t.csv\"\n", "left_arm", ",heading_deg,name");
+    CHECK(worst_rotation(plain, back) < 2e-3);
+}
+
+TEST_CASE("crowd file: a grid's headings are drawn by the seed, and turn each character where it stands")
+{
+    const CrowdStage stage(100, 25);
+    const std::string crowd = "[crowd]\ncharacters = 9\n";
+    const std::vector<PoseLine> ahead = stage.rows(crowd, "left_arm"),
+                                turned = stage.rows(crowd + "heading_deg = [-30, 90]\n", "left_arm", ",heading_deg");
+    CHECK(worst_rotation(ahead, turned) < 2e-3);
+    const Vector3d first = joint_in(stage.clip, 0, "Hips").position;
+    for (std::size_t c = 0; c < 9; ++c) {
+        const double deg = turned[c].number("heading_deg"), size = turned[c].number("size");
+        CHECK((c == 0 ? deg == 0 : deg > -30 && deg < 90 && deg != turned[c - 1].number("heading_deg")));
+        const Vector3d at = Eigen::AngleAxisd(deg / kDegrees, Vector3d::UnitY()) * (size * first);
+        for (const auto& [column, axis] : {std::pair("place_x", 0), {"place_z", 2}})
+            CHECK(turned[c].number(column) + at[axis] ==
+                  Approx(ahead[c].number(column) + size * first[axis]).margin(1e-3));
+    }
+}
+
 TEST_CASE("crowd file: size, stagger, spacing and targets beside the file")
 {
     const CrowdStage stage(1200, 50);

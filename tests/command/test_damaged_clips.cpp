@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "tools/crowd/demo_clip.h"
@@ -354,6 +356,21 @@ TEST_CASE("doubts: a clean clip has none, and each damage is named")
         damage.make(clip);
         CHECK_THAT(doubts(clip), Contains(damage.said));
     }
+}
+
+TEST_CASE("doubts: what nobody is built or bends like is garbage, and all else is worth a look")
+{
+    std::set<std::string> garbage;
+    for (const Damage& damage : kDamages) {
+        Clip clip = tools::demo_clip(kFrames);
+        damage.make(clip);
+        const std::vector<tools::BodyPart> parts = parts_of_demo(clip);
+        if (std::ranges::any_of(clip_doubts(tools::BodyFrames(clip, parts), parts).doubts,
+                                &tools::ClipDoubt::is_garbage))
+            garbage.insert(damage.name);
+    }
+    CHECK(garbage ==
+          std::set<std::string>{"left and right exchanged", "a knee the wrong way", "an elbow the wrong way"});
 }
 
 TEST_CASE("doubts: none of how a body is built, however it lies, and none of a mirrored figure")

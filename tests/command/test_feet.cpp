@@ -258,6 +258,30 @@ TEST_CASE("feet: who stands still on one leg has the other in the air")
     CHECK(found[1] == std::vector<bool>(60, true));
 }
 
+TEST_CASE("feet: --travel moves a clip that walks in place by the way of its feet, and no other")
+{
+    const fs::path path = find_or_warn("cmu_02_01_walk.bvh");
+    if (path.empty()) return;
+    const TempFolder folder;
+    const PlainMotion recorded = plain_motion_of(path);
+    spill(folder / "walk.bvh", carried(recorded, {}));
+    spill(folder / "in_place.bvh", carried(recorded, {.minus = 1}));
+    CHECK_THAT(feet(folder, {"in_place.bvh"}).err, Contains("it walks in place") && Contains("give --travel"));
+    const json report =
+        feet_report(folder, {"in_place.bvh", "--travel", "--out", "out.bvh", "--export-contacts", "c.csv"});
+    const PlainLegs walk = legs_in(folder / "walk.bvh"), out = legs_in(folder / "out.bvh");
+    const double seconds = static_cast<double>(walk.frame_count() - 1) * kCarriedTime;
+    const Vector3d way = walk.body.back() - walk.body.front();
+    for (int axis : {0, 2}) {
+        CHECK(report.at("travel").at(static_cast<std::size_t>(axis)).get<double>() * seconds ==
+              Approx(way[axis]).margin(0.15 * way.norm()));
+        CHECK((out.body.back() - out.body.front())[axis] == Approx(way[axis]).margin(0.15 * way.norm()));
+    }
+    const PlainContacts contacts = contacts_in_table(slurp(folder / "c.csv"), out.frame_count());
+    CHECK(kMetre * plain_skating(out, contacts).max < 1e-3);
+    CHECK_FALSE(feet_report(folder, {"walk.bvh", "--travel"}).contains("travel"));
+}
+
 TEST_CASE("feet: on hills they stand on the ground as it lies, and on one side of edges, which they step over")
 {
     const fs::path path = find_or_warn("cmu_02_01_walk.bvh");

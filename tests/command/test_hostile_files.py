@@ -49,6 +49,7 @@ OPTIONS = ("--clip=0", "--fps=30", "--rest=3", "--up=y", "--arm=left:a,b,c", "--
 TRIES = [  # the words of a command line; those that name an output begin with out
     *(("rig", clip, "--joints") for clip in ("clip.bvh", "along_x.bvh", "figure.glb")),
     *(("retarget", source, target, "--out", f"out{Path(target).suffix}") for source in ("clip.bvh", "along_x.bvh", "figure.glb") for target in ("clip.bvh", "along_x.bvh", "figure.glb")),
+    ("inspect", "figure.glb", "--fps", "60"),
     ("retarget", "clip.bvh", "figure.glb", "--map", "map.csv", "--out", "out.glb"),
     ("feet", "clip.bvh", "--out", "out.bvh", "--export-contacts", "out.csv"), ("feet", "figure.glb", "--contacts", "contacts.csv", "--out", "out.glb"),
     ("feet", "along_x.bvh", "figure.glb", "--out", "out"),

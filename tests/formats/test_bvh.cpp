@@ -359,6 +359,30 @@ TEST_CASE("bvh: overrides that fit no file are the caller's mistake")
     CHECK_FALSE(fs::exists(folder / "w.bvh"));
 }
 
+TEST_CASE("bvh: at another rate joints turn the shortest way, angles without a third axis too, and both ends stay")
+{
+    const TempFolder folder;
+    std::string text = edited(kTiny, "CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 2 Zrotation Xrotation");
+    text = edited(edited(text, "90 0 0 0 0 0", "90 0 0 350 0"), "0 0 0 90 0 90", "0 0 0 10 90");
+    const BvhFile file = read(folder, text);
+    for (const double rate : {0.5, 7.6, 16.0}) {
+        const BvhFile other = at_rate(file, rate);
+        const std::size_t steps = rate < 1 ? 1 : rate < 10 ? 4 : 8;
+        REQUIRE(other.clip.frame_count == steps + 1);
+        CHECK(other.clip.frame_time == 0.5 / static_cast<double>(steps));
+        for (std::size_t frame = 0; frame <= steps; ++frame) {
+            const double share = static_cast<double>(frame) / static_cast<double>(steps);
+            const Quaterniond hips = file.clip.rotation[0].slerp(share, file.clip.rotation[3]);
+            CHECK(other.clip.rotation[3 * frame].angularDistance(hips) < 1e-9);
+            CHECK((other.clip.rotation[3 * frame + 1].matrix() - turn('Z', 20 * share - 10) * turn('X', 90 * share))
+                      .norm() < 1e-9);
+            CHECK((other.clip.translation[frame] - Vector3d(10, 20, 30)).norm() < 1e-9);
+        }
+    }
+    CHECK(at_rate(read(folder, one_joint("1 Xrotation", "5\n", 1)), 30).clip.frame_time == 1);
+    CHECK_THROWS_WITH(at_rate(file, 1e12), Contains("take more than 2 GiB; give a lower --fps"));
+}
+
 TEST_CASE("bvh: new frames: what has no keys rests in BVH; what cannot hold them is refused")
 {
     const TempFolder folder;
@@ -371,9 +395,12 @@ TEST_CASE("bvh: new frames: what has no keys rests in BVH; what cannot hold them
           kTiny.substr(0, kTiny.find("Frames:")) + "Frames: 3\nFrame Time: 0.25\n" + row + row + row);
     write_bvh(folder / "w.bvh", file, {{{1, turned}}}, NewFrames{3, 0.25});
     CHECK_THAT(slurp(folder / "w.bvh"), Contains("\n1 2 3 0 0 0 0.000000000 50.000000000 0.000000000\n"));
-    CHECK(complaint_of(folder, [&] {
-              write_bvh(folder / "x.bvh", file, {{{1, {}, place}}}, NewFrames{3, 1});
-          }) == "t.bvh:9: joint 'Arm' cannot take a new position: it has fewer than three position channels");
+    CHECK(complaint_of(folder,
+                       [&] {
+                           write_bvh(folder / "x.bvh", file, {{{1, {}, place}}}, NewFrames{3, 1});
+                       }) ==
+          "t.bvh:9: joint 'Arm' cannot take a new position: it has fewer than three position channels; "
+          "export the clip with three position channels for it, of X, Y and Z");
     CHECK_THROWS_AS(write_bvh(folder / "x.bvh", file, {{{0, {}, place}}}, NewFrames{2, 1}), std::invalid_argument);
     const std::vector<Vector3d> endless(3, Vector3d(0, HUGE_VAL, 0));
     CHECK_THROWS_AS(write_bvh(folder / "x.bvh", file, {{{0, {}, endless}}}, NewFrames{3, 1}), std::invalid_argument);

@@ -17,6 +17,7 @@
 #include <variant>
 
 #include "tests/fuzz/bytes.h"
+#include "tools/formats/agents_csv.h"
 #include "tools/formats/bvh.h"
 #include "tools/formats/contacts_csv.h"
 #include "tools/formats/crowd_file.h"
@@ -393,6 +394,19 @@ void check_contacts(std::string_view text, const ScratchFolder& folder)
     SWIVEL_REQUIRE(std::ranges::equal(read_contacts_csv(folder.path / "again.csv"), *rows, are_alike));
 }
 
+// Agents have names of their own, and are of a size.
+void check_agents(std::string_view text, const ScratchFolder& folder)
+{
+    auto agents = read_or_refuse([&] { return read_agents_csv(folder.spill("in.csv", text)); });
+    if (!agents) return;
+    for (const Agent& agent : *agents) {
+        SWIVEL_REQUIRE(agent.line >= 2 && agent.line <= line_count_of(text) && !agent.name.empty());
+        SWIVEL_REQUIRE(agent.size > 0 && std::isfinite(agent.x + agent.y + agent.z + agent.heading_deg));
+    }
+    std::ranges::sort(*agents, {}, &Agent::name);
+    SWIVEL_REQUIRE(std::ranges::adjacent_find(*agents, {}, &Agent::name) == agents->end());
+}
+
 // A picture has its pixels, from 0 to 1.
 void check_heights(std::string_view text, const ScratchFolder& folder)
 {
@@ -410,7 +424,7 @@ struct Reader {
     void (*check)(std::string_view text, const ScratchFolder& folder);
 };
 constexpr Reader kReaders[] = {
-    {'b', check_bvh},     {'c', check_crowd},    {'g', check_gltf_or_parts},
+    {'a', check_agents},  {'b', check_bvh},      {'c', check_crowd},   {'g', check_gltf_or_parts},
     {'h', check_heights}, {'s', check_contacts}, {'t', check_targets},
 };
 

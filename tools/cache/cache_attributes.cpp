@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 10;
+constexpr int kFormat = 11;
 constexpr std::uint32_t kMax = 0x7fffffff;      // frames, characters
 constexpr std::uint32_t kMaxLimbs = 4;          // of a character: formats::LimbName has no more
 constexpr double kMaxLength = 1e15;             // as swivel.h has it
@@ -69,7 +69,9 @@ constexpr std::tuple kCrowd{Member{"has_poses", &CachedCrowd::has_poses},
                             Member{"characters", &CachedCrowd::character_count, 1, kMax}};
 constexpr std::tuple kChunk{Member{"chunk_frames", &ChunkShape::frames, 1, kMaxFramesInChunk},
                             Member{"chunk_characters", &ChunkShape::characters, SWIVEL_LANES, kMaxCharactersInChunk}};
-constexpr std::tuple kClip{Member{"has_given", &CachedCrowd::has_given}, Member{"title", &CachedCrowd::title},
+constexpr std::tuple kClip{Member{"has_given", &CachedCrowd::has_given},
+                           Member{"has_headings", &CachedCrowd::has_headings},
+                           Member{"title", &CachedCrowd::title},
                            Member{"clip", &CachedCrowd::clip},
                            Member{"clip_frames", &CachedCrowd::clip_frames, 1, kMax},
                            Member{"frame_seconds", &CachedCrowd::frame_seconds}};
@@ -307,6 +309,8 @@ void require_sane(const CachedCrowd& crowd)
 {
     if (crowd.limbs.empty() || crowd.limbs.size() > kMaxLimbs)
         throw std::invalid_argument("there are no limbs, or too many");
+    if (!crowd.names.empty() && crowd.names.size() != crowd.character_count)
+        throw std::invalid_argument("the names are not as many as the characters");
     const auto joint_count = static_cast<int>(crowd.joints.size());
     for (int n = 0; n < joint_count; ++n)
         if (const int parent = crowd.joints[static_cast<std::size_t>(n)].parent; parent < -1 || parent >= n)
@@ -374,6 +378,7 @@ Json attributes_of(const CachedCrowd& crowd)
     if (crowd.ground) out["ground"] = json_of(crowd.ground->grid, kGround);
     if (crowd.look) out["look"] = json_of(*crowd.look);
     if (crowd.box) out["box"] = *crowd.box;
+    if (!crowd.names.empty()) out["names"] = crowd.names;
     out["digest"] = digest_text(out);
     return out;
 }
@@ -407,6 +412,7 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         if (attributes.contains("ground")) crowd.ground = ground_of(attributes.at("ground"));
         if (attributes.contains("look")) crowd.look = look_of(attributes.at("look"));
         if (attributes.contains("box")) crowd.box = box_of(attributes.at("box"));
+        if (attributes.contains("names")) attributes.at("names").get_to(crowd.names);
         require_sane(crowd);
         require_kept(crowd);
         require_solvable(crowd);

@@ -30,13 +30,14 @@ std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
     return sources;
 }
 
-ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count)
+ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count, bool carries_state)
 {
-    constexpr std::uint32_t kLimbsInChunk = 65'536;
+    constexpr std::uint32_t kLimbsInChunk = 65'536, kLimbsInColumn = 4'096;
     const std::uint64_t blocks = (std::uint64_t{characters} + SWIVEL_LANES - 1) / SWIVEL_LANES;
     const auto max = static_cast<std::uint32_t>(kLimbsInChunk / limb_count);
+    const auto max_wide = carries_state ? static_cast<std::uint32_t>(kLimbsInColumn / limb_count) : max / 4;
     const auto of_chunk =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(blocks, max / 4 / SWIVEL_LANES)) * SWIVEL_LANES;
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(blocks, max_wide / SWIVEL_LANES)) * SWIVEL_LANES;
     return {std::clamp(max / of_chunk, 1u, frames), of_chunk};
 }
 

@@ -54,9 +54,11 @@ struct CachedCrowd {
     std::optional<CachedLook> look;
     // Of characters of size 1 that carry a box: its sides, and how far it is ahead of the wrists.
     std::optional<std::array<double, 4>> box;
-    std::optional<Ground> ground;  // that legs stand on
-    bool has_given = false;        // goals of one's own
-    bool has_poses = true;         // it keeps them; goals give the same poses again on any machine
+    std::optional<Ground> ground;    // that legs stand on
+    std::vector<std::string> names;  // of all characters, from a table of agents; none: they are counted
+    bool has_headings = false;       // characters may be turned
+    bool has_given = false;          // goals of one's own
+    bool has_poses = true;           // it keeps them; goals give the same poses again on any machine
     ChunkShape chunk{1, 16};
     std::uint64_t goals_digest = 0;  // of all arrays that are written once
 
@@ -86,8 +88,9 @@ struct CachedCrowd {
 std::vector<LimbSetup> setups_of(const CachedCrowd& crowd);
 std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd);
 
-// A chunk of about 64,000 limbs, whatever the memory and the number of machines: characters first, then frames.
-ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count);
+// A chunk of about 64,000 limbs, whatever the memory and the number of machines: characters first, then frames. Where
+// state is carried, one machine solves all frames of a column, so columns are small: many machines then have some.
+ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count, bool carries_state);
 
 // One field of the results, as an array has it.
 struct ResultField {

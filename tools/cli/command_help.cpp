@@ -21,17 +21,20 @@ std::vector<std::string> command_names(const CLI::App& app)
     return names;
 }
 
-// The subcommand, once there is one.
+// The subcommand, once there is one, or the subcommand of that.
 const CLI::App& used_command(const CLI::App& app)
 {
     const std::vector<CLI::App*> used = app.get_subcommands();
-    return used.empty() ? app : *used.front();
+    return used.empty() ? app : used_command(*used.front());
 }
 
-std::string help_of(const CLI::App& command)
+// All words up to the subcommand's own.
+std::string words_of(const CLI::App& command)
 {
-    return command.get_parent() ? fmt::format("see swivel {} --help", command.get_name()) : "see swivel --help";
+    return command.get_parent() ? words_of(*command.get_parent()) + " " + command.get_name() : command.get_name();
 }
+
+std::string help_of(const CLI::App& command) { return fmt::format("see {} --help", words_of(command)); }
 
 // The option meant by a wrong one, dashes left out of the count.
 std::string meant_by(const std::string& wrong, const CLI::App& command)
@@ -56,11 +59,10 @@ std::string repeated_option(const CLI::App& command)
 std::string unknown_words(const CLI::App& app)
 {
     const CLI::App& used = used_command(app);
-    for (const CLI::App* command : {&app, &used}) {
-        const std::vector<std::string> words = command->remaining();
-        if (&used == &app && !words.empty() && !words[0].starts_with('-'))
-            return fmt::format("there is no command '{}'; {}", words[0],
-                               formats::suggestion(words[0], command_names(app)));
+    for (const CLI::App* command = &used; command; command = command->get_parent()) {
+        const std::vector<std::string> words = command->remaining(), commands = command_names(*command);
+        if (command == &used && !commands.empty() && !words.empty() && !words[0].starts_with('-'))
+            return fmt::format("there is no command '{}'; {}", words[0], formats::suggestion(words[0], commands));
         const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
         if (option != words.end()) {
             const std::string bare = option->substr(0, option->find('='));

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "tools/crowd/heading.h"
 
 namespace swivel::tools {
 
@@ -24,6 +27,7 @@ CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> li
     : plan_(plan),
       random_(plan.seed),
       carriers_(~plan.seed),
+      headings_(plan.seed ^ 0x68656164696e67u),
       clips_(plan.clips),
       columns_(static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)))),
       spacing_(plan.spacing * limb_span(limbs))
@@ -35,7 +39,8 @@ goal_character CharacterStream::next()
 {
     const std::uint32_t n = made_++;
     const auto wish = [&](double size) { return static_cast<float>(size * plan_.shift_wish); };
-    const auto performing = [&](std::size_t clip, double size, const Eigen::Vector3d& place, std::size_t start) {
+    const auto performing = [&](std::size_t clip, double size, const Eigen::Vector3d& place, std::size_t start,
+                                float heading) {
         const auto word = [](std::size_t count) { return static_cast<std::uint32_t>(count); };
         const std::uint32_t carries =
             plan_.carry && (n == 0 ? plan_.carry->share >= 1 : drawn_share(carriers_) < plan_.carry->share);
@@ -46,16 +51,34 @@ goal_character CharacterStream::next()
                               word(clips_[clip].first),
                               word(clips_[clip].count),
                               carries,
-                              0};
+                              heading};
     };
-    if (n == 0) return performing(0, 1, Eigen::Vector3d(0, 0, 0), 0);
+    if (!plan_.agents.empty()) {
+        const PlannedAgent& agent = plan_.agents[n];
+        return performing(agent.clip, agent.size, agent.place, agent.start, agent.heading);
+    }
+    if (n == 0) return performing(0, 1, Eigen::Vector3d(0, 0, 0), 0, 0);
     const double size = static_cast<float>(plan_.min_size + (plan_.max_size - plan_.min_size) * drawn_share(random_));
     const std::uint64_t drawn = random_();
     const std::size_t clip = clips_.size() == 1 ? 0 : random_() % clips_.size();
     const std::size_t start = plan_.stagger ? drawn % clips_[clip].starts : 0;
-    const Eigen::Vector3d place =
-        Eigen::Vector3d(spacing_ * (n % columns_), 0, spacing_ * (n / columns_)) + (1 - size) * plan_.foot;
-    return performing(clip, size, place, start);
+    const double degrees =
+        plan_.has_headings()
+            ? plan_.min_heading_deg + (plan_.max_heading_deg - plan_.min_heading_deg) * drawn_share(headings_)
+            : 0;
+    const Eigen::Vector3d grid(spacing_ * (n % columns_), 0, spacing_ * (n / columns_));
+    goal_character who = performing(clip, size, grid + (1 - size) * plan_.foot, start, heading_of(degrees));
+    if (who.heading != 0) {  // the foot stays where it is
+        Eigen::Vector3d foot = size * plan_.foot;
+        turn_with(who, foot.x(), foot.z());
+        Eigen::Map<Eigen::Vector3d>(who.place) = grid + plan_.foot - foot;
+    }
+    return who;
+}
+
+float heading_of(double degrees)
+{
+    return static_cast<float>(std::tan(std::remainder(degrees, 360) * std::numbers::pi / 720));
 }
 
 std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)

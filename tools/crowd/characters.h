@@ -15,7 +15,8 @@ namespace swivel::tools {
 // Uniform from 0 to below 1; std::uniform_real_distribution may differ between libraries.
 inline double drawn_share(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-// The characters of a crowd, one after the other. Character 0 is the first clip's own. The seed gives the others a size
+// The characters of a crowd, one after the other: the plan's agents, or a grid of it. There character 0 is the first
+// clip's own. The seed gives the others a size
 // within the plan's range, one of its clips, a start anywhere in it if the plan staggers them, and for some a box;
 // character 0 has a box only if all have. Their feet, at the plan's foot, stand on a square grid in X and Z: character
 // n in column n % w and row n / w, w = ceil(sqrt(characters)). Neighbours are the plan's spacing apart, in arm spans,
@@ -28,12 +29,15 @@ public:
 
 private:
     const CrowdPlan& plan_;
-    std::mt19937_64 random_, carriers_;  // so that boxes change nothing else
+    std::mt19937_64 random_, carriers_, headings_;  // so that boxes and headings change nothing else
     std::vector<ClipPart> clips_;
     std::uint32_t columns_;
     double spacing_;
     std::uint32_t made_ = 0;
 };
+
+// The heading of a goal_character, from an angle.
+float heading_of(double degrees);
 
 // All of them.
 std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count);

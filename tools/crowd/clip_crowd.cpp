@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 
+#include "tools/crowd/heading.h"
 #include "tools/crowd/parallel.h"
 #include "tools/rig/vectors.h"
 
@@ -31,6 +32,8 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, con
       motion_(clip, limbs, plan),
       limbs_(limbs),
       plans_(plan.limbs),
+      agents_(plan.agents),
+      has_headings_(plan.has_headings()),
       setups_(limb_setups(limbs, plan)),
       crowd_(setups_, sources_of(motion_, setups_.size()), characters_of(plan, limbs, motion_.frame_count()),
              plan.budget_blocks, plan.ground ? &*plan.ground : nullptr, clip.frame_time)
@@ -52,6 +55,18 @@ bool ClipCrowd::carries(std::size_t limb, std::uint32_t character) const
     return swivel_goal_carries(&motion_.sources(limb)[clip_frame(character)], &characters()[character]);
 }
 
+Vector3d ClipCrowd::headed(std::uint32_t character, Vector3d v) const
+{
+    turn_with(characters()[character], v.x(), v.z());
+    return v;
+}
+Quaterniond ClipCrowd::headed(std::uint32_t character, const Quaterniond& q) const
+{
+    const goal_character& who = characters()[character];
+    const HalfTurn turn = half_turn_of(who);
+    return who.heading == 0 ? q : Quaterniond(turn.w, 0, turn.y, 0) * q;
+}
+
 // Whether elbow and upper arm should be as in the clip.
 bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
@@ -71,7 +86,7 @@ void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
     const LimbPlan& plan = plans_[limb];
     const formats::Target& target = *given(limb, character);
     goal_input& input = crowd_.input(limb, character);
-    put(target.position + plan.target_offset, input.target);
+    put(target.position + headed(character, plan.target_offset), input.target);
     std::copy_n(setups_[limb].goals.weights, 2, input.weights);
     if (target.has_pole && !plan.pole_fixed) {
         put(target.pole, input.pole);
@@ -86,10 +101,11 @@ formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) con
     const goal_input& input = crowd_.input(limb, character);
     const formats::Target* const told = given(limb, character);
     formats::Target target;
-    target.position = told ? told->position : Vector3d(Vector3d(input.target) - plans_[limb].target_offset);
+    target.position =
+        told ? told->position : Vector3d(Vector3d(input.target) - headed(character, plans_[limb].target_offset));
     target.pole = Vector3d(input.pole);
     target.orientation =
-        told && told->has_orientation ? told->orientation : motion_.at(clip_frame(character), limb).hand;
+        told && told->has_orientation ? told->orientation : headed(character, in_clip(limb, character).hand);
     target.frame = static_cast<std::uint32_t>(frame_);
     target.character = character;
     target.limb = limbs_[limb].name;
@@ -159,6 +175,8 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
     row.place[1] += double{crowd_.rise(character)};
     row.size = who.size;
     row.start = who.first + who.start;
+    row.heading_deg = degrees_of(who);
+    if (!agents_.empty()) row.name = agents_[character].name;
     row.limb = limbs_[limb].name;
     row.shoulder = crowd_.rotation(limb, character, 1);
     row.elbow = crowd_.rotation(limb, character, 2);
@@ -204,6 +222,8 @@ formats::PoseColumns ClipCrowd::columns() const
         columns.clavicle = columns.clavicle || plan.has(SWIVEL_WITH_CLAVICLE);
         columns.twist_count = std::max(columns.twist_count, plan.twist_bone_count);
     }
+    columns.heading = has_headings_;
+    columns.name = !agents_.empty();
     return columns;
 }
 

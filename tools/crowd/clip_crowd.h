@@ -67,6 +67,9 @@ private:
     }
     std::size_t limb_index(formats::LimbName name) const;  // of one that is solved
     bool carries(std::size_t limb, std::uint32_t character) const;
+    // A vector or a rotation of the clip, turned along with a character.
+    Eigen::Vector3d headed(std::uint32_t character, Eigen::Vector3d v) const;
+    Eigen::Quaterniond headed(std::uint32_t character, const Eigen::Quaterniond& q) const;
     bool follows_clip(std::size_t limb, std::uint32_t character) const;
     // The rotations of the solver's two bones.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
@@ -93,6 +96,8 @@ private:
     ClipMotion motion_;
     std::span<const Limb> limbs_;
     std::span<const LimbPlan> plans_;
+    std::span<const PlannedAgent> agents_;
+    bool has_headings_;
     std::vector<LimbSetup> setups_;
     std::vector<formats::Target> given_;               // to set_frame()
     std::vector<std::vector<std::int32_t>> given_at_;  // [limb][character]: which of them; -1: none

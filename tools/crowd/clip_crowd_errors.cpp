@@ -116,7 +116,8 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
     const std::uint32_t character = pose.character;
     const LimbInClip& from = in_clip(limb, character);
     const goal_character& who = characters()[character];
-    Vector3d wanted = Vector3d(who.place) + who.size * (motion_.origin(clip_frame(character), limb) + from.elbow);
+    const Vector3d elbow = who.size * (motion_.origin(clip_frame(character), limb) + from.elbow);
+    Vector3d wanted = Vector3d(who.place) + headed(character, elbow);
     wanted.y() += double{crowd_.rise(character)} - double{crowd_.root(character).shift};
     const double difference = (at.elbow - wanted).norm() / length(limb, character);
     if (crowd_.input(limb, character).weights[0] == 0 && crowd_.has_ground()) return;  // it goes along with its body
@@ -126,11 +127,11 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
     (bent ? statistics.bent : statistics.straight).add(difference, pose);
     if (character != 0) return;
 
-    const Quaterniond turned = from.upper.conjugate() * at.upper;
+    const Quaterniond turned = headed(character, from.upper).conjugate() * at.upper;
     const Vector3d bone = limbs_[limb].as_solved(limbs_[limb].upper_bone);
     statistics.upper_swing.add(swing(turned, bone), pose);
     statistics.upper_twist.add(twist(turned, bone), pose);
-    statistics.lower.add(angle(from.fore.conjugate() * at.fore), pose);
+    statistics.lower.add(angle(headed(character, from.fore).conjugate() * at.fore), pose);
 }
 
 }  // namespace swivel::tools

@@ -337,6 +337,8 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
     if (file->seed) plan.seed = static_cast<std::uint64_t>(file->seed->value);
     if (file->spacing) plan.spacing = file->spacing->value;
     if (file->size) plan.min_size = file->size->value.min, plan.max_size = file->size->value.max;
+    if (const auto& heading = file->heading_deg)
+        plan.min_heading_deg = heading->value.min, plan.max_heading_deg = heading->value.max;
     if (file->stagger) plan.stagger = file->stagger->value;
     if (file->budget_blocks) plan.budget_blocks = static_cast<std::uint32_t>(file->budget_blocks->value);
     for (std::size_t n = 0; n < limbs.size(); ++n) {

@@ -45,21 +45,35 @@ struct LimbPlan {
     bool has(swivel_features feature) const { return (features & feature) != 0; }
 };
 
+// A character of a table of agents.
+struct PlannedAgent {
+    std::string name;
+    Eigen::Vector3d place;  // as a goal_character has it, and so is the heading
+    float heading;
+    double size;
+    std::size_t clip, start;  // one of the plan's clips, and the frame in it
+};
+
 struct CrowdPlan {
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
-    double spacing = 3;                              // between neighbours, in spans of two limbs
-    double min_size = 0.85, max_size = 1.15;         // factor of all lengths; the first character's is 1
-    Eigen::Vector3d foot = Eigen::Vector3d::Zero();  // in the clip: where characters of all sizes stand alike
-    bool stagger = true;                             // characters start anywhere in their clip
-    std::vector<ClipPart> clips;                     // each character performs one of them: a clip by a figure of one
-                                                     // build; none: all frames are one
-    std::uint32_t budget_blocks = 0;                 // of 16 characters, solved in a frame; 0: all
-    std::optional<Ground> ground;                    // that legs stand on: see tools/feet/standing.h
-    double shift_wish = 0;                           // then: of a body of size 1
-    std::vector<LimbPlan> limbs;                     // one for each limb solved
-    std::optional<LookPlan> look;                    // heads look at a point
-    std::optional<CarryPlan> carry;                  // a box in both hands
+    double spacing = 3;                               // between neighbours, in spans of two limbs
+    double min_size = 0.85, max_size = 1.15;          // factor of all lengths; the first character's is 1
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();   // in the clip: where characters of all sizes stand alike
+    double min_heading_deg = 0, max_heading_deg = 0;  // about y; the first character's is 0
+    bool stagger = true;                              // characters start anywhere in their clip
+    std::vector<ClipPart> clips;                      // each character performs one of them: a clip by a figure of one
+                                                      // build; none: all frames are one
+    std::vector<PlannedAgent> agents;                 // one for each character; none: they stand in a grid
+    std::uint32_t budget_blocks = 0;                  // of 16 characters, solved in a frame; 0: all
+    std::optional<Ground> ground;                     // that legs stand on: see tools/feet/standing.h
+    double shift_wish = 0;                            // then: of a body of size 1
+    std::vector<LimbPlan> limbs;                      // one for each limb solved
+    std::optional<LookPlan> look;                     // heads look at a point
+    std::optional<CarryPlan> carry;                   // a box in both hands
+
+    // Whether characters may be turned.
+    bool has_headings() const { return !agents.empty() || min_heading_deg != 0 || max_heading_deg != 0; }
 };
 
 // Adds the crowd file's limbs to the choice. Its joints count for sides that no option names.

@@ -7,6 +7,7 @@
 
 #include "swivel/swivel_bodies.h"
 #include "tools/crowd/ground.h"
+#include "tools/crowd/heading.h"
 #include "tools/crowd/strides.h"
 
 using namespace swivel::tools;
@@ -45,21 +46,39 @@ void copy(const From (&from)[count], To (&to)[count])
     for (int n = 0; n < count; ++n) to[n] = static_cast<To>(from[n]);
 }
 
+// A vector of the clip, turned along with a character; and a rotation of the clip.
+Vec3 headed(const goal_character& who, Vec3 v)
+{
+    turn_with(who, v.x, v.z);
+    return v;
+}
+template <class Number>
+void turn_along(const goal_character& who, Number (&q)[4])
+{
+    if (who.heading == 0) return;
+    const auto [y, w] = half_turn_of(who);
+    const double before[4] = {q[0], q[1], q[2], q[3]};
+    q[0] = static_cast<Number>(w * before[0] + y * before[2]);
+    q[1] = static_cast<Number>(w * before[1] + y * before[3]);
+    q[2] = static_cast<Number>(w * before[2] - y * before[0]);
+    q[3] = static_cast<Number>(w * before[3] - y * before[1]);
+}
+
 // The shoulder in the world.
 Vec3 shoulder_of(const goal_source& from, const goal_character& who)
 {
-    return vec3(who.place) + who.size * vec3(from.origin);
+    return vec3(who.place) + headed(who, who.size * vec3(from.origin));
 }
 
 Vec3 target_of(const goal_plan& plan, const goal_source& from, const goal_character& who)
 {
     if (plan.is_look) return vec3(plan.target_offset);
-    if (swivel_goal_carries(&from, &who)) return shoulder_of(from, who) + who.size * vec3(from.carried);
-    const Vec3 place =
-        plan.has_target_point
-            ? vec3(who.place) + who.size * vec3(plan.target_point)
-            : shoulder_of(from, who) + who.size * (vec3(from.wrist) + turned(from.hand, vec3(plan.effector)));
-    return place + vec3(plan.target_offset);
+    if (swivel_goal_carries(&from, &who)) return shoulder_of(from, who) + headed(who, who.size * vec3(from.carried));
+    const Vec3 place = plan.has_target_point
+                           ? vec3(who.place) + headed(who, who.size * vec3(plan.target_point))
+                           : shoulder_of(from, who) +
+                                 headed(who, who.size * (vec3(from.wrist) + turned(from.hand, vec3(plan.effector))));
+    return place + headed(who, vec3(plan.target_offset));
 }
 
 // As the plan's kind of pole has it.
@@ -67,9 +86,9 @@ Vec3 pole_of(const goal_plan& plan, const goal_source& from, const goal_characte
 {
     const Vec3 elbow = vec3(from.elbow);
     if (plan.pole == GOAL_POLE_POINT)
-        return shoulder_of(from, who) + (plan.has_pole_fixed ? vec3(plan.pole_fixed) : who.size * elbow);
-    if (plan.has_pole_fixed) return vec3(plan.pole_fixed);
-    return plan.pole == GOAL_POLE_NORMAL ? cross(vec3(from.wrist), elbow) : elbow;
+        return shoulder_of(from, who) + headed(who, plan.has_pole_fixed ? vec3(plan.pole_fixed) : who.size * elbow);
+    if (plan.has_pole_fixed) return headed(who, vec3(plan.pole_fixed));
+    return headed(who, plan.pole == GOAL_POLE_NORMAL ? cross(vec3(from.wrist), elbow) : elbow);
 }
 
 // Where the clip has a hand, or its effector, on another limb's hand.
@@ -101,10 +120,11 @@ void fill(const goal_plan& plan, const goal_source& from, const Vec3& root, cons
     copy(plan.weights, input.weights);
     if (!plan.has_pole_fixed && !plan.holds_pole) input.weights[2] = 0;
     if (on_ground && plan.goes_along && !swivel_goal_carries(&from, &who)) input.weights[0] = input.weights[1] = 0;
-    store(vec3(from.origin) - root - turned(from.parent, vec3(plan.shoulder_place)), input.places[0]);
+    store(headed(who, vec3(from.origin) - root - turned(from.parent, vec3(plan.shoulder_place))), input.places[0]);
     copy(plan.shoulder_place, input.places[1]);
     for (int bone = 0; bone < 2; ++bone) store(from.lengths[bone] * vec3(plan.bones[bone]), input.places[2 + bone]);
     copy(from.parent, input.rotations[0]);
+    turn_along(who, input.rotations[0]);
     copy(from.shoulder, input.rotations[1]);
     copy(from.elbow_local, input.rotations[2]);
     copy(from.wrist_local, input.rotations[3]);
@@ -221,10 +241,12 @@ goal swivel_goal(const goal_plan* plan, const goal_source* source, const goal_ch
     goal asked;
     store(target_of(*plan, *source, *character), asked.target);
     store(pole_of(*plan, *source, *character), asked.pole);
-    if (plan->hand_is_local)
+    if (plan->hand_is_local) {
         copy(source->wrist_local, asked.hand);
-    else
+    } else {
         copy(source->hand, asked.hand);
+        turn_along(*character, asked.hand);
+    }
     return asked;
 }
 
@@ -236,7 +258,7 @@ void swivel_goals(const goal_plan* plans, const goal_source* const* sources, uin
         goal_character who = characters[n];
         const uint32_t at = swivel_goal_frame(&who, frame);
         const Vec3 root = vec3(sources[0][at].root);
-        Vec3 root_w = vec3(who.place) + who.size * root;
+        Vec3 root_w = vec3(who.place) + headed(who, who.size * root);
         Stride strides[GOAL_MAX_LIMBS];  // of limbs that stand, in their order
         uint32_t feet = 0;
         if (ground)

@@ -41,7 +41,7 @@ typedef struct goal_source {
     goal_stride stride;    // of a leg that stands; else zeros
 } goal_source;
 
-// A character of the crowd; the first is the clip's own. What is at x in the clip is at place + size * x.
+// A character of the crowd. What is at x in the clip is at place + size * x, where x is turned about y by the heading.
 typedef struct goal_character {
     double size;       // factor of all lengths, also of the way it goes; one that a float holds
     double place[3];   // in the world, of the clip's origin; the clip's unit
@@ -50,7 +50,7 @@ typedef struct goal_character {
     uint32_t first;    // first frame of its clip, among the sources
     uint32_t count;    // frames of its clip, which it plays round and round; 1 or more
     uint32_t carries;  // 1: it carries a box in both hands
-    uint32_t reserved;
+    float heading;     // tangent of a quarter of its turn about y, from z to x; 0: as the clip
 } goal_character;
 
 // The kind of a goal's pole.

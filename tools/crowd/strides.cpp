@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "tools/crowd/ground.h"
+#include "tools/crowd/heading.h"
 
 namespace swivel::tools {
 
@@ -23,10 +24,14 @@ struct Leg {
     const float* heights;
 
     GroundPoint ground_below(double x, double z) const { return ground_at(ground, heights, x, z); }
-    // The ankle in the world, on an axis.
-    double ankle(std::uint32_t frame, int axis) const
+    // The ankle in the world, on x and z.
+    std::array<double, 2> ankle(std::uint32_t frame) const
     {
-        return character.place[axis] + character.size * (sources[frame].origin[axis] + sources[frame].wrist[axis]);
+        const goal_source& from = sources[frame];
+        double x = character.size * (from.origin[0] + from.wrist[0]),
+               z = character.size * (from.origin[2] + from.wrist[2]);
+        turn_with(character, x, z);
+        return {character.place[0] + x, character.place[2] + z};
     }
 };
 
@@ -81,7 +86,8 @@ bool is_tread(const Leg& leg, double x, double z, double ball)
 // Which way a foot points, level and of unit length, on x and z.
 std::array<double, 2> ahead_of(const Leg& leg, const Toe& toe, std::uint32_t frame)
 {
-    const double x = toe.x - leg.ankle(frame, 0), z = toe.z - leg.ankle(frame, 2), length = std::sqrt(x * x + z * z);
+    const auto [ankle_x, ankle_z] = leg.ankle(frame);
+    const double x = toe.x - ankle_x, z = toe.z - ankle_z, length = std::sqrt(x * x + z * z);
     return length > 0 ? std::array{x / length, z / length} : std::array{1.0, 0.0};
 }
 
@@ -110,7 +116,8 @@ Tread tread_at(const Leg& leg, std::uint32_t frame)
 // lower than below the toe.
 double ankle_level(const Leg& leg, const Tread& tread, std::uint32_t stand)
 {
-    return tread.level_at(leg.ankle(stand, 0), leg.ankle(stand, 2));
+    const auto [x, z] = leg.ankle(stand);
+    return tread.level_at(x, z);
 }
 
 // The way of a foot through the air.

@@ -15,22 +15,10 @@ using Kind = FeetDoubt::Kind;
 
 constexpr double kOffGround = 0.012, kWorse = 2, kKneeSpeed = 720, kToeJump = 60, kBodyJump = 30;
 
-// The frame with the largest value, and that.
-struct Peak {
-    std::size_t frame = 0;
-    double value = 0;
-
-    void raise(std::size_t at, double to)
-    {
-        if (to > value) *this = {at, to};
-    }
-};
-
 Peak knee_peak(const LegPath& leg)
 {
     Peak peak;
-    for (std::size_t frame = 1; frame < leg.toe_w.size(); ++frame)
-        peak.raise(frame, std::abs(bend_deg(leg, frame) - bend_deg(leg, frame - 1)));
+    for (std::size_t frame = 1; frame < leg.toe_w.size(); ++frame) peak.raise(frame, knee_turn_deg(leg, frame));
     return peak;
 }
 
@@ -64,24 +52,29 @@ double bend_deg(const LegPath& leg, std::size_t frame)
     return degrees_between(leg.knee_w[frame] - leg.hip_w[frame], leg.ankle_w[frame] - leg.knee_w[frame]);
 }
 
+double knee_turn_deg(const LegPath& leg, std::size_t frame)
+{
+    return std::abs(bend_deg(leg, frame) - bend_deg(leg, frame - 1));
+}
+
 Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor)
 {
     Skating max;
     double way = 0, steps = 0, times = 0;
+    Peak drift, off_ground;
     const auto raise = [](double& value, double to) { value = std::max(value, to); };
     for (std::size_t n = 0; n < motion.legs.size(); ++n) {
         const LegPath& leg = motion.legs[n];
         const std::vector<Vector3d>& toe_w = leg.toe_w;
-        for (std::size_t frame = 1; frame < toe_w.size(); ++frame)
-            raise(max.knee_deg, std::abs(bend_deg(leg, frame) - bend_deg(leg, frame - 1)));
+        for (std::size_t frame = 1; frame < toe_w.size(); ++frame) raise(max.knee_deg, knee_turn_deg(leg, frame));
         for (std::size_t frame = 0; leg.has_toe && frame < toe_w.size(); ++frame)
             raise(max.tip_depth, leg.tip_rise - floor.over(leg.tip_w[frame]));
         raise(max.jump, largest_jump(toe_w) / motion.frame_time);
         for (const Contact& contact : contacts_of(contacts[n])) {
             if (contact.first > 0) ++steps;
             for (std::size_t frame = contact.first; frame < contact.end; ++frame) {
-                raise(max.off_ground, std::abs(floor.over(toe_w[frame])));
-                raise(max.drift, motion.level(toe_w[frame] - toe_w[contact.first]).norm());
+                off_ground.raise(frame, std::abs(floor.over(toe_w[frame])));
+                drift.raise(frame, motion.level(toe_w[frame] - toe_w[contact.first]).norm());
                 if (frame == contact.first) continue;
                 const double slide = motion.level(toe_w[frame] - toe_w[frame - 1]).norm();
                 raise(max.max_speed, slide / motion.frame_time);
@@ -90,6 +83,8 @@ Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floo
             }
         }
     }
+    max.drift = drift.value, max.drift_frame = drift.frame;
+    max.off_ground = off_ground.value, max.off_ground_frame = off_ground.frame;
     max.body_jump = largest_jump(motion.carrier_w) / motion.frame_time;
     max.mean_speed = times > 0 ? way / times : 0;
     max.step = way / std::max(steps, 1.0);

@@ -9,6 +9,17 @@
 
 namespace swivel::tools {
 
+// The largest value, and its frame.
+struct Peak {
+    std::size_t frame = 0;
+    double value = 0;
+
+    void raise(std::size_t at, double to)
+    {
+        if (to > value) *this = {at, to};
+    }
+};
+
 // How much feet skate, and the cost of preventing it. Lengths are in leg lengths.
 struct Skating {
     double mean_speed = 0, max_speed = 0;  // of toes in contact over the ground, a second
@@ -19,10 +30,13 @@ struct Skating {
     double knee_deg = 0;    // the largest change of a knee's angle, a frame
     double jump = 0;        // the largest change of a toe's velocity, a frame
     double body_jump = 0;   // the same for the body
+    std::size_t drift_frame = 0, off_ground_frame = 0;
 };
 
 // How far the knee is bent, in degrees.
 double bend_deg(const LegPath& leg, std::size_t frame);
+// How far it turns from the frame before.
+double knee_turn_deg(const LegPath& leg, std::size_t frame);
 
 Skating skating_of(const LegMotion& motion, const Contacts& contacts, const Floor& floor);
 

@@ -132,8 +132,9 @@ LegsInClips legs_in_clips(const formats::CrowdFile& file, const formats::Clip& c
         LegMotion motion = leg_motion(alone ? *alone : clip, legs, std::max(figure.carrier, 0), Vector3d::UnitY());
         const ContactBars bars;
         if (const auto slide = slide_of(motion, bars); slide && !slide->with_body)
-            refuse(file, fmt::format("the clip{} walks in place, so its feet slide; move its root first",
-                                     part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
+            refuse(file,
+                   fmt::format("the clip{} walks in place, so its feet slide; swivel feet --travel moves its root",
+                               part.first > 0 ? fmt::format(" from frame {} of all on", part.first) : ""));
         const Contacts found = own ? read_contacts(file, motion.legs, part, frames) : find_contacts(motion, bars);
         for (std::size_t n = 0; n < legs.size(); ++n)
             in_clips.contacts[n].insert(in_clips.contacts[n].end(), found[n].begin(), found[n].end());

@@ -32,6 +32,7 @@ std::size_t read_motion_header(Scanner& scan, BvhFile& file)
         fail(scan, fmt::format("Frames: '{}' is not a whole number above 0", printable(count_word)));
     }
     file.frames_line = scan.line;
+    file.announced_count = static_cast<std::size_t>(*count);
     expect(scan, "Frame");
     expect(scan, "Time:");
     const std::string_view time_word = rest_of_line(scan);

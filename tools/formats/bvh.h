@@ -41,6 +41,8 @@ struct BvhJoint {
     std::vector<Channel> channels;  // in the file's order, at most six
     std::size_t first_channel = 0;  // the joint's first value in a frame's line
     std::size_t line = 0;           // of CHANNELS, or of the joint if it has none; for messages
+    std::size_t name_begin = 0;     // byte in the text after ROOT or JOINT, where the name follows
+    std::size_t end = 0;            // byte in the text after the joint's closing brace
 };
 
 struct BvhFile {
@@ -52,6 +54,7 @@ struct BvhFile {
     std::size_t channel_count = 0;         // values a line
     std::size_t frames_line = 0;           // of "Frames:"; for messages
     std::size_t surplus_count = 0;         // lines of values beyond those announced
+    std::size_t announced_count = 0;       // the number after "Frames:" in the file that was read
     Clip clip;
 };
 
@@ -62,6 +65,17 @@ BvhFile read_bvh(const std::filesystem::path& path);
 
 // The same for a text in memory. path: its name in messages.
 BvhFile bvh_of(const std::filesystem::path& path, std::string text);
+
+// The file at another number of frames a second, above 0. Its first and last frame stay, so the rate is the nearest one
+// that fits the clip's length. Joints with rotation channels of three axes turn evenly, the shortest way (slerp); all
+// other values go evenly, angles the shorter way around. Throws InputError for a text of more than 2 GiB.
+BvhFile at_rate(const BvhFile& file, double rate);
+
+// The file with a joint of six channels, all 0, put above one: see NewJoint. Lines beyond those announced are left out.
+BvhFile with_joint_above(const BvhFile& file, int joint, std::string_view name);
+
+// A value of a frame's line, with nine decimals; of a degree they are 9e-12 rad.
+std::string value_text(double value);
 
 // Whether a text starts like a BVH file.
 bool is_bvh_text(std::string_view text);
@@ -75,8 +89,9 @@ void require_can_key(const BvhFile& file, int joint);
 // the one nearest to the frame before, the first to the file's own, or to 0 in new frames. path: may be the file that
 // was read. It appears whole or not at all (see OutputFile). Throws InputError when a joint with new rotations lacks
 // three rotation channels about three different axes, one with new translations a position channel of each axis, or on
-// writing. Throws std::invalid_argument as require_keys() does. Allocates a few bytes a channel.
+// writing. Throws std::invalid_argument as require_keys() does. Allocates a few bytes a channel; with a new joint the
+// whole file again.
 void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
-               const std::optional<NewFrames>& frames = {});
+               const std::optional<NewFrames>& frames = {}, const std::optional<NewJoint>& above = {});
 
 }  // namespace swivel::formats

@@ -81,9 +81,10 @@ void open_joint(Scanner& scan, BvhFile& file, std::vector<OpenJoint>& open)
 {
     if (open.size() == kMaxDepth) fail(scan, fmt::format("more than {} joints inside each other", kMaxDepth));
     Joint joint;
+    const std::size_t name_begin = scan.at;
     joint.name = rest_of_line(scan);
     if (joint.name.empty()) fail(scan, "a joint without a name");
-    file.joints.push_back({{}, file.channel_count, scan.line});
+    file.joints.push_back({{}, file.channel_count, scan.line, name_begin});
     if (!open.empty()) {
         joint.parent = static_cast<int>(open.back().joint);
         open.back().has_child = true;
@@ -116,8 +117,9 @@ void add_channels(Scanner& scan, BvhFile& file, std::size_t joint)
     }
 }
 
-void close_joint(const Scanner& scan, const BvhFile& file, std::vector<OpenJoint>& open)
+void close_joint(const Scanner& scan, BvhFile& file, std::vector<OpenJoint>& open)
 {
+    file.joints[open.back().joint].end = scan.at;
     const std::string& name = file.clip.joints[open.back().joint].name;
     if (!open.back().has_offset) fail(scan, fmt::format("joint '{}' has no OFFSET", printable(name)));
     open.pop_back();

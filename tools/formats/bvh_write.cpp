@@ -37,8 +37,11 @@ constexpr int kSlots = 6;
 {
     const auto at = static_cast<std::size_t>(joint);
     const std::string name = printable(file.clip.joints[at].name);
-    throw InputError(file.path, file.joints[at].line,
-                     fmt::format("joint '{}' cannot take a new {}: {}", name, what, cause));
+    throw InputError(
+        file.path, file.joints[at].line,
+        fmt::format("joint '{0}' cannot take a new {1}: {2}; export the clip with three {1} channels for it, "
+                    "of X, Y and Z",
+                    name, what, cause));
 }
 
 // In the order of the joint's rotation channels.
@@ -122,13 +125,6 @@ void take_frame(Plan& plan, std::size_t frame)
     }
 }
 
-// Nine decimals; of a degree they are 9e-12 rad.
-void write_value(OutputFile& out, double value)
-{
-    const double shown = std::abs(value) < 5e-10 ? 0.0 : value;  // no "-0.000000000"
-    out.write(fmt::format("{:.9f}", shown));
-}
-
 // Writes the text from `done` through the last new value of the frame at `begin`, and copies the text between new
 // values.
 std::size_t write_frame(OutputFile& out, std::string_view text, std::size_t begin, std::size_t done, Plan& plan)
@@ -139,7 +135,7 @@ std::size_t write_frame(OutputFile& out, std::string_view text, std::size_t begi
         if (slot == kKept) continue;
         const auto word_begin = static_cast<std::size_t>(word.data() - text.data());
         out.write(text.substr(done, word_begin - done));
-        write_value(out, value_of(plan, slot));
+        out.write(value_text(value_of(plan, slot)));
         done = word_begin + word.size();
     }
     return done;
@@ -183,11 +179,23 @@ void write_new_frames(OutputFile& out, const BvhFile& file, const NewFrames& fra
 
 }  // namespace
 
+std::string value_text(double value)
+{
+    const double shown = std::abs(value) < 5e-10 ? 0.0 : value;  // no "-0.000000000"
+    return fmt::format("{:.9f}", shown);
+}
+
 void require_can_key(const BvhFile& file, int joint) { axes_of(file, joint); }
 
 void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const JointKeys> keys,
-               const std::optional<NewFrames>& frames)
+               const std::optional<NewFrames>& frames, const std::optional<NewJoint>& above)
 {
+    if (above) {  // takes the number of the joint below it, and that one and all later ones the next
+        std::vector<JointKeys> all{{above->below, above->rotation, above->translation}};
+        for (const JointKeys& each : keys)
+            all.push_back({each.joint < above->below ? each.joint : each.joint + 1, each.rotation, each.translation});
+        return write_bvh(path, with_joint_above(file, above->below, above->name), all, frames);
+    }
     require_keys(file.clip, keys, frames ? frames->count : file.clip.frame_count);
     Plan plan = make_plan(file, keys);
     OutputFile out(path);

@@ -252,13 +252,18 @@ void read_crowd(TomlTable table, CrowdFile& file)
     file.arms = table.range("arms", 0.2, 5, 5);
     file.spine = table.range("spine", 0.2, 5, 5);
     file.speed = table.range("speed", 0.2, 5, 5);
+    file.heading_deg = table.range("heading_deg", -180, 180, 360);
     file.stagger = table.flag("stagger");
+    file.agents = table.text("agents");
     file.loop = read_loop(table);
     file.clips = read_clips(table);
     file.limbs = converted<std::string>(table.word("limbs", kLimbKinds),
                                         [](std::size_t n) { return std::string(kLimbKinds[n]); });
     file.targets = table.text("targets");
     table.finish();
+    for (const char* const key : {"characters", "spacing", "size", "heading_deg", "stagger"})
+        if (file.agents && table.has(key))
+            table.fail(key, "is of a crowd without a table, and agents names one; keep one of them");
 }
 
 void read_ground(TomlTable table, CrowdFile& file)

@@ -129,7 +129,9 @@ struct CrowdFile {
     Maybe<std::int64_t> characters, seed;
     Maybe<double> spacing;
     Maybe<NumberRange> size, legs, arms, spine, speed;  // factors
+    Maybe<NumberRange> heading_deg;                     // about y
     Maybe<bool> stagger;
+    Maybe<std::string> agents;  // a table of the characters, in place of the grid; its path as that of targets
     Maybe<LoopFrames> loop;
     std::vector<FurtherClip> clips;
     Maybe<std::string> limbs, targets;  // targets as written; a relative path starts at the file's folder

@@ -104,7 +104,8 @@ void sample(GltfFile& file, std::span<const int> limb_joints);
 // Throws InputError for a joint whose matrix is sheared, because keys have no shear. joint: of the clip.
 void require_can_key(const GltfFile& file, int joint);
 
-// Writes `file` with these keys in place of the joints' own, at the clip's frames. A joint's keys go by STEP if its own
+// Writes `file` with these keys in place of the joints' own, at the clip's frames. A new joint is a node, and a joint
+// of the skins that move the joint below it; it goes by STEP if that one does. A joint's keys go by STEP if its own
 // rotations moved by steps, else LINEAR; a joint that did not turn goes by steps if all that did so did. With new
 // frames the animation has these keys alone, LINEAR from time 0 on, and is given their name. Where several frames' keys
 // lie apart, a viewer turns each joint evenly in between. All other JSON is kept value by value, all buffers byte by
@@ -115,7 +116,8 @@ void require_can_key(const GltfFile& file, int joint);
 // file is written; none is opened. Throws InputError on writing, and as require_can_key() does. Throws
 // std::invalid_argument as require_keys() does.
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const JointKeys> keys,
-                const std::optional<NewFrames>& frames = {}, std::optional<bool> binary = {});
+                const std::optional<NewFrames>& frames = {}, std::optional<bool> binary = {},
+                const std::optional<NewJoint>& above = {});
 
 // A GLB for a viewer: the file without its animations, with all buffers in it. Images beside the file stay there. Empty
 // if the file has no mesh. Throws InputError for more than a GLB holds.
@@ -123,9 +125,10 @@ std::string figure_glb(const GltfFile& file);
 
 // One character of a crowd in a file.
 struct GltfCharacter {
-    std::string name;                  // of its node
-    Eigen::Vector3d place;             // of the file's origin
-    double size = 1;                   // of all of it, above 0
+    std::string name;       // of its node
+    Eigen::Vector3d place;  // of the file's origin
+    double size = 1;        // of all of it, above 0
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     std::vector<JointKeys> keys = {};  // at the new frames
 };
 

@@ -220,7 +220,7 @@ std::vector<double> read_accessor(const GltfData& data, int index, std::size_t w
     const Json& at = element(data.path, list_in(data.document, "accessors"), index, "an animation's accessor");
     const bool has_view = at.contains("bufferView");
     const std::size_t count = at.at("count");
-    if (at.at("type") != (width == 1 ? "SCALAR" : width == 3 ? "VEC3" : "VEC4"))
+    if (at.at("type") != (width == 1 ? "SCALAR" : width == 3 ? "VEC3" : width == 4 ? "VEC4" : "MAT4"))
         refuse(data, fmt::format("accessor {} of an animation has the wrong type", index));
     if (expected > 0 && count != expected)
         refuse(data, fmt::format("accessor {} and its times have different numbers of keys: {} elements, {} are needed",

@@ -38,9 +38,9 @@ struct GltfData {
 };
 
 // The components of an accessor, element after element. Normalised integers become the numbers that they stand for.
-// width: 1, 3 or 4, for the SCALAR, VEC3 or VEC4 that it must be. expected: how many elements there must be, so that no
-// file makes more room than its keys need. 0: any number, but they must then be bytes of the file. Throws InputError
-// for
+// width: 1, 3, 4 or 16, for the SCALAR, VEC3, VEC4 or MAT4 that it must be. expected: how many elements there must be,
+// so that no file makes more room than its keys need. 0: any number, but they must then be bytes of the file. Throws
+// InputError for
 // - an accessor that does not exist, or has another type or count;
 // - one that reads beyond its buffer view;
 // - numbers that are not finite.

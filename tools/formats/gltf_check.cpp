@@ -79,6 +79,7 @@ const Member kMembers[] = {
     {"", "skins", kObjects},
     {"/skins", "joints", kIndices},
     {"/skins", "skeleton", kIndex},
+    {"/skins", "inverseBindMatrices", kIndex},
     {"", "animations", kObjects},
     {"/animations", "name", kText},
     {"/animations", "channels", kObjects},

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tools/formats/gltf_buffers.h"
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/gltf_uri.h"
 
@@ -232,6 +233,8 @@ void add_figures(GltfAsset& asset, std::size_t times, const GltfChanges& changes
                                        {"translation", {figure.place.x(), figure.place.y(), figure.place.z()}},
                                        {"scale", {figure.size, figure.size, figure.size}},
                                        {"children", std::vector<std::size_t>(first, end)}});
+        if (const Eigen::Quaterniond& q = figure.rotation; !q.vec().isZero(0))
+            asset.list("nodes").back()["rotation"] = {q.x(), q.y(), q.z(), q.w()};
         add_tracks(asset, times, figure.tracks, animation, n * node_count, add_channel);
         for (const GltfChanges::Track& track : figure.tracks)
             rest_at_first_keys(asset.list("nodes")[n * node_count + static_cast<std::size_t>(track.node)], track);
@@ -240,6 +243,37 @@ void add_figures(GltfAsset& asset, std::size_t times, const GltfChanges& changes
     asset.document["scene"] = 0;
     asset.document["animations"] = Json::array({std::move(animation)});
     if (skin_count == 0) asset.document.erase("skins");
+}
+
+// Puts the new node in. read: the file before its buffers moved.
+void add_node(GltfAsset& asset, const GltfData& read, const GltfChanges::NewNode& added)
+{
+    Json& nodes = asset.list("nodes");
+    const std::size_t node = nodes.size();
+    const auto put_in = [&](Json& owners, const char* list) {
+        for (Json& owner : owners)
+            if (const auto found = owner.find(list); found != owner.end())
+                std::replace(found->begin(), found->end(), Json(added.below), Json(node));
+    };
+    put_in(nodes, "children");
+    if (asset.document.contains("scenes")) put_in(asset.document["scenes"], "nodes");
+    nodes.push_back({{"name", added.name}, {"children", Json::array({added.below})}});
+    if (!asset.document.contains("skins")) return;
+    for (Json& skin : asset.document["skins"]) {
+        if (skin.contains("skeleton") && skin["skeleton"] == added.below) skin["skeleton"] = node;
+        const auto joints = skin.find("joints");
+        if (joints == skin.end() || std::find(joints->begin(), joints->end(), Json(added.below)) == joints->end())
+            continue;
+        if (const auto binds = skin.find("inverseBindMatrices"); binds != skin.end()) {
+            const std::vector<double> old = read_accessor(read, binds->get<int>(), 16, 0);
+            std::vector<float> matrices(16 * joints->size());
+            std::transform(old.begin(), old.begin() + std::min(std::ssize(old), std::ssize(matrices)), matrices.begin(),
+                           [](double part) { return static_cast<float>(part); });
+            for (const double part : added.inverse_bind.reshaped()) matrices.push_back(static_cast<float>(part));
+            *binds = add_floats(asset, matrices, 16, "MAT4");
+        }
+        joints->push_back(node);
+    }
 }
 
 void add_keys(GltfAsset& asset, const GltfChanges& changes)
@@ -261,10 +295,12 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
                            const GltfChanges& changes, const fs::path& from, const fs::path& to, bool binary)
 {
     GltfAsset asset{gltf_document(from, file.json)};
+    const Json before = changes.node ? asset.document : Json();
     if (binary)
         settle_binary(asset, buffers);
     else
         settle_text(asset, buffers);
+    if (changes.node) add_node(asset, {from, before, buffers}, *changes.node);
     for_each_uri(asset.document, [&](Json& object) {
         auto& uri = object["uri"].get_ref<std::string&>();
         if (!is_data_uri(uri)) uri = moved_uri(uri, from, to);

@@ -25,11 +25,19 @@ struct GltfChanges {
         Eigen::Vector3d translation, scale;
         Eigen::Quaterniond rotation;
     };
+    // A new node, put between a node and that one's parent, without a transform. It gets the index after the file's
+    // last node. Skins that move the node below it get it as their last joint.
+    struct NewNode {
+        std::string name;
+        std::size_t below;
+        Eigen::Matrix4d inverse_bind;  // of those skins
+    };
     // One of several figures: all nodes of the file, below a node of its own.
     struct Figure {
         std::string name;
         Eigen::Vector3d place;
         double size;
+        Eigen::Quaterniond rotation;
         std::vector<Track> tracks;
     };
     std::vector<float> times;
@@ -41,6 +49,7 @@ struct GltfChanges {
     // and all that they are made of are shared.
     std::vector<Figure> figures;
     bool drops_animations = false;  // removes all animations and adds none
+    std::optional<NewNode> node{};  // moved by a track of its own
 };
 
 // The file with these changes, in the shape for a file at `to`: `binary` or not. from: where the file was read, for

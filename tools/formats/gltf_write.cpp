@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -20,13 +21,11 @@ using Eigen::Quaterniond;
 
 const Joint& joint_at(const GltfFile& file, int joint) { return file.clip.joints[static_cast<std::size_t>(joint)]; }
 
-// Keys of one joint, each in the hemisphere of the one before, so that readers that do not look for the shorter arc
-// take it, too.
-GltfChanges::Track track_of(const GltfFile& file, const JointKeys& keys)
+// Keys of one node that rests so, each in the hemisphere of the one before, so that readers that do not look for the
+// shorter arc take it, too.
+GltfChanges::Track track_of(int node, const UnkeyedPose& rest, const JointKeys& keys)
 {
-    const Joint& joint = joint_at(file, keys.joint);
-    const UnkeyedPose rest = pose_without_keys(joint);
-    GltfChanges::Track track{joint.number, {}, {}, false, rest.offset, rest.scale, rest.rotation};
+    GltfChanges::Track track{node, {}, {}, false, rest.offset, rest.scale, rest.rotation};
     Quaterniond before = rest.rotation;
     for (const Quaterniond& rotation : keys.rotation) {
         Quaterniond key = rotation.normalized();
@@ -69,9 +68,21 @@ std::vector<GltfChanges::Track> tracks_of(const GltfFile& file, std::span<const 
     std::vector<GltfChanges::Track> tracks;
     for (const JointKeys& each : keys) {
         require_can_key(file, each.joint);
-        tracks.push_back(track_of(file, each));
+        const Joint& joint = joint_at(file, each.joint);
+        tracks.push_back(track_of(joint.number, pose_without_keys(joint), each));
     }
     return tracks;
+}
+
+// The new joint's node. Skins bind it where it is at rest.
+GltfChanges::NewNode node_of(const GltfFile& file, const NewJoint& joint)
+{
+    Eigen::Affine3d parent_w = Eigen::Affine3d::Identity();
+    for (int above = joint_at(file, joint.below).parent; above >= 0; above = joint_at(file, above).parent) {
+        const UnkeyedPose rest = pose_without_keys(joint_at(file, above));
+        parent_w = Eigen::Translation3d(rest.offset) * rest.rotation * Eigen::Scaling(rest.scale) * parent_w;
+    }
+    return {joint.name, static_cast<std::size_t>(joint_at(file, joint.below).number), parent_w.inverse().matrix()};
 }
 
 std::string glb_named(const std::filesystem::path& path, const GltfContainer& container)
@@ -105,7 +116,8 @@ void require_can_key(const GltfFile& file, int joint)
 }
 
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const JointKeys> keys,
-                const std::optional<NewFrames>& frames, std::optional<bool> binary)
+                const std::optional<NewFrames>& frames, std::optional<bool> binary,
+                const std::optional<NewJoint>& above)
 {
     GltfChanges changes{file.times, {}, file.animation, {}, {}};
     if (frames) {
@@ -121,6 +133,14 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
         changes.tracks[n].is_stepped = movers.all.contains(keys[n].joint)
                                            ? movers.by_steps.contains(keys[n].joint)
                                            : !movers.all.empty() && movers.by_steps == movers.all;
+    if (above) {
+        const auto below = std::ranges::find(keys, above->below, &JointKeys::joint) - keys.begin();
+        const UnkeyedPose rest{Eigen::Vector3d::Zero(), Quaterniond::Identity(), Eigen::Vector3d::Ones()};
+        changes.node = node_of(file, *above);
+        changes.tracks.push_back(track_of(static_cast<int>(file.clip.joints.size()), rest,
+                                          {above->below, above->rotation, above->translation}));
+        changes.tracks.back().is_stepped = changes.tracks[static_cast<std::size_t>(below)].is_stepped;
+    }
     write_changes(path, file, changes, binary);
 }
 
@@ -138,7 +158,7 @@ void write_gltf_crowd(const std::filesystem::path& path, const GltfFile& file,
     GltfChanges changes{even_times(frames), {}, file.animation, frames.name, {}};
     for (const GltfCharacter& each : characters) {
         require_keys(file.clip, each.keys, frames.count);
-        changes.figures.push_back({each.name, each.place, each.size, tracks_of(file, each.keys)});
+        changes.figures.push_back({each.name, each.place, each.size, each.rotation, tracks_of(file, each.keys)});
     }
     write_changes(path, file, changes, {});
 }

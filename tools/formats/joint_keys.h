@@ -18,6 +18,15 @@ struct JointKeys {
     std::span<const Eigen::Vector3d> translation = {};  // local, finite, in place of Joint::offset
 };
 
+// A new joint, put between a joint of the clip and that one's parent. At rest it is at its parent's origin and is not
+// turned, so nothing moves. The keys of the joint below it are then relative to it.
+struct NewJoint {
+    std::string name;
+    int below = -1;                                     // index in Clip::joints; it needs keys of both kinds, too
+    std::span<const Eigen::Quaterniond> rotation = {};  // as those of JointKeys; neither list is empty
+    std::span<const Eigen::Vector3d> translation = {};
+};
+
 // Frames that replace the clip's own. In all of them a joint rests in each kind of key that it is not given.
 struct NewFrames {
     std::size_t count = 0;  // 1 or more

@@ -65,6 +65,8 @@ PosesCsv::PosesCsv(const std::filesystem::path& path, const PoseColumns& columns
     if (columns.clavicle) header += ",clavicle_x,clavicle_y,clavicle_z,clavicle_w";
     for (unsigned bone = 1; bone <= columns.twist_count; ++bone)
         for (const char component : {'x', 'y', 'z', 'w'}) header += fmt::format(",twist{}_{}", bone, component);
+    if (columns.heading) header += ",heading_deg";
+    if (columns.name) header += ",name";
     out_.write(header + "\n");
 }
 
@@ -75,6 +77,11 @@ void PosesCsv::append(std::uint32_t frame, std::span<const PoseRow> rows, std::s
         line.clear();
         put_row(line, frame, rows[n]);
         if (!extras.empty()) put_extra(line, columns_, extras[n]);
+        if (columns_.heading) {
+            line.push_back(',');
+            put(line, rows[n].heading_deg);
+        }
+        if (columns_.name) line.append(",").append(rows[n].name);
         line.push_back('\n');
         out_.write(line);
     }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "tools/formats/limb_name.h"
 #include "tools/formats/limits.h"
@@ -25,6 +26,8 @@ struct PoseRow {
     std::array<double, 3> place{};  // of the character: where it stands, its size, the frame it starts at
     double size = 1;
     std::uint64_t start = 0;
+    float heading_deg = 0;  // these two are optional columns; a name must last for the call
+    std::string_view name{};
 };
 
 // Further results of a limb, for optional columns.
@@ -41,6 +44,8 @@ struct PoseColumns {
     bool stretch = false;      // "stretch"
     bool clavicle = false;     // "clavicle_x" and so on
     unsigned twist_count = 0;  // "twist1_x" and so on
+    bool heading = false;      // "heading_deg"
+    bool name = false;         // "name"
 };
 
 class PosesCsv {

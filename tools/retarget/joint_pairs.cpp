@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "tools/formats/csv_rows.h"
 #include "tools/formats/error.h"
@@ -98,15 +99,27 @@ std::vector<int> joint_of(const std::filesystem::path& path, std::size_t line, c
     return found;
 }
 
-// A joint's name, if it is unique and a cell can hold it; else its number.
-std::string cell_of(const Clip& clip, int joint)
-{
-    const std::string& name = joint_at(clip, joint).name;
-    const bool can_be_cell = formats::printable(name, name.size()) == name && !name.starts_with(' ') &&
-                             !name.ends_with(' ') && name.find_first_of(",\"") == name.npos;
-    if (can_be_cell && formats::find_joints(clip, name) == std::vector<int>{joint}) return name;
-    return fmt::format("#{}", joint_at(clip, joint).number);
-}
+// The cells of a clip's joints. A cell has a joint's name if that is unique and a cell can hold it, else its number.
+class Cells {
+public:
+    explicit Cells(const Clip& clip) : clip_(clip)
+    {
+        for (const formats::Joint& joint : clip.joints) ++bearers_[joint.name];
+    }
+    std::string of(int joint) const
+    {
+        const std::string& name = joint_at(clip_, joint).name;
+        // A name with a slash may be the path of another joint, and one that begins with # the number.
+        const bool can_be_cell = formats::printable(name, name.size()) == name && !name.starts_with(' ') &&
+                                 !name.ends_with(' ') && !name.starts_with('#') &&
+                                 name.find_first_of(",\"/") == name.npos;
+        return can_be_cell && bearers_.at(name) == 1 ? name : fmt::format("#{}", joint_at(clip_, joint).number);
+    }
+
+private:
+    const Clip& clip_;
+    std::map<std::string_view, std::size_t> bearers_;
+};
 
 }  // namespace
 
@@ -146,8 +159,10 @@ JointPairs read_joint_map(const std::filesystem::path& path, const Clip& source,
     return pairs;
 }
 
-void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs, const Clip& source, const Clip& target)
+void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs, const Clip& source, const Clip& target,
+                     const std::function<bool(int)>& can_key)
 {
+    const Cells from_cells(source), to_cells(target);
     formats::OutputFile out(path);
     out.write("part,source,target\n");
     const auto write = [&](const std::string& part, const std::string& from, const std::string& to) {
@@ -155,14 +170,14 @@ void write_joint_map(const std::filesystem::path& path, const JointPairs& pairs,
     };
     for (const PairedPart& part : pairs)
         for (std::size_t n = 0; n < std::max(part.source.size(), part.target.size()); ++n)
-            write(part.name, n < part.source.size() ? cell_of(source, part.source[n]) : "",
-                  n < part.target.size() ? cell_of(target, part.target[n]) : "");
+            write(part.name, n < part.source.size() ? from_cells.of(part.source[n]) : "",
+                  n < part.target.size() ? to_cells.of(part.target[n]) : "");
     const std::set<int> in_source = joints_in(pairs, BodySide::source, false);
     const std::set<int> in_target = joints_in(pairs, BodySide::target, false);
     for (const int joint : unpaired_bones(pairs, source, BodySide::source))
-        if (!in_source.contains(joint)) write("", cell_of(source, joint), "");
+        if (!in_source.contains(joint)) write("", from_cells.of(joint), "");
     for (const int joint : unpaired_bones(pairs, target, BodySide::target))
-        if (!in_target.contains(joint)) write("", "", cell_of(target, joint));
+        if (!in_target.contains(joint) && can_key(joint)) write("", "", to_cells.of(joint));
     out.commit();
 }
 

@@ -39,9 +39,9 @@ public:
 
 private:
     template <class... Words>
-    void doubt(fmt::format_string<Words...> text, Words&&... words)
+    ClipDoubt& doubt(fmt::format_string<Words...> text, Words&&... words)
     {
-        doubts_.push_back(fmt::format(text, std::forward<Words>(words)...));
+        return doubts_.emplace_back(ClipDoubt{fmt::format(text, std::forward<Words>(words)...)});
     }
     Vector3d level(const Vector3d& way_w) const { return way_w - way_w.dot(body_.up_w()) * body_.up_w(); }
 
@@ -67,13 +67,15 @@ private:
         // A runner's foot points back in up to a third of the frames.
         const bool is_left = feet[0].are_over(0.5), is_right = feet[1].are_over(0.5);
         if (is_left && is_right)
-            doubt("the left leg is on the right of where the toes point {}", feet[0].words());
+            doubt("the left leg is on the right of where the toes point {}", feet[0].words()).is_garbage = true;
         else if (is_left || is_right)
-            doubt("the {} foot points backwards {}", is_left ? "left" : "right", feet[is_left ? 0 : 1].words());
+            doubt("the {} foot points backwards {}", is_left ? "left" : "right", feet[is_left ? 0 : 1].words())
+                .is_garbage = true;
         if (!body_.has(0)) return;
         const SomeFrames arms = body_.where(
             [&](const Places& places_w) { return body_.to_left_w(places_w, 0).dot(body_.to_left_w(places_w, 2)) < 0; });
-        if (arms.are_over(0.5)) doubt("the left arm is on the side of the right leg {}", arms.words());
+        if (arms.are_over(0.5))
+            doubt("the left arm is on the side of the right leg {}", arms.words()).is_garbage = true;
     }
     // How far a limb bends the way that people's do: 1 as theirs, -1 the other way, 0 where it is too straight to tell.
     // In a limb that hangs, the axis of a knee points to the left and that of an elbow to the right; the limb takes the
@@ -109,7 +111,8 @@ private:
             if (wrong.are_over(kMostly))
                 doubt("the {} {} bends {} {}", side_name(formats::kLimbNames[limb].side),
                       words_of(formats::kLimbNames[limb].kind).lower_joint, limb < 2 ? "backwards" : "forwards",
-                      wrong.words());
+                      wrong.words())
+                    .is_garbage = true;
         }
     }
     void judge_up()
@@ -138,12 +141,19 @@ private:
     }
 
     const BodyFrames& body_;
-    std::vector<std::string> doubts_;
+    std::vector<ClipDoubt> doubts_;
 };
 
 }  // namespace
 
 using formats::Clip;
+
+std::vector<std::string> texts_of(const std::vector<ClipDoubt>& doubts)
+{
+    std::vector<std::string> texts;
+    for (const ClipDoubt& doubt : doubts) texts.push_back(doubt.text);
+    return texts;
+}
 
 std::string SomeFrames::words() const { return fmt::format("in {} of {} frames, from frame {}", count, all, first); }
 
@@ -199,7 +209,7 @@ BodyDoubts body_doubts(const BodyFrames& body) { return body.count() == 0 ? Body
 
 std::vector<std::string> body_doubts(const formats::Clip& clip, const std::vector<BodyPart>& parts)
 {
-    return body_doubts(BodyFrames(clip, parts)).lines;
+    return texts_of(body_doubts(BodyFrames(clip, parts)).doubts);
 }
 
 }  // namespace swivel::tools

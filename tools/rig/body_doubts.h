@@ -105,15 +105,25 @@ private:
     std::vector<Places> frames_w_;
 };
 
-// A line each for people. The rules are how people are built.
+// A thing in a clip that stands out.
+struct ClipDoubt {
+    std::string text;         // a line for people
+    bool is_garbage = false;  // nobody is built or bends like that, for a quarter of the frames or more
+    double leg_lengths = 0;   // the length that the text has in leg lengths; 0: none
+};
+
+// The texts alone.
+std::vector<std::string> texts_of(const std::vector<ClipDoubt>& doubts);
+
+// The rules are how people are built.
 // - Bones of one side are a tenth longer than the other's.
-// - The left leg is on the right of where the toes point, or the left arm on the side of the right leg; one foot points
-//   backwards.
-// - A knee bends forwards, or an elbow backwards.
+// - Garbage: the left leg is on the right of where the toes point, or the left arm on the side of the right leg; one
+//   foot points backwards.
+// - Garbage: a knee bends forwards, or an elbow backwards.
 // - The frames stand along another axis than the rest pose. This stands alone, since all else would follow from it.
 // parts: of body_parts(). Unknown parts are not judged.
 struct BodyDoubts {
-    std::vector<std::string> lines;
+    std::vector<ClipDoubt> doubts;
     bool is_up_wrong = false;  // the line is about the axes
 };
 BodyDoubts body_doubts(const BodyFrames& body);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/rig/body_doubts.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 
@@ -33,7 +32,7 @@ class MotionJudge {
 public:
     MotionJudge(const BodyFrames& body, const std::vector<BodyPart>& parts) : body_(body), parts_(parts) {}
 
-    std::vector<std::string> judge()
+    std::vector<ClipDoubt> judge()
     {
         judge_arms();
         judge_lengths();
@@ -47,9 +46,9 @@ public:
 
 private:
     template <class... Words>
-    void doubt(fmt::format_string<Words...> text, Words&&... words)
+    ClipDoubt& doubt(fmt::format_string<Words...> text, Words&&... words)
     {
-        doubts_.push_back(fmt::format(text, std::forward<Words>(words)...));
+        return doubts_.emplace_back(ClipDoubt{fmt::format(text, std::forward<Words>(words)...)});
     }
 
     void judge_lengths()
@@ -76,7 +75,8 @@ private:
             if (body_.hips() < 0) continue;
             const SomeFrames inside = body_.where([&](const Places& places_w) { return is_inside(places_w, arm); });
             if (inside.are_over(kMostly))
-                doubt("the {} elbow is inside the trunk {}", side_name(formats::kLimbNames[arm].side), inside.words());
+                doubt("the {} elbow is inside the trunk {}", side_name(formats::kLimbNames[arm].side), inside.words())
+                    .is_garbage = true;
         }
     }
     // Whether the elbow is nearer to the line from hips to shoulders than half of the way to a shoulder.
@@ -157,8 +157,9 @@ private:
             max = change;
             worst_frame = frame;
         }
+        max /= body_.leg_length();
         if (worst_frame > 0)
-            doubt("the body jumps by {:.2f} leg lengths beside frame {}", max / body_.leg_length(), worst_frame);
+            doubt("the body jumps by {:.2f} leg lengths beside frame {}", max, worst_frame).leg_lengths = max;
     }
     // The most that a limb's joints turn away from the first frame, in degrees.
     double movement_deg(std::size_t limb) const
@@ -192,22 +193,26 @@ private:
         if (heights.empty()) return;
         const double ground = quantile(heights, 0.05) / body_.leg_length();
         if (ground < -kSunk && ground > -kElsewhere)
-            doubt("its feet stand at a height of {:.2f} leg lengths, below 0", ground);
+            doubt("its feet stand at a height of {:.2f} leg lengths, below 0", ground).leg_lengths = ground;
     }
     const BodyFrames& body_;
     const std::vector<BodyPart>& parts_;
-    std::vector<std::string> doubts_;
+    std::vector<ClipDoubt> doubts_;
 };
 
 }  // namespace
 
+BodyDoubts clip_doubts(const BodyFrames& body, const std::vector<BodyPart>& parts)
+{
+    BodyDoubts all = body_doubts(body);
+    if (body.count() > 0 && !all.is_up_wrong)
+        std::ranges::move(MotionJudge(body, parts).judge(), std::back_inserter(all.doubts));
+    return all;
+}
+
 std::vector<std::string> clip_doubts(const Clip& clip, const std::vector<BodyPart>& parts)
 {
-    if (clip.frame_count == 0) return {};
-    const BodyFrames body(clip, parts);
-    auto [lines, is_up_wrong] = body_doubts(body);
-    if (!is_up_wrong) std::ranges::move(MotionJudge(body, parts).judge(), std::back_inserter(lines));
-    return lines;
+    return texts_of(clip_doubts(BodyFrames(clip, parts), parts).doubts);
 }
 
 }  // namespace swivel::tools

@@ -263,7 +263,8 @@ void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& 
             throw CannotBind(
                 fmt::format("the bone from '{}' to '{}' has no length", printable_name(joint_at(clip, joints[n])),
                             printable_name(joint_at(clip, joints[n + 1]))),
-                "name other joints");
+                fmt::format("give '{}' an OFFSET or translation where the figure is made, or name other joints",
+                            printable_name(joint_at(clip, joints[n + 1]))));
 }
 
 template <int size>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel bench`: replaces itself by swivel-bench, the suite beside it (bench/), and runs the families that suit any
-// machine. So the command itself builds without the rivals.
+// `swivel lab bench`: replaces itself by swivel-bench, the suite beside it (bench/), and runs the families that suit
+// any machine. So the command itself builds without the rivals.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -10,7 +10,7 @@ namespace swivel::tools {
 
 namespace {
 
-constexpr const char* kQuiet = "Print errors and nothing else";
+constexpr const char* kQuiet = "Print errors, and what --json asks for, and nothing else";
 
 // The positional CACHE.
 void add_cache(CLI::App& command, std::string& folder, const std::string& meaning)
@@ -30,11 +30,14 @@ void add_store(CLI::App& app)
                               "has play it again and again"),
           whole_number(1, 1'000'000));
     takes(command->add_option("--chunk", options->chunk,
-                              "Frames and characters in a file, such as 8,4096. Without it by the crowd's size"),
+                              "Frames and characters in a file, such as 8,4096. Without it by the crowd's size; fewer "
+                              "characters where a frame depends on those before it, as then a shard has all frames "
+                              "of its characters"),
           name("write FRAMES,CHARACTERS"));
     command->add_flag("--no-poses", options->no_poses,
                       "Keep goals and digests alone, which give the same poses on any machine");
     add_quiet(*command, options->crowd.quiet, kQuiet);
+    add_json(*command, options->crowd.json);
     command->footer("Then swivel fill CACHE solves it, here or on many machines, and swivel check CACHE proves it.");
     command->callback([options] { run_store(*options); });
 }
@@ -52,6 +55,7 @@ void add_solver(CLI::App& app, bool proves, const std::string& name, const std::
         *command, options->threads,
         "Threads that solve, up to 1024; 0 for all. Two more wait for the disk, but with 1 no thread is started");
     add_quiet(*command, options->quiet, kQuiet);
+    add_json(*command, options->json);
     command->footer(footer);
     command->callback([options] { run_fill(*options); });
 }
@@ -75,6 +79,7 @@ void add_replay(CLI::App& app)
                     "are proved alone");
     add_threads(*command, options->threads);
     add_quiet(*command, options->quiet, kQuiet);
+    add_json(*command, options->json);
     command->callback([options] { run_replay(*options); });
 }
 

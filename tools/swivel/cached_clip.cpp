@@ -62,6 +62,8 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
     crowd.character_count = plan.characters;
     crowd.budget_blocks = plan.budget_blocks;
     crowd.ground = plan.ground;
+    for (const PlannedAgent& agent : plan.agents) crowd.names.push_back(agent.name);
+    crowd.has_headings = plan.has_headings();
     for (const std::size_t n : drawn)
         crowd.joints.push_back({clip.joints[n].name, drawn_at(clip, drawn, clip.joints[n].parent)});
     crowd.positions = positions_of(clip, drawn);

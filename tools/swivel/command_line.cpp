@@ -9,6 +9,7 @@
 #include <memory>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
@@ -99,8 +100,14 @@ void add_feet(CLI::App& app)
         ->option_text("...");
     add_file_option(*command, "-o,--out", options->out,
                     "Write the clip with its new legs and its body's new way, in its own format; all else of "
-                    "it is kept. Of several FILEs, or if it is one already, a folder, where each keeps its "
-                    "name. Without it there is a report only");
+                    "it is kept. For several FILEs, or if it is one already, a folder, where each keeps its "
+                    "name and manifest.json has the verdicts. Without it there is a report only");
+    command->add_flag("--travel", options->travel,
+                      "Move the root of a clip that walks in place, at an even speed, against the slide of its feet");
+    add_root_motion(*command, options->root_motion);
+    command->add_flag("--force", options->force,
+                      "Write a clip of a folder that is judged to be garbage, too. Without it such a clip is not "
+                      "written, and the command fails");
     add_file_option(*command, "--contacts", options->contacts,
                     "When feet are on the ground, instead of finding it: a CSV file with the columns "
                     "frame,limb,contact. limb is left_leg or right_leg, contact is on or off from that frame "
@@ -140,12 +147,11 @@ void add_retarget(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "retarget", "Put a clip's motion on another skeleton: joints turn alike, hands and feet reach their places");
     auto options = std::make_shared<RetargetOptions>();
-    const auto add_input = [&](const char* name, std::string& file, const char* meaning) {
-        add_file_option(*command, name, file, meaning)->required()->option_text(" ");
-    };
-    add_input("SOURCE", options->source, "Motion file: BVH or glTF. - is standard input");
-    add_input("TARGET", options->target,
-              "File of the figure that is to move: BVH or glTF. Its own motion only tells how its feet stand");
+    add_file_option(*command, "SOURCE", options->files,
+                    "Motion files, and as the last file TARGET, the figure that is to move. All are BVH or glTF. "
+                    "TARGET's own motion only tells how its feet stand. - is standard input")
+        ->required()
+        ->option_text("... TARGET");
     add_animation(*command, options->clip, options->rate, "Here FILE is SOURCE");
     const auto add_of_body = [&](const char* name, const char* type, std::vector<std::string>& texts,
                                  const char* meaning) {
@@ -160,7 +166,9 @@ void add_retarget(CLI::App& app)
     add_file_option(*command, "-o,--out", options->out,
                     "TARGET with the motion, in its own format: .bvh, or .glb, .gltf and .vrm. The motion "
                     "replaces that of a BVH file and the first animation of a glTF file, and all else is "
-                    "kept. Without it there is the report alone");
+                    "kept. For several SOURCEs, or if it is one already, a folder, where each keeps its name and "
+                    "manifest.json has the verdicts. Without it there is the report alone");
+    add_root_motion(*command, options->root_motion);
     add_named_limbs(*command, options->arms, options->legs,
                     "Before that, source: or target: says whose it is, as in source:left:#16,#17,#18");
     add_of_body("--head", "JOINT", options->heads,
@@ -169,11 +177,13 @@ void add_retarget(CLI::App& app)
                     "Table of the joints that stand for one another, with the columns part,source,target. "
                     "Without it they are found by their names. - is standard input");
     add_file_option(*command, "--export-map", options->export_map,
-                    "Write that table as it was found, to edit and to give back by --map");
+                    "Write that table as it was found, to edit and to give back by --map, if the command does not "
+                    "fail");
     command->add_flag("--force", options->force,
                       "Write a motion that is judged to be garbage, too. Without it such a motion is not written, and "
                       "the command fails");
-    add_quiet(*command, options->quiet, "Print errors and nothing else");
+    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
+    add_json(*command, options->json);
     command->callback([options] { run_retarget(*options); });
 }
 
@@ -192,6 +202,24 @@ void add_rig(CLI::App& app)
     command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
     add_json(*command, options->json);
     command->callback([options] { run_rig(*options); });
+}
+
+void add_inspect(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "inspect", "Say how good clips are, and where not: feet, knees, jumps, axes, unit, loops. Fails for garbage");
+    auto options = std::make_shared<InspectOptions>();
+    options->clip.kinds = "all";
+    add_file_option(*command, "FILE", options->files,
+                    "Motion files: BVH or glTF (.glb, .gltf, .vrm, .vrma), as their first bytes say. Several have a "
+                    "line each. - is standard input")
+        ->required()
+        ->option_text("...");
+    add_named_limbs(*command, options->clip.arms, options->clip.legs, "The other side is still looked for");
+    add_motion(*command, options->clip.motion, "Its feet and loops need even frames, so glTF mostly needs --fps");
+    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
+    add_json(*command, options->json);
+    command->callback([options] { run_inspect(*options); });
 }
 
 void add_steps(CLI::App& app)
@@ -249,13 +277,36 @@ void add_info(CLI::App& app)
     command->callback([options] { run_info(*options); });
 }
 
+void add_lab(CLI::App& app)
+{
+    CLI::App* lab = app.add_subcommand("lab", "For those who work on swivel: the lecture's steps, checks, benchmarks");
+    lab->require_subcommand(1);
+    add_steps(*lab);
+    add_verify(*lab);
+    add_bench(*lab);
+}
+
 // ---- the run
+
+// The words of the command line. Those of the lab were commands of their own in 0.2: they still are, with a line that
+// says the new way.
+std::vector<const char*> words_of(int argc, const char* const* argv)
+{
+    std::vector<const char*> words(argv, argv + argc);
+    const std::string_view word = argc > 1 ? argv[1] : "";
+    if (word == "steps" || word == "verify" || word == "bench") {
+        say(stderr, "swivel: swivel {0} is now swivel lab {0}; the next version no longer knows the old word\n", word);
+        words.insert(words.begin() + 1, "lab");
+    }
+    return words;
+}
 
 // Parses and runs the command line. Throws if it fails.
 void parse(CLI::App& app, int argc, const char* const* argv)
 {
+    const std::vector<const char*> words = words_of(argc, argv);
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::Success& done) {  // --help, --version
         std::ostringstream text;
         app.exit(done, text, text);
@@ -288,10 +339,9 @@ void run(int argc, const char* const* argv)
     add_cache_commands(app);
     add_retarget(app);
     add_rig(app);
+    add_inspect(app);
     add_feet(app);
-    add_steps(app);
-    add_verify(app);
-    add_bench(app);
+    add_lab(app);
     add_info(app);
     add_help(app);
     parse(app, argc, argv);

@@ -50,14 +50,17 @@ void run_solve(const SolveOptions& options);
 void run_view(SolveOptions options, const std::string& about_clip);
 
 struct RetargetOptions {
-    std::string source, target, out;
-    std::string map, export_map;  // tables of pairs
+    std::vector<std::string> files;  // sources, and the target as the last
+    std::string source, target;      // of one run: run_retarget() takes them from `files`
+    std::string out;                 // a file, or for several sources a folder; empty: none
+    std::string map, export_map;     // tables of pairs
     // "source:left:SHOULDER,ELBOW,WRIST", "target:HEAD", "source:0", "source:z"
     std::vector<std::string> arms, legs, heads, rests, ups;
     std::string clip;    // of source, as MotionChoice has it
     double rate = 0;     // so is this
     bool force = false;  // also writes a motion that is judged as garbage
-    bool quiet = false;
+    bool root_motion = false;
+    bool quiet = false, json = false;
 };
 void run_retarget(const RetargetOptions& options);
 
@@ -72,14 +75,14 @@ void run_store(const StoreOptions& options);
 struct FillCommand {
     std::string folder, shard;
     bool proves = false;  // check, not fill
-    bool quiet = false;
+    bool quiet = false, json = false;
     unsigned threads = 0;
 };
 void run_fill(const FillCommand& options);
 
 struct ReplayOptions {
     std::string folder, frames = ":", characters = ":", out;
-    bool quiet = false;
+    bool quiet = false, json = false;
     unsigned threads = 0;
 };
 void run_replay(const ReplayOptions& options);
@@ -92,6 +95,9 @@ struct FeetOptions {
     MotionChoice motion;
     std::vector<std::string> legs;
     double speed = 0.8, height = 0.085;  // see ContactBars
+    bool travel = false;                 // moves the root of a clip that walks in place
+    bool root_motion = false;
+    bool force = false;  // also writes clips into a folder that are garbage
     bool quiet = false, json = false;
 };
 void run_feet(const FeetOptions& options);
@@ -101,6 +107,13 @@ struct RigOptions {
     bool joints = false, json = false;
 };
 void run_rig(const RigOptions& options);
+
+struct InspectOptions {
+    std::vector<std::string> files;
+    SolveOptions clip;  // its motion and limbs
+    bool quiet = false, json = false;
+};
+void run_inspect(const InspectOptions& options);
 
 struct StepsOptions {
     std::string target = "1.1,1.1,1.1", pole = "1.1,1.1,0", lengths = "1.4,1.3";  // of an arm, in its arm frame

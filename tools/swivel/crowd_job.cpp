@@ -12,8 +12,10 @@
 #include "tools/cli/command_error.h"
 #include "tools/crowd/characters.h"
 #include "tools/crowd/crowd_checks.h"
+#include "tools/crowd/heading.h"
 #include "tools/feet/leg_motion.h"
 #include "tools/feet/standing.h"
+#include "tools/formats/agents_csv.h"
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
@@ -121,8 +123,8 @@ formats::Clip further_clip(const SolveOptions& options, const formats::FurtherCl
             return act();
         } catch (const formats::InputError& error) {
             throw fault(error.what());
-        } catch (const CommandError&) {  // of options that a BVH file does not have
-            throw fault(name + ": is a BVH file, which has one motion at its own rate; take clip and --fps out");
+        } catch (const CommandError&) {  // of a choice that a BVH file does not have
+            throw fault(name + ": is a BVH file, which has one motion; take clip out");
         }
     };
     MotionFile file = reading([&] { return MotionFile(path, {from.animation, options.motion.rate, {}}); });
@@ -147,14 +149,63 @@ std::optional<NamedJoint> named_head(const CrowdJob& job)
 
 constexpr std::size_t kBuilds = 8;  // the number of figures, where proportions differ
 
-// The builds of a crowd, the clip's own first.
+// The agents of the crowd file's table, as many as are asked for.
+std::vector<formats::Agent> read_agents(const SolveOptions& options, const formats::CrowdFile& file)
+{
+    if (!file.agents) return {};
+    const std::filesystem::path table = beside(file, *file.agents);
+    std::vector<formats::Agent> agents = formats::read_agents_csv(table);
+    const std::size_t count = options.characters.value_or(agents.size());
+    if (count > agents.size())
+        throw CommandError(2, fmt::format("--characters {}: the table {} has {} agents", count,
+                                          formats::printable(table.string()), agents.size()));
+    agents.resize(count);
+    return agents;
+}
+
+// Places the agents: each stands at its place below the joint that all limbs hang on, in the frame that it starts at.
+// max_frames: of the clip, where it is not performed in parts; 0: all.
+std::vector<PlannedAgent> placed_agents(const std::vector<formats::Agent>& agents, const formats::Clip& clip,
+                                        const CrowdJob& job, std::size_t max_frames)
+{
+    const std::size_t clip_count = 1 + job.further.size(),
+                      frame_count = max_frames > 0 ? std::min(max_frames, clip.frame_count) : clip.frame_count;
+    const int body = common_joint(clip, job.limbs);
+    std::vector<PlannedAgent> placed;
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (const formats::Agent& agent : agents) {
+        const auto below = [&](const char* column, double value, std::size_t count, const char* what) {
+            const auto number = static_cast<std::size_t>(value);
+            if (number < count) return number;
+            throw formats::InputError(
+                job.agents, agent.line,
+                fmt::format("column {}: {} is not below {}, the number of {}", column, number, count, what));
+        };
+        const std::size_t which = below("clip", agent.clip, clip_count, "clips, FILE's own and crowd.clips");
+        const std::size_t build =
+            below("build", agent.build, job.builds.size(), "builds, which crowd.legs, arms, spine and speed make");
+        const std::size_t part = build * clip_count + which;
+        const ClipPart own = job.plan.clips.empty() ? ClipPart{0, frame_count, frame_count} : job.plan.clips[part];
+        const std::size_t start = below("start", agent.start, own.starts, "frames that its clip can start at");
+        goal_character who{};
+        who.size = double{static_cast<float>(agent.size)};
+        who.heading = heading_of(agent.heading_deg);
+        formats::world_pose(clip, own.first + start, pose_w);
+        Eigen::Vector3d stands = who.size * formats::position_of(pose_w, body);
+        stands.y() = who.size * job.plan.foot.y();
+        turn_with(who, stands.x(), stands.z());
+        const Eigen::Vector3d place(agent.x, agent.y, agent.z);
+        placed.push_back({agent.name, place - stands, who.heading, who.size, part, start});
+    }
+    return placed;
+}
+
+// The builds of a crowd of more than one character, the clip's own first.
 std::vector<Proportions> builds_of(const SolveOptions& options, const formats::CrowdFile& file,
                                    const Eigen::Vector3d& up_w, const std::vector<BodyPart>& body)
 {
     std::vector<Proportions> builds(1);
-    const auto characters = file.characters ? file.characters->value : 1;
-    if ((!file.legs && !file.arms && !file.spine && !file.speed) || options.characters.value_or(characters) == 1)
-        return builds;
+    if (!file.legs && !file.arms && !file.spine && !file.speed) return builds;
     const std::pair<const formats::Maybe<formats::NumberRange>*, Proportions> asked[] = {
         {&file.legs, {0, 1, 1}}, {&file.arms, {1, 0, 1}}, {&file.spine, {1, 1, 0}}};
     for (const auto& [range, alone] : asked) {
@@ -261,11 +312,18 @@ LimbChoice choice_of(const SolveOptions& options)
 CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& file)
 {
     CrowdJob job;
+    std::vector<formats::Agent> agents;
+    std::uint32_t characters = 1;  // unless an option says otherwise
     if (!options.crowd.empty()) {
         job.crowd = formats::read_crowd_file(options.crowd);
         add_choice(*job.crowd, choice);
         require_named_limbs_solved(choice);
+        if (job.crowd->agents) job.agents = beside(*job.crowd, *job.crowd->agents).string();
+        if (job.crowd->characters) characters = static_cast<std::uint32_t>(job.crowd->characters->value);
+        agents = read_agents(options, *job.crowd);
+        if (!agents.empty()) characters = static_cast<std::uint32_t>(agents.size());
     }
+    out_kind(options.out, options.characters.value_or(characters), !agents.empty());  // before any work
     const formats::Clip& clip = file.clip();
     const FigureJoints joints = choose_joints(clip, options.file, choice);
     file.sample(joints_of(joints));
@@ -279,7 +337,8 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
         if (!finding.limb) job.missing.push_back(std::move(finding));
     job.frame_count = job.clip_frames = clip.frame_count;
     std::vector<ClipPart> parts;
-    if (job.crowd) job.builds = builds_of(options, *job.crowd, up_w, job.body);
+    const bool is_crowd = !agents.empty() || options.characters.value_or(characters) > 1;
+    if (job.crowd && is_crowd) job.builds = builds_of(options, *job.crowd, up_w, job.body);
     if (job.crowd && (job.crowd->loop || !job.crowd->clips.empty() || job.builds.size() > 1))
         parts = perform(options, joints_of(joints), file, job);
     if (!job.further.empty()) job.limbs = require_limbs(bind_limbs(clip, joints, choice), options.file);  // in all
@@ -288,6 +347,14 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     const std::size_t last = job.further.size();  // of the clip's own figure
     job.plan.foot = foot_of(clip, parts.empty() ? clip.frame_count : parts[last].first + parts[last].count);
     job.plan.clips = std::move(parts);
+    job.plan.agents = placed_agents(agents, clip, job, options.frames);
+    const bool is_turned = job.plan.min_heading_deg != 0 || job.plan.max_heading_deg != 0 ||
+                           std::ranges::any_of(agents, [](const auto& agent) { return agent.heading_deg != 0; });
+    if (is_turned && up_w != Eigen::Vector3d::UnitY())
+        throw formats::InputError(
+            job.crowd->path,
+            "crowd: characters turn about Y, and the figure does not stand along it; turn the clip, or take agents and "
+            "heading_deg out");
     if (job.crowd && job.crowd->ground) {
         stand_on_ground(*job.crowd, clip, job.limbs, {search.facing.up_w, carrier_of(clip, joints)},
                         {job.loops.empty() ? 0 : job.loops[0].loop.first, job.clip_frames}, job.plan);
@@ -298,7 +365,7 @@ CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& fi
     }
     if (job.crowd && job.crowd->look) job.plan.look = look_of(*job.crowd, clip, job);
     if (job.crowd && job.crowd->carry) job.plan.carry = carry_of(*job.crowd, clip, up_w, job);
-    if (options.characters) job.plan.characters = *options.characters;
+    job.plan.characters = options.characters.value_or(characters);
     if (clip.frame_time == 0 && job.plan.characters > 1)
         throw formats::InputError(options.file,
                                   "its keys lie at uneven times, and the characters of a crowd start at "

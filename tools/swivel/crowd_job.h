@@ -38,7 +38,8 @@ struct CrowdJob {
     std::size_t clip_frames = 0;  // in the file
     std::string targets;          // "clip" or a file
     std::optional<GivenTargets> given;
-    std::string heights, contacts;  // the picture of the ground, the table of contacts; empty: none
+    // The picture of the ground, and the tables of contacts and agents; empty: none.
+    std::string heights, contacts, agents;
 };
 
 // The title of a motion's file on pages and in caches, and the names of the performed clips.

@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/cli/command_error.h"
-#include "tools/cli/progress.h"
 #include "tools/cli/streams.h"
 #include "tools/feet/judge_feet.h"
 #include "tools/feet/turn_legs.h"
@@ -25,7 +23,9 @@
 #include "tools/rig/vectors.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
+#include "tools/swivel/many_files.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/root_motion.h"
 #include "tools/swivel/solve_files.h"
 
 namespace swivel::tools {
@@ -49,7 +49,8 @@ struct FeetRun {
     PlacedFeet placed;
     Skating before, after;
     std::vector<FeetDoubt> doubts;
-    std::vector<std::string> clip_doubts;  // of FILE itself, as clip_doubts() tells them
+    std::vector<ClipDoubt> clip_doubts;  // of FILE itself
+    std::optional<Vector3d> travel_w;    // by which --travel moves the root, a second
 };
 
 // A number that is measured before and after, as people and as machines read it.
@@ -150,12 +151,13 @@ void print_feet(const FeetRun& run, std::FILE* to)
     else
         say(to, "ground   level, feet stand at {:.4g}\n", run.floor.level);
     say(to, "body     moved by {}\n", shown(run.motion.carrier));
+    if (run.travel_w) say(to, "travel   {} a second, as it walks in place\n", vector_text(*run.travel_w));
     say(to, "{:<35}{:>9}{:>10}\n", "", "before", "after");
     for (const Measure& each : kMeasures)
         say(to, "{:<35}{:>9.4f}{:>10.4f}  {}\n", each.words, run.before.*each.value, run.after.*each.value, each.unit);
     const BodyMove body(run);
     say(to, "{:<35}{:>9}{:>10.4f}  leg lengths, {:.4f} down\n", "the body is moved by, most", "", body.max, body.down);
-    for (const std::string& doubt : run.clip_doubts) say(to, "look     FILE: {}\n", doubt);
+    for (const ClipDoubt& doubt : run.clip_doubts) say(to, "look     FILE: {}\n", doubt.text);
     for (const FeetDoubt& doubt : run.doubts) say(to, "look     {}\n", doubt_text(run, doubt));
     for (const std::string& name : {run.out, run.export_contacts})
         if (!name.empty())
@@ -191,6 +193,7 @@ nlohmann::ordered_json json_of(const FeetRun& run)
     if (run.floor.hills) out["ground"] = run.ground;
     out["floor"] = run.floor.level;
     out["body"] = name(run.motion.carrier);
+    if (run.travel_w) out["travel"] = {run.travel_w->x(), run.travel_w->y(), run.travel_w->z()};
     for (const Measure& each : kMeasures) {
         out["before"][each.key] = run.before.*each.value;
         out["after"][each.key] = run.after.*each.value;
@@ -199,20 +202,13 @@ nlohmann::ordered_json json_of(const FeetRun& run)
     out["after"]["body_moved_max"] = body.max;
     out["after"]["body_moved_down_max"] = body.down;
     for (const FeetDoubt& doubt : run.doubts) out["look"].push_back(doubt_json(run, doubt));
-    if (!run.clip_doubts.empty()) out["doubts"] = run.clip_doubts;
+    if (!run.clip_doubts.empty()) out["doubts"] = texts_of(run.clip_doubts);
     if (!run.out.empty()) out["out"] = run.out;
     if (!run.export_contacts.empty()) out["export_contacts"] = run.export_contacts;
     return out;
 }
 
-namespace fs = std::filesystem;
 using formats::InputError;
-
-bool is_to_folder(const FeetOptions& options)
-{
-    std::error_code ignored;
-    return !options.out.empty() && (options.files.size() > 1 || fs::is_directory(options.out, ignored));
-}
 
 void require_usage(const FeetOptions& options)
 {
@@ -236,21 +232,32 @@ void require_usage(const FeetOptions& options)
                                               options.files.size()));
 }
 
-// Where the clips go, one for each FILE; empty: nowhere.
-std::vector<std::string> outputs_of(const FeetOptions& options)
-{
-    std::vector<std::string> outputs;
-    for (const std::string& file : options.files)
-        outputs.push_back(is_to_folder(options) ? (fs::path(options.out) / title_of(file)).string() : options.out);
-    return outputs;
-}
-
 std::optional<Ground> read_ground(const FeetOptions& options)
 {
     if (options.ground.empty()) return std::nullopt;
     const std::vector<double> size = formats::numbers_of(options.ground_size);
     formats::HeightPicture picture = formats::read_height_picture(options.ground);
     return Ground{{{size[0], size[1], size[2]}, {0, 0, 0}, picture.columns, picture.rows}, std::move(picture.heights)};
+}
+
+// Moves the root of a clip that walks in place, evenly, so that its feet do not slide in the mean.
+void travel(MotionFile& file, FeetRun& run)
+{
+    const auto slide = slide_of(run.motion, run.bars);
+    if (!slide || slide->with_body) return;
+    run.travel_w = -slide->velocity_w;
+    const formats::Clip& clip = file.clip();
+    const int carrier = run.motion.carrier, parent = joint_at(clip, carrier).parent;
+    TurnedJoint moved{carrier, {}, {}};
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const double seconds = static_cast<double>(frame) * clip.frame_time;
+        const Vector3d place_w = run.motion.carrier_w[frame] + seconds * *run.travel_w;
+        const std::vector<formats::JointPose> pose_w = formats::world_pose(clip, frame);
+        moved.translation.push_back(parent < 0 ? place_w
+                                               : formats::to_inner(pose_w[static_cast<std::size_t>(parent)], place_w));
+    }
+    file.replace(with_joints(clip, std::array{moved}));
+    run.motion = leg_motion(file.clip(), run.legs, carrier, run.motion.up_w);
 }
 
 // The legs that bind, and where they go.
@@ -264,20 +271,20 @@ void bind_legs(const FeetOptions& options, MotionFile& file, FeetRun& run)
     file.sample(joints_of(figure));
     file.fix_rest_pose(known_limbs(figure));
     const formats::Clip& clip = file.clip();
+    LimbSearch search = bind_limbs(clip, figure, choice);
+    run.legs = require_limbs(search, run.file);  // first: of a glTF file the frames are those of known limbs alone
     if (clip.frame_time == 0 && clip.frame_count > 1)
         throw InputError(run.file, "its keys lie at uneven times, and feet are judged by even frames; give --fps");
     if (clip.frame_count < 3)
-        throw InputError(run.file, fmt::format("has {} frame{}, and feet are judged by their motion; give a clip of 3 "
-                                               "or more",
+        throw InputError(run.file, fmt::format("its legs have {} frame{}, and feet are judged by their motion; give a "
+                                               "clip in which they have 3 or more",
                                                clip.frame_count, clip.frame_count == 1 ? "" : "s"));
-    LimbSearch search = bind_limbs(clip, figure, choice);
-    run.legs = require_limbs(search, run.file);
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) run.missing.push_back(std::move(finding));
     const int carrier = carrier_of(clip, figure);
     if (carrier < 0) throw InputError(run.file, "no joint is above both legs; the body cannot be moved");
     run.motion = leg_motion(clip, run.legs, carrier, search.facing.up_w);
-    run.clip_doubts = clip_doubts(clip, search.body);
+    run.clip_doubts = clip_doubts(BodyFrames(clip, search.body), search.body).doubts;
 }
 
 Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
@@ -290,21 +297,67 @@ Contacts choose_contacts(const FeetOptions& options, const FeetRun& run)
         throw InputError(
             run.file,
             slide->with_body
-                ? fmt::format("its feet slide with the body, by {:.2g} leg lengths a second in the mean; say by "
-                              "--contacts when feet stand",
+                ? fmt::format("it glides, and does not walk: its feet slide with the body, by {:.2g} leg lengths a "
+                              "second in the mean; say by --contacts when feet stand",
                               speed)
                 : fmt::format("it walks in place: on the ground its feet slide by {:.2g} leg lengths a second in the "
-                              "mean, and its body ends near where it began; move its root by {} a second first, or say "
-                              "by --contacts when feet stand",
-                              speed, vector_text(Eigen::Vector3d(-slide->velocity_w))));
+                              "mean, and its body ends near where it began; {}say by --contacts when feet stand",
+                              speed,
+                              run.travel_w ? ""
+                                           : fmt::format("give --travel, which moves its root by {} a second, or ",
+                                                         vector_text(Vector3d(-slide->velocity_w)))));
     }
     return find_contacts(run.motion, run.bars);
+}
+
+// The lowest joint that is above all legs.
+int hips_of(const formats::Clip& clip, const std::vector<Limb>& legs)
+{
+    int hips = joint_at(clip, legs[0].upper()).parent;
+    for (const Limb& leg : legs) hips = fork_of(clip, hips, joint_at(clip, leg.upper()).parent);
+    return hips;
+}
+
+// Whether the clip is garbage that may not go into a folder.
+bool is_refused(const FeetOptions& options, const FeetRun& run)
+{
+    return !options.force && is_to_folder(options.out, options.files.size()) &&
+           std::ranges::any_of(run.clip_doubts, &ClipDoubt::is_garbage);
+}
+
+FileOutcome outcome_of(const FeetOptions& options, const FeetRun& run)
+{
+    FileOutcome outcome{run.file, run.out, {}, {}, is_refused(options, run)};
+    for (const ClipDoubt& doubt : run.clip_doubts)
+        (doubt.is_garbage ? outcome.garbage : outcome.look).push_back("FILE: " + doubt.text);
+    for (const FeetDoubt& doubt : run.doubts) outcome.look.push_back(doubt_text(run, doubt));
+    return outcome;
+}
+
+// The joints' keys, and with --root-motion the root's.
+void write_clip(const FeetOptions& options, const FeetRun& run, const formats::Clip& moved,
+                std::vector<formats::JointKeys> keys)
+{
+    std::optional<RootMotion> root;
+    if (options.root_motion) {
+        const Limb& leg = run.legs[0];
+        const Vector3d& up_w = run.motion.up_w;
+        const double toe_at_rest = formats::position_of(formats::rest_pose(moved), run.motion.legs[0].toe).dot(up_w);
+        const double level = run.floor.level - (rests_on_ground(moved, leg.upper(), leg.end(), up_w) ? toe_at_rest : 0);
+        root.emplace(moved, root_joint(moved, run.motion.carrier, run.file),
+                     MovedBody{run.motion.carrier, hips_of(moved, run.legs), up_w,
+                               [&](const Vector3d& place_w) { return level + run.floor.hill(place_w); }});
+        root->add_to(keys);
+    }
+    run.motion_file->write(run.out, keys, {}, root ? root->added() : std::nullopt);
 }
 
 // One clip, from its file to its file. hills: null without.
 FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& file, FeetRun run)
 {
     bind_legs(options, file, run);
+    if (options.root_motion) root_joint(file.clip(), run.motion.carrier, run.file);  // refuses before the work
+    if (options.travel) travel(file, run);
     run.contacts = choose_contacts(options, run);
     if (std::ranges::none_of(run.contacts, [](const std::vector<bool>& leg) { return std::ranges::count(leg, true); }))
         throw InputError(run.file, fmt::format("no foot is ever on the ground: slower than {:g} leg lengths a second "
@@ -324,14 +377,16 @@ FeetRun run_clip(const FeetOptions& options, const Ground* hills, MotionFile& fi
         if (file.can_key(toes.joint))
             joints.push_back(std::move(toes));
         else
-            run.clip_doubts.push_back(fmt::format("the tip of '{}' goes into the ground, and it takes no new rotation",
-                                                  printable_name(joint_at(clip, toes.joint))));
-    const LegMotion after = motion_of(with_joints(clip, joints));
+            run.clip_doubts.push_back({fmt::format("the tip of '{}' goes into the ground, and it takes no new rotation",
+                                                   printable_name(joint_at(clip, toes.joint)))});
+    const formats::Clip moved = with_joints(clip, joints);
+    const LegMotion after = motion_of(moved);
     run.after = skating_of(after, run.contacts, run.floor);
     run.doubts = feet_doubts(after, run.motion, run.before, run.contacts, run.bars, run.floor);
     std::vector<formats::JointKeys> keys;
     for (const TurnedJoint& each : joints) keys.push_back({each.joint, each.rotation, each.translation});
-    if (!run.out.empty()) file.write(run.out, keys);
+    if (is_refused(options, run)) run.out.clear();
+    if (!run.out.empty()) write_clip(options, run, moved, std::move(keys));
     if (!run.export_contacts.empty())
         formats::write_contacts_csv(run.export_contacts, rows_of(run.motion, run.contacts));
     return run;
@@ -344,14 +399,16 @@ void run_feet(const FeetOptions& options)
     require_usage(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const std::optional<Ground> hills = read_ground(options);
-    const std::vector<std::string> outputs = outputs_of(options);
+    const std::vector<std::string> outputs = outputs_of(options.files, options.out);
     std::vector<ReadFile> read{{options.contacts, "the table of contacts"}, {options.ground, "the picture of heights"}};
     for (const std::string& file : options.files) read.push_back({file, "the clip"});
     std::vector<std::string> written = outputs;
     written.push_back(options.export_contacts);
+    const bool to_folder = is_to_folder(options.out, options.files.size());
+    if (to_folder) written.push_back(manifest_in(options.out));
     require_own_outputs(written, read);
-    if (is_to_folder(options)) fs::create_directories(options.out);
     std::FILE* const reports = report_stream(written);
+    const bool says = !options.json && !options.quiet;
 
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     const auto run_one = [&](std::size_t n) {
@@ -369,21 +426,19 @@ void run_feet(const FeetOptions& options)
         run = run_clip(options, hills ? &*hills : nullptr, file, std::move(run));
         if (options.json)
             json.push_back(json_of(run));
-        else if (!options.quiet)
+        else if (says && !to_folder)
             print_feet(run, reports);
+        return outcome_of(options, run);
     };
     std::size_t failed = 0;
-    if (options.files.size() == 1) {
+    if (options.files.size() == 1 && !to_folder)
         run_one(0);
-    } else {
-        Progress progress("clips", options.files.size(), options.quiet);
-        for (std::size_t n = 0; n < options.files.size(); ++n) {
-            progress.show(n);
-            if (run_to_end([&] { run_one(n); }) != 0) ++failed;
-        }
-    }
+    else
+        failed =
+            run_files(options.files,
+                      {to_folder ? options.out : "", options.quiet, to_folder && says ? reports : nullptr}, run_one);
     if (options.json) print_json({{"clips", json}}, reports);
-    if (failed > 0) throw CommandError(1, fmt::format("{} of {} clips failed", failed, options.files.size()));
+    require_none_failed(failed, options.files.size());
 }
 
 }  // namespace swivel::tools

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "tools/cache/fill.h"
 #include "tools/cli/command_error.h"
@@ -13,6 +14,7 @@
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/report.h"
 
 namespace swivel::tools {
 
@@ -41,12 +43,40 @@ FillReport fill_visibly(const Cache& cache, FillOptions options, bool quiet)
     return fill(cache, options);
 }
 
-void print_fill(const FillReport& report)
+// Why a shard has nothing to do; empty: it has something.
+std::string note_on(const Cache& cache, const Shard& shard)
 {
+    const CachedCrowd& crowd = cache.crowd();
+    if (!chunks_of(crowd, shard).empty()) return {};
+    return crowd.carries_state()
+               ? fmt::format(
+                     "the shard is empty: each frame depends on those before it, so a shard has whole columns "
+                     "of characters, and of these there are {}; swivel store --chunk makes more",
+                     crowd.column_count())
+               : fmt::format("the shard is empty: there are only {} chunks; swivel store --chunk makes more",
+                             std::uint64_t{crowd.time_count()} * crowd.column_count());
+}
+
+void print_fill(const FillReport& report, const std::string& note)
+{
+    for (const Difference& each : report.differences)
+        say(stdout, "{}  chunk {}: {}\n", each.is_mended ? "mended " : "differs", chunk_name(each.at), each.what);
+    if (!note.empty()) say(stdout, "note     {}\n", note);
     say(stdout, "chunks   {} written, {} left as they were\n", report.written, report.left);
     if (report.limbs > 0)
         say(stdout, "speed    {:.2f} s, {:.1f} million limbs/s\n", report.seconds,
             static_cast<double>(report.limbs) / report.seconds / 1e6);
+}
+
+nlohmann::ordered_json json_of(const std::string& folder, const FillReport& report, const std::string& note)
+{
+    nlohmann::ordered_json out = {{"cache", folder},           {"written", report.written},
+                                  {"left", report.left},       {"limbs", report.limbs},
+                                  {"seconds", report.seconds}, {"differences", nlohmann::ordered_json::array()}};
+    for (const Difference& each : report.differences)
+        out["differences"].push_back({{"chunk", chunk_name(each.at)}, {"what", each.what}, {"mended", each.is_mended}});
+    if (!note.empty()) out["notes"] = {note};
+    return out;
 }
 
 // Throws InputError unless all chunks were right.
@@ -81,15 +111,16 @@ void run_fill(const FillCommand& options)
     how.threads = options.threads;
     const Cache cache(options.folder);
     const FillReport report = fill_visibly(cache, how, options.quiet);
-    if (!options.quiet) {
-        for (const Difference& each : report.differences)
-            say(stdout, "{}  chunk {}: {}\n", each.is_mended ? "mended " : "differs", chunk_name(each.at), each.what);
-        print_fill(report);
-    }
+    const std::string note = note_on(cache, how.shard);
+    if (options.json)
+        print_json(json_of(options.folder, report, note));
+    else if (!options.quiet)
+        print_fill(report, note);
     require_right(cache, report);
     if (!options.proves) return;
     if (how.shard.count == 1) cache.remove_unfinished();
-    if (!options.quiet) say(stdout, "right    {} chunks: solved again, and all bits are equal\n", report.left);
+    if (!options.quiet && !options.json)
+        say(stdout, "right    {} chunks: solved again, and all bits are equal\n", report.left);
 }
 
 }  // namespace swivel::tools

@@ -74,6 +74,16 @@ void end_by_signals()
     std::abort();
 }
 
+// CLI11 has variables that ask for memory before main() begins, so this one comes before all others.
+struct Readiness {
+    Readiness()
+    {
+        std::set_new_handler(end_without_memory);
+        std::set_terminate(end_by_exception);
+    }
+};
+[[gnu::init_priority(101)]] const Readiness ready;
+
 }  // namespace
 }  // namespace swivel::tools
 
@@ -83,7 +93,5 @@ void end_by_signals()
 int main(int argc, char** argv)
 {
     swivel::tools::end_by_signals();
-    std::set_new_handler(swivel::tools::end_without_memory);
-    std::set_terminate(swivel::tools::end_by_exception);
     return swivel::tools::open_closed_streams() ? swivel::tools::run_swivel(argc, argv) : 1;
 }

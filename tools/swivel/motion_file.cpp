@@ -25,8 +25,6 @@ void require_no_choice(const MotionChoice& choice)
 {
     if (!choice.clip.empty())
         throw CommandError(2, "--clip chooses an animation of a glTF file; a BVH file has one; leave it out");
-    if (choice.rate > 0)
-        throw CommandError(2, "--fps samples a glTF file; a BVH file has frames of its own; leave it out");
 }
 
 // A GLB's header, which says its length. Nothing beyond it may be read yet: from a pipe, it may never come.
@@ -59,7 +57,8 @@ Motion read(const std::filesystem::path& path, const MotionChoice& choice)
                               "with glTF or {{; export the file as glTF, for example from Blender",
                               formats::printable(begin, kShownHead)));
     require_no_choice(choice);
-    return formats::bvh_of(path, formats::read_text(path, input.get(), std::move(begin)));
+    BvhFile file = formats::bvh_of(path, formats::read_text(path, input.get(), std::move(begin)));
+    return choice.rate > 0 ? formats::at_rate(file, choice.rate) : std::move(file);
 }
 
 const char* format_of(const Motion& motion) { return std::holds_alternative<BvhFile>(motion) ? "BVH" : "glTF"; }
@@ -114,6 +113,8 @@ std::string MotionFile::figure_glb() const
     return gltf ? formats::figure_glb(*gltf) : std::string();
 }
 
+bool MotionFile::is_in_metres() const { return std::holds_alternative<GltfFile>(file_); }
+
 bool MotionFile::has_motion() const
 {
     const GltfFile* gltf = std::get_if<GltfFile>(&file_);
@@ -137,7 +138,7 @@ std::vector<std::string> MotionFile::notes() const
     std::ranges::copy_if(rest_notes_, std::back_inserter(notes), [](const auto& note) { return !note.empty(); });
     const BvhFile* bvh = std::get_if<BvhFile>(&file_);
     if (bvh && bvh->surplus_count > 0) {
-        const std::size_t count = bvh->frame_begin.size();
+        const std::size_t count = bvh->announced_count;
         notes.push_back(
             fmt::format("the file has {} rows of values, and Frames: in line {} says {}; the last {} {} left out",
                         count + bvh->surplus_count, bvh->frames_line, count, bvh->surplus_count,
@@ -156,13 +157,23 @@ void MotionFile::require_can_write(const std::filesystem::path& out, std::string
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
     const std::string suffix = formats::lower_suffix(out);
     if (is_bvh_clip ? !is_bvh(suffix) : !is_gltf(suffix))
-        throw CommandError(2, fmt::format("--out {}: {} is a {} file; its poses go to {}{}", out.string(), what,
-                                          format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm", others));
+        throw CommandError(2, fmt::format("--out {}: {} is a {} file; its poses go to {}{}{}", out.string(), what,
+                                          format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm", others,
+                                          is_gltf(suffix) && what == kThisClip
+                                              ? "; swivel retarget puts its motion on the figure of a glTF file"
+                                              : ""));
 }
 
 void MotionFile::require_can_key(int joint) const
 {
     std::visit([joint](const auto& file) { formats::require_can_key(file, joint); }, file_);
+}
+
+std::string MotionFile::suffix() const
+{
+    const std::string own = formats::lower_suffix(path_);
+    if (std::holds_alternative<BvhFile>(file_)) return ".bvh";
+    return is_gltf(own) ? own : ".glb";
 }
 
 bool MotionFile::can_key(int joint) const
@@ -176,18 +187,19 @@ bool MotionFile::can_key(int joint) const
 }
 
 void MotionFile::write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
-                       const std::optional<formats::NewFrames>& frames) const
+                       const std::optional<formats::NewFrames>& frames,
+                       const std::optional<formats::NewJoint>& above) const
 {
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_))
-        formats::write_gltf(out, *gltf, keys, frames, formats::lower_suffix(out) != ".gltf");
+        formats::write_gltf(out, *gltf, keys, frames, formats::lower_suffix(out) != ".gltf", above);
     else
-        formats::write_bvh(out, std::get<BvhFile>(file_), keys, frames);
+        formats::write_bvh(out, std::get<BvhFile>(file_), keys, frames, above);
 }
 
 void MotionFile::write(const std::filesystem::path& out, std::span<const formats::GltfCharacter> characters,
                        const std::optional<formats::NewFrames>& frames) const
 {
-    if (characters.size() > 1)
+    if (characters.size() > 1 || !characters.front().name.empty())
         formats::write_gltf_crowd(out, std::get<GltfFile>(file_), characters, *frames);
     else
         write(out, characters.front().keys, frames);

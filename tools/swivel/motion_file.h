@@ -47,21 +47,28 @@ public:
     std::string figure_glb() const;
     // Describes the clip for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
+    // Whether the format says that lengths are metres, as glTF does.
+    bool is_in_metres() const;
     // False for a glTF file without an animation: the clip is its rest pose.
     bool has_motion() const;
     // Notes for the user on how the file was read, a line each; mostly none.
     std::vector<std::string> notes() const;
+    // The suffix of a file that can hold this motion: its own, or .bvh or .glb where it has another.
+    std::string suffix() const;
+    static constexpr std::string_view kThisClip = "this clip";
     // Throws CommandError (bad usage) for an output file that cannot hold this motion. what, others: this file and
     // other formats, for the message.
-    void require_can_write(const std::filesystem::path& out, std::string_view what = "this clip",
+    void require_can_write(const std::filesystem::path& out, std::string_view what = kThisClip,
                            std::string_view others = " or .csv") const;
     // Throws InputError for a joint whose rotation the file cannot store.
     void require_can_key(int joint) const;
     bool can_key(int joint) const;  // whether it would not throw
     // In the format that the suffix of `out` says; as write_bvh() and write_gltf() do.
     void write(const std::filesystem::path& out, std::span<const formats::JointKeys> keys,
-               const std::optional<formats::NewFrames>& frames = {}) const;
-    // One character, or with new frames a crowd in a glTF file.
+               const std::optional<formats::NewFrames>& frames = {},
+               const std::optional<formats::NewJoint>& above = {}) const;
+    // One character, or with new frames a crowd in a glTF file, below nodes of the characters' names. A character alone
+    // may be without a name, and then has no such node.
     void write(const std::filesystem::path& out, std::span<const formats::GltfCharacter> characters,
                const std::optional<formats::NewFrames>& frames) const;
 

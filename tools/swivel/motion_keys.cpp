@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "tools/crowd/heading.h"
 #include "tools/formats/error.h"
 
 namespace swivel::tools {
@@ -47,6 +48,7 @@ bool scales(const Clip& clip)
 MotionKeys::MotionKeys(const Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan, bool has_new_frames)
     : clip_(clip), has_new_frames_(has_new_frames), characters_(plan.characters), limb_count_(limbs.size())
 {
+    for (const PlannedAgent& agent : plan.agents) names_.push_back(agent.name);
     for (std::size_t limb = 0; limb < limbs.size(); ++limb) {
         for (std::size_t n = 0; n < (plan.limbs[limb].has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
             solved_.push_back({limb, n, limbs[limb].joints[n]});
@@ -77,11 +79,6 @@ void MotionKeys::require_can_write(const std::filesystem::path& out, const Motio
 {
     const double bytes = static_cast<double>(characters_) * static_cast<double>(frame_count) *
                          static_cast<double>(16 * turning_.size() + 12 * moving_.size());
-    if (characters_ > kMaxInFile)
-        throw formats::InputError(
-            out, fmt::format("a file holds {} characters at most; {} would take {:.0f} MB; give --characters {}, or "
-                             "write a .csv",
-                             kMaxInFile, characters_, std::ceil(bytes / 1e6), kMaxInFile));
     constexpr double kMaxBytes = 3e9;  // of 4 GiB that a GLB may have, also beside its meshes
     if (bytes > kMaxBytes)
         throw formats::InputError(
@@ -127,8 +124,13 @@ void MotionKeys::write(const std::filesystem::path& out, const MotionFile& file,
     std::vector<formats::GltfCharacter> whole;
     for (std::size_t c = 0; c < characters.size(); ++c) {
         formats::GltfCharacter& figure = whole.emplace_back();
-        figure.name = fmt::format("character {}", c);
+        if (!names_.empty())
+            figure.name = names_[c];
+        else if (characters.size() > 1)
+            figure.name = fmt::format("character {}", c);
         figure.place = Vector3d(characters[c].place), figure.size = characters[c].size;
+        const HalfTurn turn = half_turn_of(characters[c]);
+        figure.rotation = Quaterniond(turn.w, 0, turn.y, 0);
         for (std::size_t n = 0; n < turning_.size(); ++n)
             figure.keys.push_back({turning_[n], rotations_[c * turning_.size() + n], {}});
         for (std::size_t n = 0; n < moving_.size(); ++n) {

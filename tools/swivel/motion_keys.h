@@ -23,7 +23,7 @@ public:
     MotionKeys(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan, bool has_new_frames);
 
     // Throws early if write() would fail: for joints that cannot have keys; with new frames also for joints that change
-    // their size, for more than kMaxInFile characters, and for more than 3 GB of keys, with the file's size.
+    // their size, and for more than 3 GB of keys.
     void require_can_write(const std::filesystem::path& out, const MotionFile& file, std::size_t frame_count) const;
 
     // Takes the frame that the crowd has solved.
@@ -46,6 +46,7 @@ private:
     bool has_new_frames_;
     std::uint32_t characters_;
     std::size_t limb_count_;
+    std::vector<std::string> names_;     // of the characters' nodes; none: they are counted
     std::vector<int> turning_, moving_;  // joints that have keys of rotation, of translation
     int raised_ = -1;                    // the joint that the ground raises with all joints below; -1: none
     std::vector<Solved> solved_;

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/streams.h"
+#include "tools/crowd/heading.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
 #include "tools/formats/poses_csv.h"
@@ -18,6 +20,7 @@
 #include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/motion_file.h"
+#include "tools/swivel/report.h"
 
 namespace swivel::tools {
 
@@ -93,6 +96,8 @@ formats::PoseColumns columns_of(const CachedCrowd& crowd)
         columns.stretch |= field.field == SWIVEL_STRETCH;
         if (field.field == SWIVEL_TWIST_BONES) columns.twist_count = static_cast<unsigned>(field.parts[0]);
     }
+    columns.heading = crowd.has_headings;
+    columns.name = !crowd.names.empty();
     return columns;
 }
 
@@ -130,6 +135,8 @@ private:
         row.place = std::to_array(who.place);
         row.size = who.size;
         row.start = who.first + who.start;
+        row.heading_deg = degrees_of(who);
+        if (columns_.name) row.name = crowd_.names[row.character];
         row.wrist = std::to_array(crowd_.limbs[limb].sources[swivel_goal_frame(&who, frame)].wrist_local);
         extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count;
         const std::size_t place = crowd_.place(frame_in_chunk, limb, n);
@@ -202,8 +209,18 @@ void run_replay(const ReplayOptions& options)
         }
     }
     if (table) table->commit();
-    if (options.quiet) return;
     std::FILE* const to = formats::is_standard_stream(options.out) ? stderr : stdout;
+    if (options.json) {
+        nlohmann::ordered_json out = {{"cache", options.folder},
+                                      {"chunks", count},
+                                      {"first_frame", frames.begin},
+                                      {"last_frame", frames.end - 1},
+                                      {"first_character", characters.begin},
+                                      {"last_character", characters.end - 1}};
+        if (table) out["out"] = options.out;
+        return print_json(out, to);
+    }
+    if (options.quiet) return;
     say(to, "chunks   {} proved: their digests are those of the cache\n", count);
     if (table && to == stdout) say(to, "written  {}\n", options.out);
 }

@@ -15,6 +15,7 @@
 #include "swivel/swivel.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/characters.h"
+#include "tools/crowd/heading.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/printable.h"
 #include "tools/rig/limb_words.h"
@@ -168,8 +169,13 @@ std::vector<std::string> ground_notes(const formats::Clip& clip, const CrowdJob&
     const std::vector<goal_character> characters = characters_of(job.plan, job.limbs, clip.frame_count);
     const auto leaves = [&](const goal_character& who) {
         const Eigen::AlignedBox2d& way = ways[who.first];
-        const Eigen::Vector2d place(who.place[0], who.place[2]);
-        return !picture.contains(Eigen::AlignedBox2d(place + who.size * way.min(), place + who.size * way.max()));
+        for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                                  Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+            Eigen::Vector2d at = who.size * way.corner(corner);
+            turn_with(who, at.x(), at.y());
+            if (!picture.contains(Eigen::Vector2d(who.place[0], who.place[2]) + at)) return true;
+        }
+        return false;
     };
     const auto first = std::ranges::find_if(characters, leaves);
     if (first == characters.end()) return {};
@@ -259,8 +265,9 @@ void print_crowd(std::FILE* to, const SolveOptions& options, const CrowdJob& job
         if (count > 0)
             counts += fmt::format(", {} {}{}", count * characters, kind_name(kind), count * characters == 1 ? "" : "s");
     }
-    say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
+    say(to, "crowd    {} character{}{}, targets from {}{}{}\n", characters, characters == 1 ? "" : "s", counts,
         job.targets == "clip" ? "the clip" : shown_file(job.targets),
+        job.agents.empty() ? "" : fmt::format(", agents from {}", shown_file(job.agents)),
         options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
 }
 
@@ -356,6 +363,7 @@ nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFil
                                {"seed", job.plan.seed},
                                {"targets", job.targets}};
     if (!options.crowd.empty()) out["crowd"] = options.crowd;
+    if (!job.agents.empty()) out["agents"] = job.agents;
     if (const auto& carry = job.plan.carry)
         out["carry"] = {{"share", carry->share}, {"size", {carry->size.x(), carry->size.y(), carry->size.z()}}};
     if (job.plan.ground) out["ground"] = job.heights.empty() ? "level" : job.heights;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel retarget`: one skeleton's motion on another: pairs joints, turns them, solves hands and feet, reports,
+// `swivel retarget`: motions of skeletons on another one: pairs joints, turns them, solves hands and feet, reports,
 // writes.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,14 +22,17 @@
 #include "tools/retarget/verdict.h"
 #include "tools/rig/body_doubts.h"
 #include "tools/rig/clip_doubts.h"
+#include "tools/rig/facing.h"
 #include "tools/rig/limb_choice.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/limbs.h"
 #include "tools/rig/vectors.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_job.h"
+#include "tools/swivel/many_files.h"
 #include "tools/swivel/motion_file.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/root_motion.h"
 #include "tools/swivel/solve_files.h"
 
 namespace swivel::tools {
@@ -149,8 +154,8 @@ void require_bones(const std::string& file, const Clip& clip, const LimbJoints& 
         if (!(length(n) > kMinBone * (length(0) + length(1))))
             throw formats::InputError(
                 file,
-                fmt::format("the bone from {} to {} has no length at rest; leave its limb out, or give other "
-                            "joints by --map FILE",
+                fmt::format("the bone from {0} to {1} has no length at rest; give {1} an OFFSET or translation where "
+                            "the figure is made, leave its limb out, or give other joints by --map FILE",
                             printable_name(joint_at(clip, joints[n])), printable_name(joint_at(clip, joints[n + 1]))));
 }
 
@@ -218,6 +223,16 @@ private:
     std::vector<formats::JointKeys> keys_;
 };
 
+// The target's root, for --root-motion.
+RootMotion root_of(const Retargeted& motion, int root, const KnownLimbs& limbs)
+{
+    const Eigen::Vector3d up_w = nearest_axis(facing_of(motion.clip, limbs).up_w);
+    const LimbJoints& leg = limbs[2] ? *limbs[2] : *limbs[3];
+    const double level =
+        motion.ground && !rests_on_ground(motion.clip, leg[0], leg[2], up_w) ? motion.ground->target : 0;
+    return {motion.clip, root, {motion.hips, motion.hips, up_w, [level](const Eigen::Vector3d&) { return level; }}};
+}
+
 void print_pairs(std::FILE* to, const Clip& source, const Clip& target, const JointPairs& pairs)
 {
     const auto count = std::ranges::count_if(pairs, &PairedPart::is_paired);
@@ -258,6 +273,44 @@ void print_verdict(std::FILE* to, const Verdict& verdict)
     if (verdict.is_good()) say(to, "good      no bone, goal, knee, hand or foot stands out\n");
 }
 
+nlohmann::ordered_json names_json(const Clip& clip, const std::vector<int>& joints)
+{
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const int joint : joints) names.push_back(joint_at(clip, joint).name);
+    return names;
+}
+
+nlohmann::ordered_json json_of(const RetargetOptions& options, const MotionFile& source, const MotionFile& target,
+                               const JointPairs& pairs, const Retargeted& motion,
+                               const std::vector<std::string>& problems, const Verdict& verdict)
+{
+    const auto of_file = [](const std::string& name, const MotionFile& file) {
+        return nlohmann::ordered_json{{"file", name}, {"motion", file.describe()}, {"notes", file.notes()}};
+    };
+    nlohmann::ordered_json out = {
+        {"source", of_file(options.source, source)},
+        {"target", of_file(options.target, target)},
+        {"frames", source.clip().frame_count},
+        {"frame_time", frame_time_of(source.clip())},
+        {"paired", std::ranges::count_if(pairs, &PairedPart::is_paired)},
+        {"at_rest", names_json(target.clip(), unpaired_bones(pairs, target.clip(), BodySide::target))},
+        {"unused", names_json(source.clip(), unpaired_bones(pairs, source.clip(), BodySide::source))},
+        {"leg_ratio", motion.leg_ratio}};
+    for (std::size_t n = 0; n < verdict.misses.size(); ++n) {
+        const GoalMiss& miss = verdict.misses[n];
+        nlohmann::ordered_json& limb = out["limbs"].emplace_back();
+        limb["limb"] = limb_word(motion.limbs[n]);
+        if (problems[n].empty())
+            limb["missed"] = {{"mean", miss.mean}, {"max", miss.max}, {"frame", miss.max_frame}};
+        else
+            limb["problem"] = problems[n];
+    }
+    out["verdict"] = verdict.is_good() ? "good" : verdict.faults.empty() ? "look" : "garbage";
+    out["look"] = verdict.doubts;
+    out["garbage"] = verdict.faults;
+    return out;
+}
+
 void print_written(std::FILE* to, std::initializer_list<std::string> outputs)
 {
     for (const std::string& name : outputs)
@@ -265,23 +318,35 @@ void print_written(std::FILE* to, std::initializer_list<std::string> outputs)
             say(to, "written   {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
 }
 
-}  // namespace
-
-void run_retarget(const RetargetOptions& options)
+// Throws CommandError for files and options that do not go together.
+void require_usage(const RetargetOptions& options)
 {
-    if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    const auto inputs = {options.source, options.target, options.map};
-    if (std::ranges::count_if(inputs, [](const std::string& name) { return formats::is_standard_stream(name); }) > 1)
+    if (options.files.size() < 2)
+        throw CommandError(2, "TARGET is missing; give SOURCE, and then TARGET; see swivel retarget --help");
+    std::vector<std::string> inputs = options.files;
+    inputs.push_back(options.map);
+    const auto read_from_stream =
+        std::ranges::count_if(inputs, [](const std::string& name) { return formats::is_standard_stream(name); });
+    if (read_from_stream > 1)
         throw CommandError(2, "more than one of SOURCE, TARGET and --map is -, standard input; name the others");
-    const BodyChoice of_source = body_choice(options, BodySide::source),
-                     of_target = body_choice(options, BodySide::target);
+    const std::size_t sources = options.files.size() - 1;
+    if (read_from_stream > 0 && (sources > 1 || is_to_folder(options.out, sources)))
+        throw CommandError(2,
+                           "-, standard input, is read once and has no name; name files where there are several "
+                           "SOURCEs, or a folder as --out");
+    if (sources > 1 && !options.export_map.empty())
+        throw CommandError(
+            2, fmt::format("--export-map: a table is of one SOURCE, not of {}; run each by itself", sources));
+}
+
+// One SOURCE, to its file. reports: null for none. json: what it says of it is added there.
+FileOutcome run_one(const RetargetOptions& options, const BodyChoice& of_source, const BodyChoice& of_target,
+                    std::FILE* reports, nlohmann::ordered_json& json)
+{
     MotionFile source_file(options.source, {options.clip, options.rate, of_source.rest}),
         target_file(options.target, {{}, 0, of_target.rest});
     if (!options.out.empty()) target_file.require_can_write(options.out, "TARGET", "");
     const std::string outputs[] = {options.out, options.export_map};
-    const ReadFile read[] = {
-        {options.source, "SOURCE"}, {options.target, "TARGET"}, {options.map, "the table of pairs"}};
-    require_own_outputs(outputs, read);
     require_not_beside(outputs, source_file);
     require_not_beside(outputs, target_file);
     const Clip &source = source_file.clip(), &target = target_file.clip();
@@ -290,11 +355,15 @@ void run_retarget(const RetargetOptions& options)
     const JointPairs pairs = options.map.empty() ? pair_joints(parted_body(source, options.source, of_source),
                                                                parted_body(target, options.target, of_target))
                                                  : read_joint_map(options.map, source, target);
-    if (!options.export_map.empty()) write_joint_map(options.export_map, pairs, source, target);
     if (source.frame_time == 0) throw formats::InputError(options.source, "its keys lie at uneven times; give --fps");
     source_file.fix_rest_pose(limbs_of(parts_of(pairs, BodySide::source)));
     target_file.fix_rest_pose(limbs_of(parts_of(pairs, BodySide::target)), true);
     require_bodies(options, pairs, source, target);
+    const KnownLimbs limbs = limbs_of(parts_of(pairs, BodySide::target));
+    const int root =
+        options.root_motion
+            ? root_joint(target, joints_of(parts_of(pairs, BodySide::target), "hips").front(), options.target)
+            : -1;
     Retargeted motion = retarget(source, target, pairs);
     const std::vector<std::string> problems =
         solve_limbs(motion, parts_of(pairs, BodySide::target), options.map.empty() ? options.target : options.map);
@@ -303,26 +372,84 @@ void run_retarget(const RetargetOptions& options)
         verdict.doubts.push_back("SOURCE: " + doubt);
     for (const std::string& doubt : body_doubts(target, parts_of(pairs, BodySide::target)))
         verdict.doubts.push_back("TARGET: " + doubt);
-    const bool is_written = !options.out.empty() && (verdict.faults.empty() || options.force);
-    if (is_written)
-        target_file.write(options.out, MovedJoints(motion).keys(),
+    const bool is_done = verdict.faults.empty() || options.force, is_written = is_done && !options.out.empty();
+    const std::string map = is_done ? options.export_map : "";
+    if (is_written) {
+        const MovedJoints moved(motion);
+        std::vector<formats::JointKeys> keys(moved.keys().begin(), moved.keys().end());
+        std::optional<RootMotion> way;
+        if (options.root_motion) {
+            way.emplace(root_of(motion, root, limbs));
+            way->add_to(keys);
+        }
+        target_file.write(options.out, keys,
                           formats::NewFrames{source.frame_count, source.frame_time,
-                                             std::filesystem::path(title_of(options.source)).stem().string()});
-    if (!options.quiet) {
-        std::FILE* const to = report_stream(outputs);
-        print_clips(to, options, source_file, target_file);
-        print_pairs(to, source, target, pairs);
-        print_motion(to, motion, problems, verdict.misses);
-        print_verdict(to, verdict);
-        print_written(to, {options.export_map, is_written ? options.out : ""});
+                                             std::filesystem::path(title_of(options.source)).stem().string()},
+                          way ? way->added() : std::nullopt);
     }
-    if (!verdict.faults.empty() && !options.force)
+    if (!map.empty())
+        write_joint_map(map, pairs, source, target, [&](int joint) { return target_file.can_key(joint); });
+    if (reports) {
+        print_clips(reports, options, source_file, target_file);
+        print_pairs(reports, source, target, pairs);
+        print_motion(reports, motion, problems, verdict.misses);
+        print_verdict(reports, verdict);
+        print_written(reports, {map, is_written ? options.out : ""});
+    }
+    if (options.json) {
+        json.push_back(json_of(options, source_file, target_file, pairs, motion, problems, verdict));
+        if (is_written) json.back()["out"] = options.out;
+        if (!map.empty()) json.back()["export_map"] = map;
+    }
+    return {options.source, is_written ? options.out : "", verdict.doubts, verdict.faults, !is_done};
+}
+
+}  // namespace
+
+void run_retarget(const RetargetOptions& given)
+{
+    if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
+    require_usage(given);
+    RetargetOptions options = given;
+    const std::vector<std::string> sources(given.files.begin(), given.files.end() - 1);
+    options.target = given.files.back();
+    const BodyChoice of_source = body_choice(options, BodySide::source),
+                     of_target = body_choice(options, BodySide::target);
+    const bool to_folder = is_to_folder(options.out, sources.size());
+    const std::vector<std::string> outputs =
+        outputs_of(sources, options.out, to_folder ? MotionFile(options.target, {}).suffix() : "");
+    std::vector<std::string> written = outputs;
+    written.push_back(options.export_map);
+    if (to_folder) written.push_back(manifest_in(options.out));
+    std::vector<ReadFile> read;
+    for (const std::string& source : sources) read.push_back({source, "SOURCE"});
+    read.push_back({options.target, "TARGET"}), read.push_back({options.map, "the table of pairs"});
+    require_own_outputs(written, read);
+    std::FILE* const to = report_stream(written);
+    std::FILE* const reports = options.quiet || options.json ? nullptr : to;
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    const auto run = [&](std::size_t n) {
+        options.source = sources[n], options.out = outputs[n];
+        return run_one(options, of_source, of_target, to_folder ? nullptr : reports, json);
+    };
+    const auto print_all = [&] {
+        if (options.json) print_json({{"clips", json}}, to);
+    };
+    if (sources.size() > 1 || to_folder) {
+        const std::size_t failed =
+            run_files(sources, {to_folder ? given.out : "", options.quiet, to_folder ? reports : nullptr}, run);
+        print_all();
+        return require_none_failed(failed, sources.size());
+    }
+    const FileOutcome outcome = run(0);
+    const std::vector<std::string>& faults = outcome.garbage;
+    print_all();
+    if (outcome.is_refused)
         throw CommandError(
             1, fmt::format("{}: {}{}{}; see swivel rig of both{}", options.out.empty() ? options.target : options.out,
-                           verdict.faults.front(),
-                           verdict.faults.size() == 1 ? "" : fmt::format(", and {} more", verdict.faults.size() - 1),
-                           options.out.empty() ? "" : "; the motion is not written",
-                           options.out.empty() ? "" : ", or give --force"));
+                           faults.front(), faults.size() == 1 ? "" : fmt::format(", and {} more", faults.size() - 1),
+                           options.out.empty() && options.export_map.empty() ? "" : "; nothing is written",
+                           options.out.empty() && options.export_map.empty() ? "" : ", or give --force"));
 }
 
 }  // namespace swivel::tools

@@ -21,7 +21,9 @@ CLI::Option* add_file(CLI::App& command, std::string& file, const std::string& m
 {
     return add_file_option(
                command, "FILE", file,
-               meaning + ": BVH or glTF (.glb, .gltf, .vrm, .vrma), as its first bytes say. - is standard input")
+               meaning +
+                   ": BVH or glTF (.glb, .gltf, .vrm, .vrma), as its first bytes say. In BVH a joint's position "
+                   "channels replace its OFFSET. - is standard input")
         ->required()
         ->option_text(" ");
 }
@@ -38,10 +40,11 @@ void add_animation(CLI::App& command, std::string& clip, double& rate, const std
                              "Without it the first. " +
                                  use),
           name("name an animation, or leave the option out for the first"));
-    takes(command.add_option("--fps", rate,
-                             "Even frames a second of a glTF animation, 0.001 to 10000. Without it the limbs' own keys "
-                             "(docs/motion_files.md)"),
-          number(0.001, 10'000));
+    takes(
+        command.add_option("--fps", rate,
+                           "Sample the motion at about this many even frames a second, 0.001 to 10000. Without it the "
+                           "frames of a BVH file, or the limbs' own keys (docs/motion_files.md)"),
+        number(0.001, 10'000));
 }
 
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
@@ -56,6 +59,13 @@ void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
               "--up", [&motion](const std::string& axis) { motion.rest.up_w = *axis_of(axis); },
               "The axis that is up in FILE. Its rest pose is then a frame that stands along it"),
           one_of(axes));
+}
+
+CLI::Option* add_root_motion(CLI::App& command, bool& root_motion)
+{
+    return command.add_flag("--root-motion", root_motion,
+                            "Put the way over the ground and the heading on a joint called root above the hips. No "
+                            "joint moves in the world");
 }
 
 CLI::Option* add_named_legs(CLI::App& command, std::vector<std::string>& legs, const std::string& meaning)

@@ -46,6 +46,7 @@ CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string&
 void add_animation(CLI::App& command, std::string& clip, double& rate, const std::string& use);
 // The same, and --rest and --up.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use);
+CLI::Option* add_root_motion(CLI::App& command, bool& root_motion);
 // --leg alone.
 CLI::Option* add_named_legs(CLI::App& command, std::vector<std::string>& legs, const std::string& meaning);
 // --arm and --leg; other_side: the fate of a side that is not named, for the help.

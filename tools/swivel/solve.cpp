@@ -17,6 +17,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/crowd_checks.h"
+#include "tools/crowd/heading.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
@@ -112,8 +113,8 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     std::optional<formats::TargetsCsv> exported;
     if (!options.export_targets.empty()) exported.emplace(options.export_targets);
     // New frames where the clip's own do not fit, else the file's own keys of the limbs.
-    const bool has_new_frames =
-        !job.plan.clips.empty() || job.plan.characters > 1 || job.frame_count < job.clip_frames || job.plan.ground;
+    const bool has_new_frames = !job.plan.clips.empty() || job.plan.characters > 1 || !job.plan.agents.empty() ||
+                                job.frame_count < job.clip_frames || job.plan.ground;
     std::optional<MotionKeys> keys;
     if (kind == OutKind::motion) {  // says so before the work, not after
         keys.emplace(file.clip(), job.limbs, job.plan, has_new_frames);
@@ -161,6 +162,8 @@ nlohmann::ordered_json json_of_run(const SolveOptions& options, const MotionFile
         out["each_character"].push_back(
             {{"place", each.place}, {"size", each.size}, {"start", each.first + each.start}});
         nlohmann::ordered_json& character = out["each_character"].back();
+        if (!job.plan.agents.empty()) character["name"] = job.plan.agents[out["each_character"].size() - 1].name;
+        if (job.plan.has_headings()) character["heading_deg"] = degrees_of(each);
         if (job.plan.carry) character["carries"] = each.carries == 1;
         if (!job.plan.clips.empty())
             character["performs"] =

@@ -12,6 +12,7 @@
 
 #include "tools/cli/command_error.h"
 #include "tools/formats/text.h"
+#include "tools/swivel/motion_keys.h"
 
 namespace swivel::tools {
 
@@ -48,7 +49,7 @@ void refuse(const std::string& output, const char* what)
 
 }  // namespace
 
-OutKind out_kind(const std::string& out, std::uint32_t characters)
+OutKind out_kind(const std::string& out, std::uint32_t characters, bool has_agents)
 {
     if (out.empty()) return OutKind::none;
     const std::string suffix = is_standard_stream(out) ? ".csv" : formats::lower_suffix(out);
@@ -60,6 +61,14 @@ OutKind out_kind(const std::string& out, std::uint32_t characters)
         throw CommandError(2, fmt::format("--out {}: a BVH file holds one character, not {}; write a .csv, or a .glb "
                                           "from a glTF file",
                                           out, characters));
+    if (has_agents && is_bvh(suffix))
+        throw CommandError(2, fmt::format("--out {}: a BVH file holds a clip where it is, and no agent at its place; "
+                                          "write a .csv, or a .glb from a glTF file",
+                                          out));
+    if (characters > kMaxInFile)
+        throw CommandError(2, fmt::format("--out {}: a file holds {} characters at most, not {}; give --characters "
+                                          "{}, or write a .csv",
+                                          out, kMaxInFile, characters, kMaxInFile));
     return OutKind::motion;
 }
 
@@ -100,7 +109,8 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
                                {job.targets == "clip" ? "" : job.targets, "the table of targets"},
                                {options.crowd, "the crowd file"},
                                {job.heights, "the picture of heights"},
-                               {job.contacts, "the table of contacts"}};
+                               {job.contacts, "the table of contacts"},
+                               {job.agents, "the table of agents"}};
     for (const FurtherMotion& each : job.further) read.push_back({each.file.string(), "a clip"});
     require_own_outputs(outputs, read);
     require_not_beside(outputs, clip);

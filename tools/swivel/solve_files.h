@@ -18,8 +18,8 @@ namespace swivel::tools {
 enum class OutKind { none, motion, csv };
 
 // The format of the suffix; standard output is CSV. Throws CommandError (bad usage) for a format that is not written,
-// or cannot hold this many characters.
-OutKind out_kind(const std::string& out, std::uint32_t characters);
+// or cannot hold this many characters, or agents of a table.
+OutKind out_kind(const std::string& out, std::uint32_t characters, bool has_agents = false);
 
 // Throws CommandError if two inputs are standard input. targets: "clip" or a file.
 void require_one_reader(const SolveOptions& options, const std::string& targets);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel steps`: the lecture's five steps for one arm, as multivectors.
+// `swivel lab steps`: the lecture's five steps for one arm, as multivectors.
 #include <fmt/format.h>
 
 #include <algorithm>

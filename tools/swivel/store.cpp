@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "tools/cache/cache_maker.h"
 #include "tools/cli/command_error.h"
@@ -107,13 +108,12 @@ ChunkShape chunk_of(const std::string& text)
     return {static_cast<std::uint32_t>(*frames), static_cast<std::uint32_t>(*characters)};
 }
 
-// The size of all chunks of some arrays, in MB.
-double megabytes_of(const std::vector<ZarrArray>& arrays)
+// The size of all chunks of some arrays.
+std::uint64_t bytes_of(const std::vector<ZarrArray>& arrays)
 {
-    double bytes = 0;
-    for (const ZarrArray& array : arrays)
-        bytes += static_cast<double>(array.chunk_bytes()) * static_cast<double>(array.chunk_count());
-    return bytes / 1e6;
+    std::uint64_t bytes = 0;
+    for (const ZarrArray& array : arrays) bytes += std::uint64_t{array.chunk_bytes()} * array.chunk_count();
+    return bytes;
 }
 
 CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, const CrowdJob& job)
@@ -128,8 +128,9 @@ CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, 
     crowd.frame_count = options.crowd.frames > 0 ? options.crowd.frames : static_cast<std::uint32_t>(job.frame_count);
     crowd.has_given = job.given->count(job.frame_count) > 0;
     crowd.has_poses = !options.no_poses;
-    crowd.chunk = options.chunk.empty() ? chunk_shape(crowd.frame_count, crowd.character_count, crowd.limb_count())
-                                        : chunk_of(options.chunk);
+    crowd.chunk = options.chunk.empty()
+                      ? chunk_shape(crowd.frame_count, crowd.character_count, crowd.limb_count(), crowd.carries_state())
+                      : chunk_of(options.chunk);
     return crowd;
 }
 
@@ -144,24 +145,38 @@ void run_store(const StoreOptions& options)
     const LimbChoice choice = choice_of(options.crowd);
     MotionFile file(options.crowd.file, options.crowd.motion);
     CrowdJob job = make_job(options.crowd, choice, file);
-    if (!options.crowd.quiet) print_clip(stdout, options.crowd, file, job);
+    if (!options.crowd.quiet && !options.crowd.json) print_clip(stdout, options.crowd, file, job);
     CachedCrowd to_store = crowd_to_store(options, file, job);
     CacheMaker maker(options.folder, std::move(to_store));
     const CachedCrowd& crowd = maker.crowd();
     write_characters(maker, job, options.crowd.quiet);
     write_goals(maker, options, file, job);
-    const double goals = static_cast<double>(maker.commit()) / 1e6;
+    const std::uint64_t goals = maker.commit();
     const CacheArrays arrays(crowd);
     std::vector<ZarrArray> kept;
     for (std::size_t n = 0; n < arrays.fields.size(); ++n)
         if (!arrays.fields[n].is_state_alone) kept.push_back(arrays.results[n]);
-    const double poses = megabytes_of(kept), state = megabytes_of(arrays.state);
+    const std::uint64_t poses = bytes_of(kept), state = bytes_of(arrays.state);
     const std::uint64_t chunks = std::uint64_t{crowd.time_count()} * crowd.column_count();
+    if (options.crowd.json) {
+        nlohmann::ordered_json out = json_of_clip(options.crowd, file, job);
+        out["cache"] = {{"folder", options.folder},
+                        {"frames", crowd.frame_count},
+                        {"chunks", chunks},
+                        {"columns", crowd.column_count()},
+                        {"chunk_frames", crowd.chunk.frames},
+                        {"chunk_characters", crowd.chunk.characters},
+                        {"goal_bytes", goals},
+                        {"state_bytes", state},
+                        {"pose_bytes", crowd.has_poses ? poses : 0}};
+        return print_json(out);
+    }
     if (options.crowd.quiet) return;
+    const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; };
     say(stdout, "cache    {}: {} frames in {} chunks, each of {} frames and {} characters\n", options.folder,
         crowd.frame_count, chunks, crowd.chunk.frames, crowd.chunk.characters);
-    say(stdout, "bytes    goals {:.1f} MB, state {:.1f} MB, poses {:.1f} MB{}\n", goals, state, poses,
-        crowd.has_poses ? "" : ", which the cache does not keep");
+    say(stdout, "bytes    goals {:.1f} MB, state {:.1f} MB, poses {:.1f} MB{}\n", megabytes(goals), megabytes(state),
+        megabytes(poses), crowd.has_poses ? "" : ", which the cache does not keep");
     say(stdout, "next     swivel fill {0}, then swivel check {0}\n", options.folder);
 }
 

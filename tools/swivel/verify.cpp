@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel verify`: compares the formulas with each other, and every instruction set of this machine with the corpus's
-// golden bits, with several thread counts and chunk sizes.
+// `swivel lab verify`: compares the formulas with each other, and every instruction set of this machine with the
+// corpus's golden bits, with several thread counts and chunk sizes.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -66,7 +66,7 @@ export class Bodies {
         const positions = new Float32Array(figure.positions.length / 3 * 4);
         for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
         this.shared = {
-            uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start, first, count }) => [...place, size, start, first, count, 0]), maxTexels),
+            uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start, first, count, heading }) => [...place, size, start, first, count, heading]), maxTexels),
             uPositions: floatTexture("the clip's positions", positions, maxTexels),
             uRoots: floatTexture("the clip's roots", Array.from({ length: frameCount }, (_, n) => [...sources.root(n), 0]).flat(), maxTexels),
             uFrame: 0, uJointCount: jointCount,

@@ -1,5 +1,5 @@
-// What makes a character: two texels each, place and size, then the frame of its clip that it starts at, and which frames its clip is. What is at x in the clip is at
-// place + size * x. Positions of the clip's joints lie one after the other, frame by frame.
+// What makes a character: two texels each, place and size, then the frame of its clip that it starts at, which frames its clip is, and its heading. What is at x in the
+// clip is at place + size * x, where x is turned about y. Positions of the clip's joints lie one after the other, frame by frame.
 uniform highp sampler2D uCharacters, uPositions, uRoots;  // roots: of the clip's pose, a texel for each frame
 uniform highp sampler2D uRises;  // how much higher each character's joints are, and what its rows are counted from
 uniform int uFrame, uJointCount;
@@ -16,8 +16,15 @@ int frameOf(int character) {
     ivec3 clip = ivec3(texel(uCharacters, 2 * character + 1).xyz);
     return clip.y + (uFrame + clip.x) % clip.z;
 }
+// Turns along with a character, whose heading is the tangent of a quarter of its turn.
+vec3 headed(int character, vec3 at) {
+    float t = texel(uCharacters, 2 * character + 1).w;
+    vec2 yw = vec2(2.0 * t, 1.0 - t * t) / (1.0 + t * t);
+    float cosine = yw.y * yw.y - yw.x * yw.x, sine = 2.0 * yw.x * yw.y;
+    return vec3(cosine * at.x + sine * at.z, at.y, cosine * at.z - sine * at.x);
+}
 // These are from the character's place.
 vec3 jointOf(int character, int joint) {
-    return placeOf(character).w * texel(uPositions, frameOf(character) * uJointCount + joint).xyz;
+    return headed(character, placeOf(character).w * texel(uPositions, frameOf(character) * uJointCount + joint).xyz);
 }
-vec3 rootOf(int character) { return placeOf(character).w * texel(uRoots, frameOf(character)).xyz; }
+vec3 rootOf(int character) { return headed(character, placeOf(character).w * texel(uRoots, frameOf(character)).xyz); }

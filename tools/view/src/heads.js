@@ -35,8 +35,11 @@ export class Heads {
         for (let at = joint; at >= 0; at = this.poses.figure.joints[at].parent) if (this.chain.includes(at)) return this.chain.indexOf(at);
         return -1;
     }
-    /** The chain's rotations in a frame of the clip, in the world. */
-    turnsIn(frame) { return this.chain.map((joint) => this.poses.turnOf(joint, frame)); }
+    /** The chain's rotations as a character's clip has them now, in the world. */
+    turnsOf(character) {
+        const heading = this.stage.headingOf(character), frame = this.stage.clipFrame(character);
+        return this.chain.map((joint) => this.poses.turnOf(joint, frame).premultiply(heading));
+    }
 
     get isLooking() { return this.stage.look !== null || this.at !== null; }
     /** Of these characters. */
@@ -49,9 +52,9 @@ export class Heads {
             return;
         }
         for (let n = 0; n < count; ++n) {
-            const character = first + n, frame = stage.clipFrame(character), turns = this.turnsIn(frame);
+            const character = first + n, frame = stage.clipFrame(character), turns = this.turnsOf(character);
             turns.forEach((turn, k) => (k === 0 ? turn : turns[k - 1].clone().invert().multiply(turn)).toArray(this.rotations, 4 * (chain.length * n + k)));
-            const { size, place } = stage.characters[character], root = figure.at(chain[0], frame).multiplyScalar(size);
+            const { size, place } = stage.characters[character], root = figure.at(chain[0], frame).multiplyScalar(size).applyQuaternion(stage.headingOf(character));
             this.roots.set([root.x + place[0], root.y + place[1] + (stage.rises?.[4 * character] ?? 0), root.z + place[2]], 3 * n);
             this.sizes[n] = size;
             this.targets.set(this.at, 3 * n);
@@ -61,7 +64,7 @@ export class Heads {
     /** Turns the matrices of the joints from the neck on. n: of the character in the last solve(). */
     place(character, n, matrices) {
         if (!this.isLooking) return;
-        const { stage, chain } = this, were = this.turnsIn(stage.clipFrame(character)), turn = were[0].clone(), turned = [];
+        const { stage, chain } = this, were = this.turnsOf(character), turn = were[0].clone(), turned = [];
         for (let k = 1; k < chain.length; ++k) {
             turn.multiply(new Quaternion().fromArray(this.rotations, 4 * (chain.length * n + k)));
             const change = new Matrix4().makeRotationFromQuaternion(turn.clone().multiply(were[k].invert())), by = turned[k - 1];

@@ -72,7 +72,7 @@ export class Poses {
     }
     bodyOf(character) {
         const { place: [x, y, z] } = this.stage.characters[character], rise = this.stage.rises?.[4 * character] ?? 0;
-        return part(new Quaternion(), new Vector3(), new Vector3(x, y + rise, z));
+        return part(this.stage.headingOf(character), new Vector3(), new Vector3(x, y + rise, z));
     }
     partsOf(own, character, { records, recordSize, elbows, wrists }, n) {
         const { stage } = this, clip = this.clipOf(own, stage.clipFrame(character)), at = this.poseSize * character + own.posesAt;

@@ -84,6 +84,7 @@ export class View {
     /** So many metres over where a character's first joint is on the ground. */
     placeOf(character, over = 0) {
         const { size, place } = this.stage.characters[character], root = this.figure.at(0, this.stage.clipFrame(character));
+        root.applyQuaternion(this.stage.headingOf(character));
         const at = new Vector3(size * root.x + place[0], this.stage.lift(character), size * root.z + place[2]).multiplyScalar(this.metres);
         return at.setY(at.y + over);
     }

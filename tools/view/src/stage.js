@@ -241,9 +241,15 @@ export class Stage {
         const { first, start, count } = this.characters[character];
         return first + (this.frame + start) % count;
     }
+    /** How a character is turned about y. */
+    headingOf(character) {
+        const { heading } = this.characters[character];
+        return new Quaternion(0, 2 * heading, 0, 1 - heading * heading).normalize();
+    }
     /** A limb's shoulder in the clip, before its clavicle has turned. */
     origin(limb, character) {
-        const origin = limb.sources.origin(this.clipFrame(character)), { size, place } = this.characters[character];
+        const origin = new Vector3(...limb.sources.origin(this.clipFrame(character))).applyQuaternion(this.headingOf(character)).toArray();
+        const { size, place } = this.characters[character];
         return origin.map((coordinate, axis) => size * coordinate + place[axis] + (axis === 1 ? this.lift(character) : 0));
     }
     armLength(limb, character) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/agents_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "tools/formats/csv_rows.h"
+#include "tools/formats/error.h"
+#include "tools/formats/printable.h"
+#include "tools/formats/suggestion.h"
+#include "tools/formats/text.h"
+
+namespace swivel::formats {
+namespace {
+
+struct Column {
+    const char* name;
+    double Agent::*number;  // null: the name
+    double min, max;
+    bool is_whole, is_needed;
+};
+constexpr double kMaxPlace = 1e15;  // as swivel.h has it
+constexpr Column kColumns[] = {{"name", nullptr, 0, 0, false, true},
+                               {"x", &Agent::x, -kMaxPlace, kMaxPlace, false, true},
+                               {"y", &Agent::y, -kMaxPlace, kMaxPlace, false, true},
+                               {"z", &Agent::z, -kMaxPlace, kMaxPlace, false, true},
+                               {"heading_deg", &Agent::heading_deg, -360, 360, false, false},
+                               {"start", &Agent::start, 0, 1e9, true, false},
+                               {"clip", &Agent::clip, 0, 1e9, true, false},
+                               {"size", &Agent::size, 0.01, 100, false, false},
+                               {"build", &Agent::build, 0, 1e9, true, false}};
+
+// What is wrong with a cell, which the agent takes; empty: nothing.
+std::string take(const Column& column, std::string_view cell, Agent& agent)
+{
+    if (!column.number) {
+        agent.name = cell;
+        const bool is_name = !cell.empty() && cell.find_first_of(",\"") == cell.npos && printable(cell) == cell;
+        return is_name ? "" : "is no name; give one without commas and quotes";
+    }
+    const std::optional<double> number = parse_number(cell);
+    const bool fits = number && *number >= column.min && *number <= column.max;
+    if (!fits || (column.is_whole && *number != std::floor(*number)))
+        return fmt::format("is not a {} from {:g} to {:g}", column.is_whole ? "whole number" : "number", column.min,
+                           column.max);
+    agent.*column.number = *number;
+    return {};
+}
+
+// The columns that the first line names.
+std::vector<Column> columns_of(const std::filesystem::path& path, std::size_t line,
+                               const std::vector<std::string_view>& cells)
+{
+    std::vector<Column> columns;
+    for (const std::string_view cell : cells) {
+        const auto found = std::ranges::find(kColumns, cell, &Column::name);
+        if (found == std::end(kColumns)) {
+            std::vector<std::string> names;
+            for (const Column& each : kColumns) names.emplace_back(each.name);
+            throw InputError(
+                path, line,
+                fmt::format("there is no column '{}'; {}", printable(cell), suggestion(std::string(cell), names)));
+        }
+        columns.push_back(*found);
+    }
+    for (const Column& each : kColumns) {
+        const auto count = std::ranges::count(cells, each.name);
+        if (count > 1) throw InputError(path, line, fmt::format("column {} is there twice; remove one", each.name));
+        if (count == 0 && each.is_needed)
+            throw InputError(path, line, fmt::format("has no column {}; the first line names the columns", each.name));
+    }
+    return columns;
+}
+
+}  // namespace
+
+std::vector<Agent> read_agents_csv(const std::filesystem::path& path)
+{
+    std::vector<Agent> agents;
+    std::vector<Column> columns;
+    std::map<std::string, std::size_t> lines;  // of each name
+    for_each_row(path, [&](std::size_t line, const std::vector<std::string_view>& cells) {
+        if (columns.empty()) {
+            columns = columns_of(path, line, cells);
+            return;
+        }
+        if (cells.size() != columns.size())
+            throw InputError(path, line, fmt::format("{} values; a row has {}", cells.size(), columns.size()));
+        Agent& agent = agents.emplace_back();
+        agent.line = line;
+        for (std::size_t n = 0; n < cells.size(); ++n)
+            if (const std::string problem = take(columns[n], cells[n], agent); !problem.empty())
+                throw InputError(path, line,
+                                 fmt::format("column {}: '{}' {}", columns[n].name, printable(cells[n]), problem));
+        const auto [other, is_new] = lines.emplace(agent.name, line);
+        if (!is_new)
+            throw InputError(
+                path, line,
+                fmt::format("the name '{}' is already in line {}; give another", agent.name, other->second));
+    });
+    if (agents.empty()) throw InputError(path, "has no agents; write a line of columns and a row for each");
+    return agents;
+}
+
+}  // namespace swivel::formats
